@@ -275,10 +275,10 @@ class Aggregation {
     const BatchOptions options{.threads = pass.threads, .progress = pass.progress};
     Batch batch(SearchMethod::along_edges(index_), {query_.vertices, largest_radius()}, options, 1);
     std::vector<std::unique_ptr<PerThread>> threads(batch.task().threads());
-    batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
+    batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
       if (!threads[thread]) threads[thread].reset(new PerThread{PathWorker(index_, filter_), make_reducer()});
       auto& [worker, reducer, radii] = *threads[thread];
-      worker.visit(chunk, [&](std::span<const BatchItem> rows, PathPacket& packet) {
+      worker.visit(chunk.items, [&](std::span<const BatchItem> rows, PathPacket& packet) {
         for (const std::size_t i : passes_) {
           radii.clear();
           for (const BatchItem& item : rows) radii.push_back(radii_[i].list() ? item.radius : radii_[i].common());

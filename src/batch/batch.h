@@ -23,6 +23,12 @@ namespace meshhood {
 /// Sorts `ids` in ascending order, and `distances`, unless empty, along with them.
 void sort_answer(std::span<VertexId> ids, std::span<double> distances);
 
+/// Rows that a thread computes one after the other.
+struct BatchChunk {
+  std::size_t number;  // of the chunks of a pass
+  std::span<const BatchItem> items;
+};
+
 /// The common part of all batches: the rows, and threads that process them in chunks that follow the index order.
 class Batch {
  public:
@@ -51,8 +57,8 @@ class Batch {
   /// the window has no whole group, they end with a leaf; if it has no whole leaf, they are all.
   [[nodiscard]] std::size_t whole_units(std::size_t first, std::size_t window) const;
 
-  /// Calls `f(thread, items)` for chunks of the rows `row_of(i)`, `i < count`, on any thread. Which chunks there are
-  /// depends on the rows alone.
+  /// Calls `f(thread, chunk)` for chunks of the rows `row_of(i)`, `i < count`, on any thread. Which chunks there are
+  /// depends on the rows alone. The chunks of a thread ascend.
   template <class RowOf, class F>
   void for_each_chunk(std::size_t count, RowOf&& row_of, F&& f);
 
@@ -70,7 +76,7 @@ class Batch {
   /// What a thread uses. Not beside that of another thread, which writes to its own all the time.
   struct alignas(64) PerThread {
     std::unique_ptr<BatchWorker> worker;
-    RawVector<BatchItem> chunk;
+    RawVector<BatchItem> items;  // of its chunk
   };
 
   /// The rows `row_of(i)`, `i < count`, sorted by position. The two functions set `in_order_` and `chunk_ends_`.
@@ -81,7 +87,7 @@ class Batch {
   void take_index_order();
 
   template <class RowOf, class F>
-  void run_chunks(RowOf&& row_of, F&& f);
+  void run_chunks(std::size_t first_number, RowOf&& row_of, F&& f);
 
   /// Whether the row after `row` has a position beyond the next multiple of `positions`.
   [[nodiscard]] bool ends_unit(std::size_t row, std::uint32_t positions) const;
@@ -105,7 +111,7 @@ template <class RowOf, class F>
 void Batch::for_each_chunk(std::size_t count, RowOf&& row_of, F&& f) {
   block_.reset();
   sort_rows(count, row_of);
-  run_chunks(row_of, f);
+  run_chunks(0, row_of, f);
 }
 
 template <class RowOf>
@@ -122,23 +128,24 @@ void Batch::sort_rows(std::size_t count, RowOf&& row_of) {
 }
 
 template <class RowOf, class F>
-void Batch::run_chunks(RowOf&& row_of, F&& f) {
+void Batch::run_chunks(std::size_t first_number, RowOf&& row_of, F&& f) {
   const std::span<const std::uint64_t> in_order = in_order_;
-  task_.parallel_for(chunk_ends_.size(), 1, [&](unsigned thread, std::size_t number, std::size_t) {
-    const std::size_t begin = number == 0 ? 0 : chunk_ends_[number - 1];
-    threads_[thread].chunk.clear();
-    const std::span<BatchItem> chunk = add_raw(threads_[thread].chunk, chunk_ends_[number] - begin);
-    for (std::size_t i = 0; i < chunk.size(); ++i) {
-      const std::uint64_t next = in_order[begin + i];
+  task_.parallel_for(chunk_ends_.size(), 1, [&](unsigned thread, std::size_t i, std::size_t) {
+    const std::size_t begin = i == 0 ? 0 : chunk_ends_[i - 1];
+    threads_[thread].items.clear();
+    const std::span<BatchItem> items = add_raw(threads_[thread].items, chunk_ends_[i] - begin);
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      const std::uint64_t next = in_order[begin + k];
       const std::size_t row = row_of(static_cast<std::uint32_t>(next));
-      chunk[i] = {row, rows_.vertex(row), static_cast<std::uint32_t>(next >> 32), rows_.radius(row)};
+      items[k] = {row, rows_.vertex(row), static_cast<std::uint32_t>(next >> 32), rows_.radius(row)};
     }
-    f(thread, std::span<const BatchItem>(chunk));
+    f(thread, BatchChunk{first_number + i, items});
   });
 }
 
 template <class F>
 void Batch::for_all_chunks(F&& f) {
+  std::size_t chunks = 0;
   for (std::size_t first = 0; first < rows_.size(); first += kMaxRows) {
     const std::size_t count = std::min(kMaxRows, rows_.size() - first);
     const auto row_of = [first](std::size_t i) { return first + i; };
@@ -151,7 +158,8 @@ void Batch::for_all_chunks(F&& f) {
       }
       block_ = first;
     }
-    run_chunks(row_of, f);
+    run_chunks(chunks, row_of, f);
+    chunks += chunk_ends_.size();
   }
 }
 

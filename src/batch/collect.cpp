@@ -65,12 +65,12 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
   const std::size_t stretch = batch.rows().size() / kSample;
   const auto row_of = [stretch](std::size_t i) { return i * stretch + i * std::size_t{0x9E37'79B1} % stretch; };
   std::vector<double> sizes(kSample);
-  batch.for_each_chunk(kSample, row_of, [&](unsigned thread, std::span<const BatchItem> chunk) {
+  batch.for_each_chunk(kSample, row_of, [&](unsigned thread, const BatchChunk& chunk) {
     const auto sink = [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
       for (std::size_t i = 0; i < items.size(); ++i) sizes[items[i].row / stretch] = static_cast<double>(some[i]);
       return batch.task().should_continue(thread);
     };
-    batch.worker(thread).count(chunk, sink, nullptr);
+    batch.worker(thread).count(chunk.items, sink, nullptr);
   });
   const double mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / kSample;
   double variance = 0;
@@ -87,18 +87,16 @@ struct ForWriting {
 
 /// `writing` is null for rows that are only counted.
 void count_rows(Batch& batch, std::uint64_t* sizes, const ForWriting* writing) {
-  batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
+  batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
     std::uint64_t ids = 0;
     const auto sink = [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
       for (std::size_t i = 0; i < items.size(); ++i) ids += sizes[items[i].row] = some[i];
       return batch.task().should_continue(thread);
     };
-    batch.worker(thread).count(chunk, sink, writing == nullptr ? nullptr : &writing->kept.begin(thread));
-    if (writing != nullptr) {
-      writing->kept.end(thread, chunk.front().row);
-      writing->limit.add(ids);
-    }
-    batch.task().advance(chunk.size());
+    batch.worker(thread).count(chunk.items, sink,
+                               writing == nullptr ? nullptr : &writing->kept.begin(thread, chunk.number));
+    if (writing != nullptr) writing->limit.add(ids);
+    batch.task().advance(chunk.items.size());
   });
 }
 
@@ -172,13 +170,11 @@ void prefetch_row(std::span<const VertexId> ids) {
 }
 
 void write_rows(Batch& batch, KeptChunks& kept, std::span<const std::uint64_t> offsets, const BatchMemory& memory) {
-  batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
-    for (const BatchItem& item : chunk) prefetch_row(memory.ids.subspan(offsets[item.row]));
+  batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
+    for (const BatchItem& item : chunk.items) prefetch_row(memory.ids.subspan(offsets[item.row]));
     RowsInPlace receiver(batch, thread, offsets, memory);
-    KeptPackets* packets = kept.find(chunk.front().row);
-    batch.worker(thread).find(chunk, batch.options().distances, receiver, packets);
-    if (packets != nullptr) *packets = {};  // its memory is free for others
-    batch.task().advance(chunk.size());
+    batch.worker(thread).find(chunk.items, batch.options().distances, receiver, kept.find(thread, chunk.number));
+    batch.task().advance(chunk.items.size());
   });
 }
 

@@ -43,12 +43,11 @@ void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, 
 }
 
 void JointWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-                       const KeptPackets* kept) {
-  KeptPackets::Reader reader(kept);
+                       KeptPackets::Reader* kept) {
   for_each_run(chunk, [&](const Run& run) {
-    if (!reader.next()) return write(run.items, begin_rows(run), distances, receiver);
-    writer_.begin(reader.pieces());
-    return write(run.items, reader.counts(), distances, receiver);
+    if (kept == nullptr || !kept->next()) return write(run.items, begin_rows(run), distances, receiver);
+    writer_.begin(kept->pieces());
+    return write(run.items, kept->counts(), distances, receiver);
   });
 }
 

@@ -10,10 +10,8 @@
 namespace meshhood {
 namespace {
 
-template <class T>
-std::size_t bytes_of(const std::vector<T>& values) {
-  return sizeof(T) * values.size();
-}
+constexpr std::size_t kWordsBeforePieces = 2;
+constexpr std::size_t kWordsOfPiece = 3;
 
 }  // namespace
 
@@ -22,77 +20,109 @@ void KeptPackets::add(std::span<const RowPiece> pieces, std::span<const std::uin
   const auto leaves = static_cast<std::size_t>(
       std::ranges::count_if(pieces, [](const RowPiece& piece) { return piece.reached != nullptr; }));
   const bool is_single = counts.size() == 1;
-  const std::size_t bytes = sizeof(Packet) + sizeof(std::uint32_t) * counts.size() + sizeof(Piece) * pieces.size() +
-                            (is_single ? sizeof(LaneMask) : sizeof(PerLane<QueryWord>)) * leaves;
-  if (bytes > sizeof(VertexId) * ids) {
-    packets_.push_back({0, 0});
+  const std::size_t words = kWordsBeforePieces + counts.size() + kWordsOfPiece * pieces.size() +
+                            (is_single ? 1 : kLeafCapacity) * leaves;
+  static_assert(sizeof(Word) == sizeof(VertexId));
+  if (words > ids) {
+    *add_words(1) = 0;
     return;
   }
-  packets_.push_back({static_cast<std::uint32_t>(pieces.size()), static_cast<std::uint32_t>(counts.size())});
-  for (const std::uint64_t count : counts) counts_.push_back(static_cast<std::uint32_t>(count));
+  Word* next = add_words(words);
+  *next++ = static_cast<Word>(counts.size());
+  *next++ = static_cast<Word>(pieces.size());
+  for (const std::uint64_t count : counts) *next++ = static_cast<Word>(count);
   for (const RowPiece& piece : pieces) {
-    pieces_.push_back({piece.first, piece.size, piece.reached == nullptr ? piece.queries : 0});
+    *next++ = piece.first;
+    *next++ = piece.size;
+    *next++ = piece.reached == nullptr ? piece.queries : 0;
     if (piece.reached == nullptr) continue;
     if (is_single) {
       LaneMask lanes = 0;
       for (unsigned lane = 0; lane < kLeafCapacity; ++lane) lanes |= (piece.reached[lane] & 1) << lane;
-      lanes_.push_back(lanes);
+      *next++ = lanes;
     } else {
-      std::copy_n(piece.reached, kLeafCapacity, words_.emplace_back().begin());
+      next = std::copy_n(piece.reached, kLeafCapacity, next);
     }
   }
 }
 
-void KeptPackets::clear() {
-  packets_.clear();
-  counts_.clear();
-  pieces_.clear();
-  words_.clear();
-  lanes_.clear();
+KeptPackets::Place KeptPackets::end() const {
+  if (blocks_.empty()) return {};
+  return {blocks_.size() - 1, blocks_.back().size()};
 }
 
 std::size_t KeptPackets::bytes() const {
-  return bytes_of(packets_) + bytes_of(counts_) + bytes_of(pieces_) + bytes_of(words_) + bytes_of(lanes_);
+  std::size_t words = 0;
+  for (const RawVector<Word>& block : blocks_) words += block.size();
+  return sizeof(Word) * words;
+}
+
+KeptPackets::Word* KeptPackets::add_words(std::size_t count) {
+  // Small enough for memory that the allocator keeps for the next call.
+  constexpr std::size_t kBlock = std::size_t{1} << 14;
+  if (blocks_.empty() || blocks_.back().capacity() - blocks_.back().size() < count) {
+    blocks_.emplace_back().reserve(std::max(kBlock, count));
+  }
+  return add_raw(blocks_.back(), count).data();
+}
+
+void KeptPackets::Reader::begin(const KeptPackets& kept, const Place& place) {
+  kept_ = &kept;
+  place_ = place;
 }
 
 bool KeptPackets::Reader::next() {
-  if (kept_ == nullptr) return false;
-  assert(packets_ < kept_->packets_.size());
-  const Packet& packet = kept_->packets_[packets_++];
-  if (packet.rows == 0) return false;
-  std::copy_n(kept_->counts_.begin() + static_cast<std::ptrdiff_t>(counts_), packet.rows, row_counts_.begin());
-  counts_ += packet.rows;
-  row_pieces_.clear();
-  expanded_.resize(packet.rows == 1 ? packet.pieces : 0);
-  for (const Piece& piece : std::span(kept_->pieces_).subspan(pieces_, packet.pieces)) {
-    const QueryWord* reached = nullptr;
-    if (piece.queries == 0 && packet.rows == 1) {
-      PerLane<QueryWord>& words = expanded_[row_pieces_.size()];
-      const LaneMask lanes = kept_->lanes_[lanes_++];
-      for (unsigned lane = 0; lane < kLeafCapacity; ++lane) words[lane] = lanes >> lane & 1;
-      reached = words.data();
-    } else if (piece.queries == 0) {
-      reached = kept_->words_[words_++].data();
-    }
-    row_pieces_.push_back({piece.first, piece.size, piece.queries, reached});
+  if (place_.word == kept_->blocks_[place_.block].size()) place_ = {place_.block + 1, 0};
+  const RawVector<Word>& block = kept_->blocks_[place_.block];
+  const Word* next = block.data() + place_.word;
+  const std::size_t rows = *next++;
+  if (rows == 0) {
+    ++place_.word;
+    return false;
   }
-  pieces_ += packet.pieces;
+  const std::size_t pieces = *next++;
+  std::copy_n(next, rows, counts_.begin());
+  next += rows;
+  pieces_.clear();
+  if (reached_.size() < pieces) reached_.resize(pieces);
+  for (std::size_t i = 0; i < pieces; ++i, next += kWordsOfPiece) {
+    const QueryWord queries = next[2];
+    pieces_.push_back({next[0], next[1], queries, queries == 0 ? reached_[i].data() : nullptr});
+    if (queries != 0) continue;
+    const Word* const words = next + kWordsOfPiece;
+    if (rows == 1) {
+      for (unsigned lane = 0; lane < kLeafCapacity; ++lane) reached_[i][lane] = *words >> lane & 1;
+    } else {
+      std::copy_n(words, kLeafCapacity, reached_[i].begin());
+    }
+    next += rows == 1 ? 1 : kLeafCapacity;
+  }
+  place_.word = static_cast<std::size_t>(next - block.data());
+  assert(place_.word <= block.size());
   return true;
 }
 
-KeptPackets* KeptChunks::find(std::size_t first_row) {
-  for (PerThread& thread : threads_) {
-    const auto found = thread.chunks.find(first_row);
-    if (found != thread.chunks.end()) return &found->second;
+KeptPackets& KeptChunks::begin(unsigned thread, std::size_t number) {
+  PerThread& own = threads_[thread];
+  assert(own.chunks.empty() || own.chunks.back().number < number);
+  own.chunks.push_back({number, own.packets.end()});
+  return own.packets;
+}
+
+KeptPackets::Reader* KeptChunks::find(unsigned thread, std::size_t number) {
+  for (const PerThread& other : threads_) {
+    const auto found = std::ranges::lower_bound(other.chunks, number, {}, &Chunk::number);
+    if (found == other.chunks.end() || found->number != number) continue;
+    KeptPackets::Reader& reader = threads_[thread].reader;
+    reader.begin(other.packets, found->begin);
+    return &reader;
   }
   return nullptr;
 }
 
 std::size_t KeptChunks::bytes() const {
   std::size_t bytes = 0;
-  for (const PerThread& thread : threads_) {
-    for (const auto& [row, chunk] : thread.chunks) bytes += chunk.bytes();
-  }
+  for (const PerThread& thread : threads_) bytes += thread.packets.bytes();
   return bytes;
 }
 

@@ -4,70 +4,64 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
+#include "shared/raw_vector.h"
 #include "simd/joint.h"
 
 namespace meshhood {
 
-/// The answers of packets in the order in which they were found: kept while rows are counted, so that they need not be
+/// The answers of packets that one thread found, in that order: kept while rows are counted, so that they need not be
 /// searched again when they are written. An answer that would take more memory than its ids is left out.
 class KeptPackets {
  public:
   class Reader;
 
+  /// Of a packet: its block, and the words before it there.
+  struct Place {
+    std::size_t block = 0;
+    std::size_t word = 0;
+  };
+
   /// Adds the answer of a packet whose rows, 1 to 32, have `counts` vertices.
   void add(std::span<const RowPiece> pieces, std::span<const std::uint64_t> counts);
 
-  void clear();
+  /// That of the next packet to be added.
+  [[nodiscard]] Place end() const;
+
+  /// What the packets take. Up to 64 kB more are allocated.
+  [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// A `RowPiece` whose words, if it is a leaf, are the next ones.
-  struct Piece {
-    std::uint32_t first;
-    std::uint32_t size;
-    QueryWord queries;  // 0: a leaf
-  };
+  using Word = std::uint32_t;
 
-  struct Packet {
-    std::uint32_t pieces;
-    std::uint32_t rows;  // 0: left out
-  };
+  [[nodiscard]] Word* add_words(std::size_t count);
 
-  std::vector<Packet> packets_;
-  std::vector<std::uint32_t> counts_;  // of all packets, one after the other, and so on
-  std::vector<Piece> pieces_;
-  std::vector<PerLane<QueryWord>> words_;  // of the leaves of packets of several rows
-  std::vector<LaneMask> lanes_;            // of the leaves of packets of one row
-
-  friend class KeptChunks;
-  [[nodiscard]] std::size_t bytes() const;
+  // A packet lies in one block: the number of its rows, or 0 if it is left out; that of its pieces; the sizes of the
+  // rows; and for each piece `first`, `size` and `queries`, or 0 and what is reached if it is a leaf: 32 words, or for a
+  // packet of one row the lanes.
+  std::vector<RawVector<Word>> blocks_;
 };
 
-/// Reads the packets in the order in which they were added.
+/// Reads packets in the order in which they were added.
 class KeptPackets::Reader {
  public:
-  /// `kept` is null where nothing was kept.
-  explicit Reader(const KeptPackets* kept) : kept_(kept) {}
+  /// Begins at `place`.
+  void begin(const KeptPackets& kept, const Place& place);
 
   /// Goes to the next packet. Returns false if its answer was not kept.
   bool next();
 
   // Of this packet:
-  [[nodiscard]] std::span<const RowPiece> pieces() const { return row_pieces_; }
-  [[nodiscard]] const PerLane<std::uint64_t>& counts() const { return row_counts_; }
+  [[nodiscard]] std::span<const RowPiece> pieces() const { return pieces_; }
+  [[nodiscard]] const PerLane<std::uint64_t>& counts() const { return counts_; }
 
  private:
-  const KeptPackets* kept_;
-  std::size_t packets_ = 0;  // how many have been read, and so on
-  std::size_t counts_ = 0;
-  std::size_t pieces_ = 0;
-  std::size_t words_ = 0;
-  std::size_t lanes_ = 0;
-  std::vector<RowPiece> row_pieces_;
-  PerLane<std::uint64_t> row_counts_{};
-  std::vector<PerLane<QueryWord>> expanded_;  // words of a packet of one row
+  const KeptPackets* kept_ = nullptr;
+  Place place_;
+  std::vector<RowPiece> pieces_;
+  std::vector<PerLane<QueryWord>> reached_;  // by piece
+  PerLane<std::uint64_t> counts_{};
 };
 
 /// What is kept of the chunks of a batch.
@@ -75,29 +69,27 @@ class KeptChunks {
  public:
   explicit KeptChunks(unsigned threads) : threads_(threads) {}
 
-  /// Empty, for the next chunk of a thread.
-  KeptPackets& begin(unsigned thread) {
-    threads_[thread].scratch.clear();
-    return threads_[thread].scratch;
-  }
+  /// For the packets of a chunk. The numbers of the chunks of a thread ascend.
+  [[nodiscard]] KeptPackets& begin(unsigned thread, std::size_t number);
 
-  /// The chunk, named by its first row, is complete.
-  void end(unsigned thread, std::size_t first_row) {
-    threads_[thread].chunks.emplace(first_row, threads_[thread].scratch);  // a copy, which is as small as possible
-  }
-
-  /// What is kept of a chunk; null after `clear`.
-  [[nodiscard]] KeptPackets* find(std::size_t first_row);
+  /// A reader of this thread that begins with the packets of a chunk, which any thread has added; null after `clear`.
+  [[nodiscard]] KeptPackets::Reader* find(unsigned thread, std::size_t number);
 
   [[nodiscard]] std::size_t bytes() const;
 
   void clear() { threads_.clear(); }
 
  private:
+  struct Chunk {
+    std::size_t number;
+    KeptPackets::Place begin;
+  };
+
   /// Not beside that of another thread, which writes to its own all the time.
   struct alignas(64) PerThread {
-    KeptPackets scratch;
-    std::unordered_map<std::size_t, KeptPackets> chunks;
+    KeptPackets packets;
+    std::vector<Chunk> chunks;
+    KeptPackets::Reader reader;
   };
 
   std::vector<PerThread> threads_;

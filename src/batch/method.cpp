@@ -78,7 +78,7 @@ class SearcherWorker final : public BatchWorker {
   }
 
   void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-            const KeptPackets* /*kept*/) override {
+            KeptPackets::Reader* /*kept*/) override {
     for (const BatchItem& item : chunk) {
       if (distances) {
         searcher_.neighborhood(item.vertex, item.radius, ids_, distances_);

@@ -33,9 +33,9 @@ void for_each_packet(const Index& index, const BatchQuery& query, const PacketVi
   const Index searched = filtered(index, query.filter, options.threads);
   Batch batch(searched, {.vertices = query.vertices, .radius = query.radius}, batch_options, 1);
   std::vector<std::unique_ptr<PacketThread>> threads(batch.task().threads());
-  batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
+  batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
     if (!threads[thread]) threads[thread] = std::make_unique<PacketThread>(searched, make_visitor(thread));
-    threads[thread]->worker.visit(chunk, [&](const PacketAnswer& answer) {
+    threads[thread]->worker.visit(chunk.items, [&](const PacketAnswer& answer) {
       threads[thread]->visitor(answer);
       batch.task().advance(answer.rows.size());
       return batch.task().should_continue(thread);

@@ -29,7 +29,7 @@ void PathWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, K
 }
 
 void PathWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-                      const KeptPackets* /*kept*/) {
+                      KeptPackets::Reader* /*kept*/) {
   visit(chunk, [&](std::span<const BatchItem> rows, PathPacket& packet) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const std::span<const Path> paths = packet.paths_in_order(i);

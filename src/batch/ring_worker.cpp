@@ -127,13 +127,12 @@ void RingWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, K
 }
 
 void RingWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-                      const KeptPackets* kept) {
+                      KeptPackets::Reader* kept) {
   if (distances) return find_with_distances(chunk, receiver);
-  KeptPackets::Reader reader(kept);
   for_each_packet(chunk, [&](std::span<const BatchItem> items) {
-    if (reader.next()) {
-      writer_.begin(reader.pieces());
-      return write(items, reader.counts(), receiver);
+    if (kept != nullptr && kept->next()) {
+      writer_.begin(kept->pieces());
+      return write(items, kept->counts(), receiver);
     }
     const PerLane<std::uint64_t>& counts = search(items);
     writer_.begin(packet_.answer());

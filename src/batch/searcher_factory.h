@@ -49,13 +49,12 @@ class BatchWorker {
   BatchWorker& operator=(const BatchWorker&) = delete;
   virtual ~BatchWorker() = default;
 
-  /// `kept` is null, or empty, and then receives what spares `find` a second search. A worker whose `find` always
-  /// searches leaves it empty.
+  /// `kept` is null, or receives what spares `find` a second search. A worker whose `find` always searches adds nothing.
   virtual void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) = 0;
 
-  /// `kept` is null, or what `count` kept of the same chunk, none of whose rows was dropped.
+  /// `kept` is null, or reads what `count` kept of the same chunk, none of whose rows was dropped.
   virtual void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-                    const KeptPackets* kept) = 0;
+                    KeptPackets::Reader* kept) = 0;
 };
 
 /// What a `SearchMethod` refers to. Any thread may call the functions.

@@ -40,8 +40,8 @@ class DirectRows final : public RowReceiver {
       : batch_(batch), sink_(sink), row_of_(row_of) {}
 
   void run() {
-    batch_.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
-      batch_.worker(thread).find(chunk, batch_.options().distances, *this, nullptr);
+    batch_.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
+      batch_.worker(thread).find(chunk.items, batch_.options().distances, *this, nullptr);
     });
   }
 
@@ -134,9 +134,9 @@ class Stream {
     bytes_ = 0;
     batch_.for_each_chunk(
         window, [first](std::size_t i) { return first + i; },
-        [&](unsigned thread, std::span<const BatchItem> chunk) {
+        [&](unsigned thread, const BatchChunk& chunk) {
           WindowRows receiver(*this, thread, first);
-          batch_.worker(thread).find(chunk, batch_.options().distances, receiver, nullptr);
+          batch_.worker(thread).find(chunk.items, batch_.options().distances, receiver, nullptr);
         });
     return fits();
   }

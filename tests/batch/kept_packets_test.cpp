@@ -41,7 +41,8 @@ TEST(KeptPackets, AreReadInTheOrderInWhichTheyWereAdded) {
   kept.add(second, std::vector<std::uint64_t>{62});
   kept.add(first, std::vector<std::uint64_t>{1, 0, 1});
   kept.add(second, std::vector<std::uint64_t>{63});
-  KeptPackets::Reader reader(&kept);
+  KeptPackets::Reader reader;
+  reader.begin(kept, {});
   const auto expect_next = [&](const std::vector<RowPiece>& pieces) {
     ASSERT_EQ(reader.pieces().size(), pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -72,10 +73,9 @@ TEST(KeptPackets, TakeNoMoreMemoryThanTheIds) {
   const PerLane<QueryWord> words = some_words(3);
   const std::vector<RowPiece> pieces{{10, 32, 0, words.data()}, {42, 1, 5, nullptr}};
   const auto bytes_of = [&](std::uint64_t ids) {
-    KeptChunks chunks(1);
-    chunks.begin(0).add(pieces, std::vector<std::uint64_t>{0, ids});
-    chunks.end(0, 0);
-    return chunks.bytes();
+    KeptPackets packets;
+    packets.add(pieces, std::vector<std::uint64_t>{0, ids});
+    return packets.bytes();
   };
   const std::size_t left_out = bytes_of(0);
   EXPECT_LE(left_out, 8U);
@@ -88,23 +88,31 @@ TEST(KeptPackets, TakeNoMoreMemoryThanTheIds) {
   EXPECT_GT(kept, 40U);
 }
 
-TEST(KeptChunks, AreFoundByTheirFirstRowWhicheverThreadAddedThem) {
+TEST(KeptChunks, AreFoundByTheirNumberWhicheverThreadAddedThem) {
   KeptChunks chunks(2);
   const std::vector<RowPiece> pieces{{10, 100, 1, nullptr}};
-  for (const std::size_t row : {0, 5, 7}) {
-    chunks.begin(row % 2).add(pieces, std::vector<std::uint64_t>{100 + row});
-    chunks.end(row % 2, row);
+  constexpr std::size_t kChunks = 10'000;  // several blocks a thread
+  const auto thread_of = [](std::size_t number) { return static_cast<unsigned>(number / 3 % 2); };
+  for (std::size_t number = 0; number < kChunks; ++number) {
+    if (number % 7 == 6) continue;
+    KeptPackets& packets = chunks.begin(thread_of(number), number);
+    for (std::size_t i = 0; i < number % 3; ++i) packets.add(pieces, std::vector<std::uint64_t>{100 + number + i});
   }
-  for (const std::size_t row : {7, 0, 5}) {
-    ASSERT_NE(chunks.find(row), nullptr);
-    KeptPackets::Reader reader(chunks.find(row));
-    ASSERT_TRUE(reader.next());
-    EXPECT_EQ(reader.counts()[0], 100 + row);
+  for (std::size_t number = kChunks; number-- > 0;) {
+    for (const unsigned thread : {0U, 1U}) {
+      KeptPackets::Reader* const reader = chunks.find(thread, number);
+      ASSERT_EQ(reader == nullptr, number % 7 == 6);
+      if (reader == nullptr) continue;
+      for (std::size_t i = 0; i < number % 3; ++i) {
+        ASSERT_TRUE(reader->next());
+        EXPECT_EQ(reader->counts()[0], 100 + number + i);
+        EXPECT_EQ(reader->pieces().size(), 1U);
+      }
+    }
   }
-  EXPECT_EQ(chunks.find(1), nullptr);
-  EXPECT_FALSE(KeptPackets::Reader(chunks.find(1)).next());
+  EXPECT_NE(chunks.find(0, 0), chunks.find(1, 0)) << "threads read at the same time";
   chunks.clear();
-  EXPECT_EQ(chunks.find(7), nullptr);
+  EXPECT_EQ(chunks.find(0, 7), nullptr);
   EXPECT_EQ(chunks.bytes(), 0U);
 }
 

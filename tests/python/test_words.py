@@ -404,7 +404,19 @@ def test_free_memory_is_what_a_control_group_leaves(tmp_path, monkeypatch):
     (inner / "memory.max").write_text("5000000\n")
     (inner / "memory.current").write_text("3000000\n")
     (inner / "memory.stat").write_text("anon 7\ninactive_file 500000\n")
-    assert list(_memory._left(tmp_path, "/job", "memory.max", "memory.current", "inactive_file")) == [2_500_000]
+
+    def left(name):
+        return list(_memory._left(str(tmp_path), name, "memory.max", "memory.current", "inactive_file"))
+
+    assert left("/job") == left("/job/") == left("/job/part") == [2_500_000]
+    assert left("/") == left("/other") == []
+    (tmp_path / "memory.max").write_text(f"{2**63 - 4096}\n")  # that of no limit in version 1
+    assert left("/job") == [2_500_000]
+    (tmp_path / "memory.max").write_text("9000\n")
+    (tmp_path / "memory.current").write_text("1000\n")
+    (tmp_path / "memory.stat").write_text("anon 7\n")
+    assert left("/job") == [2_500_000, 8000]
+    assert left("/") == [8000]
     monkeypatch.setattr(_memory, "_of_control_groups", lambda: iter([1000]))
     assert _memory.free_bytes() == 1000
     with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds max_bytes, 1000; iter_neighborhoods"):
