@@ -112,8 +112,8 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
   const std::vector<double> weights = weights_of(options, input);
   const SignalView signal{values.numbers, values.channels, weights};
   const Index& index = input.exact_index(options.rows.threads);
-  const AggregateShape shape{options.rows.scale_count(), row_count(query.vertices, index.vertex_count()),
-                             values.channels, aggregate_size(index, signal, query)};
+  const AggregateShape shape{options.rows.scale_count(), query.vertices.count(index.vertex_count()), values.channels,
+                             aggregate_size(index, signal, query)};
   const BatchSize size{shape.rows, shape.numbers};
   SizeLimit(options.files.first(), options.max_bytes).check(size, 8 * static_cast<double>(shape.numbers));
   std::vector<double> result;

@@ -226,14 +226,10 @@ BatchSize write(const SearchMethod& method, const BatchQuery& query, const Batch
 
 /// The query vertices of a shard of `rows`.
 std::vector<VertexId> vertices_of(const Shard& shard, const BatchVertices& rows, std::size_t vertices) {
-  const std::size_t count = row_count(rows, vertices);
+  const std::size_t count = rows.count(vertices);
   const std::size_t first = shard.first_row(count);
   std::vector<VertexId> result(shard.end_row(count) - first);
-  if (const auto& list = rows.list()) {
-    std::copy_n(list->begin() + static_cast<std::ptrdiff_t>(first), result.size(), result.begin());
-  } else {
-    std::iota(result.begin(), result.end(), static_cast<VertexId>(first));
-  }
+  for (std::size_t row = 0; row < result.size(); ++row) result[row] = rows[first + row];
   return result;
 }
 
@@ -287,7 +283,7 @@ void batch(const BatchCommand& options) {
   std::vector<VertexId> of_shard;
   if (!options.shard.empty()) {
     const Shard shard = parse_shard(options.shard);
-    about = describe(options, shard, row_count(query.vertices, input.vertex_count()), rows, input);
+    about = describe(options, shard, query.vertices.count(input.vertex_count()), rows, input);
     of_shard = vertices_of(shard, query.vertices, input.vertex_count());
     query.vertices = of_shard;
   }

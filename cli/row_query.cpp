@@ -53,7 +53,7 @@ CLI::Option* add_rows(CLI::App& command, RowOptions& options) {
 RowQuery::RowQuery(const RowOptions& options, Input& input)
     : vertices_(options.vertices, input),
       masks_(options.filter, input),
-      size_(row_count(vertices_.view(), input.vertex_count())),
+      size_(vertices_.view().count(input.vertex_count())),
       are_of_rows_(!options.row_radii.empty()),
       radii_(radii_of(options, size_, input)) {}
 

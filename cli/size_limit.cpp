@@ -64,7 +64,7 @@ std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQue
   // Vertices, about half a second. Counted rather than timed, so that every machine draws the same sample.
   constexpr double kMostWork = 0x1p26;
   const auto& list = query.vertices.list();
-  const std::size_t rows = row_count(query.vertices, method.vertex_count());
+  const std::size_t rows = query.vertices.count(method.vertex_count());
   if (rows <= kSamples) return std::nullopt;
   std::mt19937_64 random(1);
   std::vector<VertexId> vertices(kSamplesPerStep);

@@ -201,10 +201,6 @@ QueryVertices::QueryVertices(const std::string& file, const Input& input) : are_
   rows_ = list_;
 }
 
-std::size_t row_count(const BatchVertices& rows, std::size_t vertices) {
-  return rows.list() ? rows.list()->size() : vertices;
-}
-
 void write_vertices(io::NpzWriter& npz, const BatchVertices& rows) {
   const auto& list = rows.list();
   if (!list) return;

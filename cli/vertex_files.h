@@ -64,9 +64,6 @@ class QueryVertices {
   BatchVertices rows_;
 };
 
-/// The number of rows for `rows` in a mesh of `vertices`.
-[[nodiscard]] std::size_t row_count(const BatchVertices& rows, std::size_t vertices);
-
 /// Writes the array `vertices`, if the query vertices are listed.
 void write_vertices(io::NpzWriter& npz, const BatchVertices& rows);
 

@@ -95,6 +95,14 @@ class BatchVertices {
   /// The list; none if all vertices are meant.
   [[nodiscard]] const std::optional<std::span<const VertexId>>& list() const { return list_; }
 
+  /// How many rows these are for a mesh of `vertices` vertices.
+  [[nodiscard]] std::size_t count(std::size_t vertices) const { return list_ ? list_->size() : vertices; }
+
+  /// The vertex of a row, whose number must be less than that.
+  [[nodiscard]] VertexId operator[](std::size_t row) const {
+    return list_ ? (*list_)[row] : static_cast<VertexId>(row);
+  }
+
  private:
   std::optional<std::span<const VertexId>> list_;
 };

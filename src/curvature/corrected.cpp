@@ -179,7 +179,7 @@ CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const Fa
   const std::vector<double> sums = aggregate(state.searched, {.values = held, .channels = kChannels}, sum,
                                              {.threads = options.threads, .progress = options.progress});
   const std::size_t results = sums.size() / kChannels;
-  const std::size_t rows = sum.vertices.list() ? listed.size() : surface.vertex_count();
+  const std::size_t rows = sum.vertices.count(surface.vertex_count());
   CorrectedCurvatures result;
   result.measures.resize(sums.size());
   for (auto* const numbers : {&result.area, &result.mean, &result.gaussian, &result.k1, &result.k2}) {
@@ -187,10 +187,7 @@ CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const Fa
   }
   result.d1.resize(3 * results);
   result.d2.resize(3 * results);
-  const auto normal = [&](std::size_t row) {
-    const std::size_t i = row % rows;
-    return state.normal(place_of(*state.index, sum.vertices.list() ? listed[i] : static_cast<VertexId>(i)));
-  };
+  const auto normal = [&](std::size_t row) { return state.normal(place_of(*state.index, sum.vertices[row % rows])); };
   const CorrectedRows writer{sums, state.index->frame.scale, result};
   task.parallel_for(results, kPacketCapacity,
                     [&](unsigned, std::size_t begin, std::size_t end) { writer.write(begin, end, normal); });

@@ -118,10 +118,6 @@ void CurvatureFitter::write(std::size_t row, const DirectFit::Result& result) {
   set_row(out_.d2, row, result.curvature.d2);
 }
 
-std::size_t row_count(const CurvatureIndex& surface, const BatchQuery& query) {
-  return query.vertices.list() ? query.vertices.list()->size() : surface.vertex_count();
-}
-
 void check_sizes(const CurvatureMemory& memory, std::size_t rows) {
   const auto check = [](const char* name, std::size_t size, std::size_t expected) {
     if (size == expected) return;
@@ -141,7 +137,7 @@ void check_sizes(const CurvatureMemory& memory, std::size_t rows) {
 CurvatureOptions like_libigl() { return {.filter = true, .open_ball = true, .shape_operator = ShapeOperator::Libigl}; }
 
 Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, const CurvatureOptions& options) {
-  const std::size_t rows = row_count(surface, query);
+  const std::size_t rows = query.vertices.count(surface.vertex_count());
   Curvatures result;
   result.k1.resize(rows);
   result.k2.resize(rows);
@@ -159,7 +155,7 @@ void curvatures(const CurvatureIndex& surface, const BatchQuery& query, const Cu
     raise(ErrorCode::InvalidOption, "libigl's shape operator requires the quadric, not the jet");
   }
   const SurfaceState& state = CurvatureAccess::state(surface);
-  check_sizes(out, row_count(surface, query));
+  check_sizes(out, query.vertices.count(surface.vertex_count()));
   const Index searched = filtered(state.searched, query.filter, options.threads);
   const MomentSource source{.index = &IndexAccess::view(searched), .filter = options.filter ? &state : nullptr};
   visit_moments(searched, {.vertices = query.vertices, .radius = query.radius}, options.open_ball, source,

@@ -53,10 +53,6 @@ struct MomentWeights {
   }
 };
 
-std::size_t row_count(const Index& index, const BatchQuery& query) {
-  return query.vertices.list() ? query.vertices.list()->size() : index.vertex_count();
-}
-
 /// The moments of one row about its query vertex, as `PacketMoments` has them.
 struct RowMoments {
   const QueryMoments& sums;
@@ -124,7 +120,7 @@ std::vector<double> moments(const Index& index, const BatchQuery& query, const M
           "degree is " + std::to_string(options.degree) + ", expected at most " + std::to_string(kLargestMomentDegree));
   }
   const std::size_t columns = moment_count(options.degree);
-  std::vector<double> result(columns * row_count(index, query));
+  std::vector<double> result(columns * query.vertices.count(index.vertex_count()));
   for_each_row(index, query, options, [&](std::size_t row, const RowMoments& m) {
     for (unsigned i = 0; i <= options.degree; ++i) {
       for (unsigned j = 0; i + j <= options.degree; ++j) {
@@ -138,7 +134,7 @@ std::vector<double> moments(const Index& index, const BatchQuery& query, const M
 }
 
 PrincipalComponents principal_components(const Index& index, const BatchQuery& query, const MomentOptions& options) {
-  const std::size_t rows = row_count(index, query);
+  const std::size_t rows = query.vertices.count(index.vertex_count());
   PrincipalComponents result;
   result.weight.resize(rows);
   result.center.resize(3 * rows);

@@ -173,9 +173,8 @@ class AggregateCase {
   /// Compares all numbers of an aggregate with the definition.
   void compare(const SignalView& signal, const AggregateQuery& query) {
     const std::vector<double> result = aggregate(index_, signal, query);
-    const auto& list = query.vertices.list();
     const auto& scales = query.radius.scales();
-    const std::size_t rows = list ? list->size() : size();
+    const std::size_t rows = query.vertices.count(size());
     ASSERT_EQ(result.size(), (scales ? scales->size() : 1) * rows * signal.channels);
     const Adjacency graph = without_walls(mesh_, query.filter.walls);
     ReferenceSearcher reference(GraphView{mesh_.positions_view(), graph.view()});
@@ -185,7 +184,7 @@ class AggregateCase {
       const double radius = scales                ? (*scales)[i / signal.channels / rows]
                             : query.radius.list() ? (*query.radius.list())[row]
                                                   : query.radius.common();
-      const VertexId v = list ? (*list)[row] : static_cast<VertexId>(row);
+      const VertexId v = query.vertices[row];
       const double searched = scales && query.nesting == Nesting::Patch ? largest : radius;
       if (query.metric == Metric::Path) {
         if (i == 0 || v != paths_from_) find_paths(v, graph);

@@ -132,7 +132,7 @@ class Packets : public testing::Test {
 
   /// The sum of the signal for each row.
   [[nodiscard]] std::vector<double> sums(const BatchQuery& query, unsigned threads) const {
-    std::vector<double> result(query.vertices.list() ? query.vertices.list()->size() : index.vertex_count());
+    std::vector<double> result(query.vertices.count(index.vertex_count()));
     for_each_packet(index, query, everyone([&](const PacketAnswer& answer) {
                       const std::vector<double> found = sums_of(answer, signal);
                       for (std::size_t i = 0; i < found.size(); ++i) result[answer.rows[i]] = found[i];
