@@ -288,7 +288,7 @@ class Aggregation {
             to.write(rows[k].row, [&](std::span<double> channels) { reducer->write(k, channels); });
           }
         }
-        batch.task().advance(rows.size());
+        batch.task().advance(thread, rows.size());
         return batch.task().should_continue(thread);
       });
     });
@@ -353,8 +353,7 @@ std::size_t aggregate_size(const Index& index, const SignalView& signal, const A
                            const AggregateOptions& options) {
   if (signal.channels == 0) raise(ErrorCode::InvalidOption, "channels is 0, expected at least 1");
   const auto& scales = query.radius.scales();
-  const auto& list = query.vertices.list();
-  return checked_size(scales ? scales->size() : 1, list ? list->size() : index.vertex_count(), signal.channels,
+  return checked_size(scales ? scales->size() : 1, query.vertices.count(index.vertex_count()), signal.channels,
                       options.max_bytes);
 }
 

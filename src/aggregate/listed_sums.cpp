@@ -162,14 +162,11 @@ bool is_better_listed(const Index& index, const SignalView& signal, const Aggreg
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
                 std::span<double> result, const AggregateOptions& options) {
   const IndexView& view = IndexAccess::view(index);
-  std::vector<std::size_t> rows(query.vertices.list() ? query.vertices.list()->size() : index.vertex_count());
+  std::vector<std::size_t> rows(query.vertices.count(index.vertex_count()));
   std::iota(rows.begin(), rows.end(), std::size_t{0});
-  const auto vertex = [&](std::size_t row) {
-    return query.vertices.list() ? (*query.vertices.list())[row] : static_cast<VertexId>(row);
-  };
   // Near rows share values that are in the cache.
   std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(view.slot[vertex(a)], a) < std::pair(view.slot[vertex(b)], b);
+    return std::pair(view.slot[query.vertices[a]], a) < std::pair(view.slot[query.vertices[b]], b);
   });
   const SearchMethod method = method_of(index, query.metric);
   const Filter filter = query.metric == Metric::Path ? query.filter : Filter();
@@ -184,13 +181,13 @@ void sum_listed(const Index& index, const SignalView& signal, const AggregateQue
       still_wanted = [&](std::size_t, std::size_t) { return options.progress(begin, rows.size()); };
     }
     vertices.clear();
-    for (const std::size_t row : some) vertices.push_back(vertex(row));
+    for (const std::size_t row : some) vertices.push_back(query.vertices[row]);
     listed.set(neighborhoods(method, {.vertices = vertices, .radius = radius, .filter = filter},
                              {.threads = options.threads, .distances = true, .progress = still_wanted}));
     constexpr std::size_t kGrain = 16;
-    task.parallel_for(some.size(), kGrain, [&](unsigned /*thread*/, std::size_t first, std::size_t end) {
+    task.parallel_for(some.size(), kGrain, [&](unsigned thread, std::size_t first, std::size_t end) {
       for (std::size_t i = first; i < end; ++i) listed.write(i, result.data() + some[i] * signal.channels);
-      task.advance(end - first);
+      task.advance(thread, end - first);
     });
   }
   task.finish();

@@ -58,7 +58,7 @@ class Batch {
   [[nodiscard]] std::size_t whole_units(std::size_t first, std::size_t window) const;
 
   /// Calls `f(thread, chunk)` for chunks of the rows `row_of(i)`, `i < count`, on any thread. Which chunks there are
-  /// depends on the rows alone. The chunks of a thread ascend.
+  /// depends on the rows alone.
   template <class RowOf, class F>
   void for_each_chunk(std::size_t count, RowOf&& row_of, F&& f);
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meshhood/error.h"
@@ -85,19 +86,28 @@ struct ForWriting {
   KeptChunks& kept;
 };
 
+/// Ids that a thread has counted and not yet added to the limit. Not beside those of another thread.
+struct alignas(64) NewIds {
+  std::uint64_t count = 0;
+};
+
 /// `writing` is null for rows that are only counted.
 void count_rows(Batch& batch, std::uint64_t* sizes, const ForWriting* writing) {
+  constexpr std::uint64_t kIdsAtOnce = std::uint64_t{1} << 16;  // to change what threads share takes as long as a row
+  std::vector<NewIds> new_ids(batch.task().threads());
   batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
-    std::uint64_t ids = 0;
+    std::uint64_t& ids = new_ids[thread].count;
     const auto sink = [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
       for (std::size_t i = 0; i < items.size(); ++i) ids += sizes[items[i].row] = some[i];
       return batch.task().should_continue(thread);
     };
     batch.worker(thread).count(chunk.items, sink,
                                writing == nullptr ? nullptr : &writing->kept.begin(thread, chunk.number));
-    if (writing != nullptr) writing->limit.add(ids);
-    batch.task().advance(chunk.items.size());
+    if (writing != nullptr && ids >= kIdsAtOnce) writing->limit.add(std::exchange(ids, 0));
+    batch.task().advance(thread, chunk.items.size());
   });
+  if (writing == nullptr) return;
+  for (const NewIds& ids : new_ids) writing->limit.add(ids.count);
 }
 
 BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances) {
@@ -115,8 +125,7 @@ BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool di
 /// Searches each row once. The rows wait in memory of our own until their number of ids is known.
 std::vector<std::uint64_t> stream_and_copy(const SearchMethod& method, const BatchQuery& query,
                                            const BatchAllocator& allocate, const BatchOptions& options) {
-  const auto& list = query.vertices.list();
-  SizeLimit limit(options, list ? list->size() : method.vertex_count());
+  SizeLimit limit(options, query.vertices.count(method.vertex_count()));
   Neighborhoods rows{{0}, {}, {}};
   const auto append = [&](const BatchRow& row) {
     limit.add(row.ids.size());
@@ -174,7 +183,7 @@ void write_rows(Batch& batch, KeptChunks& kept, std::span<const std::uint64_t> o
     for (const BatchItem& item : chunk.items) prefetch_row(memory.ids.subspan(offsets[item.row]));
     RowsInPlace receiver(batch, thread, offsets, memory);
     batch.worker(thread).find(chunk.items, batch.options().distances, receiver, kept.find(thread, chunk.number));
-    batch.task().advance(chunk.items.size());
+    batch.task().advance(thread, chunk.items.size());
   });
 }
 
@@ -204,6 +213,7 @@ std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const Batch
   KeptChunks kept(batch.task().threads());
   const ForWriting writing{limit, kept};
   count_rows(batch, offsets.data() + 1, &writing);
+  kept.finish();
   if (!limit.leaves(kept.bytes())) kept.clear();
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   write_rows(batch, kept, offsets, allocated(allocate, offsets.back(), options.distances));

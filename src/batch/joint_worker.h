@@ -28,7 +28,8 @@ class JointWorker final : public BatchWorker {
   explicit JointWorker(const Index& index, Isa isa = best_isa());
 
   void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) override;
-  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver, KeptPackets::Reader* kept) override;
+  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+            KeptPackets::Reader* kept) override;
 
   /// Passes on the packets of a chunk. `sink` returns false to drop the rest.
   void visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink);

@@ -43,10 +43,10 @@ class NearestRows {
     check_radius(options.radius);
     check_filter(options.filter, index.vertex_count());
     options_.filter = filter_.view();
-    const std::size_t count = vertices.list() ? vertices.list()->size() : index.vertex_count();
+    const std::size_t count = vertices.count(index.vertex_count());
     vertices_.reserve(count);
     for (std::size_t row = 0; row < count; ++row) {
-      const VertexId v = vertices.list() ? (*vertices.list())[row] : static_cast<VertexId>(row);
+      const VertexId v = vertices[row];
       check_vertex(v, index.vertex_count(), "row " + std::to_string(row) + ": vertex");
       vertices_.push_back(v);
     }
@@ -73,7 +73,7 @@ class NearestRows {
       if (!searches[thread]) searches[thread] = make();
       for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
         f(*searches[thread], in_order[i].second);
-        task.advance(1);
+        task.advance(thread, 1);
       }
     });
     task.finish();

@@ -20,10 +20,9 @@ void KeptPackets::add(std::span<const RowPiece> pieces, std::span<const std::uin
   const auto leaves = static_cast<std::size_t>(
       std::ranges::count_if(pieces, [](const RowPiece& piece) { return piece.reached != nullptr; }));
   const bool is_single = counts.size() == 1;
-  const std::size_t words = kWordsBeforePieces + counts.size() + kWordsOfPiece * pieces.size() +
-                            (is_single ? 1 : kLeafCapacity) * leaves;
-  static_assert(sizeof(Word) == sizeof(VertexId));
-  if (words > ids) {
+  const std::size_t words =
+      kWordsBeforePieces + counts.size() + kWordsOfPiece * pieces.size() + (is_single ? 1 : kLeafCapacity) * leaves;
+  if (sizeof(Word) * words > sizeof(VertexId) * ids) {
     *add_words(1) = 0;
     return;
   }
@@ -104,9 +103,12 @@ bool KeptPackets::Reader::next() {
 
 KeptPackets& KeptChunks::begin(unsigned thread, std::size_t number) {
   PerThread& own = threads_[thread];
-  assert(own.chunks.empty() || own.chunks.back().number < number);
   own.chunks.push_back({number, own.packets.end()});
   return own.packets;
+}
+
+void KeptChunks::finish() {
+  for (PerThread& thread : threads_) std::ranges::sort(thread.chunks, {}, &Chunk::number);
 }
 
 KeptPackets::Reader* KeptChunks::find(unsigned thread, std::size_t number) {

@@ -38,8 +38,8 @@ class KeptPackets {
   [[nodiscard]] Word* add_words(std::size_t count);
 
   // A packet lies in one block: the number of its rows, or 0 if it is left out; that of its pieces; the sizes of the
-  // rows; and for each piece `first`, `size` and `queries`, or 0 and what is reached if it is a leaf: 32 words, or for a
-  // packet of one row the lanes.
+  // rows; and for each piece `first`, `size` and `queries`, or 0 and what is reached if it is a leaf: 32 words, or for
+  // a packet of one row the lanes.
   std::vector<RawVector<Word>> blocks_;
 };
 
@@ -69,8 +69,11 @@ class KeptChunks {
  public:
   explicit KeptChunks(unsigned threads) : threads_(threads) {}
 
-  /// For the packets of a chunk. The numbers of the chunks of a thread ascend.
+  /// For the packets of a chunk, on this thread.
   [[nodiscard]] KeptPackets& begin(unsigned thread, std::size_t number);
+
+  /// After all chunks, before `find`.
+  void finish();
 
   /// A reader of this thread that begins with the packets of a chunk, which any thread has added; null after `clear`.
   [[nodiscard]] KeptPackets::Reader* find(unsigned thread, std::size_t number);
@@ -88,7 +91,7 @@ class KeptChunks {
   /// Not beside that of another thread, which writes to its own all the time.
   struct alignas(64) PerThread {
     KeptPackets packets;
-    std::vector<Chunk> chunks;
+    std::vector<Chunk> chunks;  // ascending after `finish`
     KeptPackets::Reader reader;
   };
 

@@ -37,7 +37,7 @@ void for_each_packet(const Index& index, const BatchQuery& query, const PacketVi
     if (!threads[thread]) threads[thread] = std::make_unique<PacketThread>(searched, make_visitor(thread));
     threads[thread]->worker.visit(chunk.items, [&](const PacketAnswer& answer) {
       threads[thread]->visitor(answer);
-      batch.task().advance(answer.rows.size());
+      batch.task().advance(thread, answer.rows.size());
       return batch.task().should_continue(thread);
     });
   });

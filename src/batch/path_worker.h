@@ -23,7 +23,8 @@ class PathWorker final : public BatchWorker {
   PathWorker(const Index& index, std::shared_ptr<const FilterCopy> filter, Isa isa = best_isa());
 
   void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) override;
-  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver, KeptPackets::Reader* kept) override;
+  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+            KeptPackets::Reader* kept) override;
 
   /// Passes on a chunk packet by packet: query `i` of a packet is `rows[i]`. `sink` returns false to drop the rest.
   void visit(std::span<const BatchItem> chunk,

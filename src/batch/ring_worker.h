@@ -46,7 +46,8 @@ class RingWorker final : public BatchWorker {
   explicit RingWorker(const Index& index);
 
   void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) override;
-  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver, KeptPackets::Reader* kept) override;
+  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+            KeptPackets::Reader* kept) override;
 
  private:
   static std::span<const BatchItem> first_packet(std::span<const BatchItem> chunk);

@@ -49,7 +49,8 @@ class BatchWorker {
   BatchWorker& operator=(const BatchWorker&) = delete;
   virtual ~BatchWorker() = default;
 
-  /// `kept` is null, or receives what spares `find` a second search. A worker whose `find` always searches adds nothing.
+  /// `kept` is null, or receives what spares `find` a second search. A worker whose `find` always searches adds
+  /// nothing.
   virtual void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) = 0;
 
   /// `kept` is null, or reads what `count` kept of the same chunk, none of whose rows was dropped.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "meshhood/error.h"
@@ -87,15 +88,21 @@ class Stream {
     std::size_t size;
   };
 
-  /// Keeps the rows of a window.
+  /// Keeps the rows of a window. Adds their bytes to those of the window now and then, because to change what threads
+  /// share takes as long as a row.
   class WindowRows final : public RowReceiver {
    public:
     WindowRows(Stream& stream, unsigned thread, std::size_t first) : stream_(stream), thread_(thread), first_(first) {}
+    WindowRows(const WindowRows&) = delete;
+    WindowRows& operator=(const WindowRows&) = delete;
+    ~WindowRows() override { stream_.bytes_ += new_bytes_; }
 
     BatchMemory memory(std::size_t row, std::size_t size) override {
       Store& store = stream_.stores_[thread_];
       const Waiting& kept = stream_.waiting_[row - first_] = {thread_, store.ids.size(), size};
-      stream_.bytes_ += stream_.bytes_of(kept);
+      new_bytes_ += stream_.bytes_of(kept);
+      constexpr std::size_t kBytesAtOnce = std::size_t{1} << 16;
+      if (new_bytes_ >= kBytesAtOnce) stream_.bytes_ += std::exchange(new_bytes_, 0);
       return last_ = store.add(size, stream_.batch_.options().distances);
     }
 
@@ -108,6 +115,7 @@ class Stream {
     Stream& stream_;
     unsigned thread_;
     std::size_t first_;
+    std::size_t new_bytes_ = 0;
     BatchMemory last_;
   };
 

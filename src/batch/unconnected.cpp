@@ -155,7 +155,7 @@ class UnconnectedSearch : public VertexVisitor {
 }  // namespace
 
 Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const BatchOptions& options) {
-  const std::size_t rows = query.vertices.list() ? query.vertices.list()->size() : index.vertex_count();
+  const std::size_t rows = query.vertices.count(index.vertex_count());
   Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kNoGap)};
   const IndexView& view = IndexAccess::view(index);
   const FilterCopy filter(query.filter);

@@ -253,11 +253,11 @@ std::vector<SurfacePoint> FaceIndex::closest_points(std::span<const SpacePoint> 
   for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points: row " + std::to_string(i) + ": ");
   TaskContext task(options.threads, options.progress, points.size());
   std::vector<SurfacePoint> found(points.size());
-  task.parallel_for(points.size(), kPointsOfTask, [&](unsigned /*thread*/, std::size_t begin, std::size_t end) {
+  task.parallel_for(points.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       found[i] = Search(*state_, {points[i][0], points[i][1], points[i][2]}).run();
     }
-    task.advance(end - begin);
+    task.advance(thread, end - begin);
   });
   task.finish();
   return found;

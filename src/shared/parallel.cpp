@@ -51,10 +51,18 @@ TaskContext::~TaskContext() {
 
 void TaskContext::report_progress() {
   if (!*progress_) return;
-  const bool goes_on = (*progress_)(done_.load(std::memory_order_relaxed), total_);
+  std::size_t done = done_;
+  for (const Share& share : shares_) done += share.done.load(std::memory_order_relaxed);
+  const bool goes_on = (*progress_)(done, total_);
   check_not_forked();
   if (!goes_on) raise(ErrorCode::Cancelled, "cancelled");
   next_report_ = std::chrono::steady_clock::now() + kBetweenReports;
+}
+
+void TaskContext::finish() {
+  for (Share& share : shares_) share.done = 0;
+  done_ = total_;
+  report_progress();
 }
 
 void TaskContext::check_not_forked() const {
@@ -62,9 +70,18 @@ void TaskContext::check_not_forked() const {
   raise(ErrorCode::Cancelled, "cancelled in a child that was forked during the call; it goes on in the parent");
 }
 
+std::span<TaskContext::Share> TaskContext::divide(std::size_t chunks) {
+  if (shares_.empty()) shares_ = std::vector<Share>(threads_);
+  const std::size_t count = std::min<std::size_t>(chunks, threads_);
+  for (std::size_t i = 0; i < count; ++i) {
+    shares_[i].next = chunks * i / count;
+    shares_[i].end = chunks * (i + 1) / count;
+  }
+  return std::span(shares_).first(count);
+}
+
 void TaskContext::run(std::size_t threads, const std::function<void(unsigned)>& body) {
   check_not_forked();
-  threads = std::min<std::size_t>(threads, threads_);
   if (threads <= 1) {
     body(0);
     return;

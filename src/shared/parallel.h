@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "meshhood/progress.h"
 
@@ -38,13 +40,20 @@ class TaskContext {
   [[nodiscard]] unsigned threads() const { return threads_; }
 
   /// Calls `f(thread, begin, end)` for consecutive chunks of `grain` of the numbers `0 .. count - 1`, each on any
-  /// thread. The chunks do not depend on the number of threads. Returns when all threads have stopped. The first
-  /// exception ends the loop and is passed on.
+  /// thread: first those of its share, which are consecutive, so that loops over the same data find them in its cache;
+  /// then what is left of other shares. The chunks do not depend on the number of threads. Returns when all threads
+  /// have stopped. The first exception ends the loop and is passed on.
   template <class F>
   void parallel_for(std::size_t count, std::size_t grain, F&& f);
 
-  /// Any thread: `parts` more are done.
-  void advance(std::size_t parts) { done_.fetch_add(parts, std::memory_order_relaxed); }
+  /// In a loop: a thread has done `parts` more.
+  void advance(unsigned thread, std::size_t parts) {
+    std::atomic<std::size_t>& done = shares_[thread].done;
+    done.store(done.load(std::memory_order_relaxed) + parts, std::memory_order_relaxed);
+  }
+
+  /// Thread 0: `parts` more are done.
+  void advance(std::size_t parts) { done_ += parts; }
 
   /// Whether to continue; called within chunks that take long. Thread 0 reports progress if it is due, and may throw as
   /// `report_progress`.
@@ -62,14 +71,21 @@ class TaskContext {
     report_progress();
   }
 
-  /// Thread 0: all parts are done, also those that turned out not to be needed; reports it.
-  void finish() {
-    done_ = total_;
-    report_progress();
-  }
+  /// Between loops: all parts are done, also those that turned out not to be needed; reports it.
+  void finish();
 
  private:
-  /// Calls `body(thread)` on up to `threads` threads at once.
+  /// Of a thread. Not beside that of another, which changes all the time: processors may be far from each other.
+  struct alignas(64) Share {
+    std::atomic<std::size_t> next{0};  // of the chunks of a loop that this thread begins with
+    std::size_t end = 0;               // of these
+    std::atomic<std::size_t> done{0};  // parts of the call
+  };
+
+  /// Divides the chunks of a loop among the threads; fewer if there are fewer chunks.
+  [[nodiscard]] std::span<Share> divide(std::size_t chunks);
+
+  /// Calls `body(thread)` on up to `threads` threads at once; not more than there are.
   void run(std::size_t threads, const std::function<void(unsigned)>& body);
 
   /// Throws Error{Cancelled} in a child that was forked while the task had threads.
@@ -78,20 +94,25 @@ class TaskContext {
   unsigned threads_;
   const Progress* progress_;
   std::size_t total_;
-  std::atomic<std::size_t> done_{0};
-  std::atomic<bool> stopped_{false};
+  std::size_t done_ = 0;                    // without those of the shares
+  std::vector<Share> shares_;               // made by the first loop
   std::unique_ptr<HelperThreads> helpers_;  // made by the first loop of more than one thread
   std::chrono::steady_clock::time_point next_report_;
+  std::atomic<bool> stopped_{false};
 };
 
 template <class F>
 void TaskContext::parallel_for(std::size_t count, std::size_t grain, F&& f) {
-  std::atomic<std::size_t> next{0};
-  run((count + grain - 1) / grain, [&](unsigned thread) {
-    for (;;) {
-      const std::size_t begin = next.fetch_add(grain, std::memory_order_relaxed);
-      if (begin >= count || !should_continue(thread)) return;
-      f(thread, begin, std::min(begin + grain, count));
+  const std::span<Share> shares = divide((count + grain - 1) / grain);
+  run(shares.size(), [&](unsigned thread) {
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      Share& share = shares[(thread + i) % shares.size()];
+      for (;;) {
+        const std::size_t chunk = share.next.fetch_add(1, std::memory_order_relaxed);
+        if (chunk >= share.end) break;
+        if (!should_continue(thread)) return;
+        f(thread, chunk * grain, std::min((chunk + 1) * grain, count));
+      }
     }
   });
 }

@@ -12,7 +12,9 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/batch.h"
+#include "meshhood/index.h"
 
+#include "batch/batch.h"
 #include "support/draw_start.h"
 #include "support/exact_answer.h"
 #include "support/families.h"
@@ -93,11 +95,13 @@ TEST(KeptChunks, AreFoundByTheirNumberWhicheverThreadAddedThem) {
   const std::vector<RowPiece> pieces{{10, 100, 1, nullptr}};
   constexpr std::size_t kChunks = 10'000;  // several blocks a thread
   const auto thread_of = [](std::size_t number) { return static_cast<unsigned>(number / 3 % 2); };
-  for (std::size_t number = 0; number < kChunks; ++number) {
+  for (std::size_t i = 0; i < kChunks; ++i) {
+    const std::size_t number = (i + kChunks / 3) % kChunks;
     if (number % 7 == 6) continue;
     KeptPackets& packets = chunks.begin(thread_of(number), number);
-    for (std::size_t i = 0; i < number % 3; ++i) packets.add(pieces, std::vector<std::uint64_t>{100 + number + i});
+    for (std::size_t k = 0; k < number % 3; ++k) packets.add(pieces, std::vector<std::uint64_t>{100 + number + k});
   }
+  chunks.finish();
   for (std::size_t number = kChunks; number-- > 0;) {
     for (const unsigned thread : {0U, 1U}) {
       KeptPackets::Reader* const reader = chunks.find(thread, number);
@@ -114,6 +118,26 @@ TEST(KeptChunks, AreFoundByTheirNumberWhicheverThreadAddedThem) {
   chunks.clear();
   EXPECT_EQ(chunks.find(0, 7), nullptr);
   EXPECT_EQ(chunks.bytes(), 0U);
+}
+
+TEST(KeptChunks, OfMoreRowsThanAreSortedAtATime) {
+  // Rows of a triangle, then of two.
+  const std::vector<double> positions{0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0, 6, 1, 0};
+  const std::vector<std::uint32_t> corners{0, 1, 2, 3, 4, 5, 4, 6, 5};
+  const Index index = build(positions, corners);
+  constexpr std::size_t kFirst = Batch::kMaxRows;
+  std::vector<VertexId> vertices(kFirst + 300, 1);
+  std::fill(vertices.begin() + kFirst, vertices.end(), 4);
+  const Neighborhoods found =
+      neighborhoods(SearchMethod::rings(index), {.vertices = vertices, .radius = 2}, {.threads = 2});
+  ASSERT_EQ(found.ids.size(), 3 * kFirst + 4 * 300);
+  for (std::size_t row = 0; row < vertices.size(); ++row) {
+    const auto first = found.ids.begin() + static_cast<std::ptrdiff_t>(found.offsets[row]);
+    const std::vector<VertexId> expected =
+        row < kFirst ? std::vector<VertexId>{0, 1, 2} : std::vector<VertexId>{3, 4, 5, 6};
+    ASSERT_EQ(found.offsets[row + 1] - found.offsets[row], expected.size()) << row;
+    ASSERT_TRUE(std::is_permutation(expected.begin(), expected.end(), first)) << row;
+  }
 }
 
 class KeptRows : public testing::TestWithParam<Family> {};

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <new>
 #include <set>
@@ -40,6 +41,35 @@ TEST(ParallelFor, ChunksCoverAllNumbersAndDoNotDependOnTheThreads) {
       });
       EXPECT_THAT(visits, testing::Each(testing::ResultOf([](const auto& n) { return n.load(); }, 1)));
     }
+  }
+}
+
+TEST(ParallelFor, AThreadBeginsWithItsShareAndThenTakesWhatIsLeftOfOthers) {
+  constexpr std::size_t kChunks = 100;
+  for (const unsigned threads : kThreads) {
+    TaskContext task(threads, kNoProgress, 0);
+    std::vector<std::vector<std::size_t>> chunks(threads);  // by thread
+    std::atomic<unsigned> begun{0};
+    std::atomic<std::size_t> done{0};
+    const auto end_of_patience = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    const auto wait_until = [&](auto&& happened) {
+      while (!happened() && std::chrono::steady_clock::now() < end_of_patience) std::this_thread::yield();
+    };
+    task.parallel_for(kChunks, 1, [&](unsigned thread, std::size_t chunk, std::size_t) {
+      if (chunks[thread].empty()) {
+        ++begun;
+        wait_until([&] { return begun == threads; });
+      }
+      chunks[thread].push_back(chunk);
+      if (thread == 0 && threads > 1) wait_until([&] { return done == kChunks - 1; });  // the others do its share
+      ++done;
+    });
+    for (unsigned thread = 0; thread < threads; ++thread) {
+      ASSERT_FALSE(chunks[thread].empty()) << thread;
+      EXPECT_EQ(chunks[thread].front(), kChunks * thread / threads);
+    }
+    EXPECT_EQ(chunks[0].size(), threads > 1 ? 1U : kChunks);
+    EXPECT_EQ(done, kChunks);
   }
 }
 
@@ -85,6 +115,24 @@ TEST(TaskContext, ReportsFinishedParts) {
   task.report_progress();
   expect_refused(ErrorCode::Cancelled, "cancelled", [&] { task.report_progress(); });
   EXPECT_THAT(reports, testing::ElementsAre(std::pair(0, 7), std::pair(4, 7), std::pair(4, 7)));
+}
+
+TEST(TaskContext, AddsUpWhatTheThreadsHaveDone) {
+  for (const unsigned threads : kThreads) {
+    std::pair<std::size_t, std::size_t> last;
+    const Progress progress = [&](std::size_t done, std::size_t total) {
+      last = {done, total};
+      return true;
+    };
+    TaskContext task(threads, progress, 300);
+    for (std::size_t loop = 1; loop <= 2; ++loop) {
+      task.parallel_for(100, 1, [&](unsigned thread, std::size_t, std::size_t) { task.advance(thread, 1); });
+      task.step(7);
+      EXPECT_EQ(last, std::pair(107 * loop, std::size_t{300}));
+    }
+    task.finish();
+    EXPECT_EQ(last, std::pair(std::size_t{300}, std::size_t{300}));
+  }
 }
 
 /// When a call forks the process.
