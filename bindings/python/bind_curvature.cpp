@@ -51,22 +51,23 @@ auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& ver
   options.threads = threads;
   options.progress = progress_to(progress);
   const BatchQuery query = query_of(vertices, radius, walls, ignored);
-  const std::size_t rows = query.vertices.list() ? query.vertices.list()->size() : surface.vertex_count();
+  const std::size_t rows = query.vertices.count(surface.vertex_count());
   const nb::object k1 = unset(rows, "float64");
   const nb::object k2 = unset(rows, "float64");
-  const nb::object d1 = unset(3 * rows, "float64");
-  const nb::object d2 = unset(3 * rows, "float64");
+  // In one block: glibc gives memory back to the system, which costs page faults in the next call, as soon as more than
+  // twice the largest block is free.
+  const nb::object directions = unset(6 * rows, "float64");
   const nb::object state = unset(rows, "uint8");
   const nb::object count = unset(rows, "uint32");
   const CurvatureMemory memory{values_of<double>(k1),
                                values_of<double>(k2),
-                               values_of<double>(d1),
-                               values_of<double>(d2),
+                               values_of<double>(directions).first(3 * rows),
+                               values_of<double>(directions).subspan(3 * rows),
                                values_of<CurvatureState>(state),
                                values_of<std::uint32_t>(count)};
   without_lock([&] { curvatures(surface, query, memory, options); });
-  const auto vectors = [](const nb::object& array) { return array.attr("reshape")(-1, 3); };
-  return std::tuple(k1, k2, vectors(d1), vectors(d2), state, count);
+  const nb::object vectors = directions.attr("reshape")(2, rows, 3);
+  return std::tuple(k1, k2, nb::object(vectors[0]), nb::object(vectors[1]), state, count);
 }
 
 /// With scales, each array has a leading axis.
