@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/epoch_array.h"
 #include "exact/build/links.h"
 
 namespace meshhood {
@@ -52,8 +53,9 @@ class Merger {
  public:
   /// `neighbors`: see `neighbors_of_small`.
   Merger(std::span<const CellComponent> components, const CollectedRows<std::uint32_t>& neighbors)
-      : neighbors_of_(neighbors), merged_into_(components.size()) {
+      : neighbors_of_(neighbors), merged_into_(components.size()), edges_to_(components.size()) {
     std::iota(merged_into_.begin(), merged_into_.end(), 0);
+    sizes_.reserve(components.size());
     for (const CellComponent& component : components) {
       sizes_.push_back(static_cast<std::uint8_t>(count_of(component.lanes)));
     }
@@ -106,28 +108,31 @@ class Merger {
     }
   }
 
-  /// The components at the other ends of all edges that leave `merged` from `small`, which is a part of it.
+  /// Counts the edges that leave `merged` from `small`, which is a part of it, by the component at the other end.
   void gather_neighbors(std::uint32_t small, std::uint32_t merged) {
     neighbors_.clear();
+    edges_to_.forget();
     for (const std::uint32_t other : neighbors_of_[small]) {
       const std::uint32_t neighbor = root(other);
-      if (neighbor != merged) neighbors_.push_back(neighbor);
+      if (neighbor == merged) continue;
+      if (!edges_to_.is_known(neighbor)) {
+        neighbors_.push_back(neighbor);
+        edges_to_.set(neighbor, 0);
+      }
+      ++edges_to_[neighbor];
     }
   }
 
-  /// The most frequent of `neighbors_` with room for `component`, of equal ones the first; `component` itself if there
-  /// is none.
+  /// That of `neighbors_` with room for `component` that has the most edges to it, of equal ones the first in number;
+  /// `component` itself if there is none.
   std::uint32_t best_neighbor(std::uint32_t component) {
-    std::sort(neighbors_.begin(), neighbors_.end());
     std::uint32_t best = component;
-    std::ptrdiff_t most = 0;
-    for (auto first = neighbors_.begin(); first != neighbors_.end();) {
-      const auto last = std::upper_bound(first, neighbors_.end(), *first);
-      if (last - first > most && has_room(component, *first)) {
-        best = *first;
-        most = last - first;
-      }
-      first = last;
+    std::uint32_t most = 0;
+    for (const std::uint32_t neighbor : neighbors_) {
+      const std::uint32_t edges = edges_to_[neighbor];
+      if (edges < most || (edges == most && neighbor > best) || !has_room(component, neighbor)) continue;
+      best = neighbor;
+      most = edges;
     }
     return best;
   }
@@ -151,7 +156,8 @@ class Merger {
   const CollectedRows<std::uint32_t>& neighbors_of_;
   std::vector<std::uint32_t> merged_into_;  // by component: itself, or the component it has been merged into
   std::vector<std::uint8_t> sizes_;         // by component, with those merged into it; small if it has been merged
-  std::vector<std::uint32_t> neighbors_;    // of the component that is being merged, one for each edge
+  std::vector<std::uint32_t> neighbors_;    // of the component that is being merged
+  EpochArray<std::uint32_t> edges_to_;      // by component, if it is one of these
   std::vector<bool> is_linked_;             // by component, if small
 };
 

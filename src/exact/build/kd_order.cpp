@@ -245,7 +245,7 @@ void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task) {
   // Several runs a thread, so that all threads end at about the same time; but none so short that starting it costs
   // more than cutting it. A run of more than four units has more than one in each half.
   constexpr std::size_t kRunsPerThread = 8;
-  const std::size_t shortest = std::max<std::size_t>(2000, 4 * unit);
+  const std::size_t shortest = std::max<std::size_t>(400, 4 * unit);
   RawVector<KdPoint> other(points.size());
   std::vector<PointRun> runs{{points, other}};
   bool moves = false;

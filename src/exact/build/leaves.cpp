@@ -177,14 +177,9 @@ class LeafLinker {
   void link(std::size_t place, LaneMask* adjacency, LinkCollector& exits) const {
     const std::uint32_t leaf = leaves_.forest.leaves[place];
     if (leaf == kNoNode) return;
-    std::fill_n(adjacency, leaves_.leaf_begin[place + 1] - leaves_.leaf_begin[place], LaneMask{0});
+    join_within_cells(leaf, {adjacency, leaves_.leaf_begin[place + 1] - leaves_.leaf_begin[place]});
     for (const CellComponent& part : mesh_.leaves[leaf]) {
       const std::size_t begin = mesh_.cells.begin[part.cell];
-      for_each_lane(part.lanes, [&](unsigned from) {
-        LaneMask& row = adjacency[lane_of(slot_[begin + from])];
-        for_each_lane(mesh_.links.adjacency[begin + from],
-                      [&](unsigned to) { row |= LaneMask{1} << lane_of(slot_[begin + to]); });
-      });
       for (const Link& link : mesh_.links.links_of(part.cell)) {
         if ((link.boundary & part.lanes) == 0) continue;
         const std::size_t other = mesh_.cells.begin[link.leaf];
@@ -199,6 +194,25 @@ class LeafLinker {
           }
         }
       }
+    }
+  }
+
+  void join_within_cells(std::size_t leaf, std::span<LaneMask> adjacency) const {
+    const std::span<const CellComponent> parts = mesh_.leaves[leaf];
+    const std::uint32_t first = parts.front().cell;
+    if (parts.size() == 1 && mesh_.cells.size_of(first) == adjacency.size()) {
+      // A whole cell: its vertices have their lanes already, as both are in the order of the caller's vertices.
+      std::copy_n(mesh_.links.adjacency.begin() + mesh_.cells.begin[first], adjacency.size(), adjacency.begin());
+      return;
+    }
+    std::fill(adjacency.begin(), adjacency.end(), LaneMask{0});
+    for (const CellComponent& part : parts) {
+      const std::size_t begin = mesh_.cells.begin[part.cell];
+      for_each_lane(part.lanes, [&](unsigned from) {
+        LaneMask& row = adjacency[lane_of(slot_[begin + from])];
+        for_each_lane(mesh_.links.adjacency[begin + from],
+                      [&](unsigned to) { row |= LaneMask{1} << lane_of(slot_[begin + to]); });
+      });
     }
   }
 
