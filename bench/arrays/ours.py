@@ -28,6 +28,18 @@ class Meshhood(Tool):
         return index.curvature(scale.radius, workers=self.threads)
 
 
+class MeshhoodRings(Meshhood):
+    name = "meshhood rings"
+    answers = "k rings"
+    questions = ("counts", "ids")
+
+    def counts(self, index, scale):
+        return index.count(None, scale.edges, metric="rings", workers=self.threads)
+
+    def ids(self, index, scale):
+        return index.query_ball(None, scale.edges, metric="rings", workers=self.threads)
+
+
 class BreadthFirst(Tool):
     name = "our breadth-first search (C++)"
     remark = "builds: the adjacency, on one thread"

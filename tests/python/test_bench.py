@@ -52,7 +52,7 @@ def test_peers(elsewhere, monkeypatch):
 
 
 def test_arrays(elsewhere, monkeypatch):
-    names = ("meshhood", "our breadth-first search (C++)", "SciPy power of the sparse matrix")
+    names = ("meshhood", "our breadth-first search (C++)", "meshhood rings", "SciPy power of the sparse matrix")
     if not (places.PROGRAMS / "breadth_first").is_file():
         pytest.skip("no breadth_first")
     monkeypatch.setattr(arrays, "TOOLS", {name: arrays.TOOLS[name] for name in names})
@@ -64,8 +64,14 @@ def test_arrays(elsewhere, monkeypatch):
     for question in ("counts", "ids"):
         rows = data["pieces"]["tiny, 2, 3"]["questions"][question]
         assert rows[names[0]]["found"] == pytest.approx(rows[names[1]]["found"])
+        assert rows[names[2]]["found"] == pytest.approx(data["pieces"]["tiny, 2, 3"]["questions"]["ids"][names[3]]["found"])
         assert all(row["seconds"]["median"] > 0 for row in rows.values())
-    assert "## tiny, two threads" in SECTIONS["arrays"].text(data)
+    text = SECTIONS["arrays"].text(data)
+    assert "## tiny, two threads" in text
+    assert text.count("| meshhood rings (in hand) | k rings |") == 2
+    assert "The build of the index" not in text
+    arrays.run(["tiny"], [3], [1])
+    assert "The build of the index" in SECTIONS["arrays"].text(results.load("arrays"))
     assert "tiny, 3" in SECTIONS["arrays"].head_table(data)
 
 
