@@ -1,3 +1,5 @@
+include(CheckCXXCompilerFlag)
+
 # Finds a package, unless a project that contains this one has its target already.
 macro(meshhood_find package target)
   if(NOT TARGET ${target})
@@ -9,9 +11,13 @@ endmacro()
 function(meshhood_own_target target)
   # The same distance predicate on every path: no fused multiply-add, whatever the default of the compiler.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
-  # g++ copies and clears a few hundred bytes by string instructions, which take longer than a call of memcpy or memset.
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|i[3-6]86)$")
-    target_compile_options(${target} PRIVATE -mstringop-strategy=libcall)
+  # For x86, g++ copies and clears a few hundred bytes by string instructions, which take longer than a call of memcpy or
+  # memset.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    check_cxx_compiler_flag(-mstringop-strategy=libcall MESHHOOD_HAS_STRING_INSTRUCTIONS)
+    if(MESHHOOD_HAS_STRING_INSTRUCTIONS)
+      target_compile_options(${target} PRIVATE -mstringop-strategy=libcall)
+    endif()
   endif()
   # Not in the build of a user: a new warning of a newer compiler must not stop it, and to look for them takes time.
   if(MESHHOOD_WARNINGS)

@@ -15,12 +15,13 @@ RADII = (2, 3, 5, 10)
 NOTE = """`{command}`: wall clock from the arrays of positions and triangles in memory to the answers for all vertices, in µs a
 vertex, with what must be built for it. Each tool runs in a process of its own that has as many processors as the table
 has threads, in turns with the others; medians. It gets its own types of numbers, and answers all vertices. **Bold**:
-another tool is faster than meshhood. The radii are in mean edges. The answers are not all the same, see the second column: *exact* is
-the neighborhood of meshhood; *ball* is the ball in space, which takes other sheets for near ones, except for libigl's,
-which is connected; *k rings* are the vertices within k edges, whatever their length, for k as large as the radius;
-*found* is how many vertices that gives at the largest radius. In the tables of counts, a tool that can only return ids
-counts by them. *(in hand)* is the same with the index already built. A tool that would take longer than {most:g} s is
-stopped, or left out if a piece of the mesh suggests so; one that needs more than 12 GiB is stopped.
+another tool is faster than meshhood. The radii are in mean edges. The answers are not all the same, see the second
+column: *exact* is the neighborhood of meshhood; *ball* is the ball in space, which takes other sheets for near ones,
+except for libigl's, which is connected; *k rings* are the vertices within k edges, whatever their length, for k as
+large as the radius; *found* is how many vertices that gives at the largest radius. In the tables of counts, a tool
+that can only return ids counts by them. *(in hand)* is the same with the index already built. A tool that would take
+longer than {most:g} s is stopped, or left out if a piece of the mesh suggests so; one that needs more than 12 GiB is
+stopped.
 
 """
 
@@ -35,12 +36,13 @@ GAIN_OF_TWO_THREADS = 1.8  # of the build, at least
 GOALS_NOTE = """
 ## Goals
 
-The time of another tool over that of meshhood, both from arrays, or both with what they build in hand; in parentheses the
-goal. In bold where it is missed.
+The time of another tool over that of meshhood, both from arrays, or both with what they build in hand; in parentheses
+the goal. In bold where it is missed.
 
 """
 BUILDS_NOTE = """
-The build of the index, in µs a vertex; in parentheses the goals, at most for one thread and at least for the gain of two.
+The build of the index, in µs a vertex; in parentheses the goals, at most for one thread and at least for the gain of
+two.
 
 """
 
@@ -78,8 +80,8 @@ def question_table(question, pieces):
              number(last[name]["found"]) if last.get(name, {}).get("found") else ""] for name, answers in tools.items()]
     for ours in (OUR_RINGS, OURS):
         if ours in tools:
-            in_hand = [f"*({number(microseconds(piece, question, ours, IN_HAND))})*" for piece in pieces.values()]
-            rows.insert(list(tools).index(ours) + 1, [f"{ours} (in hand)", tools[ours], *in_hand, ""])
+            times = [in_hand(question, ours, piece) for piece in pieces.values()]
+            rows.insert(list(tools).index(ours) + 1, [f"{ours} (in hand)", tools[ours], *times, ""])
     return table(["", "answers", *(f"r = {edges}" for edges in pieces), "found"], rows)
 
 
@@ -100,6 +102,16 @@ def cell(rows, name, piece):
     mine, own = rows[OURS]["seconds"]["median"], row["seconds"]["median"]
     text = number(1e6 * own / piece["vertices"])
     return f"**{text}**" if own < mine and name != OUR_RINGS else text
+
+
+def in_hand(question, ours, piece):
+    if not is_measured(piece, question, ours):
+        return ""
+    return f"*({number(microseconds(piece, question, ours, IN_HAND))})*"
+
+
+def is_measured(piece, question, name):
+    return "seconds" in piece["questions"][question].get(name, {})
 
 
 def microseconds(piece, question, name, key=FROM_ARRAYS):
@@ -135,12 +147,13 @@ def builds(contests):
 def build_of(pieces):
     """µs a vertex, the median of all radii and questions; None without any."""
     times = [1e6 * rows[OURS]["build_seconds"]["median"] / piece["vertices"]
-             for piece in pieces.values() for rows in piece["questions"].values() if "seconds" in rows[OURS]]
+             for piece in pieces.values() for question, rows in piece["questions"].items()
+             if is_measured(piece, question, OURS)]
     return statistics.median(times) if times else None
 
 
 def compared(question, ours, other, key, piece, aim):
-    if piece is None or aim is None or not all("seconds" in piece["questions"][question].get(name, {}) for name in (ours, other)):
+    if piece is None or aim is None or not all(is_measured(piece, question, name) for name in (ours, other)):
         return ""
     reached = microseconds(piece, question, other, key) / microseconds(piece, question, ours, key)
     text = f"{number(reached)} ({number(aim)})"

@@ -55,7 +55,7 @@ auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& ver
   const nb::object k1 = unset(rows, "float64");
   const nb::object k2 = unset(rows, "float64");
   // In one block: glibc gives memory back to the system, which costs page faults in the next call, as soon as more than
-  // twice the largest block is free.
+  // twice the largest block is free. It always does so beyond 32 MiB.
   const nb::object directions = unset(6 * rows, "float64");
   const nb::object state = unset(rows, "uint8");
   const nb::object count = unset(rows, "uint32");

@@ -98,7 +98,7 @@ class BatchVertices {
   /// How many rows these are for a mesh of `vertices` vertices.
   [[nodiscard]] std::size_t count(std::size_t vertices) const { return list_ ? list_->size() : vertices; }
 
-  /// The vertex of a row, whose number must be less than that.
+  /// The vertex of a row, less than `count`.
   [[nodiscard]] VertexId operator[](std::size_t row) const {
     return list_ ? (*list_)[row] : static_cast<VertexId>(row);
   }

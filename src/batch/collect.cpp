@@ -29,6 +29,12 @@ class SizeLimit {
 
   [[nodiscard]] bool allows(double ids) const { return ids <= static_cast<double>(max_ids_); }
 
+  /// How many ids each of `threads` may count before it adds them: few beside the limit.
+  [[nodiscard]] std::uint64_t ids_at_once(unsigned threads) const {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 16;
+    return std::min(kMost, max_ids_ / (std::uint64_t{16} * threads));
+  }
+
   /// Any thread: counts the ids of some rows.
   void add(std::uint64_t ids) {
     const std::uint64_t total = total_.fetch_add(ids, std::memory_order_relaxed) + ids;
@@ -86,15 +92,17 @@ struct ForWriting {
   KeptChunks& kept;
 };
 
-/// Ids that a thread has counted and not yet added to the limit. Not beside those of another thread.
+/// Ids that a thread has counted and not yet added to the limit: to change a number that threads share takes as long as
+/// to count a row. Not beside those of another thread.
 struct alignas(64) NewIds {
   std::uint64_t count = 0;
 };
 
 /// `writing` is null for rows that are only counted.
 void count_rows(Batch& batch, std::uint64_t* sizes, const ForWriting* writing) {
-  constexpr std::uint64_t kIdsAtOnce = std::uint64_t{1} << 16;  // to change what threads share takes as long as a row
-  std::vector<NewIds> new_ids(batch.task().threads());
+  const unsigned threads = batch.task().threads();
+  const std::uint64_t ids_at_once = writing == nullptr ? 0 : writing->limit.ids_at_once(threads);
+  std::vector<NewIds> new_ids(threads);
   batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
     std::uint64_t& ids = new_ids[thread].count;
     const auto sink = [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
@@ -103,7 +111,7 @@ void count_rows(Batch& batch, std::uint64_t* sizes, const ForWriting* writing) {
     };
     batch.worker(thread).count(chunk.items, sink,
                                writing == nullptr ? nullptr : &writing->kept.begin(thread, chunk.number));
-    if (writing != nullptr && ids >= kIdsAtOnce) writing->limit.add(std::exchange(ids, 0));
+    if (writing != nullptr && ids >= ids_at_once) writing->limit.add(std::exchange(ids, 0));
     batch.task().advance(thread, chunk.items.size());
   });
   if (writing == nullptr) return;

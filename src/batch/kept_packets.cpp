@@ -52,12 +52,12 @@ KeptPackets::Place KeptPackets::end() const {
 
 std::size_t KeptPackets::bytes() const {
   std::size_t words = 0;
-  for (const RawVector<Word>& block : blocks_) words += block.size();
+  for (const RawVector<Word>& block : blocks_) words += block.capacity();
   return sizeof(Word) * words;
 }
 
 KeptPackets::Word* KeptPackets::add_words(std::size_t count) {
-  // Small enough for memory that the allocator keeps for the next call.
+  // So small that allocators of C libraries keep most blocks for the next call.
   constexpr std::size_t kBlock = std::size_t{1} << 14;
   if (blocks_.empty() || blocks_.back().capacity() - blocks_.back().size() < count) {
     blocks_.emplace_back().reserve(std::max(kBlock, count));
@@ -71,7 +71,9 @@ void KeptPackets::Reader::begin(const KeptPackets& kept, const Place& place) {
 }
 
 bool KeptPackets::Reader::next() {
+  assert(place_.block < kept_->blocks_.size());
   if (place_.word == kept_->blocks_[place_.block].size()) place_ = {place_.block + 1, 0};
+  assert(place_.block < kept_->blocks_.size());
   const RawVector<Word>& block = kept_->blocks_[place_.block];
   const Word* next = block.data() + place_.word;
   const std::size_t rows = *next++;
@@ -108,18 +110,26 @@ KeptPackets& KeptChunks::begin(unsigned thread, std::size_t number) {
 }
 
 void KeptChunks::finish() {
-  for (PerThread& thread : threads_) std::ranges::sort(thread.chunks, {}, &Chunk::number);
+  std::size_t end = 0;
+  for (const PerThread& thread : threads_) {
+    for (const Chunk& chunk : thread.chunks) end = std::max(end, chunk.number + 1);
+  }
+  chunks_.assign(end, {nullptr, {}});
+  for (const PerThread& thread : threads_) {
+    for (const Chunk& chunk : thread.chunks) chunks_[chunk.number] = {&thread.packets, chunk.begin};
+  }
 }
 
 KeptPackets::Reader* KeptChunks::find(unsigned thread, std::size_t number) {
-  for (const PerThread& other : threads_) {
-    const auto found = std::ranges::lower_bound(other.chunks, number, {}, &Chunk::number);
-    if (found == other.chunks.end() || found->number != number) continue;
-    KeptPackets::Reader& reader = threads_[thread].reader;
-    reader.begin(other.packets, found->begin);
-    return &reader;
-  }
-  return nullptr;
+  if (number >= chunks_.size() || chunks_[number].packets == nullptr) return nullptr;
+  KeptPackets::Reader& reader = threads_[thread].reader;
+  reader.begin(*chunks_[number].packets, chunks_[number].begin);
+  return &reader;
+}
+
+void KeptChunks::clear() {
+  chunks_.clear();
+  for (PerThread& thread : threads_) thread = PerThread();
 }
 
 std::size_t KeptChunks::bytes() const {

@@ -29,7 +29,7 @@ class KeptPackets {
   /// That of the next packet to be added.
   [[nodiscard]] Place end() const;
 
-  /// What the packets take. Up to 64 kB more are allocated.
+  /// Of all blocks, with what is not used of them.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -69,18 +69,21 @@ class KeptChunks {
  public:
   explicit KeptChunks(unsigned threads) : threads_(threads) {}
 
+  // Chunks have the numbers from 0 on.
+
   /// For the packets of a chunk, on this thread.
   [[nodiscard]] KeptPackets& begin(unsigned thread, std::size_t number);
 
   /// After all chunks, before `find`.
   void finish();
 
-  /// A reader of this thread that begins with the packets of a chunk, which any thread has added; null after `clear`.
+  /// A reader of this thread that begins with the packets of a chunk, which any thread has added; null if none has.
   [[nodiscard]] KeptPackets::Reader* find(unsigned thread, std::size_t number);
 
   [[nodiscard]] std::size_t bytes() const;
 
-  void clear() { threads_.clear(); }
+  /// As if no thread had added anything; `find` may follow.
+  void clear();
 
  private:
   struct Chunk {
@@ -91,11 +94,17 @@ class KeptChunks {
   /// Not beside that of another thread, which writes to its own all the time.
   struct alignas(64) PerThread {
     KeptPackets packets;
-    std::vector<Chunk> chunks;  // ascending after `finish`
-    KeptPackets::Reader reader;
+    std::vector<Chunk> chunks;
+    alignas(64) KeptPackets::Reader reader;
+  };
+
+  struct Found {
+    const KeptPackets* packets;  // null if there is no such chunk
+    KeptPackets::Place begin;
   };
 
   std::vector<PerThread> threads_;
+  std::vector<Found> chunks_;  // by number, after `finish`
 };
 
 }  // namespace meshhood

@@ -88,11 +88,12 @@ class Stream {
     std::size_t size;
   };
 
-  /// Keeps the rows of a window. Adds their bytes to those of the window now and then, because to change what threads
+  /// Keeps the rows of a window. Adds their bytes to those of the window now and then: to change a number that threads
   /// share takes as long as a row.
   class WindowRows final : public RowReceiver {
    public:
-    WindowRows(Stream& stream, unsigned thread, std::size_t first) : stream_(stream), thread_(thread), first_(first) {}
+    WindowRows(Stream& stream, unsigned thread, std::size_t first)
+        : stream_(stream), thread_(thread), first_(first), bytes_at_once_(stream.bytes_at_once()) {}
     WindowRows(const WindowRows&) = delete;
     WindowRows& operator=(const WindowRows&) = delete;
     ~WindowRows() override { stream_.bytes_ += new_bytes_; }
@@ -101,8 +102,7 @@ class Stream {
       Store& store = stream_.stores_[thread_];
       const Waiting& kept = stream_.waiting_[row - first_] = {thread_, store.ids.size(), size};
       new_bytes_ += stream_.bytes_of(kept);
-      constexpr std::size_t kBytesAtOnce = std::size_t{1} << 16;
-      if (new_bytes_ >= kBytesAtOnce) stream_.bytes_ += std::exchange(new_bytes_, 0);
+      if (new_bytes_ >= bytes_at_once_) stream_.bytes_ += std::exchange(new_bytes_, 0);
       return last_ = store.add(size, stream_.batch_.options().distances);
     }
 
@@ -115,6 +115,7 @@ class Stream {
     Stream& stream_;
     unsigned thread_;
     std::size_t first_;
+    std::size_t bytes_at_once_;
     std::size_t new_bytes_ = 0;
     BatchMemory last_;
   };
@@ -147,6 +148,12 @@ class Stream {
           batch_.worker(thread).find(chunk.items, batch_.options().distances, receiver, nullptr);
         });
     return fits();
+  }
+
+  /// Of a thread; those that are not added yet are few beside the limit.
+  [[nodiscard]] std::size_t bytes_at_once() const {
+    constexpr std::size_t kMost = std::size_t{1} << 16;
+    return std::min(kMost, batch_.options().buffer_bytes / (16 * std::size_t{batch_.task().threads()}));
   }
 
   [[nodiscard]] bool fits() const { return bytes_ <= batch_.options().buffer_bytes || waiting_.size() == 1; }

@@ -74,8 +74,9 @@ std::span<TaskContext::Share> TaskContext::divide(std::size_t chunks) {
   if (shares_.empty()) shares_ = std::vector<Share>(threads_);
   const std::size_t count = std::min<std::size_t>(chunks, threads_);
   for (std::size_t i = 0; i < count; ++i) {
-    shares_[i].next = chunks * i / count;
-    shares_[i].end = chunks * (i + 1) / count;
+    const auto begin = [&](std::size_t share) { return chunks / count * share + std::min(share, chunks % count); };
+    shares_[i].next = begin(i);
+    shares_[i].end = begin(i + 1);
   }
   return std::span(shares_).first(count);
 }

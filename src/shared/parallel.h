@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <chrono>
 #include <cstddef>
 #include <functional>
@@ -42,12 +43,13 @@ class TaskContext {
   /// Calls `f(thread, begin, end)` for consecutive chunks of `grain` of the numbers `0 .. count - 1`, each on any
   /// thread: first those of its share, which are consecutive, so that loops over the same data find them in its cache;
   /// then what is left of other shares. The chunks do not depend on the number of threads. Returns when all threads
-  /// have stopped. The first exception ends the loop and is passed on.
+  /// have stopped. The first exception ends the loop and is passed on. `f` must not begin another loop of this task.
   template <class F>
   void parallel_for(std::size_t count, std::size_t grain, F&& f);
 
   /// In a loop: a thread has done `parts` more.
   void advance(unsigned thread, std::size_t parts) {
+    assert(thread < shares_.size());
     std::atomic<std::size_t>& done = shares_[thread].done;
     done.store(done.load(std::memory_order_relaxed) + parts, std::memory_order_relaxed);
   }
@@ -77,15 +79,15 @@ class TaskContext {
  private:
   /// Of a thread. Not beside that of another, which changes all the time: processors may be far from each other.
   struct alignas(64) Share {
-    std::atomic<std::size_t> next{0};  // of the chunks of a loop that this thread begins with
-    std::size_t end = 0;               // of these
+    std::atomic<std::size_t> next{0};  // chunk of a loop, of those that this thread begins with
+    std::size_t end = 0;               // the chunk after these
     std::atomic<std::size_t> done{0};  // parts of the call
   };
 
-  /// Divides the chunks of a loop among the threads; fewer if there are fewer chunks.
+  /// Divides the chunks of a loop among the threads, or among as many as there are chunks.
   [[nodiscard]] std::span<Share> divide(std::size_t chunks);
 
-  /// Calls `body(thread)` on up to `threads` threads at once; not more than there are.
+  /// Calls `body(thread)` on up to `threads` threads at once, at most `threads()`.
   void run(std::size_t threads, const std::function<void(unsigned)>& body);
 
   /// Throws Error{Cancelled} in a child that was forked while the task had threads.
@@ -107,7 +109,8 @@ void TaskContext::parallel_for(std::size_t count, std::size_t grain, F&& f) {
   run(shares.size(), [&](unsigned thread) {
     for (std::size_t i = 0; i < shares.size(); ++i) {
       Share& share = shares[(thread + i) % shares.size()];
-      for (;;) {
+      // To look first at a share that has ended leaves it in the caches of all threads.
+      while (share.next.load(std::memory_order_relaxed) < share.end) {
         const std::size_t chunk = share.next.fetch_add(1, std::memory_order_relaxed);
         if (chunk >= share.end) break;
         if (!should_continue(thread)) return;

@@ -80,7 +80,7 @@ struct JointKernels {
   /// Converts `size` vertices, three coordinates each, to points relative to the center. Reads 32 vertices.
   void (*convert_points)(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points);
 
-  /// Sets `reached` and `pending` to 0. Compilers may do it by a string instruction, which takes much longer.
+  /// Sets `reached` and `pending` to 0. Compilers may do it by a call or a string instruction, which takes longer.
   void (*clear_words)(LeafWords& words);
 
   /// Fills `inside` with the queries that surely hold each vertex, and `doubts` of the lanes `in_doubt` with those that

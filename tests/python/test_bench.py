@@ -64,7 +64,8 @@ def test_arrays(elsewhere, monkeypatch):
     for question in ("counts", "ids"):
         rows = data["pieces"]["tiny, 2, 3"]["questions"][question]
         assert rows[names[0]]["found"] == pytest.approx(rows[names[1]]["found"])
-        assert rows[names[2]]["found"] == pytest.approx(data["pieces"]["tiny, 2, 3"]["questions"]["ids"][names[3]]["found"])
+        listed = data["pieces"]["tiny, 2, 3"]["questions"]["ids"]
+        assert rows[names[2]]["found"] == pytest.approx(listed[names[3]]["found"])
         assert all(row["seconds"]["median"] > 0 for row in rows.values())
     text = SECTIONS["arrays"].text(data)
     assert "## tiny, two threads" in text

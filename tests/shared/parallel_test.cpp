@@ -64,9 +64,11 @@ TEST(ParallelFor, AThreadBeginsWithItsShareAndThenTakesWhatIsLeftOfOthers) {
       if (thread == 0 && threads > 1) wait_until([&] { return done == kChunks - 1; });  // the others do its share
       ++done;
     });
+    std::size_t end_of_share = 0;
     for (unsigned thread = 0; thread < threads; ++thread) {
       ASSERT_FALSE(chunks[thread].empty()) << thread;
-      EXPECT_EQ(chunks[thread].front(), kChunks * thread / threads);
+      EXPECT_EQ(chunks[thread].front(), end_of_share);
+      end_of_share += kChunks / threads + (thread < kChunks % threads ? 1 : 0);
     }
     EXPECT_EQ(chunks[0].size(), threads > 1 ? 1U : kChunks);
     EXPECT_EQ(done, kChunks);

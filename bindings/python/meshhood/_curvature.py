@@ -17,9 +17,10 @@ FITTED, RANK_DEFICIENT, TOO_FEW, NO_NORMAL, EXTENDED = range(5)
 class Curvature(NamedTuple):
     """Principal curvatures k1 >= k2 in 1 / unit of the positions, their directions, and the state of each row.
 
-    k1, k2 : (#rows,), in the type `dtype` of the call. Positive where the surface is convex, seen from the side of the normals: 1 / R on a
-        sphere with normals outward.
-    d1, d2 : (#rows, 3), unit vectors, with the sign that makes the component of largest magnitude positive.
+    k1, k2 : (#rows,), in the type `dtype` of the call. Positive where the surface is convex, seen from the side of the
+        normals: 1 / R on a sphere with normals outward.
+    d1, d2 : (#rows, 3), unit vectors, with the sign that makes the component of largest magnitude positive. Views of
+        one array, so that either keeps the memory of both.
     state : (#rows,) uint8. 0: fitted. 1: the points determine no unique quadric; the values are those of the one with
         the smallest coefficients. 2: fewer than six vertices are connected with the vertex; all values are 0. 3: the
         vertex has no normal, as it belongs to no face with an area; all values are 0. 4: fewer than six vertices are in

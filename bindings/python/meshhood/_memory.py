@@ -26,13 +26,14 @@ def _read(path: str) -> str:
     looks at the memory that is free."""
     file = os.open(path, os.O_RDONLY)
     try:
-        return os.read(file, 1 << 16).decode()
+        return os.fsdecode(os.read(file, 1 << 16))  # names of control groups may have any bytes
     finally:
         os.close(file)
 
 
 def _physical() -> int:
-    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") if hasattr(os, "sysconf") else _UNLIMITED
+    pages = os.sysconf("SC_PHYS_PAGES") if hasattr(os, "sysconf") else -1
+    return os.sysconf("SC_PAGE_SIZE") * pages if pages > 0 else _UNLIMITED
 
 
 def _of_machine() -> Iterator[int]:
@@ -49,11 +50,14 @@ def _of_machine() -> Iterator[int]:
 def _of_control_groups() -> Iterator[int]:
     """Of each group from that of this process to the root. Pages of files that have not been used lately are free."""
     try:
-        lines = _read("/proc/self/cgroup").splitlines()
+        lines = _read("/proc/self/cgroup").split("\n")
     except OSError:
         return
     for line in lines:
-        _, controllers, name = line.split(":", 2)
+        parts = line.split(":", 2)
+        if len(parts) < 3:
+            continue
+        _, controllers, name = parts
         if controllers == "":
             yield from _left(_CGROUPS, name, "memory.max", "memory.current", "inactive_file")
         elif "memory" in controllers.split(","):
@@ -63,7 +67,7 @@ def _of_control_groups() -> Iterator[int]:
 
 def _left(root: str, name: str, limit: str, usage: str, reclaimable: str) -> Iterator[int]:
     folder = root + name.rstrip("/")
-    while folder.startswith(root):
+    while folder == root or folder.startswith(root + "/"):
         try:
             most = _read(f"{folder}/{limit}").strip()
             if most != "max" and int(most) < _physical():  # control groups of version 1 have a huge limit for none

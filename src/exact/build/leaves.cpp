@@ -177,7 +177,8 @@ class LeafLinker {
   void link(std::size_t place, LaneMask* adjacency, LinkCollector& exits) const {
     const std::uint32_t leaf = leaves_.forest.leaves[place];
     if (leaf == kNoNode) return;
-    join_within_cells(leaf, {adjacency, leaves_.leaf_begin[place + 1] - leaves_.leaf_begin[place]});
+    const std::size_t size = leaves_.leaf_begin[place + 1] - leaves_.leaf_begin[place];
+    join_within_cells(leaf, std::span(adjacency, size));
     for (const CellComponent& part : mesh_.leaves[leaf]) {
       const std::size_t begin = mesh_.cells.begin[part.cell];
       for (const Link& link : mesh_.links.links_of(part.cell)) {

@@ -23,9 +23,9 @@ class Buckets {
     // The masks and edges of so many leaves fit into the second cache; a small mesh has buckets for several threads.
     // But to a thread that writes to very many buckets, each is far away.
     constexpr std::size_t kLeaves = 256;
-    constexpr std::size_t kFewest = 20;
+    constexpr std::size_t kFewest = 10;
     constexpr std::size_t kMost = 1024;
-    leaves_each_ = std::bit_ceil(std::max(std::min(kLeaves, leaves / kFewest + 1), leaves / kMost));
+    leaves_each_ = std::max(std::min(kLeaves, std::bit_floor(leaves / kFewest)), std::bit_ceil(leaves / kMost));
     shift_ = static_cast<unsigned>(std::countr_zero(leaves_each_ * kLeafCapacity));
   }
 
