@@ -64,12 +64,10 @@ class KeptPackets::Reader {
   PerLane<std::uint64_t> counts_{};
 };
 
-/// What is kept of the chunks of a batch.
+/// What is kept of the chunks of a batch, which are numbered from 0 on.
 class KeptChunks {
  public:
   explicit KeptChunks(unsigned threads) : threads_(threads) {}
-
-  // Chunks have the numbers from 0 on.
 
   /// For the packets of a chunk, on this thread.
   [[nodiscard]] KeptPackets& begin(unsigned thread, std::size_t number);
@@ -82,7 +80,7 @@ class KeptChunks {
 
   [[nodiscard]] std::size_t bytes() const;
 
-  /// As if no thread had added anything; `find` may follow.
+  /// Drops what is kept; `find` then finds nothing.
   void clear();
 
  private:
