@@ -2,7 +2,6 @@
 // meshhood batch: the neighborhoods of all vertices, or of a list, in CSR form.
 #include "meshhood/batch.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

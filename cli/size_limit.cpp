@@ -63,7 +63,6 @@ std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQue
   constexpr std::size_t kSamplesPerStep = 4;
   // Vertices, about half a second. Counted rather than timed, so that every machine draws the same sample.
   constexpr double kMostWork = 0x1p26;
-  const auto& list = query.vertices.list();
   const std::size_t rows = query.vertices.count(method.vertex_count());
   if (rows <= kSamples) return std::nullopt;
   std::mt19937_64 random(1);
@@ -73,10 +72,7 @@ std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQue
   const auto work_of_call = static_cast<double>(method.vertex_count());
   for (double work = 0; sample.rows < kSamples && work < kMostWork;
        work = sample.sum + work_of_call * sample.rows / kSamplesPerStep) {
-    for (VertexId& v : vertices) {
-      const std::size_t row = random() % rows;
-      v = list ? (*list)[row] : static_cast<VertexId>(row);
-    }
+    for (VertexId& v : vertices) v = query.vertices[random() % rows];
     for (const std::uint64_t size : counts(method, {.vertices = vertices, .radius = query.radius})) {
       sample.add(static_cast<double>(size));
     }

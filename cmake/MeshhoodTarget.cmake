@@ -11,8 +11,7 @@ endmacro()
 function(meshhood_own_target target)
   # The same distance predicate on every path: no fused multiply-add, whatever the default of the compiler.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
-  # For x86, g++ copies and clears a few hundred bytes by string instructions, which take longer than a call of memcpy or
-  # memset.
+  # On x86, g++ copies and clears a few hundred bytes by string instructions. Calls of memcpy and memset are faster.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     check_cxx_compiler_flag(-mstringop-strategy=libcall MESHHOOD_HAS_STRING_INSTRUCTIONS)
     if(MESHHOOD_HAS_STRING_INSTRUCTIONS)

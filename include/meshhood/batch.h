@@ -179,12 +179,12 @@ struct BatchOptions {
   /// functions.
   bool in_index_order = false;
 
-  /// Bytes of results that may wait until earlier rows are done (`for_each_neighborhood`). A larger buffer lets more
-  /// rows run in index order and keeps threads busy; a smaller one stays in the processor's cache.
+  /// About how many bytes of results may wait until earlier rows are done (`for_each_neighborhood`). A larger buffer
+  /// lets more rows run in index order and keeps threads busy; a smaller one stays in the processor's cache.
   std::size_t buffer_bytes = std::size_t{8} << 20;
 
   /// The most bytes of ids and distances that `neighborhoods` may return. A larger result is refused before memory is
-  /// allocated: at once if a sample of the rows shows that it will not fit, else as soon as the rows counted so far
+  /// allocated: at once if a sample of the rows shows that it will not fit, else soon after the rows counted so far
   /// exceed the limit.
   std::uint64_t max_bytes = kUnlimited;
 

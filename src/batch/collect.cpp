@@ -29,7 +29,7 @@ class SizeLimit {
 
   [[nodiscard]] bool allows(double ids) const { return ids <= static_cast<double>(max_ids_); }
 
-  /// How many ids each of `threads` may count before it adds them: few beside the limit.
+  /// How many ids each of `threads` may count before it adds them. All together are at most a sixteenth of the limit.
   [[nodiscard]] std::uint64_t ids_at_once(unsigned threads) const {
     constexpr std::uint64_t kMost = std::uint64_t{1} << 16;
     return std::min(kMost, max_ids_ / (std::uint64_t{16} * threads));
@@ -92,8 +92,8 @@ struct ForWriting {
   KeptChunks& kept;
 };
 
-/// Ids that a thread has counted and not yet added to the limit: to change a number that threads share takes as long as
-/// to count a row. Not beside those of another thread.
+/// Ids that a thread has counted and not yet added to the limit. It seldom adds them, because threads wait for each
+/// other to change a number that they share. Not beside those of another thread.
 struct alignas(64) NewIds {
   std::uint64_t count = 0;
 };

@@ -17,7 +17,7 @@ class KeptPackets {
  public:
   class Reader;
 
-  /// Of a packet: its block, and the words before it there.
+  /// Where a packet is: its block, and how many words are before it there.
   struct Place {
     std::size_t block = 0;
     std::size_t word = 0;
@@ -26,10 +26,10 @@ class KeptPackets {
   /// Adds the answer of a packet whose rows, 1 to 32, have `counts` vertices.
   void add(std::span<const RowPiece> pieces, std::span<const std::uint64_t> counts);
 
-  /// That of the next packet to be added.
+  /// The place of the next packet to be added.
   [[nodiscard]] Place end() const;
 
-  /// Of all blocks, with what is not used of them.
+  /// The memory of all blocks, with what is not used of them.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -69,13 +69,14 @@ class KeptChunks {
  public:
   explicit KeptChunks(unsigned threads) : threads_(threads) {}
 
-  /// For the packets of a chunk, on this thread.
+  /// Begins a chunk on a thread, which adds the packets of the chunk to the result.
   [[nodiscard]] KeptPackets& begin(unsigned thread, std::size_t number);
 
-  /// After all chunks, before `find`.
+  /// Called once, after all chunks and before `find`.
   void finish();
 
-  /// A reader of this thread that begins with the packets of a chunk, which any thread has added; null if none has.
+  /// The reader of a thread, set to the first packet of a chunk, whichever thread has added it. Null if the chunk is
+  /// not kept.
   [[nodiscard]] KeptPackets::Reader* find(unsigned thread, std::size_t number);
 
   [[nodiscard]] std::size_t bytes() const;

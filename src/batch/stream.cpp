@@ -88,8 +88,8 @@ class Stream {
     std::size_t size;
   };
 
-  /// Keeps the rows of a window. Adds their bytes to those of the window now and then: to change a number that threads
-  /// share takes as long as a row.
+  /// Keeps the rows of a window. It seldom adds their bytes to those of the window, because threads wait for each other
+  /// to change a number that they share.
   class WindowRows final : public RowReceiver {
    public:
     WindowRows(Stream& stream, unsigned thread, std::size_t first)
@@ -150,7 +150,7 @@ class Stream {
     return fits();
   }
 
-  /// Of a thread; those that are not added yet are few beside the limit.
+  /// How many bytes a thread may keep before it adds them. Those of all threads are at most a sixteenth of the limit.
   [[nodiscard]] std::size_t bytes_at_once() const {
     constexpr std::size_t kMost = std::size_t{1} << 16;
     return std::min(kMost, batch_.options().buffer_bytes / (16 * std::size_t{batch_.task().threads()}));

@@ -77,11 +77,11 @@ class TaskContext {
   void finish();
 
  private:
-  /// Of a thread. Not beside that of another, which changes all the time: processors may be far from each other.
+  /// What a thread takes part with. Not beside that of another thread, which changes all the time.
   struct alignas(64) Share {
-    std::atomic<std::size_t> next{0};  // chunk of a loop, of those that this thread begins with
+    std::atomic<std::size_t> next{0};  // of the chunks that this thread begins with, the first that is left
     std::size_t end = 0;               // the chunk after these
-    std::atomic<std::size_t> done{0};  // parts of the call
+    std::atomic<std::size_t> done{0};  // parts of the task, by this thread
   };
 
   /// Divides the chunks of a loop among the threads, or among as many as there are chunks.
@@ -109,7 +109,7 @@ void TaskContext::parallel_for(std::size_t count, std::size_t grain, F&& f) {
   run(shares.size(), [&](unsigned thread) {
     for (std::size_t i = 0; i < shares.size(); ++i) {
       Share& share = shares[(thread + i) % shares.size()];
-      // To look first at a share that has ended leaves it in the caches of all threads.
+      // Each thread reads at first: a share that has ended then stays in the caches of all processors.
       while (share.next.load(std::memory_order_relaxed) < share.end) {
         const std::size_t chunk = share.next.fetch_add(1, std::memory_order_relaxed);
         if (chunk >= share.end) break;

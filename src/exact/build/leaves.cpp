@@ -198,6 +198,7 @@ class LeafLinker {
     }
   }
 
+  /// Sets the edges of a leaf that lie within cells.
   void join_within_cells(std::size_t leaf, std::span<LaneMask> adjacency) const {
     const std::span<const CellComponent> parts = mesh_.leaves[leaf];
     const std::uint32_t first = parts.front().cell;

@@ -20,11 +20,9 @@ constexpr std::size_t kPolygonsPerTask = 4096;
 class Buckets {
  public:
   explicit Buckets(std::size_t leaves) : leaves_(leaves) {
-    // The masks and edges of so many leaves fit into the second cache; a small mesh has buckets for several threads.
-    // But to a thread that writes to very many buckets, each is far away.
-    constexpr std::size_t kLeaves = 256;
-    constexpr std::size_t kFewest = 10;
-    constexpr std::size_t kMost = 1024;
+    constexpr std::size_t kLeaves = 256;  // their masks and edges fit into the second cache
+    constexpr std::size_t kFewest = 10;   // so that several threads have some of a small mesh
+    constexpr std::size_t kMost = 1024;   // a thread that writes to very many finds each far away
     leaves_each_ = std::max(std::min(kLeaves, std::bit_floor(leaves / kFewest)), std::bit_ceil(leaves / kMost));
     shift_ = static_cast<unsigned>(std::countr_zero(leaves_each_ * kLeafCapacity));
   }
