@@ -166,8 +166,7 @@ struct BatchQuery {
 struct BatchOptions {
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
-  /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread. See
-  /// `BuildOptions` for the processors.
+  /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread.
   unsigned threads = 1;
 
   bool distances = false;  ///< also compute the distance of each vertex (see `distance`); ignored when only counting

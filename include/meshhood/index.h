@@ -20,9 +20,7 @@ namespace meshhood {
 /// How an index is built. The index does not depend on these options.
 struct BuildOptions {
   /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread. Uses fewer
-  /// threads if the system cannot create them. They end with the call. On Linux they keep off the processor that the
-  /// calling thread is on when they are started, if there are as many others; the calling thread itself may use all
-  /// processors that it could use before.
+  /// threads if the system cannot create them. They end with the call.
   unsigned threads = 1;
 
   /// Called between the parts of each step. The longest part is a pass over the vertices and edges, linear in the mesh.

@@ -5,7 +5,6 @@
 #include <functional>
 
 #if defined(__STDCPP_THREADS__)
-#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -21,10 +20,8 @@ bool prepare_exceptions();
 
 #if defined(__STDCPP_THREADS__)
 
-/// The threads that take part in the loops of a task, beside that which it belongs to. They are started once, and wait
-/// between the loops: at first awake, because the next loop often begins within microseconds, and to start or wake a
-/// thread takes 50 to 100 of these. On Linux they keep off the processor that the caller is on when they are started,
-/// if there are as many others.
+/// The threads that take part in the loops of a task, beside that which it belongs to. They are started once, and sleep
+/// between the loops.
 class HelperThreads {
  public:
   HelperThreads() = default;
@@ -51,14 +48,14 @@ class HelperThreads {
   void give(Order order, std::size_t most, const std::function<void(unsigned)>* body);
   void help(unsigned thread, std::size_t seen);
 
-  std::mutex mutex_;  // for what follows; the atomic numbers may be read without
+  std::mutex mutex_;  // for what follows, up to `at_work_`
   std::condition_variable given_;
   std::condition_variable ended_;
   Order order_ = Order::Wait;
   std::size_t most_ = 0;
   const std::function<void(unsigned)>* body_ = nullptr;
-  std::atomic<std::size_t> orders_{0};  // how many were given
-  std::atomic<std::size_t> at_work_{0};
+  std::size_t orders_ = 0;  // how many were given
+  std::size_t at_work_ = 0;
   std::vector<std::thread> threads_;
   long process_ = 0;  // that the threads were started in
 };
