@@ -10,12 +10,12 @@ void MaximalNodes::reduce(const PacketAnswer& packet, PacketReducer& reducer) {
   rows_.clear();
   named_.clear();
   parents_.clear();
-  for (const CoreLeaves& core : packet.cores) {
-    for (const LeafRun& run : core.runs) add_run(run, core.queries);
-  }
-  for (const WholeLeaves& whole : packet.whole) add_run(whole.run, whole.queries);
-  for (const PartialLeaf& leaf : packet.partial) {
-    group_with(leaf.leaf, named_).parts[leaf.leaf % kFanOut] = &leaf;
+  for (const Piece& piece : packet.pieces) {
+    if (piece.is_run()) {
+      add_run(piece.leaves, piece.queries);
+    } else {
+      group_with(piece.leaves.begin, named_).parts[piece.leaves.begin % kFanOut] = piece.reached;
+    }
   }
   std::sort(named_.begin(), named_.end());
   // The groups of children have smaller numbers than those of their parents, and the same order.
@@ -49,7 +49,9 @@ void MaximalNodes::pass_on(std::uint32_t group, PacketReducer& reducer) {
   const NodeTree::Children nodes = tree_->members(group);
   QueryWord of_all = ~QueryWord{0};
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    if (rows.parts[k] != nullptr) pass_on_part(*rows.parts[k], rows.queries[k], reducer);
+    if (rows.parts[k] != nullptr)
+      pass_on_part(tree_->vertices(nodes.begin + static_cast<NodeTree::Node>(k)), rows.parts[k], rows.queries[k],
+                   reducer);
     of_all &= rows.queries[k];
   }
   const NodeTree::Node parent = tree_->parent(group);
@@ -64,18 +66,18 @@ void MaximalNodes::pass_on(std::uint32_t group, PacketReducer& reducer) {
 }
 
 /// Passes on the vertices of a leaf, without the rows that have all of them: these are added to `whole`.
-void MaximalNodes::pass_on_part(const PartialLeaf& leaf, QueryWord& whole, PacketReducer& reducer) {
-  const std::size_t size = leaf.vertices.size();
+void MaximalNodes::pass_on_part(const VertexRange& vertices, const QueryWord* reached, QueryWord& whole,
+                                PacketReducer& reducer) {
   QueryWord of_all = ~QueryWord{0};
-  for (std::size_t k = 0; k < size; ++k) of_all &= leaf.queries[k];
+  for (std::size_t k = 0; k < vertices.size(); ++k) of_all &= reached[k];
   whole |= of_all;
   PerLane<QueryWord> words;
   QueryWord any = 0;
   for (std::size_t k = 0; k < words.size(); ++k) {
-    words[k] = leaf.queries[k] & ~of_all;
+    words[k] = reached[k] & ~of_all;
     any |= words[k];
   }
-  if (any != 0) reducer.add_leaf(leaf.vertices, words.data());
+  if (any != 0) reducer.add_leaf(vertices, words.data());
 }
 
 }  // namespace meshhood

@@ -27,14 +27,14 @@ class MaximalNodes {
 
   /// A group of nodes of which some row has vertices.
   struct GroupRows {
-    std::array<QueryWord, kFanOut> queries{};         // by node: the rows that have all of its vertices
-    std::array<const PartialLeaf*, kFanOut> parts{};  // of leaves, by node: null if no row has a part of it
+    std::array<QueryWord, kFanOut> queries{};       // by node: the rows that have all of its vertices
+    std::array<const QueryWord*, kFanOut> parts{};  // by node, of leaves with words: these; else null
   };
 
   GroupRows& group_with(NodeTree::Node node, std::vector<std::uint32_t>& groups);
   void add_run(const LeafRun& run, QueryWord queries);
   void pass_on(std::uint32_t group, PacketReducer& reducer);
-  void pass_on_part(const PartialLeaf& leaf, QueryWord& whole, PacketReducer& reducer);
+  void pass_on_part(const VertexRange& vertices, const QueryWord* reached, QueryWord& whole, PacketReducer& reducer);
 
   const NodeTree* tree_;
   std::vector<std::uint32_t> place_of_;  // by group: its place in `rows_`, or kNone

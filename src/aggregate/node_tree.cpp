@@ -24,7 +24,7 @@ VertexRange NodeTree::vertices(Node node) const {
 LeafRun NodeTree::run(Node node) const {
   Node first = node;
   while (!is_leaf(first)) first = children(first).begin;
-  return {first, static_cast<std::uint32_t>(end_leaf(node)), vertices(node)};
+  return {first, static_cast<std::uint32_t>(end_leaf(node))};
 }
 
 FrameSphere NodeTree::sphere(Node node) const { return sphere_of(index_->groups[node / kFanOut], node % kFanOut); }

@@ -6,8 +6,8 @@
 
 #include "meshhood/search.h"
 
-#include "exact/joint/packet_answer.h"
 #include "exact/layout.h"
+#include "simd/joint.h"
 
 namespace meshhood {
 
@@ -57,11 +57,11 @@ class NodeTree {
   /// Calls `f(node)` for few nodes whose vertices together are those of the run, in an order that the run determines.
   template <class F>
   void for_each_node(const LeafRun& run, F&& f) const {
-    for (std::size_t leaf = run.first_leaf; leaf < run.end_leaf;) {
-      const Node node = largest_from(leaf, run.end_leaf);
+    for (std::size_t leaf = run.begin; leaf < run.end;) {
+      const Node node = largest_from(leaf, run.end);
       f(node);
       leaf = end_leaf(node);
-      while (leaf < run.end_leaf && index_->leaves[leaf].size == 0) ++leaf;
+      while (leaf < run.end && index_->leaves[leaf].size == 0) ++leaf;
     }
   }
 

@@ -18,9 +18,7 @@ PatchCutter::PatchCutter(const IndexView& index, const NodeTree& tree, double ra
 }
 
 void PatchCutter::begin(const PacketAnswer& packet) {
-  whole_.clear();
-  partial_.clear();
-  leaves_.clear();
+  pieces_.clear();
   words_.clear();
   const std::uint32_t first = index_->slot[packet.vertices.front()];
   const FrameSphere& leaf = index_->leaves[leaf_of(first)].bounds;
@@ -37,19 +35,20 @@ void PatchCutter::begin(const PacketAnswer& packet) {
 
 const PacketAnswer& PatchCutter::cut(const PacketAnswer& packet) {
   begin(packet);
-  for (const CoreLeaves& core : packet.cores) {
-    for (const LeafRun& run : core.runs) cut_run(run, core.queries);
+  for (const Piece& piece : packet.pieces) {
+    if (piece.is_run()) {
+      cut_run(piece.leaves, piece.queries);
+    } else {
+      cut_leaf(piece.leaves.begin, piece.reached);
+    }
   }
-  for (const WholeLeaves& whole : packet.whole) cut_run(whole.run, whole.queries);
-  for (const PartialLeaf& leaf : packet.partial) cut_leaf(leaf.leaf, leaf.queries.data());
-  for (std::size_t i = 0; i < leaves_.size(); ++i) {
-    partial_.push_back({leaves_[i], tree_->vertices(leaves_[i]), words_[i]});
+  const PerLane<QueryWord>* words = words_.data();
+  for (Piece& piece : pieces_) {
+    if (piece.queries == 0) piece.reached = (words++)->data();
   }
   rest_ = packet;
   rest_.radii = std::span(radii_).first(packet.radii.size());
-  rest_.cores = {};
-  rest_.whole = whole_;
-  rest_.partial = partial_;
+  rest_.pieces = pieces_;
   return rest_;
 }
 
@@ -61,7 +60,7 @@ void PatchCutter::cut_node(NodeTree::Node node, QueryWord queries) {
   const Containment containment = classify(tree_->sphere(node), ball_);
   if (containment == Containment::Outside) return;
   if (containment == Containment::Inside) {
-    whole_.push_back({tree_->run(node), queries});
+    pieces_.push_back({tree_->run(node), queries, nullptr});
   } else if (tree_->is_leaf(node)) {
     PerLane<QueryWord> words;
     words.fill(queries);
@@ -81,7 +80,7 @@ void PatchCutter::cut_leaf(NodeTree::Node leaf, const QueryWord* queries) {
     any |= words[k];
   }
   if (any == 0) return;
-  leaves_.push_back(leaf);
+  pieces_.push_back({{leaf, leaf + 1}, 0, nullptr});
   words_.push_back(words);
 }
 

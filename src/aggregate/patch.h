@@ -17,7 +17,7 @@ class PatchCutter {
  public:
   PatchCutter(const IndexView& index, const NodeTree& tree, double radius);
 
-  /// Returns what is left, as a packet without cores. The radii of `packet` are at least that of the cutter. Valid
+  /// Returns what is left. The radii of `packet` are at least that of the cutter. Valid
   /// until the next call.
   const PacketAnswer& cut(const PacketAnswer& packet);
 
@@ -35,10 +35,8 @@ class PatchCutter {
   PerLane<double> radii_;  // the radius, for each row
   TreeBall ball_;          // around the leaf of the packet: `outer` around all balls, `inner` within each
   std::array<Point, kPacketCapacity> centers_{};
-  std::vector<WholeLeaves> whole_;
-  std::vector<NodeTree::Node> leaves_;  // that are cut, and their words
-  std::vector<PerLane<QueryWord>> words_;
-  std::vector<PartialLeaf> partial_;  // the same, once no more words are added
+  std::vector<Piece> pieces_;
+  std::vector<PerLane<QueryWord>> words_;  // of the leaves among them that are cut
   PacketAnswer rest_;
 };
 

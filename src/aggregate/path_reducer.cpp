@@ -9,15 +9,15 @@ namespace meshhood {
 
 void PathSetReducer::reduce(PathPacket& packet, std::span<const double> radii) {
   words_.clear();
-  leaves_.clear();
+  pieces_.clear();
   packet.for_each_leaf(radii, [&](const PathLeaf& leaf) {
     words_.push_back(leaf.queries);
-    leaves_.push_back({leaf.leaf, leaf.vertices, leaf.queries});
+    pieces_.push_back({{leaf.leaf, leaf.leaf + 1}, 0, nullptr});
   });
-  for (std::size_t i = 0; i < leaves_.size(); ++i) leaves_[i] = {leaves_[i].leaf, leaves_[i].vertices, words_[i]};
+  for (std::size_t i = 0; i < pieces_.size(); ++i) pieces_[i].reached = words_[i].data();
   PacketAnswer answer;
   answer.queries = first_lanes(static_cast<unsigned>(radii.size()));
-  answer.partial = leaves_;
+  answer.pieces = pieces_;
   nodes_.reduce(answer, *reducer_);
 }
 

@@ -48,7 +48,7 @@ class PathSetReducer final : public PathReducer {
   MaximalNodes nodes_;
   std::unique_ptr<PacketReducer> reducer_;
   std::vector<PerLane<QueryWord>> words_;
-  std::vector<PartialLeaf> leaves_;
+  std::vector<Piece> pieces_;
 };
 
 /// Sum and mean with weights that fall with the length of the path.

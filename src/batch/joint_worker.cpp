@@ -29,8 +29,9 @@ JointWorker::JointWorker(const Index& index, Isa isa)
 void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) {
   for_each_run(chunk, [&](const Run& run) {
     if (kept != nullptr) {
-      const auto counts = std::span(begin_rows(run)).first(run.items.size());
-      kept->add(writer_.pieces(), counts);
+      const std::span<const Piece> pieces = answer(run);
+      const auto counts = std::span(counts_of(run)).first(run.items.size());
+      kept->add(pieces, counts);
       return sink(run.items, counts);
     }
     if (run.is_joint) {
@@ -45,26 +46,18 @@ void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, 
 void JointWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
                        KeptPackets::Reader* kept) {
   for_each_run(chunk, [&](const Run& run) {
-    if (kept == nullptr || !kept->next()) return write(run.items, begin_rows(run), distances, receiver);
-    writer_.begin(kept->pieces());
-    return write(run.items, kept->counts(), distances, receiver);
+    const bool is_kept = kept != nullptr && kept->next();
+    writer_.begin(is_kept ? kept->pieces() : answer(run));
+    return write(run.items, is_kept ? kept->counts() : counts_of(run), distances, receiver);
   });
 }
 
 void JointWorker::visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink) {
-  LeafId group = 0;
-  bool has_group = false;
   for_each_run(chunk, [&](const Run& run) {
-    const bool begins_group = !run.is_joint || !has_group || group_of(run) != group;
-    has_group = run.is_joint;
-    group = group_of(run);
-    PacketAnswer answer = this->answer(run);
+    const std::span<const Piece> pieces = answer(run);
     lists_.assign(run.items);
-    answer.rows = lists_.rows;
-    answer.vertices = lists_.vertices;
-    answer.radii = lists_.radii;
-    answer.begins_group = begins_group;
-    return sink(answer);
+    const QueryWord queries = run.is_joint ? joint_->queries() : 1;
+    return sink({lists_.rows, lists_.vertices, lists_.radii, queries, pieces});
   });
 }
 
@@ -96,17 +89,16 @@ void JointWorker::split(std::span<const BatchItem> chunk) {
 }
 
 /// The neighborhoods of a run. Valid until the next search.
-const PacketAnswer& JointWorker::answer(const Run& run) {
+std::span<const Piece> JointWorker::answer(const Run& run) {
   if (run.is_joint) {
     search_together(run);
-    return joint_->answer();
+    return joint_->pieces();
   }
   return single_packet_.describe(view_, search_single(run.items.front()));
 }
 
-/// Prepares `writer_` for the rows of a run, and returns their sizes.
-const PerLane<std::uint64_t>& JointWorker::begin_rows(const Run& run) {
-  writer_.begin(answer(run));
+/// The sizes of the rows of a run, after `answer`.
+const PerLane<std::uint64_t>& JointWorker::counts_of(const Run& run) {
   return run.is_joint ? joint_->counts() : single_packet_.counts();
 }
 

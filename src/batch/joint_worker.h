@@ -46,8 +46,8 @@ class JointWorker final : public BatchWorker {
   template <class F>
   void for_each_run(std::span<const BatchItem> chunk, F&& f);
   void split(std::span<const BatchItem> chunk);
-  const PacketAnswer& answer(const Run& run);
-  const PerLane<std::uint64_t>& begin_rows(const Run& run);
+  std::span<const Piece> answer(const Run& run);
+  const PerLane<std::uint64_t>& counts_of(const Run& run);
   bool write(std::span<const BatchItem> items, const PerLane<std::uint64_t>& counts, bool distances,
              RowReceiver& receiver);
   void search_together(const Run& run);

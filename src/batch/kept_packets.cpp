@@ -15,10 +15,10 @@ constexpr std::size_t kWordsOfPiece = 3;
 
 }  // namespace
 
-void KeptPackets::add(std::span<const RowPiece> pieces, std::span<const std::uint64_t> counts) {
+void KeptPackets::add(std::span<const Piece> pieces, std::span<const std::uint64_t> counts) {
   const std::uint64_t ids = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
-  const auto leaves = static_cast<std::size_t>(
-      std::ranges::count_if(pieces, [](const RowPiece& piece) { return piece.reached != nullptr; }));
+  const auto leaves =
+      static_cast<std::size_t>(std::ranges::count_if(pieces, [](const Piece& piece) { return !piece.is_run(); }));
   const bool is_single = counts.size() == 1;
   const std::size_t words =
       kWordsBeforePieces + counts.size() + kWordsOfPiece * pieces.size() + (is_single ? 1 : kLeafCapacity) * leaves;
@@ -30,11 +30,11 @@ void KeptPackets::add(std::span<const RowPiece> pieces, std::span<const std::uin
   *next++ = static_cast<Word>(counts.size());
   *next++ = static_cast<Word>(pieces.size());
   for (const std::uint64_t count : counts) *next++ = static_cast<Word>(count);
-  for (const RowPiece& piece : pieces) {
-    *next++ = piece.first;
-    *next++ = piece.size;
-    *next++ = piece.reached == nullptr ? piece.queries : 0;
-    if (piece.reached == nullptr) continue;
+  for (const Piece& piece : pieces) {
+    *next++ = piece.leaves.begin;
+    *next++ = piece.leaves.end;
+    *next++ = piece.queries;
+    if (piece.is_run()) continue;
     if (is_single) {
       LaneMask lanes = 0;
       for (unsigned lane = 0; lane < kLeafCapacity; ++lane) lanes |= (piece.reached[lane] & 1) << lane;
@@ -88,7 +88,7 @@ bool KeptPackets::Reader::next() {
   if (reached_.size() < pieces) reached_.resize(pieces);
   for (std::size_t i = 0; i < pieces; ++i, next += kWordsOfPiece) {
     const QueryWord queries = next[2];
-    pieces_.push_back({next[0], next[1], queries, queries == 0 ? reached_[i].data() : nullptr});
+    pieces_.push_back({{next[0], next[1]}, queries, queries == 0 ? reached_[i].data() : nullptr});
     if (queries != 0) continue;
     const Word* const words = next + kWordsOfPiece;
     if (rows == 1) {

@@ -24,7 +24,7 @@ class KeptPackets {
   };
 
   /// Adds the answer of a packet whose rows, 1 to 32, have `counts` vertices.
-  void add(std::span<const RowPiece> pieces, std::span<const std::uint64_t> counts);
+  void add(std::span<const Piece> pieces, std::span<const std::uint64_t> counts);
 
   /// The place of the next packet to be added.
   [[nodiscard]] Place end() const;
@@ -38,8 +38,8 @@ class KeptPackets {
   [[nodiscard]] Word* add_words(std::size_t count);
 
   // A packet lies in one block: the number of its rows, or 0 if it is left out; that of its pieces; the sizes of the
-  // rows; and for each piece `first`, `size` and `queries`, or 0 and what is reached if it is a leaf: 32 words, or for
-  // a packet of one row the lanes.
+  // rows; and for each piece its leaves and `queries`, and what is reached if these are 0: 32 words, or for a packet of
+  // one row the lanes.
   std::vector<RawVector<Word>> blocks_;
 };
 
@@ -53,13 +53,13 @@ class KeptPackets::Reader {
   bool next();
 
   // Of this packet:
-  [[nodiscard]] std::span<const RowPiece> pieces() const { return pieces_; }
+  [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
   [[nodiscard]] const PerLane<std::uint64_t>& counts() const { return counts_; }
 
  private:
   const KeptPackets* kept_ = nullptr;
   Place place_;
-  std::vector<RowPiece> pieces_;
+  std::vector<Piece> pieces_;
   std::vector<PerLane<QueryWord>> reached_;  // by piece
   PerLane<std::uint64_t> counts_{};
 };

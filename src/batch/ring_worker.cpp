@@ -38,9 +38,9 @@ void RingSearcher::run(VertexId v, double radius) {
 template <class F>
 void RingSearcher::search(VertexId v, double radius, F&& f) {
   run(v, radius);
-  for (const PartialLeaf& leaf : packet_.answer().partial) {
-    for (unsigned lane = 0; lane < leaf.vertices.size(); ++lane) {
-      if (leaf.queries[lane] != 0) f(leaf.vertices.begin + lane, packet_.edges_to(leaf.leaf, lane));
+  for (const auto& [leaves, queries, reached] : packet_.pieces()) {
+    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+      if (reached[lane] != 0) f(index_->leaf_begin[leaves.begin] + lane, packet_.edges_to(leaves.begin, lane));
     }
   }
 }
@@ -118,10 +118,7 @@ bool RingWorker::write(std::span<const BatchItem> items, const PerLane<std::uint
 void RingWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) {
   for_each_packet(chunk, [&](std::span<const BatchItem> items) {
     const auto counts = std::span(search(items)).first(items.size());
-    if (kept != nullptr) {
-      writer_.begin(packet_.answer());
-      kept->add(writer_.pieces(), counts);
-    }
+    if (kept != nullptr) kept->add(packet_.pieces(), counts);
     return sink(items, counts);
   });
 }
@@ -130,12 +127,9 @@ void RingWorker::find(std::span<const BatchItem> chunk, bool distances, RowRecei
                       KeptPackets::Reader* kept) {
   if (distances) return find_with_distances(chunk, receiver);
   for_each_packet(chunk, [&](std::span<const BatchItem> items) {
-    if (kept != nullptr && kept->next()) {
-      writer_.begin(kept->pieces());
-      return write(items, kept->counts(), receiver);
-    }
-    const PerLane<std::uint64_t>& counts = search(items);
-    writer_.begin(packet_.answer());
+    const bool is_kept = kept != nullptr && kept->next();
+    const PerLane<std::uint64_t>& counts = is_kept ? kept->counts() : search(items);
+    writer_.begin(is_kept ? kept->pieces() : packet_.pieces());
     return write(items, counts, receiver);
   });
 }

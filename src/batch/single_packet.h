@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "batch/searcher_factory.h"
-#include "exact/joint/packet_answer.h"
 #include "exact/layout.h"
 #include "exact/vertex_set.h"
 #include "simd/joint.h"
@@ -26,16 +25,14 @@ struct PacketLists {
 class SinglePacket {
  public:
   /// Valid until the next call.
-  const PacketAnswer& describe(const IndexView& index, const VertexSet& found);
+  std::span<const Piece> describe(const IndexView& index, const VertexSet& found);
 
   /// The number of vertices of the last answer, for the only row.
   [[nodiscard]] const PerLane<std::uint64_t>& counts() const { return counts_; }
 
  private:
-  PacketAnswer answer_;
   PerLane<std::uint64_t> counts_{};
-  std::vector<WholeLeaves> whole_;
-  std::vector<PartialLeaf> partial_;
+  std::vector<Piece> pieces_;
   std::vector<PerLane<QueryWord>> words_;
 };
 

@@ -16,7 +16,6 @@
 #include "batch/filter_copy.h"
 #include "batch/packets.h"
 #include "exact/index_access.h"
-#include "exact/joint/packet_pieces.h"
 #include "exact/query/any_center.h"
 #include "exact/query/lane_filter.h"
 #include "exact/query/nearest_first.h"
@@ -35,7 +34,7 @@ class UnconnectedSearch : public VertexVisitor {
       : index_(&index), walls_(index, filter.walls), ignored_(index, filter.ignored) {}
 
   void run(const PacketAnswer& packet) {
-    pieces_.assign(packet);
+    pieces_ = packet.pieces;
     queries_.clear();
     const LeafId home = leaf_of(index_->slot[packet.vertices.front()]);
     const Center center(index_->frame, center_of_leaf(home));
@@ -62,9 +61,9 @@ class UnconnectedSearch : public VertexVisitor {
   /// Whether a query has not reached a vertex of the node.
   [[nodiscard]] bool wants(NodeId node) const {
     const GroupRecord& record = index_->records[node / kFanOut];
-    const RowPiece* const piece = pieces_.find(record.begin[node % kFanOut]);
-    const bool is_reached = piece != nullptr && piece->reached == nullptr && piece->queries == all_ &&
-                            record.begin[node % kFanOut + 1] - piece->first <= piece->size;
+    const Piece* const piece = find_piece(record.begin[node % kFanOut]);
+    const bool is_reached = piece != nullptr && piece->is_run() && piece->queries == all_ &&
+                            record.begin[node % kFanOut + 1] <= index_->leaf_begin[piece->leaves.end];
     return !is_reached;
   }
 
@@ -72,12 +71,10 @@ class UnconnectedSearch : public VertexVisitor {
     const QueryWord near = queries_near(leaf);
     if (near == 0) return;
     const std::size_t begin = index_->leaf_begin[leaf];
-    const RowPiece* const piece = pieces_.find(begin);
+    const Piece* const piece = find_piece(begin);
     bool has_shrunk = false;
     for (std::size_t v = begin; v < index_->leaf_begin[leaf + 1]; ++v) {
-      const QueryWord reached = piece == nullptr            ? 0
-                                : piece->reached == nullptr ? piece->queries
-                                                            : piece->reached[v - begin];
+      const QueryWord reached = piece == nullptr ? 0 : piece->is_run() ? piece->queries : piece->reached[v - begin];
       if (walls_.has_at(v) || ignored_.has_at(v)) continue;
       has_shrunk |= offer(v, near & ~reached);
     }
@@ -99,6 +96,14 @@ class UnconnectedSearch : public VertexVisitor {
       squared_limit = -1;
     }
   };
+
+  /// The piece that holds a vertex, by its place in index order; null if no query has reached it.
+  [[nodiscard]] const Piece* find_piece(std::size_t vertex) const {
+    const auto after = std::ranges::partition_point(
+        pieces_, [&](const Piece& piece) { return index_->leaf_begin[piece.leaves.end] <= vertex; });
+    const bool is_found = after != pieces_.end() && index_->leaf_begin[after->leaves.begin] <= vertex;
+    return is_found ? &*after : nullptr;
+  }
 
   [[nodiscard]] Point center_of_leaf(LeafId leaf) const {
     const Frame& frame = index_->frame;
@@ -146,7 +151,7 @@ class UnconnectedSearch : public VertexVisitor {
   const IndexView* index_;
   LaneFilter walls_;
   LaneFilter ignored_;
-  PacketPieces pieces_;
+  std::span<const Piece> pieces_;
   std::vector<Query> queries_;
   QueryWord all_ = 0;
   double reach_ = 0;

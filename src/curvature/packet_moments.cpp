@@ -166,11 +166,11 @@ bool PacketMoments::faces_all(const Leaf& leaf) const {
 void PacketMoments::add(LeafId leaf, QueryWord word) {
   std::array<QueryWord, kPacketCapacity> words;
   words.fill(word);
-  add(leaf, words);
+  add(leaf, words.data());
 }
 
 /// A query that has all vertices of a leaf gets their sum, another one those that it has.
-void PacketMoments::add(LeafId leaf, std::span<const QueryWord, kPacketCapacity> words) {
+void PacketMoments::add(LeafId leaf, const QueryWord* words) {
   const QueryWord open = active_ & ~sure_.queries(leaf);
   const Leaf& of = source_.index->leaves[leaf];
   if (open == 0 || of.size == 0) return;  // a group with fewer than eight leaves has empty ones

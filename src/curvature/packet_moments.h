@@ -64,7 +64,7 @@ class PacketMoments {
   void add(LeafId leaf, QueryWord word);
 
   /// The same for a leaf with a word for each vertex.
-  void add(LeafId leaf, std::span<const QueryWord, kPacketCapacity> words);
+  void add(LeafId leaf, const QueryWord* words);
 
   /// The moments about the query vertices, in a unit that makes their coordinates about 1: `scale()` times those of
   /// the mesh, a power of two. Valid until the next `begin`.

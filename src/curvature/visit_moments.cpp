@@ -27,49 +27,26 @@ class PacketSummer {
     const std::size_t size = packet.rows.size();
     for (std::size_t i = 0; i < size; ++i) places_[i] = place_of(*index_, packet.vertices[i]);
     const auto places = std::span(places_).first(size);
-    list_pieces(packet);
     const LeafId leaf = leaf_of(index_->slot[packet.vertices.front()]);
     for (QueryWord left = first_lanes(static_cast<unsigned>(size)); left != 0;) {
       const QueryWord queries = sums_.begin(leaf, places, packet.radii, left, packet.queries);
-      for (const Piece& piece : pieces_) add(piece);
+      for (const Piece& piece : packet.pieces) add(piece);
       visitor_({packet.rows, places, packet.radii, queries}, sums_, sums_.finish());
       left &= ~queries;
     }
   }
 
  private:
-  /// Whole leaves, or a leaf with words.
-  struct Piece {
-    LeafId begin;
-    LeafId end;
-    QueryWord queries;
-    const PartialLeaf* partial;
-  };
-
   /// In index order, which does not depend on what else is in the packet.
-  void list_pieces(const PacketAnswer& packet) {
-    pieces_.clear();
-    const auto add_run = [&](const LeafRun& run, QueryWord queries) {
-      pieces_.push_back({run.first_leaf, run.end_leaf, queries, nullptr});
-    };
-    for (const CoreLeaves& core : packet.cores) {
-      for (const LeafRun& run : core.runs) add_run(run, core.queries);
-    }
-    for (const WholeLeaves& whole : packet.whole) add_run(whole.run, whole.queries);
-    for (const PartialLeaf& leaf : packet.partial) pieces_.push_back({leaf.leaf, leaf.leaf + 1, 0, &leaf});
-    std::sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) { return a.begin < b.begin; });
-  }
-
   void add(const Piece& piece) {
-    if (piece.partial != nullptr) return sums_.add(piece.begin, piece.partial->queries);
-    for (LeafId leaf = piece.begin; leaf < piece.end; ++leaf) sums_.add(leaf, piece.queries);
+    if (!piece.is_run()) return sums_.add(piece.leaves.begin, piece.reached);
+    for (LeafId leaf = piece.leaves.begin; leaf < piece.leaves.end; ++leaf) sums_.add(leaf, piece.queries);
   }
 
   const IndexView* index_;
   PacketMoments sums_;
   MomentVisitor visitor_;
   std::array<std::uint32_t, kPacketCapacity> places_{};
-  std::vector<Piece> pieces_;
 };
 
 }  // namespace

@@ -68,12 +68,21 @@ struct LeafOfWords {
   std::uint32_t first;
 };
 
-/// Consecutive vertices of the answers of a packet, in index order: a run that some queries have as a whole, or a leaf.
-struct RowPiece {
-  std::uint32_t first;
-  std::uint32_t size;
-  QueryWord queries;         // of a run: those that have it
-  const QueryWord* reached;  // of a leaf: 32 words; null for a run
+/// Consecutive leaves, without the last. Their vertices follow each other in index order.
+struct LeafRun {
+  std::uint32_t begin;
+  std::uint32_t end;
+
+  friend bool operator==(const LeafRun&, const LeafRun&) = default;
+};
+
+/// A part of the answer of a packet: leaves that some queries have as a whole, or one leaf with a word for each vertex.
+struct Piece {
+  LeafRun leaves;
+  QueryWord queries;         // those that have all vertices; 0 for a leaf with words
+  const QueryWord* reached;  // the 32 words of a leaf, of which those without a vertex are 0; else null
+
+  [[nodiscard]] bool is_run() const { return reached == nullptr; }
 };
 
 struct JointKernels {
@@ -106,9 +115,9 @@ struct JointKernels {
   LaneMask (*lanes_of)(const QueryWord* reached, unsigned query);
 
   /// Writes the vertices that the query has in `pieces`, as `permutation` names them, or by their numbers where it is
-  /// null. `out` has room for exactly these.
-  void (*write_row)(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation,
-                    std::span<VertexId> out);
+  /// null. `leaf_begin`: the first vertex of each leaf. `out` has room for exactly these.
+  void (*write_row)(std::span<const Piece> pieces, const VertexId* leaf_begin, unsigned query,
+                    const VertexId* permutation, std::span<VertexId> out);
 };
 
 /// Pushes words over the edges between two leaves. Scalar on every processor: a link has six edges on average.

@@ -383,7 +383,8 @@ HWY_INLINE VectorOf<Ids> load_ids(const VertexId* permutation, std::uint32_t fir
   return hn::Add(hn::Set(d, static_cast<VertexId>(first)), hn::Iota(d, 0));
 }
 
-void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation, std::span<VertexId> out) {
+void write_row(std::span<const Piece> pieces, const VertexId* leaf_begin, unsigned query, const VertexId* permutation,
+               std::span<VertexId> out) {
   const Ids d;
   VertexId* next = out.data();
   // The vertices of a leaf are written as vectors, which may go beyond their end. So the last of a row are written
@@ -391,23 +392,25 @@ void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId*
   constexpr std::ptrdiff_t kRoom = kLeafCapacity + kLanes<Ids>;
   std::array<VertexId, 2 * kRoom> end_of_row;
   VertexId* begin_of_end = nullptr;
-  for (const RowPiece& piece : pieces) {
-    if (piece.reached != nullptr) {
+  for (const Piece& piece : pieces) {
+    const std::uint32_t first = leaf_begin[piece.leaves.begin];
+    if (!piece.is_run()) {
       if (begin_of_end == nullptr && out.data() + out.size() - next < kRoom) {
         begin_of_end = next;
         next = end_of_row.data();
       }
       const LaneMask lanes = lanes_of(piece.reached, query);
       for (std::uint32_t k = 0; k < kLeafCapacity; k += kLanes<Ids>) {
-        next = write_chosen(d, load_ids(permutation, piece.first + k), lanes >> k, next);
+        next = write_chosen(d, load_ids(permutation, first + k), lanes >> k, next);
       }
     } else if ((piece.queries >> query & 1U) != 0) {
+      const std::uint32_t size = leaf_begin[piece.leaves.end] - first;
       std::uint32_t k = 0;
-      for (; k + kLanes<Ids> <= piece.size; k += kLanes<Ids>, next += kLanes<Ids>) {
-        hn::StoreU(load_ids(permutation, piece.first + k), d, next);
+      for (; k + kLanes<Ids> <= size; k += kLanes<Ids>, next += kLanes<Ids>) {
+        hn::StoreU(load_ids(permutation, first + k), d, next);
       }
-      for (; k < piece.size; ++k) {
-        *next++ = permutation == nullptr ? static_cast<VertexId>(piece.first + k) : permutation[piece.first + k];
+      for (; k < size; ++k) {
+        *next++ = permutation == nullptr ? static_cast<VertexId>(first + k) : permutation[first + k];
       }
     }
   }

@@ -36,8 +36,8 @@ TEST(KeptPackets, AreReadInTheOrderInWhichTheyWereAdded) {
   const PerLane<QueryWord> a = some_words(3);
   const PerLane<QueryWord> b = some_words(5);
   const PerLane<QueryWord> single{1, 0, 1};
-  const std::vector<RowPiece> first{{10, 32, 0, a.data()}, {42, 400, 5, nullptr}, {500, 20, 0, b.data()}};
-  const std::vector<RowPiece> second{{0, 60, 1, nullptr}, {70, 3, 0, single.data()}};
+  const std::vector<Piece> first{{{10, 11}, 0, a.data()}, {{11, 24}, 5, nullptr}, {{30, 31}, 0, b.data()}};
+  const std::vector<Piece> second{{{0, 2}, 1, nullptr}, {{3, 4}, 0, single.data()}};
   KeptPackets kept;
   kept.add(first, std::vector<std::uint64_t>{400, 0, 432});
   kept.add(second, std::vector<std::uint64_t>{62});
@@ -45,15 +45,14 @@ TEST(KeptPackets, AreReadInTheOrderInWhichTheyWereAdded) {
   kept.add(second, std::vector<std::uint64_t>{63});
   KeptPackets::Reader reader;
   reader.begin(kept, {});
-  const auto expect_next = [&](const std::vector<RowPiece>& pieces) {
+  const auto expect_next = [&](const std::vector<Piece>& pieces) {
     ASSERT_EQ(reader.pieces().size(), pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const RowPiece& read = reader.pieces()[i];
-      EXPECT_EQ(read.first, pieces[i].first);
-      EXPECT_EQ(read.size, pieces[i].size);
+      const Piece& read = reader.pieces()[i];
+      EXPECT_EQ(read.leaves, pieces[i].leaves);
       EXPECT_EQ(read.queries, pieces[i].queries);
-      ASSERT_EQ(read.reached == nullptr, pieces[i].reached == nullptr);
-      if (read.reached == nullptr) continue;
+      ASSERT_EQ(read.is_run(), pieces[i].is_run());
+      if (read.is_run()) continue;
       EXPECT_TRUE(std::equal(read.reached, read.reached + kLeafCapacity, pieces[i].reached));
     }
   };
@@ -73,7 +72,7 @@ TEST(KeptPackets, AreReadInTheOrderInWhichTheyWereAdded) {
 
 TEST(KeptPackets, TakeNoMoreMemoryThanTheIds) {
   const PerLane<QueryWord> words = some_words(3);
-  const std::vector<RowPiece> pieces{{10, 32, 0, words.data()}, {42, 1, 5, nullptr}};
+  const std::vector<Piece> pieces{{{10, 11}, 0, words.data()}, {{11, 12}, 5, nullptr}};
   const auto bytes_of = [&](std::uint64_t ids) {
     KeptPackets packets;
     packets.add(pieces, std::vector<std::uint64_t>{0, ids});
@@ -93,7 +92,7 @@ TEST(KeptPackets, TakeNoMoreMemoryThanTheIds) {
 
 TEST(KeptChunks, AreFoundByTheirNumberWhicheverThreadAddedThem) {
   KeptChunks chunks(2);
-  const std::vector<RowPiece> pieces{{10, 100, 1, nullptr}};
+  const std::vector<Piece> pieces{{{10, 14}, 1, nullptr}};
   constexpr std::size_t kChunks = 10'000;  // several blocks a thread
   const auto thread_of = [](std::size_t number) { return static_cast<unsigned>(number / 3 % 2); };
   for (std::size_t i = 0; i < kChunks; ++i) {

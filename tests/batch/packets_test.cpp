@@ -30,48 +30,35 @@
 namespace meshhood::test {
 namespace {
 
+/// Calls `f(place, queries)` for the vertices of a packet, by their places in index order.
+template <class F>
+void for_each_vertex(const PacketAnswer& answer, const Index& index, F&& f) {
+  for (const auto& [leaves, queries, reached] : answer.pieces) {
+    const std::size_t begin = index.leaf_starts()[leaves.begin];
+    const std::size_t size = index.leaf_starts()[leaves.end] - begin;
+    for (std::size_t i = 0; i < size; ++i) f(begin + i, reached == nullptr ? queries : reached[i]);
+    if (reached == nullptr) continue;
+    EXPECT_EQ(leaves.begin + 1, leaves.end);
+    EXPECT_TRUE(std::all_of(reached + size, reached + kLeafCapacity, [](QueryWord word) { return word == 0; }));
+  }
+}
+
 /// Adds up `signal`, which is in index order, for each row of a packet.
-std::vector<double> sums_of(const PacketAnswer& answer, std::span<const double> signal) {
+std::vector<double> sums_of(const PacketAnswer& answer, const Index& index, std::span<const double> signal) {
   std::vector<double> sums(answer.rows.size());
-  const auto add = [&](const VertexRange& run, QueryWord queries) {
-    const double sum = std::accumulate(signal.begin() + run.begin, signal.begin() + run.end, 0.0);
-    for_each_query(queries, [&](std::size_t i) { sums[i] += sum; });
-  };
-  for (const CoreLeaves& core : answer.cores) {
-    for (const LeafRun& run : core.runs) add(run.vertices, core.queries);
-  }
-  for (const WholeLeaves& whole : answer.whole) add(whole.run.vertices, whole.queries);
-  for (const PartialLeaf& leaf : answer.partial) {
-    for (std::size_t i = 0; i < leaf.vertices.size(); ++i) {
-      for_each_query(leaf.queries[i], [&](std::size_t row) { sums[row] += signal[leaf.vertices.begin + i]; });
-    }
-  }
+  for_each_vertex(answer, index, [&](std::size_t place, QueryWord queries) {
+    for_each_query(queries, [&](std::size_t row) { sums[row] += signal[place]; });
+  });
   return sums;
 }
 
 /// The ids of each row of a packet, ascending.
 std::vector<std::vector<VertexId>> ids_of(const PacketAnswer& answer, const Index& index) {
   std::vector<std::vector<VertexId>> ids(answer.rows.size());
-  const auto add = [&](VertexId vertex, QueryWord queries) {
-    const VertexId id = index.permutation().empty() ? vertex : index.permutation()[vertex];
+  for_each_vertex(answer, index, [&](std::size_t place, QueryWord queries) {
+    const VertexId id = index.permutation().empty() ? static_cast<VertexId>(place) : index.permutation()[place];
     for_each_query(queries, [&](std::size_t row) { ids[row].push_back(id); });
-  };
-  const auto add_run = [&](const VertexRange& run, QueryWord queries) {
-    for (VertexId vertex = run.begin; vertex < run.end; ++vertex) add(vertex, queries);
-  };
-  for (const CoreLeaves& core : answer.cores) {
-    for (const LeafRun& run : core.runs) add_run(run.vertices, core.queries);
-  }
-  for (const WholeLeaves& whole : answer.whole) add_run(whole.run.vertices, whole.queries);
-  for (const PartialLeaf& leaf : answer.partial) {
-    for (std::size_t i = 0; i < leaf.queries.size(); ++i) {
-      if (i < leaf.vertices.size()) {
-        add(static_cast<VertexId>(leaf.vertices.begin + i), leaf.queries[i]);
-      } else {
-        EXPECT_EQ(leaf.queries[i], 0U) << "beyond the leaf";
-      }
-    }
-  }
+  });
   for (std::vector<VertexId>& row : ids) std::sort(row.begin(), row.end());
   return ids;
 }
@@ -134,7 +121,7 @@ class Packets : public testing::Test {
   [[nodiscard]] std::vector<double> sums(const BatchQuery& query, unsigned threads) const {
     std::vector<double> result(query.vertices.count(index.vertex_count()));
     for_each_packet(index, query, everyone([&](const PacketAnswer& answer) {
-                      const std::vector<double> found = sums_of(answer, signal);
+                      const std::vector<double> found = sums_of(answer, index, signal);
                       for (std::size_t i = 0; i < found.size(); ++i) result[answer.rows[i]] = found[i];
                     }),
                     {.threads = threads});
@@ -192,68 +179,47 @@ TEST_F(Packets, GiveSumsWithTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-TEST_F(Packets, NameWholeLeaves) {
-  const std::span<const VertexId> starts = index.leaf_starts();
-  ASSERT_EQ(starts.front(), 0U);
-  ASSERT_EQ(starts.back(), index.vertex_count());
-  const auto is_whole = [&](const LeafRun& run) {
-    return run.first_leaf < run.end_leaf && run.vertices.begin == starts[run.first_leaf] &&
-           run.vertices.end == starts[run.end_leaf];
-  };
-  std::size_t core_runs = 0;
-  std::size_t whole_runs = 0;
-  for_each_packet(index, {.vertices = vertices, .radius = 20}, everyone([&](const PacketAnswer& answer) {
-                    for (const CoreLeaves& core : answer.cores) {
-                      EXPECT_TRUE(std::all_of(core.runs.begin(), core.runs.end(), is_whole));
-                      core_runs += core.runs.size();
-                    }
-                    for (const WholeLeaves& whole : answer.whole) EXPECT_TRUE(is_whole(whole.run));
-                    for (const PartialLeaf& leaf : answer.partial) {
-                      EXPECT_EQ(leaf.vertices, (VertexRange{starts[leaf.leaf], starts[leaf.leaf + 1]}));
-                    }
-                    whole_runs += answer.whole.size();
-                  }));
-  EXPECT_GT(core_runs, 0U);
-  EXPECT_GT(whole_runs, 0U);
+/// Requires that the pieces ascend, without runs that could be one; adds up how many have several leaves, and how many
+/// have words.
+void check_pieces(const PacketAnswer& answer, const Index& index, std::size_t& long_runs, std::size_t& with_words) {
+  const Piece* last = nullptr;
+  for (const Piece& piece : answer.pieces) {
+    ASSERT_LT(piece.leaves.begin, piece.leaves.end);
+    ASSERT_LT(piece.leaves.end, index.leaf_starts().size());
+    EXPECT_EQ(piece.queries == 0, !piece.is_run());
+    if (last != nullptr) {
+      EXPECT_LE(last->leaves.end, piece.leaves.begin);
+      const bool can_be_one =
+          last->leaves.end == piece.leaves.begin && last->is_run() && last->queries == piece.queries;
+      EXPECT_FALSE(can_be_one);
+    }
+    long_runs += piece.leaves.end - piece.leaves.begin > 1;
+    with_words += !piece.is_run();
+    last = &piece;
+  }
+}
+
+TEST_F(Packets, HavePiecesInIndexOrder) {
+  std::size_t long_runs = 0;
+  std::size_t with_words = 0;
+  for_each_packet(index, {.vertices = vertices, .radius = 20},
+                  everyone([&](const PacketAnswer& answer) { check_pieces(answer, index, long_runs, with_words); }));
+  EXPECT_GT(long_runs, 0U);
+  EXPECT_GT(with_words, 0U);
 }
 
 // Odd graphs are searched vertex by vertex: their answers do not come by leaves.
-TEST(PacketsOfAStar, NameWholeLeaves) {
+TEST(PacketsOfAStar, HavePiecesInIndexOrder) {
   for (const Family& family : families()) {
     if (family.name != "star" && family.name != "random faces") continue;
     const TestMesh mesh = make_mesh(family, 2, 700);
     const Index index = build(mesh.view());
-    const std::span<const VertexId> starts = index.leaf_starts();
-    std::size_t partial = 0;
-    for_each_packet(index, {.radius = 0.9}, everyone([&](const PacketAnswer& answer) {
-                      for (const WholeLeaves& whole : answer.whole) {
-                        EXPECT_EQ(whole.run.vertices,
-                                  (VertexRange{starts[whole.run.first_leaf], starts[whole.run.end_leaf]}));
-                      }
-                      for (const PartialLeaf& leaf : answer.partial) {
-                        EXPECT_EQ(leaf.vertices, (VertexRange{starts[leaf.leaf], starts[leaf.leaf + 1]}));
-                      }
-                      partial += answer.partial.size();
-                    }));
-    EXPECT_GT(partial, 0U) << family.name;
+    std::size_t long_runs = 0;
+    std::size_t with_words = 0;
+    for_each_packet(index, {.radius = 0.9},
+                    everyone([&](const PacketAnswer& answer) { check_pieces(answer, index, long_runs, with_words); }));
+    EXPECT_GT(with_words, 0U) << family.name;
   }
-}
-
-TEST_F(Packets, OfAGroupHaveTheSameCores) {
-  std::map<std::size_t, std::vector<LeafRun>> cores;
-  std::size_t repeated = 0;
-  for_each_packet(index, {.radius = 20}, everyone([&](const PacketAnswer& answer) {
-                    if (answer.begins_group) cores.clear();
-                    for (const CoreLeaves& core : answer.cores) {
-                      const auto [known, is_new] = cores.try_emplace(core.number, core.runs.begin(), core.runs.end());
-                      EXPECT_THAT(core.runs, testing::ElementsAreArray(known->second));
-                      const auto add = [](std::size_t sum, const LeafRun& run) { return sum + run.vertices.size(); };
-                      EXPECT_EQ(core.vertices,
-                                std::accumulate(core.runs.begin(), core.runs.end(), std::size_t{0}, add));
-                      repeated += is_new ? 0 : 1;
-                    }
-                  }));
-  EXPECT_GT(repeated, 0U);
 }
 
 TEST_F(Packets, GoToOneVisitorForEachThread) {

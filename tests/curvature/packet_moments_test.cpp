@@ -56,14 +56,13 @@ std::pair<QueryWord, const QueryMoments*> sum(PacketMoments& sums, const IndexVi
   for (const VertexId v : packet.vertices) places.push_back(place_of(index, v));
   const LeafId leaf = leaf_of(index.slot[packet.vertices.front()]);
   const QueryWord some = sums.begin(leaf, places, packet.radii, queries, packet.queries);
-  const auto add_run = [&](const LeafRun& run, QueryWord word) {
-    for (LeafId i = run.first_leaf; i < run.end_leaf; ++i) sums.add(i, word);
-  };
-  for (const CoreLeaves& core : packet.cores) {
-    for (const LeafRun& run : core.runs) add_run(run, core.queries);
+  for (const auto& [leaves, word, reached] : packet.pieces) {
+    if (reached != nullptr) {
+      sums.add(leaves.begin, reached);
+    } else {
+      for (LeafId i = leaves.begin; i < leaves.end; ++i) sums.add(i, word);
+    }
   }
-  for (const WholeLeaves& whole : packet.whole) add_run(whole.run, whole.queries);
-  for (const PartialLeaf& partial : packet.partial) sums.add(partial.leaf, partial.queries);
   return {some, &sums.finish()};
 }
 

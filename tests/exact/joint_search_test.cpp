@@ -83,7 +83,7 @@ class JointAnswer {
     for (const TestQuery& item : queries) packet.push_back({item.lane, JointRadius(view_.frame, item.radius)});
     search.run(queries.front().leaf, packet);
     const PerLane<std::uint64_t> counts = search.counts();
-    writer_->begin(search.answer());
+    writer_->begin(search.pieces());
     for (unsigned i = 0; i < queries.size(); ++i) {
       const VertexId v = view_.id(view_.leaf_begin[queries[i].leaf] + queries[i].lane);
       reference_.neighborhood(v, queries[i].radius, expected_);

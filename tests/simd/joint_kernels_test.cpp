@@ -252,26 +252,36 @@ TEST_P(EveryJointPath, CountsAndLanesAgree) {
 TEST_P(EveryJointPath, RowsAreWrittenToTheirLastIdAndNotBeyond) {
   for (const std::size_t count : {0U, 1U, 2U, 3U, 9U, 40U}) {
     std::vector<PerLane<QueryWord>> words(count);
-    std::vector<RowPiece> pieces;
-    std::uint32_t vertices = 0;
+    std::vector<Piece> pieces;
+    std::vector<VertexId> leaf_begin{0};
+    const auto add_leaf = [&] {
+      const auto size = static_cast<VertexId>(1 + random.below(kLeafCapacity));
+      leaf_begin.push_back(static_cast<VertexId>(leaf_begin.back() + size));
+      return size;
+    };
     for (std::size_t i = 0; i < count; ++i) {
+      while (random.below(3) == 0) add_leaf();  // that no query has
+      const auto leaf = static_cast<std::uint32_t>(leaf_begin.size() - 1);
+      unsigned size = add_leaf();
       const bool is_run = random.below(2) == 0;
-      const auto size = static_cast<std::uint32_t>(1 + random.below(is_run ? 90 : kLeafCapacity));
-      vertices += static_cast<std::uint32_t>(random.below(5));
+      while (is_run && random.below(2) == 0) add_leaf();
       words[i] = random_words();
       if (random.below(4) == 0) words[i].fill(~QueryWord{0});
-      std::fill(words[i].begin() + std::min(size, kLeafCapacity), words[i].end(), 0);
-      pieces.push_back({vertices, size, random_word(), is_run ? nullptr : words[i].data()});
-      vertices += size;
+      std::fill(words[i].begin() + size, words[i].end(), 0);
+      pieces.push_back({{leaf, static_cast<std::uint32_t>(leaf_begin.size() - 1)},
+                        is_run ? random_word() : 0,
+                        is_run ? nullptr : words[i].data()});
     }
+    const std::size_t vertices = leaf_begin.back();
     std::vector<VertexId> permutation(vertices + kLeafCapacity);
     for (VertexId& id : permutation) id = static_cast<VertexId>(random.bits() % 60000);
     for (unsigned query = 0; query < kPacketCapacity; ++query) {
       std::vector<VertexId> by_place;
-      for (const RowPiece& piece : pieces) {
-        for (std::uint32_t i = 0; i < piece.size; ++i) {
-          const QueryWord word = piece.reached == nullptr ? piece.queries : piece.reached[i];
-          if ((word >> query & 1U) != 0) by_place.push_back(static_cast<VertexId>(piece.first + i));
+      for (const auto& [leaves, queries, reached] : pieces) {
+        const VertexId first = leaf_begin[leaves.begin];
+        for (VertexId vertex = first; vertex < leaf_begin[leaves.end]; ++vertex) {
+          const QueryWord word = reached == nullptr ? queries : reached[vertex - first];
+          if ((word >> query & 1U) != 0) by_place.push_back(vertex);
         }
       }
       std::vector<VertexId> by_id;
@@ -280,10 +290,10 @@ TEST_P(EveryJointPath, RowsAreWrittenToTheirLastIdAndNotBeyond) {
       std::vector<VertexId> found(by_id.size() + 64, kUntouched);
       const auto row = std::span(found).first(by_id.size());
       const auto behind = std::span(found).subspan(by_id.size());
-      tried.write_row(pieces, query, permutation.data(), row);
+      tried.write_row(pieces, leaf_begin.data(), query, permutation.data(), row);
       ASSERT_TRUE(std::equal(row.begin(), row.end(), by_id.begin()));
       ASSERT_THAT(behind, testing::Each(kUntouched));
-      tried.write_row(pieces, query, nullptr, row);
+      tried.write_row(pieces, leaf_begin.data(), query, nullptr, row);
       ASSERT_TRUE(std::equal(row.begin(), row.end(), by_place.begin()));
       ASSERT_THAT(behind, testing::Each(kUntouched));
     }

@@ -227,17 +227,18 @@ inline LaneMask lanes_of(const QueryWord* reached, unsigned query) {
   return lanes;
 }
 
-inline void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation,
-                      std::span<VertexId> out) {
+inline void write_row(std::span<const Piece> pieces, const VertexId* leaf_begin, unsigned query,
+                      const VertexId* permutation, std::span<VertexId> out) {
   VertexId* next = out.data();
   const auto write = [&](std::uint32_t vertex) {
     *next++ = permutation == nullptr ? static_cast<VertexId>(vertex) : permutation[vertex];
   };
-  for (const RowPiece& piece : pieces) {
-    if (piece.reached != nullptr) {
-      for_each_lane(lanes_of(piece.reached, query), [&](unsigned lane) { write(piece.first + lane); });
-    } else if ((piece.queries >> query & 1U) != 0) {
-      for (std::uint32_t i = 0; i < piece.size; ++i) write(piece.first + i);
+  for (const auto& [leaves, queries, reached] : pieces) {
+    const std::uint32_t first = leaf_begin[leaves.begin];
+    if (reached != nullptr) {
+      for_each_lane(lanes_of(reached, query), [&](unsigned lane) { write(first + lane); });
+    } else if ((queries >> query & 1U) != 0) {
+      for (std::uint32_t vertex = first; vertex < leaf_begin[leaves.end]; ++vertex) write(vertex);
     }
   }
 }

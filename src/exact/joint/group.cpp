@@ -250,9 +250,8 @@ std::span<const LeafRun> JointGroup::core_runs(GroupEntry core) {
   std::sort(leaves.begin(), leaves.end());
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const LeafId leaf = leaves[i];
-    if (i == 0 || leaf != leaves[i - 1] + 1) found.runs.push_back({leaf, leaf, {index_->leaf_begin[leaf], 0}});
-    found.runs.back().end_leaf = leaf + 1;
-    found.runs.back().vertices.end = index_->leaf_begin[leaf + 1];
+    if (i == 0 || leaf != leaves[i - 1] + 1) found.runs.push_back({leaf, leaf});
+    found.runs.back().end = leaf + 1;
   }
   return found.runs;
 }

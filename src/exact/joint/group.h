@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "exact/joint/packet_answer.h"
 #include "exact/layout.h"
 #include "simd/joint.h"
 #include "simd/kernels.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "exact/joint/joint_search.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 
@@ -37,33 +38,40 @@ const PerLane<std::uint64_t>& JointSearch::counts() {
   return counts_;
 }
 
-const PacketAnswer& JointSearch::answer() {
+std::span<const Piece> JointSearch::pieces() {
   assert(packet_);
-  cores_.clear();
-  whole_.clear();
-  partial_.clear();
+  pieces_.clear();
   for (const GroupEntry entry : spread_.whole()) {
     const QueryWord word = spread_.whole_word(entry);
     if (group_.is_core(entry)) {
-      cores_.push_back({group_.core_number(entry), group_.core_runs(entry), group_.core_vertices(entry), word});
+      for (const LeafRun& run : group_.core_runs(entry)) pieces_.push_back({run, word, nullptr});
     } else {
       const LeafId leaf = group_.leaf(entry);
-      whole_.push_back({{leaf, leaf + 1, vertices_of(leaf)}, word});
+      pieces_.push_back({{leaf, leaf + 1}, word, nullptr});
     }
   }
   for (const LeafOfWords& found : spread_.partial()) {
     const LeafId leaf = group_.leaf(found.words);
-    partial_.push_back({leaf, vertices_of(leaf), spread_.words()[found.words].reached});
+    pieces_.push_back({{leaf, leaf + 1}, 0, spread_.words()[found.words].reached.data()});
   }
-  answer_.queries = packet_->queries();
-  answer_.cores = cores_;
-  answer_.whole = whole_;
-  answer_.partial = partial_;
-  return answer_;
+  std::ranges::sort(pieces_, {}, [](const Piece& piece) { return piece.leaves.begin; });
+  join_runs();
+  return pieces_;
 }
 
-VertexRange JointSearch::vertices_of(LeafId leaf) const {
-  return {index_->leaf_begin[leaf], index_->leaf_begin[leaf + 1]};
+void JointSearch::join_runs() {
+  std::size_t kept = 0;
+  for (const Piece& piece : pieces_) {
+    Piece* const last = kept == 0 ? nullptr : &pieces_[kept - 1];
+    assert(last == nullptr || last->leaves.end <= piece.leaves.begin);  // an answer names each vertex once
+    if (last != nullptr && last->is_run() && piece.is_run() && last->queries == piece.queries &&
+        last->leaves.end == piece.leaves.begin) {
+      last->leaves.end = piece.leaves.end;
+    } else {
+      pieces_[kept++] = piece;
+    }
+  }
+  pieces_.resize(kept);
 }
 
 }  // namespace meshhood

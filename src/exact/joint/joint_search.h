@@ -9,7 +9,6 @@
 
 #include "exact/joint/group.h"
 #include "exact/joint/packet.h"
-#include "exact/joint/packet_answer.h"
 #include "exact/joint/spread.h"
 #include "exact/layout.h"
 #include "simd/joint.h"
@@ -38,12 +37,14 @@ class JointSearch {
   /// How many vertices their neighborhoods have.
   [[nodiscard]] const PerLane<std::uint64_t>& counts();
 
-  /// The neighborhoods as words; `rows`, `vertices`, `radii` and `begins_group` are left to the caller. Valid until the
-  /// next `run`.
-  [[nodiscard]] const PacketAnswer& answer();
+  /// Those whose vertex is not a wall.
+  [[nodiscard]] QueryWord queries() const { return packet_->queries(); }
+
+  /// The neighborhoods, in index order; adjacent runs of the same queries are one. Valid until the next `run`.
+  [[nodiscard]] std::span<const Piece> pieces();
 
  private:
-  [[nodiscard]] VertexRange vertices_of(LeafId leaf) const;
+  void join_runs();
 
   const IndexView* index_;
   const JointKernels* kernels_;
@@ -52,10 +53,7 @@ class JointSearch {
   std::optional<Packet> packet_;
   PerLane<std::uint64_t> counts_{};
   bool has_counts_ = false;
-  PacketAnswer answer_;
-  std::vector<CoreLeaves> cores_;
-  std::vector<WholeLeaves> whole_;
-  std::vector<PartialLeaf> partial_;
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace meshhood

@@ -92,16 +92,14 @@ PerLane<std::uint64_t> RingPacket::counts() const {
   return counts;
 }
 
-const PacketAnswer& RingPacket::answer() {
-  partial_.clear();
+std::span<const Piece> RingPacket::pieces() {
+  pieces_.clear();
   for (const LeafOfWords& found : found_) {
     const LeafId leaf = states_[found.words].leaf;
-    partial_.push_back({leaf, {index_->leaf_begin[leaf], index_->leaf_begin[leaf + 1]}, words_[found.words].reached});
+    pieces_.push_back({{leaf, leaf + 1}, 0, words_[found.words].reached.data()});
   }
-  std::ranges::sort(partial_, {}, &PartialLeaf::leaf);
-  answer_.queries = queries_;
-  answer_.partial = partial_;
-  return answer_;
+  std::ranges::sort(pieces_, {}, [](const Piece& piece) { return piece.leaves.begin; });
+  return pieces_;
 }
 
 }  // namespace meshhood

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/epoch_array.h"
-#include "exact/joint/packet_answer.h"
 #include "exact/layout.h"
 #include "simd/joint.h"
 
@@ -40,9 +39,8 @@ class RingPacket {
   /// How many vertices their answers have.
   [[nodiscard]] PerLane<std::uint64_t> counts() const;
 
-  /// The answers as words; `rows`, `vertices`, `radii` and `begins_group` are left to the caller. The leaves ascend.
-  /// Valid until the next `run`.
-  [[nodiscard]] const PacketAnswer& answer();
+  /// The answers, leaf by leaf in index order. Valid until the next `run`.
+  [[nodiscard]] std::span<const Piece> pieces();
 
   /// Of a run with one query: the number of edges to a vertex of its answer.
   [[nodiscard]] std::uint32_t edges_to(LeafId leaf, unsigned lane) const { return edges_[entries_[leaf]][lane]; }
@@ -76,8 +74,7 @@ class RingPacket {
   std::vector<Entry> active_;                  // those with fresh lanes
   std::vector<Entry> pending_;                 // those that the next step looks at
   std::vector<LeafOfWords> found_;
-  std::vector<PartialLeaf> partial_;
-  PacketAnswer answer_;
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace meshhood

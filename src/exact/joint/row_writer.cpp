@@ -11,7 +11,7 @@ namespace meshhood {
 
 void RowWriter::write_ids(unsigned query, std::span<VertexId> ids) const {
   const VertexId* permutation = index_->permutation.empty() ? nullptr : index_->permutation.data();
-  kernels_->write_row(pieces_, query, permutation, ids);
+  kernels_->write_row(pieces_, index_->leaf_begin.data(), query, permutation, ids);
 }
 
 void RowWriter::write_distances(unsigned query, const Point& center, std::span<double> distances) const {
@@ -21,12 +21,12 @@ void RowWriter::write_distances(unsigned query, const Point& center, std::span<d
         const auto write = [&](std::size_t vertex) {
           *next++ = std::sqrt(squared_distance(point(xyz, vertex), center));
         };
-        for (const RowPiece& piece : pieces_) {
-          if (piece.reached != nullptr) {
-            for_each_lane(kernels_->lanes_of(piece.reached, query),
-                          [&](unsigned lane) { write(std::size_t{piece.first} + lane); });
+        for (const Piece& piece : pieces_) {
+          const std::size_t first = index_->leaf_begin[piece.leaves.begin];
+          if (!piece.is_run()) {
+            for_each_lane(kernels_->lanes_of(piece.reached, query), [&](unsigned lane) { write(first + lane); });
           } else if ((piece.queries >> query & 1U) != 0) {
-            for (std::size_t i = 0; i < piece.size; ++i) write(piece.first + i);
+            for (std::size_t vertex = first; vertex < index_->leaf_begin[piece.leaves.end]; ++vertex) write(vertex);
           }
         }
       },

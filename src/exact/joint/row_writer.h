@@ -3,8 +3,6 @@
 
 #include <span>
 
-#include "exact/joint/packet_answer.h"
-#include "exact/joint/packet_pieces.h"
 #include "exact/layout.h"
 #include "simd/joint.h"
 
@@ -16,16 +14,8 @@ class RowWriter {
  public:
   RowWriter(const IndexView& index, Isa isa) : index_(&index), kernels_(&joint_kernels(isa)) {}
 
-  /// Begins with a packet, which must outlive the calls below.
-  void begin(const PacketAnswer& answer) {
-    sorted_.assign(answer);
-    pieces_ = sorted_.all();
-  }
-
-  /// The same with the pieces of a packet.
-  void begin(std::span<const RowPiece> pieces) { pieces_ = pieces; }
-
-  [[nodiscard]] std::span<const RowPiece> pieces() const { return pieces_; }
+  /// Begins with the pieces of a packet, which must outlive the calls below.
+  void begin(std::span<const Piece> pieces) { pieces_ = pieces; }
 
   /// Writes the ids of a row. `ids` has as many places as the row has vertices.
   void write_ids(unsigned query, std::span<VertexId> ids) const;
@@ -36,8 +26,7 @@ class RowWriter {
  private:
   const IndexView* index_;
   const JointKernels* kernels_;
-  PacketPieces sorted_;
-  std::span<const RowPiece> pieces_;
+  std::span<const Piece> pieces_;
 };
 
 }  // namespace meshhood
