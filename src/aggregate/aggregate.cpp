@@ -27,7 +27,7 @@
 #include "batch/batch.h"
 #include "batch/filter_copy.h"
 #include "batch/packets.h"
-#include "batch/path_worker.h"
+#include "batch/path_rows.h"
 #include "batch/rows.h"
 #include "exact/index_access.h"
 #include "exact/query/filtered.h"
@@ -267,7 +267,8 @@ class Aggregation {
   void reduce_paths(const std::function<std::unique_ptr<PathReducer>()>& make_reducer, std::size_t first,
                     std::size_t count) {
     struct PerThread {
-      PathWorker worker;
+      PathRows* paths;
+      BatchWorker worker;
       std::unique_ptr<PathReducer> reducer;
       std::vector<double> radii{};
     };
@@ -276,13 +277,17 @@ class Aggregation {
     Batch batch(SearchMethod::along_edges(index_), {query_.vertices, largest_radius()}, options, 1);
     std::vector<std::unique_ptr<PerThread>> threads(batch.task().threads());
     batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
-      if (!threads[thread]) threads[thread].reset(new PerThread{PathWorker(index_, filter_), make_reducer()});
-      auto& [worker, reducer, radii] = *threads[thread];
-      worker.visit(chunk.items, [&](std::span<const BatchItem> rows, PathPacket& packet) {
+      if (!threads[thread]) {
+        auto search = std::make_unique<PathRows>(index_, filter_);
+        PathRows* const paths = search.get();
+        threads[thread].reset(new PerThread{paths, BatchWorker(std::move(search)), make_reducer()});
+      }
+      auto& [paths, worker, reducer, radii] = *threads[thread];
+      worker.for_each_answer(chunk.items, [&](std::span<const BatchItem> rows) {
         for (const std::size_t i : passes_) {
           radii.clear();
           for (const BatchItem& item : rows) radii.push_back(radii_[i].list() ? item.radius : radii_[i].common());
-          reducer->reduce(packet, radii);
+          reducer->reduce(paths->packet(), radii);
           const Destination to = destination(i, first, count);
           for (std::size_t k = 0; k < rows.size(); ++k) {
             to.write(rows[k].row, [&](std::span<double> channels) { reducer->write(k, channels); });

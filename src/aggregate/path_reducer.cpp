@@ -8,16 +8,9 @@
 namespace meshhood {
 
 void PathSetReducer::reduce(PathPacket& packet, std::span<const double> radii) {
-  words_.clear();
-  pieces_.clear();
-  packet.for_each_leaf(radii, [&](const PathLeaf& leaf) {
-    words_.push_back(leaf.queries);
-    pieces_.push_back({{leaf.leaf, leaf.leaf + 1}, 0, nullptr});
-  });
-  for (std::size_t i = 0; i < pieces_.size(); ++i) pieces_[i].reached = words_[i].data();
   PacketAnswer answer;
   answer.queries = first_lanes(static_cast<unsigned>(radii.size()));
-  answer.pieces = pieces_;
+  answer.pieces = packet.pieces(radii);
   nodes_.reduce(answer, *reducer_);
 }
 

@@ -47,8 +47,6 @@ class PathSetReducer final : public PathReducer {
  private:
   MaximalNodes nodes_;
   std::unique_ptr<PacketReducer> reducer_;
-  std::vector<PerLane<QueryWord>> words_;
-  std::vector<Piece> pieces_;
 };
 
 /// Sum and mean with weights that fall with the length of the path.

@@ -15,10 +15,10 @@
 #include "meshhood/search.h"
 
 #include "batch/filter_copy.h"
-#include "batch/joint_worker.h"
-#include "batch/path_worker.h"
-#include "batch/ring_worker.h"
+#include "batch/path_rows.h"
+#include "batch/ring_rows.h"
 #include "batch/searcher_factory.h"
+#include "batch/straight_rows.h"
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
 #include "exact/query/filtered.h"
@@ -65,35 +65,48 @@ static_assert(NeighborhoodSearcher<RingSearcher>);
 static_assert(NeighborhoodSearcher<SpaceSearcher>);
 static_assert(NeighborhoodSearcher<AnySearcher>);
 
-/// Answers rows one by one.
-class SearcherWorker final : public BatchWorker {
+/// Answers rows one by one, by a searcher of any order.
+class SingleRows final : public RowSearch {
  public:
-  explicit SearcherWorker(AnySearcher searcher) : searcher_(std::move(searcher)) {}
+  explicit SingleRows(AnySearcher searcher) : searcher_(std::move(searcher)) {}
 
-  void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* /*kept*/) override {
-    for (const BatchItem& item : chunk) {
-      const std::uint64_t size = searcher_.count(item.vertex, item.radius);
-      if (!sink({&item, 1}, {&size, 1})) return;
-    }
+  [[nodiscard]] bool pays(std::span<const BatchItem> /*items*/, bool /*distances*/) const override { return false; }
+
+  [[nodiscard]] bool run(std::span<const RowRun> runs) override {
+    item_ = runs.front().items.front();
+    return true;
   }
 
-  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-            KeptPackets::Reader* /*kept*/) override {
-    for (const BatchItem& item : chunk) {
-      if (distances) {
-        searcher_.neighborhood(item.vertex, item.radius, ids_, distances_);
-      } else {
-        searcher_.neighborhood(item.vertex, item.radius, ids_);
-      }
-      const BatchMemory memory = receiver.memory(item.row, ids_.size());
-      std::copy(ids_.begin(), ids_.end(), memory.ids.begin());
-      if (distances) std::copy(distances_.begin(), distances_.end(), memory.distances.begin());
-      if (!receiver.done(item.row)) return;
+  [[nodiscard]] const PerLane<std::uint64_t>& counts() override {
+    counts_[0] = searcher_.count(item_.vertex, item_.radius);
+    return counts_;
+  }
+
+  [[nodiscard]] QueryWord queries() const override { return 1; }
+
+  [[nodiscard]] std::span<const Piece> pieces() override {
+    raise(ErrorCode::InvalidOption, "this method has no packets, expected the exact index, paths or rings");
+  }
+
+  [[nodiscard]] bool writes_pieces(bool /*distances*/) const override { return false; }
+
+  bool write(std::span<const BatchItem> /*items*/, const RowAnswers& /*answers*/, bool distances,
+             RowReceiver& receiver) override {
+    if (distances) {
+      searcher_.neighborhood(item_.vertex, item_.radius, ids_, distances_);
+    } else {
+      searcher_.neighborhood(item_.vertex, item_.radius, ids_);
     }
+    const BatchMemory memory = receiver.memory(item_.row, ids_.size());
+    std::copy(ids_.begin(), ids_.end(), memory.ids.begin());
+    if (distances) std::copy(distances_.begin(), distances_.end(), memory.distances.begin());
+    return receiver.done(item_.row);
   }
 
  private:
   AnySearcher searcher_;
+  BatchItem item_{};  // of the last run
+  PerLane<std::uint64_t> counts_{};
   std::vector<VertexId> ids_;
   std::vector<double> distances_;
 };
@@ -122,12 +135,12 @@ SearcherFactory exact_factory(const std::shared_ptr<const Index>& index) {
           .position = [index](VertexId v) { return IndexAccess::view(*index).slot[v]; },
           .of_slots = index.get(),
           .is_count_cheap = true,
-          .positions_together = JointWorker::kGroupPositions,
+          .positions_together = StraightRows::kGroupPositions,
           .with_filter =
               [index](const Filter& filter, unsigned threads) {
                 return without_filters(exact_factory(std::make_shared<const Index>(filtered(*index, filter, threads))));
               },
-          .make_joint_worker = [index] { return std::make_unique<JointWorker>(*index); }};
+          .make_joint_search = [index] { return std::make_unique<StraightRows>(*index); }};
 }
 
 SearcherFactory ring_factory(const std::shared_ptr<const Index>& index) {
@@ -141,7 +154,7 @@ SearcherFactory ring_factory(const std::shared_ptr<const Index>& index) {
               [index](const Filter& filter, unsigned threads) {
                 return without_filters(ring_factory(std::make_shared<const Index>(filtered(*index, filter, threads))));
               },
-          .make_joint_worker = [index] { return std::make_unique<RingWorker>(*index); }};
+          .make_joint_search = [index] { return std::make_unique<RingRows>(*index); }};
 }
 
 /// `filter`: null if there is none.
@@ -160,7 +173,7 @@ SearcherFactory edge_factory(const Index& index, const std::shared_ptr<const Fil
                 check_filter(given, index.vertex_count());
                 return without_filters(edge_factory(index, std::make_shared<const FilterCopy>(given)));
               },
-          .make_joint_worker = [&index, filter] { return std::make_unique<PathWorker>(index, filter); }};
+          .make_joint_search = [&index, filter] { return std::make_unique<PathRows>(index, filter); }};
 }
 
 constexpr auto kOwnOrder = [](VertexId v) { return std::uint32_t{v}; };
@@ -168,7 +181,8 @@ constexpr auto kOwnOrder = [](VertexId v) { return std::uint32_t{v}; };
 }  // namespace
 
 std::unique_ptr<BatchWorker> SearcherFactory::make_worker() const {
-  return make_joint_worker ? make_joint_worker() : std::make_unique<SearcherWorker>(make_searcher());
+  return std::make_unique<BatchWorker>(make_joint_search ? make_joint_search()
+                                                         : std::make_unique<SingleRows>(make_searcher()));
 }
 
 std::shared_ptr<const SearcherFactory> SearcherFactory::restricted(const Filter& filter, unsigned threads) const {

@@ -186,6 +186,17 @@ std::span<const Path> PathPacket::paths_in_order(std::size_t query) {
   return paths.subspan(ignored_->has_at(source) ? 1 : 0);
 }
 
+std::span<const Piece> PathPacket::pieces(std::span<const double> radii) {
+  pieces_.clear();
+  reached_.clear();
+  for_each_leaf(radii, [&](const PathLeaf& leaf) {
+    reached_.push_back(leaf.queries);
+    pieces_.push_back({{leaf.leaf, leaf.leaf + 1}, 0, nullptr});
+  });
+  for (std::size_t i = 0; i < pieces_.size(); ++i) pieces_[i].reached = reached_[i].data();
+  return pieces_;
+}
+
 void PathPacket::list_leaves() {
   if (!leaves_.empty()) return;
   place_of_.forget();

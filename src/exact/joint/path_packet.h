@@ -93,6 +93,10 @@ class PathPacket {
     }
   }
 
+  /// The leaves of which a query reaches vertices within the radii, one for each query and at most that of its search;
+  /// ascending. Valid until the next call.
+  [[nodiscard]] std::span<const Piece> pieces(std::span<const double> radii);
+
   /// How many times the last `run` took a vertex.
   [[nodiscard]] std::size_t steps() const { return steps_; }
 
@@ -139,6 +143,8 @@ class PathPacket {
   EpochArray<std::uint32_t> place_of_;  // by leaf: in `leaves_`
   std::vector<LeafPlaces> leaves_;
   PathLeaf leaf_{};  // the one that is passed on
+  std::vector<Piece> pieces_;
+  std::vector<PerLane<QueryWord>> reached_;  // by piece
 };
 
 }  // namespace meshhood

@@ -16,7 +16,6 @@
 #include "meshhood/edge_search.h"
 #include "meshhood/region.h"
 
-#include "batch/joint_worker.h"
 #include "exact/index_access.h"
 #include "exact/search/searcher_state.h"
 #include "exact/search/vertex_bfs.h"

@@ -9,7 +9,7 @@
 #include "meshhood/index.h"
 #include "meshhood/search.h"
 
-#include "batch/searcher_factory.h"
+#include "batch/row_search.h"
 #include "exact/bound_index.h"
 #include "exact/joint/ring_packet.h"
 #include "exact/joint/row_writer.h"
@@ -41,29 +41,26 @@ class RingSearcher {
 };
 
 /// The same for the rows of a batch: those of a leaf are answered together, with distances one by one.
-class RingWorker final : public BatchWorker {
+class RingRows final : public RowSearch {
  public:
-  explicit RingWorker(const Index& index);
+  explicit RingRows(const Index& index);
 
-  void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) override;
-  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-            KeptPackets::Reader* kept) override;
+  [[nodiscard]] bool pays(std::span<const BatchItem> /*items*/, bool distances) const override { return !distances; }
+  [[nodiscard]] bool run(std::span<const RowRun> runs) override;
+  [[nodiscard]] const PerLane<std::uint64_t>& counts() override { return counts_; }
+  [[nodiscard]] QueryWord queries() const override { return first_lanes(static_cast<unsigned>(queries_.size())); }
+  [[nodiscard]] std::span<const Piece> pieces() override { return packet_.pieces(); }
+  [[nodiscard]] bool writes_pieces(bool distances) const override { return !distances; }
+  bool write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
+             RowReceiver& receiver) override;
 
  private:
-  static std::span<const BatchItem> first_packet(std::span<const BatchItem> chunk);
-  template <class F>
-  void for_each_packet(std::span<const BatchItem> chunk, F&& f);
-  const PerLane<std::uint64_t>& search(std::span<const BatchItem> items);
-  bool write(std::span<const BatchItem> items, const PerLane<std::uint64_t>& counts, RowReceiver& receiver);
-  void find_with_distances(std::span<const BatchItem> chunk, RowReceiver& receiver);
+  void write_distances(std::span<double> distances);
 
-  RingSearcher searcher_;
   RingPacket packet_;
   RowWriter writer_;
-  std::vector<RingQuery> queries_;
+  std::vector<RingQuery> queries_;  // of the last run
   PerLane<std::uint64_t> counts_{};
-  std::vector<VertexId> ids_;
-  std::vector<double> distances_;
 };
 
 }  // namespace meshhood

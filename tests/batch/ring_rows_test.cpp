@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Batches by the number of edges have the rings of a breadth-first search over the vertices, on every instruction set.
-#include "batch/ring_worker.h"
+#include "batch/ring_rows.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Batches along the edges have the rows of `EdgeSearcher`, on every instruction set.
-#include "batch/path_worker.h"
+#include "batch/path_rows.h"
 
 #include <cstdint>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch/ring_worker.h"
+#include "batch/ring_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -79,68 +79,39 @@ std::span<const VertexRange> RingSearcher::ranges(VertexId v, double radius) {
   return ranges_;
 }
 
-RingWorker::RingWorker(const Index& index)
-    : searcher_(index), packet_(IndexAccess::view(index), best_isa()), writer_(IndexAccess::view(index), best_isa()) {}
+RingRows::RingRows(const Index& index)
+    : packet_(IndexAccess::view(index), best_isa()), writer_(IndexAccess::view(index), best_isa()) {}
 
-/// The first rows of a chunk, those of a leaf.
-std::span<const BatchItem> RingWorker::first_packet(std::span<const BatchItem> chunk) {
-  const LeafId leaf = leaf_of(chunk.front().position);
-  const auto most = chunk.first(std::min(chunk.size(), kPacketCapacity));
-  return {most.begin(), std::ranges::find_if(most, [&](const BatchItem& i) { return leaf_of(i.position) != leaf; })};
-}
-
-/// Calls `f(items)` for the packets of a chunk, until it returns false.
-template <class F>
-void RingWorker::for_each_packet(std::span<const BatchItem> chunk, F&& f) {
-  while (!chunk.empty()) {
-    const std::span<const BatchItem> items = first_packet(chunk);
-    if (!f(items)) return;
-    chunk = chunk.subspan(items.size());
-  }
-}
-
-/// Finds the rings of the rows of a packet, and returns their sizes.
-const PerLane<std::uint64_t>& RingWorker::search(std::span<const BatchItem> items) {
+bool RingRows::run(std::span<const RowRun> runs) {
+  const std::span<const BatchItem> items = runs.front().items;
   queries_.clear();
   for (const BatchItem& item : items) queries_.push_back({lane_of(item.position), rings_of(item.radius)});
   packet_.run(leaf_of(items.front().position), queries_);
-  return counts_ = packet_.counts();
+  counts_ = packet_.counts();
+  return true;
 }
 
-bool RingWorker::write(std::span<const BatchItem> items, const PerLane<std::uint64_t>& counts, RowReceiver& receiver) {
+bool RingRows::write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
+                     RowReceiver& receiver) {
+  const RowAnswers own{packet_.pieces(), counts_};
+  const auto& [pieces, counts] = distances ? own : answers;
+  writer_.begin(pieces);
   for (unsigned i = 0; i < items.size(); ++i) {
-    writer_.write_ids(i, receiver.memory(items[i].row, counts[i]).ids);
+    const BatchMemory memory = receiver.memory(items[i].row, counts[i]);
+    writer_.write_ids(i, memory.ids);
+    if (distances) write_distances(memory.distances);
     if (!receiver.done(items[i].row)) return false;
   }
   return true;
 }
 
-void RingWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) {
-  for_each_packet(chunk, [&](std::span<const BatchItem> items) {
-    const auto counts = std::span(search(items)).first(items.size());
-    if (kept != nullptr) kept->add(packet_.pieces(), counts);
-    return sink(items, counts);
-  });
-}
-
-void RingWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-                      KeptPackets::Reader* kept) {
-  if (distances) return find_with_distances(chunk, receiver);
-  for_each_packet(chunk, [&](std::span<const BatchItem> items) {
-    const bool is_kept = kept != nullptr && kept->next();
-    const PerLane<std::uint64_t>& counts = is_kept ? kept->counts() : search(items);
-    writer_.begin(is_kept ? kept->pieces() : packet_.pieces());
-    return write(items, counts, receiver);
-  });
-}
-
-void RingWorker::find_with_distances(std::span<const BatchItem> chunk, RowReceiver& receiver) {
-  for (const BatchItem& item : chunk) {
-    searcher_.neighborhood(item.vertex, item.radius, ids_, distances_);
-    const BatchMemory memory = receiver.memory(item.row, ids_.size());
-    std::copy(ids_.begin(), ids_.end(), memory.ids.begin());
-    std::copy(distances_.begin(), distances_.end(), memory.distances.begin());
-    if (!receiver.done(item.row)) return;
+/// Of a run with one row.
+void RingRows::write_distances(std::span<double> distances) {
+  double* next = distances.data();
+  for (const auto& [leaves, queries, reached] : packet_.pieces()) {
+    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+      if (reached[lane] != 0) *next++ = packet_.edges_to(leaves.begin, lane);
+    }
   }
 }
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "batch/filter_copy.h"
+#include "batch/row_search.h"
+#include "exact/joint/path_packet.h"
+#include "exact/layout.h"
+#include "exact/query/lane_filter.h"
+#include "exact/weighted_graph.h"
+
+namespace meshhood {
+
+/// The neighborhoods of a batch along the edges, as `EdgeSearcher` finds them one by one. The index must outlive it.
+class PathRows final : public RowSearch {
+ public:
+  /// `filter`: null if there is none.
+  PathRows(const Index& index, std::shared_ptr<const FilterCopy> filter, Isa isa = best_isa());
+
+  [[nodiscard]] bool pays(std::span<const BatchItem> items, bool distances) const override;
+  [[nodiscard]] bool run(std::span<const RowRun> runs) override;
+  [[nodiscard]] const PerLane<std::uint64_t>& counts() override { return counts_ = packet_.counts(); }
+  [[nodiscard]] QueryWord queries() const override { return first_lanes(static_cast<unsigned>(radii_.size())); }
+  [[nodiscard]] std::span<const Piece> pieces() override { return packet_.pieces(radii_); }
+  [[nodiscard]] bool writes_pieces(bool /*distances*/) const override { return false; }  // rows ascend by length
+  bool write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
+             RowReceiver& receiver) override;
+
+  /// The paths of the last run.
+  [[nodiscard]] PathPacket& packet() { return packet_; }
+
+ private:
+  const IndexView& view_;
+  std::shared_ptr<const FilterCopy> filter_;
+  LaneFilter walls_;
+  LaneFilter ignored_;
+  std::shared_ptr<KeptGraph> graph_;
+  PathPacket packet_;
+  // Of the last run:
+  std::vector<PathQuery> queries_;
+  std::vector<double> radii_;
+  PerLane<std::uint64_t> counts_{};
+};
+
+}  // namespace meshhood

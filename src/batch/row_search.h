@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "meshhood/batch.h"
+#include "meshhood/mesh.h"
+
+#include "simd/joint.h"
+
+namespace meshhood {
+
+/// One row of a batch.
+struct BatchItem {
+  std::size_t row;
+  VertexId vertex;
+  std::uint32_t position;  // `SearcherFactory::position`
+  double radius;
+};
+
+/// Receives rows in memory that it provides, so that ids are written once.
+class RowReceiver {
+ public:
+  RowReceiver() = default;
+  RowReceiver(const RowReceiver&) = delete;
+  RowReceiver& operator=(const RowReceiver&) = delete;
+  virtual ~RowReceiver() = default;
+
+  /// Memory for the ids of a row of `size` vertices, and for its distances if they are requested.
+  virtual BatchMemory memory(std::size_t row, std::size_t size) = 0;
+
+  /// The row has been written there. Returns false to drop the rest of the chunk.
+  virtual bool done(std::size_t row) = 0;
+};
+
+/// Rows that are answered at once: consecutive rows of one leaf, or one row.
+struct RowRun {
+  std::span<const BatchItem> items;  // 1 to 32
+  bool is_joint;                     // else it is one row
+};
+
+/// What the rows of a run have, if that is enough to write them.
+struct RowAnswers {
+  std::span<const Piece> pieces;
+  std::span<const std::uint64_t> counts;  // by row
+};
+
+/// The search of a metric: answers the rows of a batch, up to 32 of one leaf at once. One object a thread. What is
+/// found for a row depends on the index, its vertex and its radius alone.
+class RowSearch {
+ public:
+  RowSearch() = default;
+  RowSearch(const RowSearch&) = delete;
+  RowSearch& operator=(const RowSearch&) = delete;
+  virtual ~RowSearch() = default;
+
+  /// Begins with another chunk.
+  virtual void begin_chunk() {}
+
+  /// Whether `items`, rows of one leaf, are answered faster together than one by one.
+  [[nodiscard]] virtual bool pays(std::span<const BatchItem> items, bool distances) const = 0;
+
+  /// Answers the first of `runs`; the others follow it in its chunk. Returns false if its rows must be answered one by
+  /// one, each as a run.
+  [[nodiscard]] virtual bool run(std::span<const RowRun> runs) = 0;
+
+  // Of the last run, valid until the next:
+
+  /// How many vertices each row has.
+  [[nodiscard]] virtual const PerLane<std::uint64_t>& counts() = 0;
+
+  /// The queries that have a neighborhood, as far as it is known.
+  [[nodiscard]] virtual QueryWord queries() const = 0;
+
+  /// The answers as pieces, which ascend in index order, without overlap. Not for a search of another order.
+  [[nodiscard]] virtual std::span<const Piece> pieces() = 0;
+
+  /// Whether rows can be written from their pieces and counts alone.
+  [[nodiscard]] virtual bool writes_pieces(bool distances) const = 0;
+
+  /// Writes the rows of the last run, or if `writes_pieces` those of any run, whose `answers` are given. Returns false
+  /// as soon as the receiver does.
+  virtual bool write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
+                     RowReceiver& receiver) = 0;
+};
+
+}  // namespace meshhood
