@@ -78,12 +78,12 @@ struct Mesh {
 
 /// An additional value, or vector, for each vertex of a written file.
 struct VertexProperty {
-  std::string name;               ///< printable ASCII without blanks
-  std::span<const float> values;  ///< #V; or #V by 3: in PLY the properties NAME_x, NAME_y and NAME_z
+  std::string name;        ///< printable ASCII without blanks
+  Borrowed<float> values;  ///< #V; or #V by 3: in PLY the properties NAME_x, NAME_y and NAME_z
 };
 
 struct PlyOptions {
-  std::span<const std::uint8_t> colors = {};  ///< #V by 3 (red, green, blue), or empty
+  Borrowed<std::uint8_t> colors = {};  ///< #V by 3 (red, green, blue), or empty
   std::vector<VertexProperty> properties = {};
   bool ascii = false;  ///< binary little-endian otherwise
 

@@ -6,6 +6,7 @@ endif()
 
 add_test(NAME repo.docs COMMAND ${PROJECT_SOURCE_DIR}/tools/check_docs.py $<$<TARGET_EXISTS:meshhood_cli>:$<TARGET_FILE:meshhood_cli>>)
 add_test(NAME repo.includes COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/includes.sh ${PROJECT_SOURCE_DIR})
+add_test(NAME repo.borrowed COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/borrowed.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME repo.drawings COMMAND python3 -B ${PROJECT_SOURCE_DIR}/tools/drawings --check)
 add_test(NAME repo.reference COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/site/names_test.py ${PROJECT_SOURCE_DIR})
 if(NOT MESHHOOD_LONG_TESTS)

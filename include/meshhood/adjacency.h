@@ -18,14 +18,13 @@ inline constexpr std::size_t kMaxNeighbors = std::numeric_limits<EdgeOffset>::ma
 /// A symmetric graph in CSR form, borrowed: the neighbors of `v` are `neighbors[offsets[v]] .. neighbors[offsets[v +
 /// 1] - 1]`. Each row ascends, without repetition and without `v` itself.
 struct AdjacencyView {
-  std::span<const EdgeOffset> offsets;  ///< #V + 1; may be empty if there are no vertices
-  std::span<const VertexId> neighbors;  ///< twice the number of edges
+  Borrowed<EdgeOffset> offsets;  ///< #V + 1; may be empty if there are no vertices
+  Borrowed<VertexId> neighbors;  ///< twice the number of edges
 
   AdjacencyView() = default;
 
   /// Both are needed: with one alone, `build({positions, triangles})` would take the triangles for offsets.
-  AdjacencyView(std::span<const EdgeOffset> row_offsets, std::span<const VertexId> ids)
-      : offsets(row_offsets), neighbors(ids) {}
+  AdjacencyView(Borrowed<EdgeOffset> row_offsets, Borrowed<VertexId> ids) : offsets(row_offsets), neighbors(ids) {}
 
   /// #V.
   [[nodiscard]] std::size_t size() const { return offsets.empty() ? 0 : offsets.size() - 1; }

@@ -90,7 +90,7 @@ struct SignalView {
   std::size_t channels = 1;
 
   /// #V, finite and >= 0; empty: 1 each. A vertex of weight 0 is left out, whatever its value. See `vertex_areas`.
-  std::span<const double> weights = {};
+  Borrowed<double> weights = {};
 };
 
 /// Which neighborhoods are aggregated, as a `BatchQuery` says, and how. The lists and masks are copied when the call

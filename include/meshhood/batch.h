@@ -36,6 +36,11 @@ class SearchMethod {
   SearchMethod(const Index& index);
   SearchMethod(const Index&&) = delete;
 
+  // A move copies, so that every method can be used.
+  SearchMethod(const SearchMethod&) = default;
+  SearchMethod& operator=(const SearchMethod&) = default;
+  ~SearchMethod() = default;
+
   /// The approximate neighborhoods of the paper (see `paper::Searcher`). Throws Error{InvalidOption}.
   SearchMethod(const paper::Index& index, const paper::QueryOptions& options = {});
   SearchMethod(const paper::Index&&, const paper::QueryOptions& = {}) = delete;

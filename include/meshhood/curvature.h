@@ -10,6 +10,7 @@
 #include "meshhood/batch.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/owner.h"
 #include "meshhood/progress.h"
 
 /// Curvature at a scale: the shape of the surface in the neighborhood of a vertex with radius r. The measures and how
@@ -43,10 +44,6 @@ class CurvatureIndex {
   /// Throws Error{InvalidMesh}, naming the vertex, if a normal is infinite.
   [[nodiscard]] static CurvatureIndex build(const Index& index, std::span<const double> normals);
 
-  CurvatureIndex(CurvatureIndex&&) noexcept;
-  CurvatureIndex& operator=(CurvatureIndex&&) noexcept;
-  ~CurvatureIndex();
-
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
@@ -58,7 +55,7 @@ class CurvatureIndex {
 
   struct State;
   explicit CurvatureIndex(std::unique_ptr<const State> state);
-  std::unique_ptr<const State> state_;
+  detail::Owner<const State> state_;
 };
 
 /// How principal curvatures follow from the fitted quadric z = a x^2 + b x y + c y^2 + d x + e y.

@@ -9,6 +9,7 @@
 #include "meshhood/filter.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/owner.h"
 #include "meshhood/search.h"
 
 namespace meshhood {
@@ -38,9 +39,6 @@ class EdgeSearcher {
  public:
   explicit EdgeSearcher(const Index& index);
   explicit EdgeSearcher(const Index&&) = delete;
-  EdgeSearcher(EdgeSearcher&&) noexcept;
-  EdgeSearcher& operator=(EdgeSearcher&&) noexcept;
-  ~EdgeSearcher();
 
   /// Goes on with `index`: the answers are then those of a new searcher. After `refit_in_place`, the next search along
   /// the edges takes O(#V + #E), as the first of an index does.
@@ -51,7 +49,8 @@ class EdgeSearcher {
   [[nodiscard]] std::size_t vertex_count() const;
 
   /// The permutation of the index.
-  [[nodiscard]] std::span<const VertexId> permutation() const;
+  [[nodiscard]] std::span<const VertexId> permutation() const&;
+  [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
   [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius, const Filter& filter = {}) {
@@ -73,7 +72,7 @@ class EdgeSearcher {
 
   /// The same vertices as ranges of the index order. Ascending, with gaps between them, none empty; valid until the
   /// next call.
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius, const Filter& filter = {});
+  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius, const Filter& filter = {}) &;
 
   /// The vertices that at most `k` edges separate from `v`, ring by ring: ring `i` has those whose shortest path has
   /// exactly `i` edges.
@@ -87,7 +86,7 @@ class EdgeSearcher {
 
  private:
   struct State;
-  std::unique_ptr<State> state_;
+  detail::Owner<State> state_;
 };
 
 }  // namespace meshhood

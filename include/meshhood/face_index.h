@@ -10,6 +10,7 @@
 #include "meshhood/batch.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/owner.h"
 #include "meshhood/start.h"
 
 namespace meshhood {
@@ -49,10 +50,6 @@ class FaceIndex {
   /// O(#V + #corners), and for a face that is large beside the leaves O(log #V).
   [[nodiscard]] static FaceIndex build(const Index& index, const FacesView& faces);
 
-  FaceIndex(FaceIndex&&) noexcept;
-  FaceIndex& operator=(FaceIndex&&) noexcept;
-  ~FaceIndex();
-
   /// #F.
   [[nodiscard]] std::size_t face_count() const;
 
@@ -79,7 +76,7 @@ class FaceIndex {
   struct State;
   class Search;
   explicit FaceIndex(std::unique_ptr<const State> state);
-  std::unique_ptr<const State> state_;
+  detail::Owner<const State> state_;
 };
 
 }  // namespace meshhood

@@ -38,7 +38,7 @@ struct FeatureOptions {
   std::vector<Feature> kinds = {Feature::Crease};
 
   /// #V, the area of each vertex (see `vertex_areas`): required for Area, Height and Variation.
-  std::span<const double> areas = {};
+  Borrowed<double> areas = {};
 
   /// As for `curvatures`.
   bool filter = true;

@@ -21,9 +21,9 @@ class VertexMask {
   VertexMask(Range&& bytes) : bytes_(bytes) {}
 
   template <BorrowedArray<bool> Range>
-  VertexMask(Range&& values) : VertexMask(std::span<const bool>(values)) {}
-  VertexMask(std::span<const bool> values)
-      : bytes_(reinterpret_cast<const std::uint8_t*>(values.data()), values.size()) {}
+  VertexMask(Range&& values)
+      : bytes_(reinterpret_cast<const std::uint8_t*>(std::span<const bool>(values).data()), std::ranges::size(values)) {
+  }
 
   VertexMask(const std::vector<bool>& bits) : bits_(&bits) {}
   VertexMask(const std::vector<bool>&&) = delete;

@@ -13,6 +13,7 @@
 #include "meshhood/fingerprint.h"
 #include "meshhood/level.h"
 #include "meshhood/mesh.h"
+#include "meshhood/owner.h"
 #include "meshhood/progress.h"
 
 namespace meshhood {
@@ -39,10 +40,6 @@ struct IndexView;
 /// An index that has been moved from can be assigned and destroyed. All else throws Error{InvalidOption}.
 class Index {
  public:
-  Index(Index&&) noexcept;
-  Index& operator=(Index&&) noexcept;
-  ~Index();
-
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
@@ -53,26 +50,31 @@ class Index {
   [[nodiscard]] std::vector<LevelSummary> levels() const;
 
   /// The positions in index order, #V by 3. Valid as long as the index, or until a refit in place.
-  [[nodiscard]] PositionsView positions() const;
+  [[nodiscard]] PositionsView positions() const&;
+  [[nodiscard]] PositionsView positions() const&& = delete;
 
   /// The caller's id of each vertex in index order, #V: the order in which the index stores the vertices, and in which
   /// answers list them. Empty if the two orders are the same (see `reorder`). Valid as
   /// long as the index.
-  [[nodiscard]] std::span<const VertexId> permutation() const;
+  [[nodiscard]] std::span<const VertexId> permutation() const&;
+  [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
   /// The first vertex of each leaf in index order, and #V: #leaves + 1, some empty. Valid as long as the index.
-  [[nodiscard]] std::span<const VertexId> leaf_starts() const;
+  [[nodiscard]] std::span<const VertexId> leaf_starts() const&;
+  [[nodiscard]] std::span<const VertexId> leaf_starts() const&& = delete;
 
   /// The faces of the mesh, if the index comes from a file that was saved with them (see `SaveOptions`); also of its
   /// refits. Corners and offsets have 32 bits. Valid as long as the index. O(1).
-  [[nodiscard]] std::optional<FacesView> faces() const;
+  [[nodiscard]] std::optional<FacesView> faces() const&;
+  [[nodiscard]] std::optional<FacesView> faces() const&& = delete;
 
   /// Moves the vertices of this index, which then equals the result of `refit` with the same arguments (see refit.h).
   /// Without `changed`, positions and bounds are made beside the old ones, which are then freed; with it, they are
   /// changed in place, unless refit.h says otherwise.
   ///
   /// No thread may use the index or its searchers meanwhile. Afterwards a searcher throws Error{InvalidOption} until
-  /// `rebind` makes it one of the new state; a `CurvatureIndex` throws, too, and is to be built again.
+  /// `rebind` makes it one of the new state. A `CurvatureIndex`, a `FaceIndex` and a `SearchMethod` that a filter
+  /// restricts by straight distances or rings throw, too, and are to be made again.
   ///
   /// Throws as `refit`; the index is then as it was.
   void refit_in_place(const PositionsView& positions, const BuildOptions& options = {});
@@ -94,10 +96,10 @@ class Index {
 
   explicit Index(std::shared_ptr<IndexView> view);
 
-  /// Throws if the index has been moved from.
+  /// Throws if the index has been moved from, or is a copy with a filter whose index has been refitted in place.
   [[nodiscard]] IndexView& view() const;
 
-  std::shared_ptr<IndexView> view_;   // searchers share it
+  detail::Owner<IndexView> view_;     // searchers share it
   std::shared_ptr<KeptGraph> graph_;  // and this
 };
 

@@ -23,6 +23,24 @@ inline constexpr std::size_t kMaxVertices = std::numeric_limits<VertexId>::max()
 template <class Range, class T>
 concept BorrowedArray = std::ranges::borrowed_range<Range> && std::convertible_to<Range, std::span<const T>>;
 
+/// A contiguous array that is borrowed: it must outlive this view. A temporary container is rejected by the compiler,
+/// as in each field and parameter of this type.
+template <class T>
+class Borrowed : public std::span<const T> {
+ public:
+  constexpr Borrowed() = default;
+
+  template <BorrowedArray<T> Range>
+  constexpr Borrowed(Range&& array) : std::span<const T>(array) {}
+};
+
+}  // namespace meshhood
+
+template <class T>
+inline constexpr bool std::ranges::enable_borrowed_range<meshhood::Borrowed<T>> = true;
+
+namespace meshhood {
+
 /// A type of coordinates and values.
 template <class T>
 concept FloatOrDouble = std::same_as<T, float> || std::same_as<T, double>;

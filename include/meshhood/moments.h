@@ -35,7 +35,7 @@ struct MomentOptions {
   unsigned degree = 2;
 
   /// #V, finite and >= 0; empty: 1 each. With `vertex_areas`, sums become integrals over the surface.
-  std::span<const double> weights = {};
+  Borrowed<double> weights = {};
 
   /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
   unsigned threads = 1;

@@ -11,6 +11,7 @@
 #include "meshhood/adjacency.h"
 #include "meshhood/level.h"
 #include "meshhood/mesh.h"
+#include "meshhood/owner.h"
 #include "meshhood/progress.h"
 #include "meshhood/search.h"
 
@@ -46,13 +47,9 @@ using LevelSummary = meshhood::LevelSummary;
 /// The hierarchy of connected clusters (3.1), with the positions in the order of the clusters.
 ///
 /// Immutable: any number of threads may query it, each with its own `Searcher`. It does not refer to the mesh. An index
-/// that has been moved from can only be assigned and destroyed.
+/// that has been moved from can be assigned and destroyed. All else throws Error{InvalidOption}.
 class Index {
  public:
-  Index(Index&&) noexcept;
-  Index& operator=(Index&&) noexcept;
-  ~Index();
-
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
@@ -63,11 +60,13 @@ class Index {
   [[nodiscard]] std::vector<LevelSummary> levels() const;
 
   /// The positions in index order, #V by 3. Valid as long as the index.
-  [[nodiscard]] PositionsView positions() const;
+  [[nodiscard]] PositionsView positions() const&;
+  [[nodiscard]] PositionsView positions() const&& = delete;
 
   /// The caller's id of each vertex in index order, #V. Every cluster of every level is a contiguous range of it. Valid
   /// as long as the index.
-  [[nodiscard]] std::span<const VertexId> permutation() const;
+  [[nodiscard]] std::span<const VertexId> permutation() const&;
+  [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
   /// Verifies every statement of sec. 3.1 against the mesh that the index was built from. Returns one line per
   /// violation, naming level and cluster, at most sixteen. An empty result means:
@@ -89,7 +88,7 @@ class Index {
 
   struct Storage;
   explicit Index(std::unique_ptr<const Storage> storage);
-  std::unique_ptr<const Storage> storage_;
+  detail::Owner<const Storage> storage_;
 };
 
 /// Builds the index (3.2): create, select, link and sphere, fusion, level by level. The same mesh and options give the
@@ -126,8 +125,8 @@ struct QueryProfile {
 /// The result need not grow with the radius, because the level may change. The cost is that of the clusters touched,
 /// not of the mesh. Nothing is allocated once the buffers have grown.
 ///
-/// Use one object per thread: it owns scratch memory, about 24 bytes per cluster of the lowest level. The index must
-/// outlive it, and may be moved meanwhile.
+/// Use one object per thread: it owns scratch memory, about 24 bytes per cluster of the lowest level. The index
+/// may be moved or destroyed meanwhile.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius}; arguments are then unchanged.
 class Searcher {
@@ -143,7 +142,8 @@ class Searcher {
   [[nodiscard]] std::size_t vertex_count() const;
 
   /// The permutation of the index.
-  [[nodiscard]] std::span<const VertexId> permutation() const;
+  [[nodiscard]] std::span<const VertexId> permutation() const&;
+  [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
   [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
@@ -161,7 +161,7 @@ class Searcher {
 
   /// The neighborhood as ranges of the index order, without copying ids. In the same order, disjoint, none empty; valid
   /// until the next call. See `visit` and `reduce`.
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
+  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) &;
 
   /// The number of vertices of the neighborhood.
   [[nodiscard]] std::size_t count(VertexId v, double radius);
@@ -191,7 +191,7 @@ class Searcher {
   /// A number that marks no cluster in `visited_` yet.
   std::uint32_t next_query();
 
-  const Index::Storage* storage_;
+  detail::Owner<const Index::Storage> storage_;
   QueryOptions options_;
   std::vector<std::uint32_t> visited_;  // by cluster: the last query that saw it
   std::uint32_t query_ = 0;

@@ -8,6 +8,7 @@
 
 #include "meshhood/adjacency.h"
 #include "meshhood/mesh.h"
+#include "meshhood/owner.h"
 #include "meshhood/search.h"
 
 namespace meshhood {
@@ -33,10 +34,6 @@ class ReferenceSearcher {
   /// Searches a graph given directly. Its adjacency must outlive the searcher. Throws Error{InvalidMesh, TooLarge}.
   explicit ReferenceSearcher(const GraphView& graph);
 
-  ReferenceSearcher(ReferenceSearcher&&) noexcept;
-  ReferenceSearcher& operator=(ReferenceSearcher&&) noexcept;
-  ~ReferenceSearcher();
-
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
@@ -57,7 +54,7 @@ class ReferenceSearcher {
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
   /// The neighborhood as ranges of ids, disjoint, none empty, in the order of the search; valid until the next call.
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
+  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) &;
 
   /// The number of vertices of the neighborhood.
   [[nodiscard]] std::size_t count(VertexId v, double radius);
@@ -69,7 +66,7 @@ class ReferenceSearcher {
   friend struct ReferenceAccess;
 
   struct State;
-  std::unique_ptr<State> state_;
+  detail::Owner<State> state_;
 };
 
 /// Finds every vertex within `radius` of `v` in space, by a scan of all positions (sec. 4.3). This is not a
@@ -101,7 +98,7 @@ class BallSearcher {
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
   /// The vertices as ascending ranges of ids, disjoint, none empty; valid until the next call.
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
+  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) &;
 
   /// The number of vertices in the ball.
   [[nodiscard]] std::size_t count(VertexId v, double radius);

@@ -9,6 +9,7 @@
 #include "meshhood/filter.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/owner.h"
 #include "meshhood/start.h"
 
 namespace meshhood {
@@ -43,9 +44,6 @@ class RegionSearcher {
  public:
   explicit RegionSearcher(const Index& index);
   explicit RegionSearcher(const Index&&) = delete;
-  RegionSearcher(RegionSearcher&&) noexcept;
-  RegionSearcher& operator=(RegionSearcher&&) noexcept;
-  ~RegionSearcher();
 
   /// Goes on with `index`: the answers are then those of a new searcher. After `refit_in_place` of the same index, it
   /// keeps its scratch memory and takes O(1).
@@ -113,7 +111,7 @@ class RegionSearcher {
   friend struct RegionAccess;
 
   struct State;
-  std::unique_ptr<State> state_;
+  detail::Owner<State> state_;
 };
 
 }  // namespace meshhood

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "meshhood/mesh.h"
+#include "meshhood/owner.h"
 #include "meshhood/start.h"
 
 namespace meshhood {
@@ -63,9 +64,6 @@ class RegionMesher {
  public:
   /// Throws Error{InvalidMesh, TooLarge}. O(#V + #corners).
   explicit RegionMesher(const MeshView& mesh);
-  RegionMesher(RegionMesher&&) noexcept;
-  RegionMesher& operator=(RegionMesher&&) noexcept;
-  ~RegionMesher();
 
   /// #V, #F.
   [[nodiscard]] std::size_t vertex_count() const;
@@ -109,7 +107,7 @@ class RegionMesher {
 
  private:
   struct State;
-  std::unique_ptr<State> state_;
+  detail::Owner<State> state_;
 };
 
 }  // namespace meshhood

@@ -12,6 +12,7 @@
 
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/owner.h"
 
 /// Queries about the neighborhood of one vertex: the exact searcher, what all searchers have in common, and the folding
 /// of answers. Batches of many vertices are in batch.h.
@@ -81,9 +82,6 @@ class Searcher {
  public:
   explicit Searcher(const Index& index);
   explicit Searcher(const Index&&) = delete;
-  Searcher(Searcher&&) noexcept;
-  Searcher& operator=(Searcher&&) noexcept;
-  ~Searcher();
 
   /// Goes on with `index`: the answers are then those of a new searcher. After `refit_in_place` of the same index, it
   /// keeps its scratch memory and takes O(1); on a graph unlike a surface, the next query takes O(#V + #E).
@@ -94,7 +92,8 @@ class Searcher {
   [[nodiscard]] std::size_t vertex_count() const;
 
   /// The permutation of the index.
-  [[nodiscard]] std::span<const VertexId> permutation() const;
+  [[nodiscard]] std::span<const VertexId> permutation() const&;
+  [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
   [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
@@ -111,7 +110,7 @@ class Searcher {
 
   /// The neighborhood as ranges of the index order, without copying ids. Ascending, with gaps between them, none empty;
   /// valid until the next call. See `visit` and `reduce`.
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
+  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) &;
 
   /// The number of vertices of the neighborhood.
   [[nodiscard]] std::size_t count(VertexId v, double radius);
@@ -120,7 +119,7 @@ class Searcher {
   friend struct SearcherAccess;
 
   struct State;
-  std::unique_ptr<State> state_;
+  detail::Owner<State> state_;
 };
 
 /// A searcher of any type, for a choice at run time: its answers, order and errors are those of the searcher that it is
@@ -128,13 +127,15 @@ class Searcher {
 class AnySearcher {
  public:
   template <NeighborhoodSearcher S>
-  explicit AnySearcher(S searcher) : searcher_(std::make_unique<Model<S>>(std::move(searcher))) {}
+  explicit AnySearcher(S searcher)
+      : searcher_(std::shared_ptr<Concept>(std::make_shared<Model<S>>(std::move(searcher)))) {}
 
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const { return searcher_->vertex_count(); }
 
   /// That of the searcher.
-  [[nodiscard]] std::span<const VertexId> permutation() const { return searcher_->permutation(); }
+  [[nodiscard]] std::span<const VertexId> permutation() const& { return searcher_->permutation(); }
+  [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
   [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
@@ -152,7 +153,9 @@ class AnySearcher {
   }
 
   /// The neighborhood as ranges of the searcher's order; valid until the next call. See `visit` and `reduce`.
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) { return searcher_->ranges(v, radius); }
+  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) & {
+    return searcher_->ranges(v, radius);
+  }
 
   /// The number of vertices of the neighborhood.
   [[nodiscard]] std::size_t count(VertexId v, double radius) { return searcher_->count(v, radius); }
@@ -190,7 +193,7 @@ class AnySearcher {
     std::size_t count(VertexId v, double radius) override { return searcher.count(v, radius); }
   };
 
-  std::unique_ptr<Concept> searcher_;
+  detail::Owner<Concept> searcher_;
 };
 
 /// Calls `on_run(VertexRange)` for each range of the neighborhood, in the order of `ranges`: with a `Searcher`

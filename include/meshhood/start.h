@@ -22,7 +22,7 @@ class Start {
 
   /// center  any point in space: finite, no coordinate beyond 2^500 in magnitude.
   /// seeds   in [0, #V), in any order; repeats are allowed. A seed outside a ball does not count for that ball.
-  Start(const SpacePoint& center, std::span<const VertexId> seeds) : center_(center), seeds_(seeds) {}
+  Start(const SpacePoint& center, Borrowed<VertexId> seeds) : center_(center), seeds_(seeds) {}
 
   /// Any point in space is the center, and the vertex nearest to it the only seed: what a click or a tracked tool
   /// gives. Throws as `nearest`.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -339,6 +340,36 @@ class Aggregation {
   std::size_t passes_begun_ = 0;
 };
 
+/// The signal, copied where the result lies in its memory: a part of the result is written before all is read.
+class UnchangedSignal {
+ public:
+  UnchangedSignal(const SignalView& signal, std::span<const double> result) : signal_(signal) {
+    signal.values.visit([&](auto values) {
+      if (!overlap(std::as_bytes(values), std::as_bytes(result))) return;
+      values_.assign(values.begin(), values.end());
+      signal_.values = values_;
+    });
+    if (overlap(std::as_bytes(signal.weights), std::as_bytes(result))) {
+      weights_.assign(signal.weights.begin(), signal.weights.end());
+      signal_.weights = weights_;
+    }
+  }
+  UnchangedSignal(const UnchangedSignal&) = delete;
+  UnchangedSignal& operator=(const UnchangedSignal&) = delete;
+  ~UnchangedSignal() = default;
+
+  [[nodiscard]] const SignalView& view() const { return signal_; }
+
+ private:
+  static bool overlap(std::span<const std::byte> a, std::span<const std::byte> b) {
+    return std::less()(a.data(), b.data() + b.size()) && std::less()(b.data(), a.data() + a.size());
+  }
+
+  SignalView signal_;
+  std::vector<double> values_;
+  std::vector<double> weights_;
+};
+
 /// The product, if its doubles fit into memory of `max_bytes`.
 std::size_t checked_size(std::size_t radii, std::size_t rows, std::size_t channels, std::uint64_t max_bytes) {
   const std::uint64_t most =
@@ -370,7 +401,8 @@ void aggregate(const Index& index, const SignalView& signal, const AggregateQuer
     raise(ErrorCode::InvalidOption,
           "the result has room for " + std::to_string(result.size()) + " numbers, expected " + std::to_string(size));
   }
-  Aggregation(index, signal, checked, result, options).run();
+  const UnchangedSignal unchanged(signal, result);
+  Aggregation(index, unchanged.view(), checked, result, options).run();
 }
 
 std::vector<double> aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query,

@@ -44,7 +44,7 @@ void BallSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>
   });
 }
 
-std::span<const VertexRange> BallSearcher::ranges(VertexId v, double radius) {
+std::span<const VertexRange> BallSearcher::ranges(VertexId v, double radius) & {
   ranges_.clear();
   scan(positions_, v, radius, [&](VertexId w, const Point&, const Point&) { append_to(ranges_, w); });
   return ranges_;

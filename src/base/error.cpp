@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "meshhood/error.h"
 
+#include "meshhood/owner.h"
+
 namespace meshhood {
 
 std::string_view describe(ErrorCode code) noexcept {
@@ -17,6 +19,10 @@ std::string_view describe(ErrorCode code) noexcept {
     case ErrorCode::Cancelled: return "the caller cancelled the call, or forked during it";
   }
   return "unknown error";
+}
+
+void detail::raise_moved_from() {
+  raise(ErrorCode::InvalidOption, "the object has been moved from, expected one that was assigned since");
 }
 
 }  // namespace meshhood

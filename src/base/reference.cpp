@@ -129,10 +129,6 @@ ReferenceSearcher::ReferenceSearcher(const GraphView& graph) {
   state_ = std::make_unique<State>(graph);
 }
 
-ReferenceSearcher::ReferenceSearcher(ReferenceSearcher&&) noexcept = default;
-ReferenceSearcher& ReferenceSearcher::operator=(ReferenceSearcher&&) noexcept = default;
-ReferenceSearcher::~ReferenceSearcher() = default;
-
 std::size_t ReferenceSearcher::vertex_count() const { return state_->adjacency.size(); }
 
 void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
@@ -149,7 +145,7 @@ void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<Vert
   state_->measure(v, found, distances);
 }
 
-std::span<const VertexRange> ReferenceSearcher::ranges(VertexId v, double radius) {
+std::span<const VertexRange> ReferenceSearcher::ranges(VertexId v, double radius) & {
   const std::span<const VertexId> found = state_->neighborhood(v, radius);
   state_->ranges.clear();
   for (const VertexId w : found) append_to(state_->ranges, w);

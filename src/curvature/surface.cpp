@@ -172,9 +172,6 @@ CurvatureIndex CurvatureIndex::build(const Index& index, std::span<const double>
 }
 
 CurvatureIndex::CurvatureIndex(std::unique_ptr<const State> state) : state_(std::move(state)) {}
-CurvatureIndex::CurvatureIndex(CurvatureIndex&&) noexcept = default;
-CurvatureIndex& CurvatureIndex::operator=(CurvatureIndex&&) noexcept = default;
-CurvatureIndex::~CurvatureIndex() = default;
 
 std::size_t CurvatureIndex::vertex_count() const { return state_->normal_x.size(); }
 

@@ -22,12 +22,12 @@ class BoundIndex {
 
   /// Throws Error{InvalidOption} if `refit_in_place` has changed the index since.
   void check_current() const {
-    if (view_->version != version_) raise_outdated();
+    if (version_ != *view_->newest) raise_outdated();
   }
 
- private:
   [[noreturn]] static void raise_outdated();
 
+ private:
   std::shared_ptr<const IndexView> view_;
   std::uint64_t version_;
 };

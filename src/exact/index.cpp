@@ -24,35 +24,33 @@ std::size_t bytes_of(const PositionsInOrder& positions) {
 }  // namespace
 
 Index::Index(std::shared_ptr<IndexView> view) : view_(std::move(view)), graph_(std::make_shared<KeptGraph>()) {}
-Index::Index(Index&&) noexcept = default;
-Index& Index::operator=(Index&&) noexcept = default;
-Index::~Index() = default;
 
 IndexView& Index::view() const {
-  if (!view_) raise(ErrorCode::InvalidOption, "the index has been moved from, expected one that holds a mesh");
-  return *view_;
+  IndexView& view = *view_;
+  if (!view.is_current()) BoundIndex::raise_outdated();
+  return view;
 }
 
 void BoundIndex::raise_outdated() {
   raise(ErrorCode::InvalidOption,
-        "the index was refitted in place, expected `rebind` of the searcher, or a new CurvatureIndex, before the next "
-        "call");
+        "the index was refitted in place, expected `rebind` of the searcher, or a new CurvatureIndex, FaceIndex or "
+        "restricted method, before the next call");
 }
 
 std::size_t Index::vertex_count() const { return view().vertex_count(); }
 
-PositionsView Index::positions() const {
+PositionsView Index::positions() const& {
   return std::visit([&](auto xyz) { return PositionsView(xyz.first(3 * vertex_count())); }, view().positions);
 }
 
-std::span<const VertexId> Index::permutation() const {
+std::span<const VertexId> Index::permutation() const& {
   const std::span<const VertexId> padded = view().permutation;
   return padded.empty() ? padded : padded.first(view().vertex_count());
 }
 
-std::span<const VertexId> Index::leaf_starts() const { return view().leaf_begin; }
+std::span<const VertexId> Index::leaf_starts() const& { return view().leaf_begin; }
 
-std::optional<FacesView> Index::faces() const {
+std::optional<FacesView> Index::faces() const& {
   const std::optional<StoredFaces>& faces = view().faces;
   if (!faces) return std::nullopt;
   return faces->view();

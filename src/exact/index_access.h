@@ -27,16 +27,17 @@ struct IndexAccess {
   /// The same index, which must not be refitted in place.
   [[nodiscard]] static Index alias(const Index& index) {
     static_cast<void>(index.view());
-    return make(index.view_, index);
+    return make(index.view_.share(), index);
   }
   [[nodiscard]] static Index make(IndexData arrays) { return make(make_view(std::move(arrays))); }
 
   [[nodiscard]] static const IndexView& view(const Index& index) { return index.view(); }
+  [[nodiscard]] static IndexView& changeable(Index& index) { return index.view(); }
 
   /// Keeps the view alive, for `BoundIndex`.
   [[nodiscard]] static std::shared_ptr<const IndexView> share(const Index& index) {
     static_cast<void>(index.view());
-    return index.view_;
+    return index.view_.share();
   }
 
   /// The graph vertex by vertex, for the same.

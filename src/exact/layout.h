@@ -128,7 +128,12 @@ struct IndexView {
   std::optional<StoredFaces> faces;         // of the index file, if it has them; no search reads them
   std::shared_ptr<const void> owner;        // a `ConnectivityData`, or the bytes of an index file
   std::shared_ptr<GeometryData> geometry;   // of this view alone; none while all arrays are in a file
-  std::uint64_t version = 0;                // the number of refits in place
+  std::uint64_t version = 0;                // the number of refits in place that are in these arrays
+
+  /// The number of all refits in place. A copy with a filter shares it, so that it knows when its index has moved on.
+  std::shared_ptr<std::uint64_t> newest = std::make_shared<std::uint64_t>(0);
+
+  [[nodiscard]] bool is_current() const { return version == *newest; }
 
   [[nodiscard]] std::size_t vertex_count() const { return slot.size(); }
   /// The number of places for leaves. A leaf that does not exist has no vertices.

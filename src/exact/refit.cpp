@@ -35,6 +35,7 @@ void check_precision(const PositionsView& positions, const IndexView& index) {
 /// An index with the connectivity of `index` and another geometry.
 Index with_geometry(const IndexView& index, std::shared_ptr<GeometryData> geometry) {
   auto view = std::make_shared<IndexView>(index);
+  view->newest = std::make_shared<std::uint64_t>(view->version);
   set_geometry(*view, std::move(geometry));
   return IndexAccess::make(std::move(view));
 }
@@ -119,10 +120,9 @@ Index refit(const Index& index, const PositionsView& positions, const IndicesVie
   const IndexView& view = IndexAccess::view(index);
   const std::vector<Move> moves = checked_moves(view, positions, changed);
   if (!stay_in_frame(moves, view.frame)) return with_geometry(view, geometry_beyond_frame(moves, view, task));
-  auto moved = std::make_shared<IndexView>(view);
-  set_geometry(*moved, copy_geometry(view));
-  apply_moves(moves, *moved, task);
-  return IndexAccess::make(std::move(moved));
+  Index moved = with_geometry(view, copy_geometry(view));
+  apply_moves(moves, IndexAccess::changeable(moved), task);
+  return moved;
 }
 
 void Index::refit_in_place(const PositionsView& positions, const BuildOptions& options) {
@@ -130,7 +130,7 @@ void Index::refit_in_place(const PositionsView& positions, const BuildOptions& o
   auto graph = std::make_shared<KeptGraph>();
   set_geometry(view(), geometry_at(positions, view(), task));
   graph_ = std::move(graph);
-  ++view_->version;
+  view_->version = ++*view_->newest;
 }
 
 void Index::refit_in_place(const PositionsView& positions, const IndicesView& changed, const BuildOptions& options) {
@@ -138,7 +138,7 @@ void Index::refit_in_place(const PositionsView& positions, const IndicesView& ch
   auto graph = std::make_shared<KeptGraph>();
   move_in_place(checked_moves(view(), positions, changed), view(), task);
   graph_ = std::move(graph);
-  ++view_->version;
+  view_->version = ++*view_->newest;
 }
 
 }  // namespace meshhood

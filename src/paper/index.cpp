@@ -38,17 +38,14 @@ LevelSummary summarize(const Level<Real>& level) {
 }  // namespace
 
 Index::Index(std::unique_ptr<const Storage> storage) : storage_(std::move(storage)) {}
-Index::Index(Index&&) noexcept = default;
-Index& Index::operator=(Index&&) noexcept = default;
-Index::~Index() = default;
 
 std::size_t Index::vertex_count() const { return permutation().size(); }
 
-PositionsView Index::positions() const {
+PositionsView Index::positions() const& {
   return std::visit([](const auto& hierarchy) { return PositionsView(hierarchy.positions); }, storage_->hierarchy);
 }
 
-std::span<const VertexId> Index::permutation() const {
+std::span<const VertexId> Index::permutation() const& {
   return std::visit([](const auto& hierarchy) { return std::span(hierarchy.vertices); }, storage_->hierarchy);
 }
 

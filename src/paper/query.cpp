@@ -191,7 +191,7 @@ void validate(const QueryOptions& options) {
         "radius_ratio is " + to_text(options.radius_ratio) + ", expected a finite number > 0");
 }
 
-Searcher::Searcher(const Index& index, const QueryOptions& options) : storage_(index.storage_.get()) {
+Searcher::Searcher(const Index& index, const QueryOptions& options) : storage_(index.storage_.share()) {
   set_options(options);
   const std::size_t clusters =
       std::visit([](const auto& hierarchy) { return hierarchy.levels.front().size(); }, storage_->hierarchy);
@@ -205,7 +205,7 @@ void Searcher::set_options(const QueryOptions& options) {
 
 std::size_t Searcher::vertex_count() const { return permutation().size(); }
 
-std::span<const VertexId> Searcher::permutation() const {
+std::span<const VertexId> Searcher::permutation() const& {
   return std::visit([](const auto& hierarchy) { return std::span(hierarchy.vertices); }, storage_->hierarchy);
 }
 
@@ -237,7 +237,7 @@ void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& ou
   run(v, radius, [&](auto& query) { query.collect(out, distances); });
 }
 
-std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) {
+std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) & {
   run(v, radius, [&](auto& query) { query.collect(ranges_); });
   return ranges_;
 }

@@ -227,9 +227,6 @@ FaceIndex FaceIndex::build(const Index& index, const FacesView& faces) {
 }
 
 FaceIndex::FaceIndex(std::unique_ptr<const State> state) : state_(std::move(state)) {}
-FaceIndex::FaceIndex(FaceIndex&&) noexcept = default;
-FaceIndex& FaceIndex::operator=(FaceIndex&&) noexcept = default;
-FaceIndex::~FaceIndex() = default;
 
 std::size_t FaceIndex::face_count() const { return state_->face_count; }
 

@@ -61,9 +61,6 @@ RegionMesher::RegionMesher(const MeshView& mesh) {
   validate(mesh);
   state_ = std::make_unique<State>(mesh);
 }
-RegionMesher::RegionMesher(RegionMesher&&) noexcept = default;
-RegionMesher& RegionMesher::operator=(RegionMesher&&) noexcept = default;
-RegionMesher::~RegionMesher() = default;
 
 std::size_t RegionMesher::vertex_count() const { return state_->positions.size(); }
 std::size_t RegionMesher::face_count() const { return state_->lists.size(); }

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/eigen.h"
+#include "meshhood/io/mesh_io.h"
 #include "meshhood/meshhood.h"
 
 #include "support/families.h"
@@ -26,6 +27,12 @@ template <class T>
 concept MakesTriangles = requires(T&& corners) { FacesView::triangles(std::forward<T>(corners)); };
 template <class T>
 concept HasView = requires(T&& owner) { std::forward<T>(owner).view(); };
+template <class T>
+concept HasPositions = requires(T&& owner) { std::forward<T>(owner).positions(); };
+template <class T>
+concept HasPermutation = requires(T&& owner) { std::forward<T>(owner).permutation(); };
+template <class T>
+concept HasRanges = requires(T&& owner) { std::forward<T>(owner).ranges(VertexId{0}, 1.0); };
 
 // Containers that outlive the view, and views of them.
 static_assert(std::constructible_from<PositionsView, std::vector<float>&>);
@@ -39,6 +46,51 @@ static_assert(std::constructible_from<PositionsView, std::span<const std::array<
 static_assert(MakesTriangles<const std::vector<std::int32_t>&>);
 static_assert(MakesTriangles<std::span<const std::uint64_t>>);
 static_assert(MakesTriangles<const std::vector<std::array<std::uint32_t, 3>>&>);
+
+// What an object owns is not viewed through a temporary.
+static_assert(HasPositions<const Index&> && !HasPositions<Index>);
+static_assert(HasPositions<const paper::Index&> && !HasPositions<paper::Index>);
+static_assert(HasPermutation<const Index&> && !HasPermutation<Index>);
+static_assert(HasPermutation<const paper::Index&> && !HasPermutation<paper::Index>);
+static_assert(HasPermutation<Searcher&> && !HasPermutation<Searcher>);
+static_assert(HasPermutation<EdgeSearcher&> && !HasPermutation<EdgeSearcher>);
+static_assert(HasPermutation<AnySearcher&> && !HasPermutation<AnySearcher>);
+static_assert(HasPermutation<paper::Searcher&> && !HasPermutation<paper::Searcher>);
+static_assert(HasRanges<Searcher&> && !HasRanges<Searcher>);
+static_assert(HasRanges<EdgeSearcher&> && !HasRanges<EdgeSearcher>);
+static_assert(HasRanges<AnySearcher&> && !HasRanges<AnySearcher>);
+static_assert(HasRanges<paper::Searcher&> && !HasRanges<paper::Searcher>);
+static_assert(HasRanges<ReferenceSearcher&> && !HasRanges<ReferenceSearcher>);
+static_assert(HasRanges<BallSearcher&> && !HasRanges<BallSearcher>);
+
+// Each field and parameter that borrows takes a container that lives, and a view of one, but no temporary.
+template <class T>
+constexpr bool kIsBorrowed = std::constructible_from<T, const std::vector<typename T::value_type>&> &&
+                             std::constructible_from<T, std::span<const typename T::value_type>> &&
+                             std::constructible_from<T, std::span<typename T::value_type>> &&
+                             !std::constructible_from<T, std::vector<typename T::value_type>> &&
+                             !std::constructible_from<T, std::array<typename T::value_type, 3>>;
+static_assert(kIsBorrowed<decltype(SignalView::weights)>);
+static_assert(kIsBorrowed<decltype(MomentOptions::weights)>);
+static_assert(kIsBorrowed<decltype(FeatureOptions::areas)>);
+static_assert(kIsBorrowed<decltype(AdjacencyView::offsets)>);
+static_assert(kIsBorrowed<decltype(AdjacencyView::neighbors)>);
+static_assert(kIsBorrowed<decltype(io::VertexProperty::values)>);
+static_assert(kIsBorrowed<decltype(io::PlyOptions::colors)>);
+static_assert(std::constructible_from<ValuesView, const std::vector<float>&>);
+static_assert(!std::constructible_from<ValuesView, std::vector<float>>);
+static_assert(std::constructible_from<Start, SpacePoint, const std::vector<VertexId>&>);
+static_assert(!std::constructible_from<Start, SpacePoint, std::vector<VertexId>>);
+static_assert(std::constructible_from<AdjacencyView, std::vector<EdgeOffset>&, std::vector<VertexId>&>);
+static_assert(!std::constructible_from<AdjacencyView, std::vector<EdgeOffset>, std::vector<VertexId>&>);
+static_assert(!std::constructible_from<AdjacencyView, std::vector<EdgeOffset>&, std::vector<VertexId>>);
+static_assert(std::constructible_from<VertexMask, const std::array<bool, 3>&>);
+static_assert(std::constructible_from<VertexMask, std::span<const bool>>);
+static_assert(!std::constructible_from<VertexMask, std::array<bool, 3>>);
+static_assert(!std::constructible_from<VertexMask, std::vector<bool>>);
+static_assert(!std::constructible_from<VertexMask, std::vector<std::uint8_t>>);
+static_assert(!std::constructible_from<BatchVertices, std::vector<VertexId>>);
+static_assert(!std::constructible_from<BatchRadius, std::vector<double>>);
 
 // Indices of each width, the rows of other libraries, and rows with more than three scalars.
 struct Padded {

@@ -66,7 +66,7 @@ TEST(Index, ThatHasBeenMovedFromIsRefusedByEveryCallAndCanBeAssigned) {
   Index index = build(mesh.view());
   const Index taken = std::move(index);
   const auto refuse = [&](const auto& call) {  // NOLINTBEGIN(bugprone-use-after-move): the subject of this test
-    expect_refused(ErrorCode::InvalidOption, "the index has been moved from, expected one that holds a mesh", call);
+    expect_refused(ErrorCode::InvalidOption, "has been moved from", call);
   };
   refuse([&] { static_cast<void>(index.vertex_count()); });
   refuse([&] { static_cast<void>(index.bytes()); });

@@ -58,9 +58,6 @@ struct EdgeSearcher::State {
 };
 
 EdgeSearcher::EdgeSearcher(const Index& index) : state_(std::make_unique<State>(index)) {}
-EdgeSearcher::EdgeSearcher(EdgeSearcher&&) noexcept = default;
-EdgeSearcher& EdgeSearcher::operator=(EdgeSearcher&&) noexcept = default;
-EdgeSearcher::~EdgeSearcher() = default;
 
 void EdgeSearcher::rebind(const Index& index) {
   if (state_ && state_->index.is_of(index)) {
@@ -74,7 +71,7 @@ void EdgeSearcher::rebind(const Index& index) {
 
 std::size_t EdgeSearcher::vertex_count() const { return state_->index->vertex_count(); }
 
-std::span<const VertexId> EdgeSearcher::permutation() const {
+std::span<const VertexId> EdgeSearcher::permutation() const& {
   const std::span<const VertexId> padded = state_->index->permutation;
   return padded.empty() ? padded : padded.first(vertex_count());
 }
@@ -109,7 +106,7 @@ std::size_t EdgeSearcher::count(VertexId v, double radius, const Filter& filter)
   return count;
 }
 
-std::span<const VertexRange> EdgeSearcher::ranges(VertexId v, double radius, const Filter& filter) {
+std::span<const VertexRange> EdgeSearcher::ranges(VertexId v, double radius, const Filter& filter) & {
   state_->search(v, radius, filter);
   std::vector<VertexRange>& ranges = state_->ranges;
   std::vector<VertexId> positions;

@@ -58,9 +58,10 @@ bool RegionSearcher::nested(const Start& start, std::span<const double> radii, s
       append(state.answer);
     }
   }
-  out = std::move(ids);
+  const bool has_seed = radii.empty() || state.has_seed(start, radii.back());
+  out = std::move(ids);  // which may be the seeds
   counts = std::move(sizes);
-  return radii.empty() || state.has_seed(start, radii.back());
+  return has_seed;
 }
 
 }  // namespace meshhood

@@ -81,9 +81,6 @@ Point RegionSearcher::State::search(const Start& start, double radius, const Fil
 
 RegionSearcher::RegionSearcher(const Index& index)
     : state_(std::make_unique<State>(BoundIndex(index), IndexAccess::share_graph(index), best_isa())) {}
-RegionSearcher::RegionSearcher(RegionSearcher&&) noexcept = default;
-RegionSearcher& RegionSearcher::operator=(RegionSearcher&&) noexcept = default;
-RegionSearcher::~RegionSearcher() = default;
 
 void RegionSearcher::rebind(const Index& index) {
   if (state_ && state_->index.is_of(index)) {
@@ -97,19 +94,21 @@ void RegionSearcher::rebind(const Index& index) {
 
 bool RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter) {
   state_->search(start, radius, filter);
+  const bool has_seed = state_->has_seed(start, radius);  // before `out` changes, which may be the seeds
   replace_ids(state_->answer, *state_->index, *state_->kernels, out);
-  return state_->has_seed(start, radius);
+  return has_seed;
 }
 
 bool RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out,
                             std::vector<double>& distances, const Filter& filter) {
   const Point center = state_->search(start, radius, filter);
+  const bool has_seed = state_->has_seed(start, radius);
   // Before `out` changes: if this throws, neither has changed.
   distances.reserve(state_->answer.count());
   replace_ids(state_->answer, *state_->index, *state_->kernels, out);
   distances.resize(out.size());
   write_distances(state_->answer, *state_->index, center, distances.data());
-  return state_->has_seed(start, radius);
+  return has_seed;
 }
 
 std::size_t RegionSearcher::count(const Start& start, double radius, const Filter& filter) {

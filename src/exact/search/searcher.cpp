@@ -111,9 +111,6 @@ bool Searcher::State::is_alone(std::uint32_t slot) const {
 
 Searcher::Searcher(const Index& index)
     : state_(std::make_unique<State>(BoundIndex(index), IndexAccess::share_graph(index), best_isa())) {}
-Searcher::Searcher(Searcher&&) noexcept = default;
-Searcher& Searcher::operator=(Searcher&&) noexcept = default;
-Searcher::~Searcher() = default;
 
 void Searcher::rebind(const Index& index) {
   if (state_ && state_->index.is_of(index)) {
@@ -125,7 +122,7 @@ void Searcher::rebind(const Index& index) {
 
 std::size_t Searcher::vertex_count() const { return state_->index->vertex_count(); }
 
-std::span<const VertexId> Searcher::permutation() const {
+std::span<const VertexId> Searcher::permutation() const& {
   const std::span<const VertexId> padded = state_->index->permutation;
   return padded.empty() ? padded : padded.first(vertex_count());
 }
@@ -144,7 +141,7 @@ void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& ou
   write_distances(state_->answer, *state_->index, state_->center_of(v), distances.data());
 }
 
-std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) {
+std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) & {
   state_->search(v, radius);
   return state_->answer.ranges();
 }

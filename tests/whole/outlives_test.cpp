@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+// What is made from an index before it changes: after a refit in place it answers by the new positions or refuses;
+// after a refit, a move or the end of the index it answers as the index was. What has been moved from refuses. A result
+// may lie in the memory of an argument.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/meshhood.h"
+
+#include "support/families.h"
+#include "support/refusal.h"
+
+namespace meshhood::test {
+namespace {
+
+constexpr double kRadius = 2.5;
+
+/// What an object answers, as numbers that can be compared.
+using Answer = std::vector<double>;
+/// Asks an object that was made before a change.
+using Ask = std::function<Answer()>;
+
+template <class T>
+Answer numbers(const std::vector<T>& list) {
+  Answer answer(list.begin(), list.end());
+  for (double& number : answer) {
+    if (std::isnan(number)) number = -1e300;  // so that it equals itself
+  }
+  return answer;
+}
+
+template <class Made>
+std::shared_ptr<Made> kept(Made made) {
+  return std::make_shared<Made>(std::move(made));
+}
+
+/// All that can be made from an index and lives on, by its name.
+std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
+                                      const std::vector<std::uint8_t>& walls) {
+  const VertexId v = 44;
+  std::map<std::string, Ask> all;
+  const auto add_searcher = [&]<class S>(const std::string& name, S made) {
+    auto searcher = kept(std::move(made));
+    all[name + ": neighborhood"] = [=] { return numbers(searcher->neighborhood(v, kRadius)); };
+    all[name + ": count"] = [=] { return Answer{static_cast<double>(searcher->count(v, kRadius))}; };
+    all[name + ": distances"] = [=] {
+      std::vector<VertexId> ids;
+      std::vector<double> distances;
+      searcher->neighborhood(v, kRadius, ids, distances);
+      return distances;
+    };
+    all[name + ": ranges"] = [=] {
+      Answer answer;
+      for (const VertexRange& range : searcher->ranges(v, kRadius)) {
+        answer.push_back(range.begin);
+        answer.push_back(range.end);
+      }
+      return answer;
+    };
+  };
+  const auto add_method = [&](const std::string& name, const SearchMethod& method) {
+    all[name + ": counts"] = [=] { return numbers(counts(method, {.radius = kRadius})); };
+    all[name + ": ids"] = [=] { return numbers(neighborhoods(method, {.radius = kRadius}).ids); };
+    add_searcher(name + ": searcher", method.make_searcher());
+  };
+  add_searcher("Searcher", Searcher(index));
+  add_searcher("EdgeSearcher", EdgeSearcher(index));
+  const std::vector<std::pair<std::string, SearchMethod>> methods{{"straight", SearchMethod(index)},
+                                                                  {"paths", SearchMethod::along_edges(index)},
+                                                                  {"rings", SearchMethod::rings(index)},
+                                                                  {"space", SearchMethod::in_space(index)}};
+  for (const auto& [name, method] : methods) {
+    add_method(name, method);
+    if (name != "space") add_method(name + " restricted", method.restricted({.walls = walls}));
+  }
+  const auto regions = kept(RegionSearcher(index));
+  all["RegionSearcher: region"] = [=] { return numbers(regions->region(v, kRadius)); };
+  all["RegionSearcher: walls"] = [=, &walls] { return numbers(regions->region(v, kRadius, {.walls = walls})); };
+  all["RegionSearcher: connecting radius"] = [=] { return Answer{regions->connecting_radius(v, 0)}; };
+  const auto faces = kept(FaceIndex::build(index, mesh.view().faces));
+  all["FaceIndex"] = [=] { return Answer{faces->closest_point({3.2, 4.1, 7}).distance}; };
+  const auto surface = kept(CurvatureIndex::build(index, mesh.view()));
+  all["CurvatureIndex: curvatures"] = [=] { return numbers(curvatures(*surface, {.radius = kRadius}).k1); };
+  all["CurvatureIndex: features"] = [=] {
+    return numbers(features(*surface, {.radius = BatchRadius::scales({kRadius})}));
+  };
+  return all;
+}
+
+class Outlives : public testing::Test {
+ protected:
+  Outlives() {
+    for (std::size_t v = 0; v < mesh.size(); v += 5) walls[v] = 1;
+    walls[44] = 0;
+    for (std::size_t i = 0; i < moved.positions.size(); ++i) moved.positions[i] *= 1.5;
+  }
+
+  /// Asks all, and counts those that refuse.
+  void expect_current_or_refused(const std::map<std::string, Ask>& before, const std::map<std::string, Ask>& after) {
+    std::size_t refused = 0;
+    std::size_t right = 0;
+    for (const auto& [name, ask] : before) {
+      try {
+        EXPECT_EQ(ask(), after.at(name)()) << name;
+        ++right;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::InvalidOption) << name;
+        EXPECT_THAT(error.what(), testing::HasSubstr("refitted in place")) << name;
+        ++refused;
+      }
+    }
+    std::printf("%zu answer by the new positions, %zu refuse\n", right, refused);
+    EXPECT_GT(right, 0U);
+    EXPECT_GT(refused, 0U);
+  }
+
+  TestMesh mesh = bumpy_grid(12).finish(false);
+  TestMesh moved = mesh;
+  std::vector<std::uint8_t> walls = std::vector<std::uint8_t>(mesh.size());
+  Index index = build(mesh.view());
+};
+
+TEST_F(Outlives, ARefitInPlaceOfAllPositions) {
+  const auto before = everything(index, mesh, walls);
+  for (const auto& [name, ask] : before) static_cast<void>(ask());
+  index.refit_in_place(moved.positions_view());
+  expect_current_or_refused(before, everything(index, moved, walls));
+}
+
+TEST_F(Outlives, ARefitInPlaceOfSomeVertices) {
+  const std::vector<VertexId> changed{43, 44, 45, 56, 57};
+  TestMesh some = mesh;
+  for (const VertexId v : changed) some.positions[3 * v + 2] += 2;
+  const auto before = everything(index, mesh, walls);
+  index.refit_in_place(some.positions_view(), changed);
+  expect_current_or_refused(before, everything(index, some, walls));
+}
+
+TEST_F(Outlives, ARefitAMoveAndTheEndOfTheIndex) {
+  std::map<std::string, Answer> expected;
+  for (const auto& [name, ask] : everything(index, mesh, walls)) expected[name] = ask();
+  std::optional<Index> owner(std::move(index));
+  const auto before = everything(*owner, mesh, walls);
+  {
+    const Index other = refit(*owner, moved.positions_view());
+    for (const auto& [name, ask] : before) EXPECT_EQ(ask(), expected[name]) << name;
+  }
+  const Index taken = std::move(*owner);
+  std::size_t asked = 0;
+  for (const auto& [name, ask] : before) {
+    const bool borrows = name.find("straight: ") == 0 || name.find("paths") == 0 || name.find("rings: ") == 0 ||
+                         name.find("space: ") == 0;  // methods, of which the index must stay where it is
+    if (borrows && name.find("searcher") == std::string::npos) continue;
+    EXPECT_EQ(ask(), expected[name]) << name;
+    ++asked;
+  }
+  std::printf("%zu kinds\n", asked);
+}
+
+TEST_F(Outlives, RebindMakesSearchersOfTheNewState) {
+  Searcher searcher(index);
+  EdgeSearcher edges(index);
+  RegionSearcher regions(index);
+  index.refit_in_place(moved.positions_view());
+  searcher.rebind(index);
+  edges.rebind(index);
+  regions.rebind(index);
+  EXPECT_EQ(searcher.neighborhood(44, kRadius), Searcher(index).neighborhood(44, kRadius));
+  EXPECT_EQ(regions.region(44, kRadius), RegionSearcher(index).region(44, kRadius));
+  std::vector<VertexId> ids;
+  std::vector<VertexId> expected;
+  edges.neighborhood(44, kRadius, ids);
+  EdgeSearcher(index).neighborhood(44, kRadius, expected);
+  EXPECT_EQ(ids, expected);
+}
+
+/// Calls `ask` on an object of which `take` has moved the state to another.
+template <class Made>
+void expect_moved_from_refused(const std::string& name, Made made, const std::function<void(Made&)>& ask) {
+  SCOPED_TRACE(name);
+  Made taken = std::move(made);
+  expect_refused(ErrorCode::InvalidOption, "has been moved from",
+                 [&] { ask(made); });  // NOLINT(bugprone-use-after-move)
+  ask(taken);
+  made = std::move(taken);
+  ask(made);
+}
+
+TEST_F(Outlives, WhatHasBeenMovedFromRefusesUntilItIsAssigned) {
+  const auto find = [](auto& searcher) { static_cast<void>(searcher.count(44, kRadius)); };
+  expect_moved_from_refused<Searcher>("Searcher", Searcher(index), find);
+  expect_moved_from_refused<EdgeSearcher>("EdgeSearcher", EdgeSearcher(index), find);
+  expect_moved_from_refused<ReferenceSearcher>("ReferenceSearcher", ReferenceSearcher(mesh.view()), find);
+  expect_moved_from_refused<AnySearcher>("AnySearcher", SearchMethod(index).make_searcher(), find);
+  expect_moved_from_refused<RegionSearcher>("RegionSearcher", RegionSearcher(index), find);
+  const paper::Index approximate = paper::build(mesh.view());
+  expect_moved_from_refused<paper::Searcher>("paper::Searcher", paper::Searcher(approximate), find);
+  expect_moved_from_refused<paper::Index>("paper::Index", paper::build(mesh.view()),
+                                          [](paper::Index& made) { static_cast<void>(made.vertex_count()); });
+  expect_moved_from_refused<FaceIndex>("FaceIndex", FaceIndex::build(index, mesh.view().faces),
+                                       [](FaceIndex& made) { static_cast<void>(made.closest_point({0, 0, 0})); });
+  expect_moved_from_refused<CurvatureIndex>(
+      "CurvatureIndex", CurvatureIndex::build(index, mesh.view()),
+      [](CurvatureIndex& made) { static_cast<void>(curvatures(made, {.radius = kRadius})); });
+  expect_moved_from_refused<RegionMesher>("RegionMesher", RegionMesher(mesh.view()), [](RegionMesher& made) {
+    static_cast<void>(made.submesh(std::vector<VertexId>{1, 2}));
+  });
+}
+
+TEST_F(Outlives, AMethodThatHasBeenMovedFromIsACopy) {
+  SearchMethod method(index);
+  const SearchMethod taken = std::move(method);
+  EXPECT_EQ(counts(method, {.radius = kRadius}),  // NOLINT(bugprone-use-after-move)
+            counts(taken, {.radius = kRadius}));
+}
+
+TEST_F(Outlives, ResultsInTheMemoryOfArguments) {
+  RegionSearcher regions(index);
+  const SpacePoint center{4.2, 5.1, 0};
+  const std::vector<VertexId> seeds{52, 64, 65};
+  const std::vector<double> radii{0.0, 1.0, kRadius};
+  std::vector<VertexId> ids = seeds;
+  const std::vector<VertexId> expected = regions.region(Start(center, seeds), kRadius);
+  EXPECT_TRUE(regions.region(Start(center, ids), kRadius, ids));
+  EXPECT_EQ(ids, expected);
+
+  std::vector<double> distances;
+  ids = seeds;
+  EXPECT_TRUE(regions.region(Start(center, ids), kRadius, ids, distances));
+  EXPECT_EQ(ids, expected);
+
+  // Far from all seeds the answer is empty, and whether a seed lies in the ball is asked last.
+  ids = seeds;
+  EXPECT_FALSE(regions.region(Start(SpacePoint{100, 0, 0}, ids), kRadius, ids));
+  ids = seeds;
+  std::vector<std::size_t> sizes;
+  EXPECT_FALSE(regions.nested(Start(SpacePoint{100, 0, 0}, ids), radii, ids, sizes));
+  EXPECT_THAT(ids, testing::IsEmpty());
+
+  ids = seeds;
+  EXPECT_TRUE(regions.nested(Start(center, ids), radii, ids, sizes));
+  std::sort(ids.begin(), ids.end());
+  std::vector<VertexId> sorted = expected;
+  std::sort(sorted.begin(), sorted.end());
+  EXPECT_EQ(ids, sorted);
+
+  ids = seeds;
+  const Dab dab{Start(center, ids), kRadius};
+  EXPECT_TRUE(regions.stroke({&dab, 1}, ids));
+  EXPECT_EQ(ids, expected);
+
+  std::vector<VertexId> nearest;
+  std::vector<double> found;
+  regions.nearest_connected(Start(center, seeds), 10, nearest, found);
+  ids = seeds;
+  regions.nearest_connected(Start(center, ids), 10, ids, found);
+  EXPECT_EQ(ids, nearest);
+
+  std::vector<VertexId> rows(mesh.size());
+  for (VertexId v = 0; v < rows.size(); ++v) rows[v] = v;
+  std::vector<double> row_radii(mesh.size(), 0.5);
+  const Neighborhoods plain = neighborhoods(index, {.vertices = rows, .radius = row_radii});
+  ASSERT_EQ(plain.ids.size(), rows.size());
+  static_cast<void>(neighborhoods(
+      index, {.vertices = rows, .radius = row_radii},
+      [&](std::size_t count) { return BatchMemory{std::span(rows).first(count), std::span(row_radii).first(count)}; },
+      {.distances = true}));
+  EXPECT_EQ(rows, plain.ids);
+}
+
+TEST_F(Outlives, AnAggregateInPlace) {
+  for (const std::size_t channels : {1U, 16U, 17U, 40U}) {
+    for (const SmoothingKernel kernel : {SmoothingKernel::Box, SmoothingKernel::Biweight}) {
+      std::vector<double> values(mesh.size() * channels);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i * 37 % 101);
+      const AggregateQuery query{.radius = kRadius, .reduce = Reduce::Mean, .kernel = kernel};
+      const std::vector<double> expected = aggregate(index, {.values = values, .channels = channels}, query);
+      aggregate(index, {.values = values, .channels = channels}, query, values);
+      EXPECT_EQ(values, expected) << channels << " channels";
+    }
+  }
+  std::vector<double> weights(mesh.size(), 2);
+  weights[7] = 1;
+  const std::vector<double> values(mesh.size(), 3);
+  const AggregateQuery query{.radius = BatchRadius::scales({kRadius}), .reduce = Reduce::Sum};
+  const std::vector<double> expected = aggregate(index, {.values = values, .weights = weights}, query);
+  aggregate(index, {.values = values, .weights = weights}, query, weights);
+  EXPECT_EQ(weights, expected);
+}
+
+}  // namespace
+}  // namespace meshhood::test
