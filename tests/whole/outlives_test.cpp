@@ -168,6 +168,15 @@ TEST_F(Outlives, ARefitAMoveAndTheEndOfTheIndex) {
   std::printf("%zu kinds\n", asked);
 }
 
+TEST_F(Outlives, ARefittedIndexARefitOfItsOrigin) {
+  const Index other = refit(index, moved.positions_view());
+  Searcher searcher(other);
+  const std::vector<VertexId> expected = searcher.neighborhood(44, kRadius);
+  index.refit_in_place(mesh.positions_view());
+  EXPECT_EQ(searcher.neighborhood(44, kRadius), expected);
+  EXPECT_EQ(Searcher(other).neighborhood(44, kRadius), expected);
+}
+
 TEST_F(Outlives, RebindMakesSearchersOfTheNewState) {
   Searcher searcher(index);
   EdgeSearcher edges(index);
