@@ -70,7 +70,10 @@ std::string read_text(const fs::path& path) {
   io::FileSource source(path);
   std::string text;
   std::array<char, std::size_t{1} << 16> piece;
-  while (const std::size_t count = source.read(piece)) text.append(piece.data(), count);
+  while (const std::size_t count = source.read(piece)) {
+    text.append(piece.data(), count);
+    if (text.size() > kMostBytes) io::raise_io(path, 0, "is not the page of the viewer: it is too large");
+  }
   return text;
 }
 
@@ -95,6 +98,7 @@ void write_base64(io::FileWriter& output, const fs::path& mesh, Task& task) {
     }
     output.write(base64(std::span(piece).first(filled)));
     done += filled;
+    if (done > kMostBytes) io::raise_io(mesh, 0, "has grown beyond what a page holds while it was read");
     io::report(progress, done, std::max(done, total), mesh.string());
   }
 }
@@ -126,6 +130,8 @@ void write_page(const fs::path& output, const fs::path& mesh, const PageSettings
   check_mesh_of_page(mesh);
   const fs::path page = find_page();
   const std::string text = read_text(page);
+  std::error_code none;
+  if (fs::equivalent(page, output, none)) io::raise_io(output, 0, "is the page that is copied, expected another file");
   const std::size_t place = text.find(kPlace);
   if (place == std::string::npos) io::raise_io(page, 0, "is not the page of the viewer");
   Task task("writing the page");

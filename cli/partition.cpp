@@ -37,12 +37,12 @@ struct PartitionCommand {
   std::string output;
 };
 
-std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options) {
+std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const Progress& progress) {
   if (!options.faces.empty()) return parts::open_arrays(options.mesh, options.faces);
   // A mesh that is read into memory takes several times the bytes of its file.
   constexpr std::uint64_t kMemoryPerByte = 4;
   const std::uint64_t most = options.memory / kMemoryPerByte;
-  if (options.weld.empty()) return parts::open_mesh(options.mesh, most);
+  if (options.weld.empty()) return parts::open_mesh(options.mesh, most, progress);
   io::Mesh mesh = read_mesh(options.mesh, options.threads, most);
   static_cast<void>(Welding(mesh, options.weld, options.mesh));
   return parts::chunked(std::move(mesh), printable_name(options.mesh));
@@ -50,7 +50,7 @@ std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options) {
 
 parts::PartitionResult run(const PartitionCommand& options) {
   Task task("partitioning " + options.mesh);
-  return partition(*open(options), options.output,
+  return partition(*open(options, task.progress()), options.output,
                    {.parts = options.parts,
                     .vertices_per_part = options.vertices_per_part,
                     .halo = parse_radius("halo", options.halo),

@@ -45,7 +45,6 @@ void replace_handlers(void (*expected)(int), void (*handler)(int)) {
 }  // namespace
 
 Task::Task(std::string_view description, Unit unit) : description_(io::printable_name(description)), unit_(unit) {
-  caught = 0;
   replace_handlers(SIG_DFL, remember);
   if (isatty(STDERR_FILENO) == 0) return;
   display_ = std::jthread([this](const std::stop_token& stop) { show(stop); });

@@ -12,6 +12,8 @@
 
 #include "meshhood/progress.h"
 
+#include "io/waiting.h"
+
 namespace meshhood::cli {
 
 /// The unit of the parts of a task, for the displayed rate.
@@ -24,7 +26,8 @@ struct Unit {
 ///  - a line on standard error shows the progress, the rate and the time left: only on a terminal, only after a second,
 ///    and removed at the end;
 ///  - SIGINT, SIGHUP, SIGTERM and SIGXCPU do not end the program. `progress()` then returns false, so that the
-///    operation throws Error{Cancelled} and removes its temporary file.
+///    operation throws Error{Cancelled} and removes its temporary file. So does one that waits for another process at
+///    a pipe, or for a terminal.
 class Task {
  public:
   explicit Task(std::string_view description, Unit unit = {});
@@ -45,6 +48,7 @@ class Task {
   void show(const std::stop_token& stop);
   void draw(double seconds) const;
 
+  io::WhileWaiting waiting_{check_cancelled};
   std::string description_;
   Unit unit_;
   std::atomic<std::size_t> done_ = 0;

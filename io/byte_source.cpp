@@ -10,20 +10,9 @@
 #include <sys/stat.h>
 
 #include "io/messages.h"
+#include "io/waiting.h"
 
 namespace meshhood::io {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-// How long to wait for a writer to open a named pipe.
-constexpr auto kWriterTimeout = std::chrono::seconds(2);
-
-constexpr auto kNoTimeout = Clock::duration::max();
-constexpr auto kPollInterval = std::chrono::milliseconds(100);
-
-}  // namespace
-
 std::size_t MemorySource::read(std::span<char> out) {
   const std::size_t count = std::min(out.size(), left_.size());
   if (count != 0) std::memcpy(out.data(), left_.data(), count);
@@ -43,6 +32,13 @@ FileSource::FileSource(const std::filesystem::path& path) : path_(path), file_(o
   // Opened by another process, without O_NONBLOCK, and perhaps read in part.
   may_block_ = !is_file;
   if (size_) *size_ -= std::min(*size_, static_cast<std::uint64_t>(::lseek(file_.number(), 0, SEEK_CUR)));
+}
+
+FileSource::FileSource(const std::filesystem::path& path, Descriptor file) : path_(path), file_(std::move(file)) {
+  const struct stat status = status_of(file_, path);
+  is_regular_ = S_ISREG(status.st_mode);
+  size_ = static_cast<std::uint64_t>(status.st_size);
+  if (::lseek(file_.number(), 0, SEEK_SET) < 0) raise_errno(path, errno);
 }
 
 std::string_view FileSource::peek(std::size_t count) {
@@ -67,29 +63,25 @@ std::size_t FileSource::read(std::span<char> out) {
 
 std::size_t FileSource::read_file(std::span<char> out) {
   for (;;) {
-    if (may_block_) static_cast<void>(wait_for_bytes(kNoTimeout));
+    if (may_block_) wait_for(file_.number(), POLLIN, kNoTimeout);
     const ssize_t count = ::read(file_.number(), out.data(), out.size());
     if (count == 0 && std::exchange(may_lack_a_writer_, false)) {
-      if (!wait_for_bytes(kWriterTimeout)) raise_io(path_, ETIMEDOUT, "no process writes to this pipe");
+      if (!wait_for(file_.number(), POLLIN, kPartnerTimeout))
+        raise_io(path_, ETIMEDOUT, "no process writes to this pipe");
       continue;
     }
     if (count >= 0) {
       may_lack_a_writer_ = false;
       return static_cast<std::size_t>(count);
     }
-    if (errno == EAGAIN && wait_for_bytes(kNoTimeout)) continue;
-    if (errno != EINTR) raise_errno(path_, errno);
+    if (errno == EAGAIN) {
+      wait_for(file_.number(), POLLIN, kNoTimeout);
+    } else if (errno == EINTR) {
+      report_wait();
+    } else {
+      raise_errno(path_, errno);
+    }
   }
-}
-
-bool FileSource::wait_for_bytes(Clock::duration limit) const {
-  pollfd waiting = {file_.number(), POLLIN, 0};
-  const auto start = Clock::now();
-  while (::poll(&waiting, 1, static_cast<int>(kPollInterval.count())) <= 0) {
-    if (while_waiting_) while_waiting_();
-    if (Clock::now() - start >= limit) return false;
-  }
-  return true;
 }
 
 }  // namespace meshhood::io

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "io/descriptor.h"
 
@@ -44,10 +41,14 @@ class MemorySource final : public ByteSource {
   std::span<const std::byte> left_;
 };
 
-/// A file, pipe or device, read in one pass. All errors are Error{IoFailure}, naming the path.
+/// A file, pipe or device, read in one pass. Waits for others as `WhileWaiting` says; a named pipe that no process
+/// opens to write within two seconds is refused. All errors are Error{IoFailure}, naming the path.
 class FileSource final : public ByteSource {
  public:
   explicit FileSource(const std::filesystem::path& path);
+
+  /// A regular file that is open already, from its first byte on. `path` is for messages.
+  FileSource(const std::filesystem::path& path, Descriptor file);
 
   [[nodiscard]] std::optional<std::uint64_t> size() const override { return size_; }
   [[nodiscard]] std::size_t read(std::span<char> out) override;
@@ -59,12 +60,8 @@ class FileSource final : public ByteSource {
   /// Whether it is neither a pipe nor a device, nor standard input, which can be read once.
   [[nodiscard]] bool is_regular() const { return is_regular_; }
 
-  /// Calls `f` about ten times a second while there is nothing to read. `read` passes on what it throws.
-  void while_waiting(std::function<void()> f) { while_waiting_ = std::move(f); }
-
  private:
   [[nodiscard]] std::size_t read_file(std::span<char> out);
-  [[nodiscard]] bool wait_for_bytes(std::chrono::steady_clock::duration limit) const;
 
   std::filesystem::path path_;
   Descriptor file_;
@@ -73,7 +70,6 @@ class FileSource final : public ByteSource {
   bool is_regular_ = false;
   bool may_lack_a_writer_ = false;
   bool may_block_ = false;
-  std::function<void()> while_waiting_;
 };
 
 }  // namespace meshhood::io

@@ -14,7 +14,8 @@
 
 namespace meshhood::io {
 
-/// Makes the system call `call()`, again if a signal interrupted it, and returns its result.
+/// Makes the system call `call()`, again if a signal interrupted it, and returns its result. Not for calls that wait
+/// for another process (see waiting.h).
 template <class F>
 [[nodiscard]] auto uninterrupted(F&& call) {
   for (;;) {

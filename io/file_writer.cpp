@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "io/file_writer.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <climits>
 #include <csignal>
 #include <cstdlib>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "io/descriptor.h"
 #include "io/messages.h"
+#include "io/waiting.h"
 
 namespace meshhood::io {
 namespace {
@@ -23,14 +29,30 @@ constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 constexpr mode_t kNewFileMode = 0666;  // reduced by the umask
 constexpr mode_t kPrivateMode = 0600;
 
-// The target of a symbolic link, even if it does not exist yet: the link itself is kept.
-std::filesystem::path resolved(const std::filesystem::path& path) {
+// The target of a chain of symbolic links, even if it does not exist yet: the links are kept.
+std::filesystem::path resolved(std::filesystem::path path) {
   if (path == kStandardOutput) return path;
   std::error_code failed;
   auto target = std::filesystem::canonical(path, failed);
   if (!failed) return target;
-  const auto missing = std::filesystem::read_symlink(path, failed);
-  return failed ? path : path.parent_path() / missing;
+  constexpr int kMostLinks = 40;  // as Linux follows
+  for (int i = 0; i < kMostLinks; ++i) {
+    const auto next = std::filesystem::read_symlink(path, failed);
+    if (failed) break;
+    path = path.parent_path() / next;
+  }
+  return path;
+}
+
+bool is_read_only(const std::filesystem::path& file, std::filesystem::perms mode) {
+  using std::filesystem::perms;
+  constexpr perms kWrite = perms::owner_write | perms::group_write | perms::others_write;
+  return (mode & kWrite) == perms::none || (::access(file.c_str(), W_OK) != 0 && errno == EACCES);
+}
+
+bool is_regular(const Descriptor& file) {
+  struct stat status = {};
+  return ::fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode);
 }
 
 // Recognisable as a leftover if the process is killed. Short enough even if the name of the target has maximal length.
@@ -83,6 +105,22 @@ bool write_all(int file, std::string_view bytes) {
   return true;
 }
 
+/// The same to a pipe, a terminal or a device. A pipe that has room takes PIPE_BUF bytes without waiting.
+bool write_when_ready(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    wait_for(file, POLLOUT, kNoTimeout);
+    const ssize_t count = ::write(file, bytes.data(), std::min<std::size_t>(bytes.size(), PIPE_BUF));
+    if (count >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EINTR) {
+      report_wait();
+    } else if (errno != EAGAIN) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 FileWriter::FileWriter(const std::filesystem::path& path, Order order) : name_(path), target_(resolved(path)) {
@@ -91,6 +129,8 @@ FileWriter::FileWriter(const std::filesystem::path& path, Order order) : name_(p
   const bool is_special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
   if (is_special || target_ == kStandardOutput) {
     open_in_place(order);
+  } else if (std::filesystem::exists(status) && is_read_only(target_, status.permissions())) {
+    raise_io(name_, EACCES, "is read-only, expected a file that may be written");
   } else {
     // Create the temporary file private if it replaces a file, so that a private file is never briefly readable.
     open_beside(std::filesystem::exists(status) ? kPrivateMode : kNewFileMode);
@@ -98,13 +138,28 @@ FileWriter::FileWriter(const std::filesystem::path& path, Order order) : name_(p
 }
 
 void FileWriter::open_in_place(Order order) {
-  file_ = target_ == kStandardOutput
-              ? duplicate(STDOUT_FILENO)
-              : Descriptor(uninterrupted([&] { return ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY); }));
+  file_ = target_ == kStandardOutput ? duplicate(STDOUT_FILENO) : open_special();
   if (!file_.is_open()) fail("open");
+  is_regular_ = is_regular(file_);
   if (order == Order::Any && !can_seek()) {
     stream_ = std::move(file_);
     open_unnamed();
+    is_regular_ = true;
+  }
+}
+
+/// O_NONBLOCK, because the opening of a pipe without a reader would block.
+Descriptor FileWriter::open_special() const {
+  const auto start = std::chrono::steady_clock::now();
+  for (;;) {
+    Descriptor file(
+        uninterrupted([&] { return ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); }));
+    if (file.is_open() || errno != ENXIO) return file;
+    if (std::chrono::steady_clock::now() - start >= kPartnerTimeout) {
+      raise_io(name_, ETIMEDOUT, "no process reads this pipe");
+    }
+    report_wait();
+    std::this_thread::sleep_for(kPollInterval);
   }
 }
 
@@ -156,7 +211,8 @@ void FileWriter::write(std::string_view bytes) {
 }
 
 void FileWriter::write_through(std::string_view bytes) {
-  if (!write_all(file_.number(), bytes)) fail(stream_.is_open() ? "write its temporary file" : "write");
+  const bool is_written = is_regular_ ? write_all(file_.number(), bytes) : write_when_ready(file_.number(), bytes);
+  if (!is_written) fail(stream_.is_open() ? "write its temporary file" : "write");
   flushed_ += bytes.size();
 }
 
@@ -175,6 +231,7 @@ void FileWriter::seek(std::uint64_t position) {
 void FileWriter::copy_to_stream() {
   seek(0);
   const Descriptor unnamed = std::exchange(file_, std::move(stream_));
+  is_regular_ = is_regular(file_);
   std::string piece(kBufferBytes, '\0');
   for (;;) {
     const ssize_t count = uninterrupted([&] { return ::read(unnamed.number(), piece.data(), piece.size()); });

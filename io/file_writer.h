@@ -15,7 +15,9 @@ namespace meshhood::io {
 
 /// Writes a file atomically: to a temporary file beside the target, `.NAME.meshhood-PID-N.tmp`, which is renamed to the
 /// target by `commit`. If the process is killed, the temporary file remains. Standard output, and a target that is not
-/// a regular file (a pipe, a device), are written directly.
+/// a regular file (a pipe, a device), are written directly, and wait for their readers as `WhileWaiting` says; a named
+/// pipe that no process opens to read within two seconds is refused. So is a file that is read-only. Links are followed
+/// to their end.
 ///
 /// All errors are Error{IoFailure} with the path and errno, also a file-size limit (EFBIG; no SIGXFSZ reaches the
 /// process). A file is then unchanged, as it is when memory runs out. One error comes after the rename and says so:
@@ -47,6 +49,7 @@ class FileWriter {
 
  private:
   void open_in_place(Order order);
+  [[nodiscard]] Descriptor open_special() const;
   [[nodiscard]] bool can_seek() const;
   void open_unnamed();
   void open_beside(mode_t mode);
@@ -62,7 +65,8 @@ class FileWriter {
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // empty if the target is written directly
   Descriptor file_;
-  Descriptor stream_;  // while `file_` has no name: what it will be copied to
+  Descriptor stream_;       // while `file_` has no name: what it will be copied to
+  bool is_regular_ = true;  // `file_`; else a write may wait for a reader
   std::string buffer_;
   std::uint64_t flushed_ = 0;  // offset of the buffer in the file
 };

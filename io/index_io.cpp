@@ -23,6 +23,7 @@
 #include "io/mapped_file.h"
 #include "io/messages.h"
 #include "io/readers.h"
+#include "io/waiting.h"
 #include "io/watched_source.h"
 #include "shared/aligned_buffer.h"
 
@@ -93,10 +94,13 @@ auto naming(const std::filesystem::path& path, F&& call) {
 /// `AnyIndex`: Index or paper::Index.
 template <class AnyIndex>
 void save_any(const std::filesystem::path& path, const AnyIndex& index, const SaveOptions& options) {
-  FileWriter file(path);
   const std::string name = path.string();
+  std::size_t done = 0;
   std::size_t all = 0;
-  const Progress progress = [&](std::size_t done, std::size_t total) {
+  const WhileWaiting waiting([&] { report(options.progress, done, all, name); });
+  FileWriter file(path);
+  const Progress progress = [&](std::size_t so_far, std::size_t total) {
+    done = so_far;
     all = total;
     report(options.progress, done, total, name);
     return true;
@@ -113,7 +117,7 @@ void save_any(const std::filesystem::path& path, const AnyIndex& index, const Sa
 template <class F>
 auto load_with(FileSource& file, const std::filesystem::path& path, const Progress& progress, F&& take) {
   WatchedSource source(file, progress, path.string());
-  file.while_waiting([&source] { source.report(); });
+  const WhileWaiting waiting([&source] { source.report(); });
   const Progress verifying = [&source](std::size_t, std::size_t) {
     source.report();
     return true;
@@ -167,7 +171,11 @@ LoadedIndex load_any(const std::filesystem::path& path, const LoadOptions& optio
 
 std::variant<Mesh, LoadedIndex> read_mesh_or_index(const std::filesystem::path& path, const ReadOptions& options) {
   FileSource file(path);
-  if (!begins_index(file)) return read_mesh(file, path.string(), options);
+  const bool is_index = [&] {
+    const WhileWaiting waiting([&] { report(options.progress, 0, 0, path.string()); });
+    return begins_index(file);
+  }();
+  if (!is_index) return read_mesh(file, path.string(), options);
   return load_with(file, path, options.progress, take_any);
 }
 

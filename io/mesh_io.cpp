@@ -11,6 +11,7 @@
 #include "io/byte_source.h"
 #include "io/input_buffer.h"
 #include "io/readers.h"
+#include "io/waiting.h"
 #include "io/watched_source.h"
 
 namespace meshhood::io {
@@ -76,7 +77,7 @@ Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
 
 Mesh read_mesh(FileSource& file, const std::string& name, const ReadOptions& options) {
   WatchedSource source(file, options.progress, name);
-  file.while_waiting([&source] { source.report(); });
+  const WhileWaiting waiting([&source] { source.report(); });
   return read(source, name, options);
 }
 

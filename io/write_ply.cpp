@@ -22,6 +22,7 @@
 #include "io/mesh_io.h"
 #include "io/messages.h"
 #include "io/vertex_properties.h"
+#include "io/waiting.h"
 
 namespace meshhood::io {
 namespace {
@@ -201,6 +202,7 @@ void write_ply(const std::filesystem::path& path, const MeshView& mesh, const Pl
   check(options, mesh.positions.size());
   RowProgress progress(options.progress, mesh, path);
   progress.report();
+  const WhileWaiting waiting([&] { progress.report(); });
   FileWriter file(path);
   PlyWriter(file, progress, mesh, options).write();
   file.commit([&] { progress.report(); });

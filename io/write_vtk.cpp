@@ -20,6 +20,7 @@
 #include "io/mesh_io.h"
 #include "io/messages.h"
 #include "io/vertex_properties.h"
+#include "io/waiting.h"
 
 namespace meshhood::io {
 namespace {
@@ -120,6 +121,7 @@ void write_vtk(const std::filesystem::path& path, const MeshView& mesh, const Vt
     raise(ErrorCode::TooLarge, fmt::format("{}: {} vertices, or faces and corners, but the format has at most {}",
                                            printable_name(name), numbers, kMostNumbers));
   }
+  const WhileWaiting waiting([&] { io::report(options.progress, 0, 0, name); });
   FileWriter file(path);
   VtkWriter writer(file, mesh, options, name);
   writer.report();

@@ -58,6 +58,8 @@ class Rows {
     }
   }
 
+  void check_unchanged() const { file_.check_unchanged(); }
+
  private:
   [[nodiscard]] io::NpyHeader read_header() const {
     std::string head(static_cast<std::size_t>(std::min<std::uint64_t>(io::kNpyHeadBytes, file_.size())), '\0');
@@ -108,14 +110,23 @@ class Arrays final : public ChunkedMesh {
     });
   }
 
+  void check_unchanged() const {
+    positions_.check_unchanged();
+    faces_.check_unchanged();
+  }
+
   void load_first_face() override {
+    check_unchanged();
     face_ = 0;
     ahead_.clear();
     taken_ = 0;
   }
 
   bool load_face(std::vector<std::uint64_t>& corners) override {
-    if (face_ == faces_.rows()) return false;
+    if (face_ == faces_.rows()) {
+      check_unchanged();
+      return false;
+    }
     check_degree(faces_.columns());
     const auto degree = static_cast<std::ptrdiff_t>(faces_.columns());
     if (taken_ == ahead_.size()) load_ahead();

@@ -75,7 +75,8 @@ void ChunkedMesh::check_degree(std::uint64_t corners) const {
                                          next_face_, corners, kMostCorners));
 }
 
-std::unique_ptr<ChunkedMesh> open_mesh(const std::filesystem::path& path, std::uint64_t max_bytes) {
+std::unique_ptr<ChunkedMesh> open_mesh(const std::filesystem::path& path, std::uint64_t max_bytes,
+                                       const Progress& progress) {
   if (auto mesh = open_binary_ply(path)) return mesh;
   std::error_code unknown;
   const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
@@ -86,7 +87,7 @@ std::unique_ptr<ChunkedMesh> open_mesh(const std::filesystem::path& path, std::u
                       "PLY file or .npy files are read in chunks",
                       name, bytes, max_bytes));
   }
-  return chunked(io::read_mesh(path, {.max_bytes = max_bytes}), name);
+  return chunked(io::read_mesh(path, {.max_bytes = max_bytes, .progress = progress}), name);
 }
 
 }  // namespace meshhood::parts

@@ -81,9 +81,10 @@ class ChunkedMesh {
 };
 
 /// Opens a mesh file. A binary PLY file whose vertices have a fixed size is read in chunks, and may have any size. Any
-/// other file is read into memory, if it has at most `max_bytes` bytes.
+/// other file is read into memory, if it has at most `max_bytes` bytes, with `progress`.
 /// Throws as `io::read_mesh`; Error{TooLarge}, naming the formats that are read in chunks.
-[[nodiscard]] std::unique_ptr<ChunkedMesh> open_mesh(const std::filesystem::path& path, std::uint64_t max_bytes);
+[[nodiscard]] std::unique_ptr<ChunkedMesh> open_mesh(const std::filesystem::path& path, std::uint64_t max_bytes,
+                                                     const Progress& progress = {});
 
 /// Opens `.npy` files of positions (#V by 3, float32 or float64) and faces (#F by k, integers of 4 or 8 bytes), both in
 /// C order. Throws Error{IoFailure, MalformedFile, UnsupportedFormat}.

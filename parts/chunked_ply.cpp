@@ -132,8 +132,8 @@ bool needs_double(const std::array<Coordinate, 3>& axes) {
 /// The faces of a file, once in order.
 class FaceReader {
  public:
-  FaceReader(const std::filesystem::path& path, const Layout& layout)
-      : source_(path), input_(source_, path.string(), kAnySize), layout_(layout) {
+  FaceReader(const RandomFile& file, const Layout& layout)
+      : source_(file.in_order()), input_(source_, file.path().string(), kAnySize), layout_(layout) {
     static_cast<void>(io::read_ply_header(input_));
     values_ = io::ply_values(input_, layout.header);
     for (const io::PlyElement& element : layout.header.elements) {
@@ -195,9 +195,9 @@ class FaceReader {
 
 class ChunkedPly final : public ChunkedMesh {
  public:
-  ChunkedPly(const std::filesystem::path& path, Layout layout)
-      : ChunkedMesh(io::printable_name(path.string()), layout.vertices, needs_double(layout.axes)),
-        file_(path),
+  ChunkedPly(RandomFile file, Layout layout)
+      : ChunkedMesh(io::printable_name(file.path().string()), layout.vertices, needs_double(layout.axes)),
+        file_(std::move(file)),
         layout_(std::move(layout)),
         swaps_((layout_.header.encoding == io::PlyEncoding::BigEndian) != (std::endian::native == std::endian::big)) {
     const std::uint64_t end = layout_.first_vertex + layout_.vertices * layout_.row_bytes;
@@ -226,10 +226,16 @@ class ChunkedPly final : public ChunkedMesh {
     return {at(layout_.axes[0]), at(layout_.axes[1]), at(layout_.axes[2])};
   }
 
-  void load_first_face() override { faces_.emplace(file_.path(), layout_); }
+  void load_first_face() override {
+    file_.check_unchanged();
+    faces_.emplace(file_, layout_);
+  }
 
   bool load_face(std::vector<std::uint64_t>& corners) override {
-    if (faces_->is_at_end()) return false;
+    if (faces_->is_at_end()) {
+      file_.check_unchanged();
+      return false;
+    }
     faces_->read(corners, [this](std::uint64_t count) { check_degree(count); });
     return true;
   }
@@ -244,13 +250,16 @@ class ChunkedPly final : public ChunkedMesh {
 }  // namespace
 
 std::unique_ptr<ChunkedMesh> open_binary_ply(const std::filesystem::path& path) {
-  io::FileSource source(path);
-  if (!source.is_regular() || !source.peek(3).starts_with("ply")) return nullptr;
+  std::error_code unknown;
+  if (path == io::kStandardInput || !std::filesystem::is_regular_file(path, unknown)) return nullptr;
+  RandomFile file(path);
+  io::FileSource source = file.in_order();
+  if (!source.peek(3).starts_with("ply")) return nullptr;
   io::InputBuffer input(source, path.string(), kAnySize);
   io::PlyHeader header = io::read_ply_header(input);
   auto layout = find_layout(std::move(header), input.offset());
   if (!layout) return nullptr;
-  return std::make_unique<ChunkedPly>(path, std::move(*layout));
+  return std::make_unique<ChunkedPly>(std::move(file), std::move(*layout));
 }
 
 }  // namespace meshhood::parts

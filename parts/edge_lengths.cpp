@@ -110,8 +110,9 @@ double mean_edge_length(ChunkedMesh& mesh, const std::filesystem::path& folder, 
   double sum = 0;
   std::uint64_t count = 0;
   merge(std::move(runs), [&](const Edge& edge) {
+    constexpr std::uint64_t kBetweenReports = std::uint64_t{1} << 16;
     sum += edge.length;
-    ++count;
+    if (++count % kBetweenReports == 0) advance(0);
   });
   for (const Spill& spill : spills) std::filesystem::remove(spill.file(0));
   return count == 0 ? 0.0 : sum / static_cast<double>(count);

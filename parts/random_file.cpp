@@ -13,10 +13,23 @@
 namespace meshhood::parts {
 
 RandomFile::RandomFile(const std::filesystem::path& path) : path_(path), file_(io::open_to_read(path)) {
-  struct stat status = {};
-  if (!file_.is_open() || ::fstat(file_.number(), &status) != 0) io::raise_errno(path, errno);
-  if (!S_ISREG(status.st_mode)) io::raise_io(path, EINVAL, "is not a regular file, which is read several times");
-  size_ = static_cast<std::uint64_t>(status.st_size);
+  const struct stat opened = status();
+  if (!S_ISREG(opened.st_mode)) io::raise_io(path, EINVAL, "is not a regular file, which is read several times");
+  size_ = static_cast<std::uint64_t>(opened.st_size);
+  written_ = opened.st_mtim;
+}
+
+struct stat RandomFile::status() const {
+  struct stat result = {};
+  if (!file_.is_open() || ::fstat(file_.number(), &result) != 0) io::raise_errno(path_, errno);
+  return result;
+}
+
+void RandomFile::check_unchanged() const {
+  const struct stat now = status();
+  const bool is_same = static_cast<std::uint64_t>(now.st_size) == size_ && now.st_mtim.tv_sec == written_.tv_sec &&
+                       now.st_mtim.tv_nsec == written_.tv_nsec;
+  if (!is_same) io::raise_io(path_, 0, "was written to while it was read, which takes several passes");
 }
 
 void RandomFile::read(std::uint64_t offset, std::span<char> out) const {

@@ -5,9 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <span>
 
+#include <sys/stat.h>
+
+#include "io/byte_source.h"
 #include "io/descriptor.h"
 
 namespace meshhood::parts {
@@ -26,10 +30,19 @@ class RandomFile {
   /// Fills `out` with the bytes from `offset` on. They must lie in the file.
   void read(std::uint64_t offset, std::span<char> out) const;
 
+  /// The same open file, to be read in order. Only one such source at a time.
+  [[nodiscard]] io::FileSource in_order() const { return {path_, io::duplicate(file_.number())}; }
+
+  /// Refuses a file that has been written to since it was opened.
+  void check_unchanged() const;
+
  private:
+  [[nodiscard]] struct stat status() const;
+
   std::filesystem::path path_;
   io::Descriptor file_;
   std::uint64_t size_ = 0;
+  timespec written_{};  // for the last time before it was opened
 };
 
 /// The number of type T at `bytes`, in reversed byte order if `swaps`.

@@ -14,6 +14,9 @@ if(MESHHOOD_BUILD_CLI)
   endforeach()
   add_test(NAME cli.interrupt
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_interrupt.py $<TARGET_FILE:meshhood_cli>)
+  add_test(NAME cli.blocking
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_blocking.py $<TARGET_FILE:meshhood_cli>)
+  set_tests_properties(cli.blocking PROPERTIES TIMEOUT 900)
   add_test(NAME cli.terminal
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_terminal.py $<TARGET_FILE:meshhood_cli>)
   add_test(NAME cli.manual

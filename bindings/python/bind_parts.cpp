@@ -56,7 +56,8 @@ std::tuple<std::size_t, std::vector<std::string>> partition_file(const Path& mes
                                         .resume = resume,
                                         .progress = progress_to(progress)};
   return without_lock([&] {
-    const auto opened = faces ? parts::open_arrays(mesh, *faces) : parts::open_mesh(mesh, memory / kMemoryPerByte);
+    const auto opened =
+        faces ? parts::open_arrays(mesh, *faces) : parts::open_mesh(mesh, memory / kMemoryPerByte, options.progress);
     parts::PartitionResult result = parts::partition(*opened, folder, options);
     return std::tuple(result.kept, std::move(result.warnings));
   });

@@ -23,6 +23,7 @@
 
 #include "io/file_writer.h"
 #include "support/hostile.h"
+#include "support/refusal.h"
 #include "support/scratch.h"
 #include "support/shared_meshes.h"
 
@@ -240,6 +241,13 @@ TEST_F(WritePly, ALinkWithoutTargetSurvives) {
   io::write_ply(link, triangle);
   EXPECT_TRUE(std::filesystem::is_symlink(link));
   EXPECT_EQ(face_count(io::read_mesh(file)), 1U);
+  std::filesystem::remove(file);
+  const auto second = scratch.path() / "second.ply";
+  std::filesystem::create_symlink("link.ply", second);
+  io::write_ply(second, triangle);
+  EXPECT_TRUE(std::filesystem::is_symlink(link)) << "a chain is followed to its end";
+  EXPECT_EQ(face_count(io::read_mesh(file)), 1U);
+  std::filesystem::remove(second);
   const auto loop = scratch.path() / "loop.ply";
   std::filesystem::create_symlink("loop.ply", loop);
   EXPECT_EQ(refused(loop, triangle).code, ErrorCode::IoFailure);
@@ -273,6 +281,27 @@ TEST_F(WritePly, TheTemporaryFileOfAPrivateFileIsPrivate) {
   io::write_ply(file, triangle);
   EXPECT_EQ(mode_of(file), 0644U) << "a new file is as the umask says";
   ::umask(before);
+}
+
+TEST_F(WritePly, RefusesAReadOnlyFile) {
+  ASSERT_EQ(scratch.write("out.ply", "old"), file);
+  ASSERT_EQ(::chmod(file.c_str(), 0444), 0);
+  const auto error = refused(file, triangle);
+  EXPECT_EQ(error.code, ErrorCode::IoFailure);
+  EXPECT_THAT(error.message, HasSubstr("is read-only"));
+  EXPECT_EQ(files_in(scratch.path()), 1U);
+}
+
+// Both wait for others about ten times a second in a function that may end them.
+TEST_F(WritePly, ToAPipeWithoutAReaderEndsByItsProgressOrAfterAWhile) {
+  const auto pipe = scratch.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(refused(pipe, triangle).message, HasSubstr("no process reads this pipe"));
+  int calls = 0;
+  expect_refused(ErrorCode::Cancelled, "", [&] {
+    io::write_ply(pipe, triangle, {.progress = [&](std::size_t, std::size_t) { return ++calls < 3; }});
+  });
+  EXPECT_EQ(calls, 3);
 }
 
 TEST_F(WritePly, KeepsTheOwnerWherePermitted) {

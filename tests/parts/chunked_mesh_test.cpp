@@ -3,9 +3,13 @@
 #include "parts/chunked_mesh.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -199,6 +203,64 @@ TEST_F(ChunkedMeshes, NameTheFaultOfAFile) {
   std::string length = npy(V, 3);
   length[9] = '\x7f';
   refused(ErrorCode::MalformedFile, "a header of", length, npy(F, 3));
+}
+
+/// Opens a mesh, reads its positions, changes its files, and reads its faces.
+template <class Open, class Change>
+Content content_with_change(Open&& open, Change&& change) {
+  const auto mesh = open();
+  std::vector<Point> positions(mesh->vertex_count());
+  mesh->read_positions(0, positions);
+  change();
+  return read_all(*mesh, 7, 50);
+}
+
+TEST_F(ChunkedMeshes, AreThoseOfTheFileThatWasOpened) {
+  const TestMesh mesh = make_grid(20, 30, false);
+  const TestMesh other = make_grid(30, 20, false);
+  const auto file = scratch.path() / "mesh.ply";
+  const auto open = [&] { return parts::open_mesh(file, 1); };
+  io::write_ply(file, mesh.view());
+  // By rename, as programs replace a file: the open file is the old one.
+  EXPECT_TRUE(content_with_change(open, [&] { io::write_ply(file, other.view()); }) == content_of(mesh));
+
+  io::write_ply(file, mesh.view());
+  const auto bytes = std::filesystem::file_size(file);
+  for (const auto size : {bytes - 1, bytes / 2, std::uintmax_t{0}, bytes + 1, 2 * bytes}) {
+    io::write_ply(file, mesh.view());
+    expect_refused(ErrorCode::IoFailure, "", [&] {
+      static_cast<void>(content_with_change(open, [&] { std::filesystem::resize_file(file, size); }));
+    });
+  }
+  io::write_ply(file, mesh.view());
+  expect_refused(ErrorCode::IoFailure, "was written to while it was read", [&] {
+    static_cast<void>(content_with_change(open, [&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the clock of a file system is coarse
+      std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(400).put('x');
+    }));
+  });
+}
+
+TEST_F(ChunkedMeshes, OfArraysAreThoseOfTheFilesThatWereOpened) {
+  const std::vector<float> positions(30, 1);
+  const std::vector<std::int32_t> faces(9, 2);
+  const auto write = [&](float x) {
+    std::vector<float> moved = positions;
+    moved[0] = x;
+    static_cast<void>(scratch.write("other.npy", npy(moved, 3)));
+    std::filesystem::rename(scratch.path() / "other.npy", scratch.path() / "v.npy");
+    return scratch.path() / "v.npy";
+  };
+  const auto v = write(1);
+  const auto f = scratch.write("f.npy", npy(faces, 3));
+  const auto open = [&] { return parts::open_arrays(v, f); };
+  EXPECT_EQ(content_with_change(open, [&] { write(7); }).positions[0], 1);
+  for (const auto& array : {v, f}) {
+    expect_refused(ErrorCode::IoFailure, array.string(), [&] {
+      static_cast<void>(content_with_change(
+          open, [&] { std::filesystem::resize_file(array, std::filesystem::file_size(array) + 4); }));
+    });
+  }
 }
 
 TEST_F(ChunkedMeshes, NameTheFaultOfATruncatedPlyFileAtEveryByte) {

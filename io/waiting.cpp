@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "io/waiting.h"
+
+#include <utility>
+
+#include <poll.h>
+
+namespace meshhood::io {
+namespace {
+
+thread_local const std::function<void()>* current = nullptr;
+
+}  // namespace
+
+WhileWaiting::WhileWaiting(std::function<void()> f) : f_(std::move(f)), outer_(std::exchange(current, &f_)) {}
+WhileWaiting::~WhileWaiting() { current = outer_; }
+
+void report_wait() {
+  if (current != nullptr) (*current)();
+}
+
+bool wait_for(int file, short events, std::chrono::steady_clock::duration limit) {
+  using Clock = std::chrono::steady_clock;
+  pollfd waiting = {file, events, 0};
+  const auto start = Clock::now();
+  while (::poll(&waiting, 1, static_cast<int>(kPollInterval.count())) <= 0) {
+    report_wait();
+    if (Clock::now() - start >= limit) return false;
+  }
+  return true;
+}
+
+}  // namespace meshhood::io
