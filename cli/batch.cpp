@@ -260,7 +260,7 @@ void check_options(const BatchCommand& options) {
 
 void batch(const BatchCommand& options) {
   check_options(options);
-  check_output(options.output, options.rows.with_files({options.file}));
+  check_outputs();
   const RowOrder order = row_order(options);
   const unsigned threads = options.rows.threads;
   Input input(options.file, options.weld, threads);

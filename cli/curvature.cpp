@@ -129,7 +129,7 @@ void print(const CurvatureCommand& options, std::size_t rows, std::size_t scales
 }
 
 void curvature(const CurvatureCommand& options) {
-  check_value_files(options.files, options.rows.with_files({options.file}));
+  check_value_files(options.files);
   Input input(options.file, options.weld, options.rows.threads);
   input.need_faces("curvature");
   const RowQuery rows(options.rows, input);

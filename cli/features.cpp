@@ -208,7 +208,7 @@ void print(const FeaturesCommand& options, const FeaturesFound& found) {
 }
 
 void features_command(const FeaturesCommand& options) {
-  check_value_files(options.files, options.rows.with_files({options.file}));
+  check_value_files(options.files);
   Input input(options.file, options.weld, options.rows.threads);
   input.need_faces("features");
   const RowQuery rows(options.rows, input);

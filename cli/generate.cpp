@@ -55,7 +55,7 @@ void generate(const GenerateCommand& options) {
   if (options.list) return list(options.json);
   if (options.kind.empty()) raise(ErrorCode::InvalidOption, "generate: KIND is missing; --list prints all");
   if (options.output.empty()) raise(ErrorCode::InvalidOption, "generate: --output is missing");
-  check_output(options.output);
+  check_outputs();
   const shapes::Shape shape = find(options.kind).make(options.vertices);
   const MeshView mesh = shape.view();
   save(options.output, mesh);

@@ -32,11 +32,6 @@ std::vector<double> radii_of(const RowOptions& options, std::size_t rows, Input&
 
 }  // namespace
 
-std::vector<std::string> RowOptions::with_files(std::vector<std::string> files) const {
-  files.insert(files.end(), {vertices, row_radii, filter.walls, filter.ignored});
-  return files;
-}
-
 CLI::Option* add_rows(CLI::App& command, RowOptions& options) {
   CLI::Option* const radius = add_radii(command, options.radii);
   add_file_option(command, "--radii",

@@ -28,9 +28,6 @@ struct RowOptions {
 
   /// The length of the first axis of the result.
   [[nodiscard]] std::size_t scale_count() const { return row_radii.empty() ? radii.values.size() : 1; }
-
-  /// `files` and those that these options name: all that a command reads.
-  [[nodiscard]] std::vector<std::string> with_files(std::vector<std::string> files) const;
 };
 
 /// --radius, --radii, --unit, --vertices, --walls, --ignored and --threads. Returns the first, which is required

@@ -68,7 +68,7 @@ void write_mesh(const ValueFiles& files, std::size_t scales, const Gaps& found, 
 }
 
 void unconnected(const UnconnectedCommand& options) {
-  check_value_files(options.files, options.rows.with_files({options.file}));
+  check_value_files(options.files);
   Input input(options.file, options.weld, options.rows.threads);
   input.need_edges("unconnected");
   const RowQuery rows(options.rows, input);
