@@ -127,6 +127,9 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
 }
 
 void aggregate_command(const AggregateCommand& options) {
+  if (options.kernel != "box" && options.reduce != "mean" && options.reduce != "sum") {
+    raise(ErrorCode::InvalidOption, fmt::format("--kernel {}: expected --reduce mean or sum", options.kernel));
+  }
   check_value_files(options.files);
   Input input(options.file, options.weld, options.rows.threads);
   input.need_edges("aggregate");

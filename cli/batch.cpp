@@ -254,7 +254,8 @@ void check_options(const BatchCommand& options) {
   if (radii == 1) return;
   if (!options.shard.empty()) raise(ErrorCode::InvalidOption, fmt::format("--shard: {} radii, expected one", radii));
   if (!options.count) {
-    raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one, or --count", radii));
+    raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one{}", radii,
+                                                options.distances ? " with --distances" : ", or --count"));
   }
 }
 

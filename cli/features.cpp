@@ -226,9 +226,13 @@ void add_radii(CLI::App& command, FeaturesCommand& options) {
       ->excludes("--radii")
       ->type_name("NUMBER");
   command.add_option("--smallest", options.smallest, "the smallest of --count radii")
+      ->excludes("--radii")
       ->type_name("NUMBER")
       ->needs("--largest");
-  add_number(command, "--count", "number of radii up to --largest", options.count, 1000)->capture_default_str();
+  add_number(command, "--count", "number of radii up to --largest", options.count, 1000)
+      ->capture_default_str()
+      ->excludes("--radii")
+      ->needs("--largest");
 }
 
 }  // namespace

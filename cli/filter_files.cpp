@@ -31,6 +31,12 @@ void add_filter(CLI::App& command, FilterFiles& files) {
 FilterMasks::FilterMasks(const FilterFiles& files, const Input& input)
     : walls_(read_mask(files.walls, input)), ignored_(read_mask(files.ignored, input)) {}
 
+void FilterMasks::ignore_welded(const Welding& welding) {
+  if (welding.count() == 0) return;
+  ignored_.resize(welding.kept().size());
+  for (VertexId v = 0; v < ignored_.size(); ++v) ignored_[v] |= static_cast<std::uint8_t>(welding.kept(v) != v);
+}
+
 std::size_t FilterMasks::wall_count() const { return size_of(walls_); }
 
 std::size_t FilterMasks::ignored_count() const { return size_of(ignored_); }

@@ -35,6 +35,9 @@ class FilterMasks {
   /// Borrows from this object.
   [[nodiscard]] Filter filter() const { return {.walls = walls_, .ignored = ignored_}; }
 
+  /// Ignores the vertices that have become others, which are still at their places.
+  void ignore_welded(const Welding& welding);
+
   /// The number of vertices in each mask.
   [[nodiscard]] std::size_t wall_count() const;
   [[nodiscard]] std::size_t ignored_count() const;

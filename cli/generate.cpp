@@ -77,7 +77,8 @@ void add_generate(CLI::App& program) {
   add_number(*command, "--vertices", "number of vertices, exact or within 5 %", options->vertices)
       ->capture_default_str();
   add_output(*command, ".ply", "mesh file to write", options->output);
-  command->add_flag("--list", options->list, "print all kinds and what is difficult about them");
+  command->add_flag("--list", options->list, "print all kinds and what is difficult about them")
+      ->excludes("KIND", "--vertices", "--output");
   add_json(*command, options->json);
   command->callback([options] { generate(*options); });
 }

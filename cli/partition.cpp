@@ -122,7 +122,7 @@ void add_partition(CLI::App& program) {
   command->add_option("--faces", options->faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
       ->check(stored_name("--faces"))
       ->type_name("FILE");
-  add_weld(*command, options->weld);
+  add_weld(*command, options->weld)->excludes("--faces");
   CLI::Option* parts = add_number(*command, "--parts", "number of parts", options->parts);
   add_number(*command, "--vertices-per-part",
              "approximate number of vertices of a part without its halo; sets the number of parts",

@@ -240,7 +240,8 @@ void check_options(const QueryCommand& options) {
   check_start_options(options.start, true);
   if (has_point && !options.search.is_straight()) {
     raise(ErrorCode::InvalidOption,
-          fmt::format("--metric {}: expected --vertex, because a point has no edges", options.search.metric));
+          fmt::format("--metric {}: expected --vertex instead of --point, because a point has no edges",
+                      options.search.metric));
   }
   check_weld(options.weld, method);
 }

@@ -47,6 +47,9 @@ class RowQuery {
 
   [[nodiscard]] const FilterMasks& masks() const { return masks_; }
 
+  /// See `FilterMasks`. For what finds vertices by their places, connected or not.
+  void ignore_welded(const Input& input) { masks_.ignore_welded(input.welding()); }
+
   /// The number of rows.
   [[nodiscard]] std::size_t size() const { return size_; }
 

@@ -71,7 +71,8 @@ void unconnected(const UnconnectedCommand& options) {
   check_value_files(options.files);
   Input input(options.file, options.weld, options.rows.threads);
   input.need_edges("unconnected");
-  const RowQuery rows(options.rows, input);
+  RowQuery rows(options.rows, input);
+  rows.ignore_welded(input);
   const std::size_t scales = options.rows.scale_count();
   const Index& index = input.exact_index(options.rows.threads);
   Gaps found;
