@@ -10,12 +10,13 @@ it from a file, from standard input and from a pipe, and no output may be an inp
 MESHHOOD_SHARED may name, a part of the pairs is run. MESHHOOD_TEST_SCALE below 1 runs a sample. Exit code 77: NumPy is missing.
 """
 import collections
+import io
 import itertools
-import json
 import math
 import os
 import random
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -36,6 +37,13 @@ SCALE = float(os.environ.get("MESHHOOD_TEST_SCALE", "1"))
 REAL_MESHES = ["cortex_left_41k", "armadillo_43k"]
 PAIRS_OF_A_REAL_MESH = 0.05
 VERTICES = 42000
+
+# On these the bytes of an answer do not depend.
+NEUTRAL = {"--threads", "--json", "--max-bytes", "FILE"}
+SAME_BYTES = {"batch", "aggregate", "curvature", "features", "unconnected", "region", "closest"}
+
+# Of these, no input may be standard input, because it is read more than once; of view the mesh.
+STORED = {("partition", "FILE"), ("partition", "--faces"), ("view", "FILE")}
 
 # Not run: what prints and ends, and the shards, which have tests of their own.
 LEFT_OUT = {"--help", "--version", "--shard"}
@@ -138,6 +146,8 @@ class Option:
         self.name, self.type = match[1], match[2]
         self.default = (re.search(r"\|[a-z]+=([a-z]+)", line) or [None, None])[1]
         self.needs, self.excludes = ((match[i] or "").split() for i in (4, 5))
+        self.is_output = re.search(r"\((?!\.npy)\.\w+\)$", line) is not None
+        self.is_input = "FILE" in (self.type or "") and not self.is_output
 
     def values(self, command):
         """The values that are run; None is that of a flag."""
@@ -161,7 +171,8 @@ def table_of(program):
 
     table = {}
     for command in re.findall(r"^  ([a-z]+) ", help_of().split("Subcommands:")[1], re.MULTILINE):
-        lines = [line for line in help_of(command).splitlines() if re.match(r"  -", line)]
+        text = re.sub(r"\n {10,}", "  ", help_of(command))  # a description on a line of its own
+        lines = [line for line in text.splitlines() if re.match(r"  -", line)]
         options = []
         for line in lines:
             match = Option.PATTERN.match(line)
@@ -176,7 +187,7 @@ class Files:
     """A mesh, its indexes, and lists for it, with the arrays that they stand for."""
 
     def __init__(self, program, folder, name, V, offsets, corners):
-        self.program, self.folder, self.name = program, folder, name
+        self.program, self.folder, self.name = str(program), folder, name
         self.arrays = plain.with_seam(V, offsets, corners)
         self.count = len(self.arrays[0])
         plain.write_ply(folder / "mesh.ply", *self.arrays)
@@ -198,6 +209,7 @@ class Files:
         self.radii = random_numbers.choice([1.5, 2.5, 4.0], self.count)
         self._write()
         self._plain = {}
+        self.bytes = {}
 
     def _write(self):
         def text(name, rows):
@@ -216,11 +228,11 @@ class Files:
         for weld in ([], ["--weld"]):
             self.run(["build", "mesh.ply", *weld, "--faces", "-o", "welded.mhi" if weld else "index.mhi"])
 
-    def run(self, arguments, stdin=None, folder=None):
+    def run(self, arguments, stdin=None, folder=None, program=None):
         environment = dict(os.environ, MESHHOOD_VIEWER=str(self.folder.parent / "viewer.html"))
         environment["PATH"] = f"{self.folder.parent}/bin:{environment['PATH']}"
-        return subprocess.run([self.program, *arguments], cwd=folder or self.folder, env=environment, stdin=stdin or subprocess.DEVNULL,
-                              capture_output=True, timeout=600, check=False)
+        return subprocess.run([program or self.program, *arguments], cwd=folder or self.folder, env=environment,
+                              stdin=stdin or subprocess.DEVNULL, capture_output=True, timeout=600, check=False)
 
     def plain(self, weld=False, cut=False):
         if (weld, cut) not in self._plain:
@@ -242,6 +254,7 @@ class Run:
     def __init__(self, files, table, command, settings):
         self.files, self.table, self.command, self.pair = files, table, command, settings
         self.asked = self._complete(settings)
+        self.typed = {}  # instead of the value of an option
         self.folder = Path(tempfile.mkdtemp(dir=files.folder))
         self.done = None
 
@@ -296,9 +309,9 @@ class Run:
     def arguments(self):
         arguments = [self.command]
         if self.command != "generate":
-            arguments.append(str(self.files.folder / self.file))
+            arguments.append(self.typed.get("FILE", str(self.files.folder / self.file)))
         for name in self.asked:
-            value = self.value_of(name)
+            value = self.typed.get(name, self.value_of(name))
             if name == "KIND":
                 arguments.insert(1, value)
             elif name == "FILE":
@@ -309,6 +322,14 @@ class Run:
                 arguments.append(f"{name}={value}" if str(value).startswith("-") and value != "-" else name)
                 arguments += [] if "=" in arguments[-1] else [str(value)]
         return arguments
+
+    def run_piped(self, name, way):
+        """With the file of an option from standard input, or from a pipe."""
+        file = self.value_of(name) if name != "FILE" else str(self.files.folder / self.file)
+        self.typed[name] = "-" if way == "stdin" else "PIPE"
+        line = shlex.join([self.files.program, *self.arguments()]).replace("PIPE", f"<(cat {shlex.quote(file)})")
+        self.done = self.files.run(["-c", line], stdin=open(file, "rb"), folder=self.folder, program="bash")
+        return self
 
     def run(self):
         if self.asked.get("--max-bytes") == "enough":
@@ -361,7 +382,18 @@ def check(run, counts):
         counts["rows"] += CHECKS[run.command](run, wrong)
     except Exception as error:  # noqa: BLE001: of an answer in another form
         wrong.append(f"the answer is not understood: {error!r}")
-    return wrong
+    return wrong + other_bytes(run, counts)
+
+
+def other_bytes(run, counts):
+    """The same question has one answer, bit for bit."""
+    if run.command not in SAME_BYTES or run.output() is None:
+        return []
+    question = {name: value for name, value in run.asked.items() if name not in NEUTRAL and name != "--output"}
+    key = (run.command, "--order" in question, tuple(sorted(question.items(), key=str)))
+    counts["same bytes"] += key in run.files.bytes
+    known = run.files.bytes.setdefault(key, hash(run.output()))
+    return [] if known == hash(run.output()) else ["other bytes than the same question had before"]
 
 
 def settings_of(table, command):
@@ -386,12 +418,88 @@ def run_pairs(files, table, commands, share, counts):
     wrong = 0
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for run in pool.map(lambda item: Run(files, table, *item).run(), runs):
-            found = check(run, counts)
-            for line in found[:3]:
-                print(f"{run}\n    {line}", flush=True)
-            wrong += bool(found)
-            run.close()
+            wrong += report(run, check(run, counts))
     return wrong
+
+
+def run_all_rows(files, counts):
+    """Every row of a batch with a radius for each, against breadth-first search on a mesh without the walls."""
+    wrong, columns = 0, files.count
+
+    def places(arguments):
+        arrays = np.load(io.BytesIO(files.run(["batch", *arguments, "--order", "vertex", "-o", "-"]).stdout))
+        return np.sort(np.repeat(np.arange(columns), np.diff(arrays["indptr"])) * columns + arrays["indices"])
+
+    for walls, ignored in itertools.product(([], files.walls), ([], files.ignored)):
+        mesh = files.plain()
+        edges = mesh.edges[~np.isin(mesh.edges, walls).any(axis=1)]
+        plain.write_ply(files.folder / "edges.ply", files.arrays[0], 3 * np.arange(len(edges) + 1), edges[:, [0, 1, 1]].ravel())
+        expected = []
+        for r in np.unique(files.radii):
+            found = places(["edges.ply", "-r", repr(float(r)), "--method", "bfs"])
+            row, column = np.divmod(found, columns)
+            expected.append(found[(files.radii[row] == r) & ~np.isin(row, walls) & ~np.isin(column, ignored)])
+        masks = (["--walls", "walls"] if len(walls) else []) + (["--ignored", "ignored"] if len(ignored) else [])
+        if not np.array_equal(places(["index.mhi", "--radii", "radii", *masks]), np.sort(np.concatenate(expected))):
+            print(f"{files.name}: batch --radii radii {' '.join(masks)} differs from breadth-first search", flush=True)
+            wrong += 1
+        counts["rows"] += columns
+    return wrong
+
+
+def run_inputs(files, table, commands, counts):
+    """Every input from standard input and from a pipe; two inputs from standard input; an output that is an input."""
+    wrong = 0
+    for command in commands:
+        inputs = [name for name, option in table[command].items() if option.is_input]
+        inputs += ["FILE"] if command != "generate" else []
+        outputs = [name for name, option in table[command].items() if option.is_output]
+        for name in inputs:
+            setting = [] if name == "FILE" else [(name, table[command][name].values(command)[-1])]
+            expected = check(Run(files, table, command, setting).run(), counts)
+            assert not expected, expected
+            for way in ("stdin", "pipe"):
+                run = Run(files, table, command, setting).run_piped(name, way)
+                is_refused = (command, name) in STORED and run.done.returncode != 0 and run.done.stderr.count(b"\n") == 1
+                wrong += report(run, [] if is_refused else check(run, counts))
+                counts["inputs"] += 1
+            for other in inputs:
+                if other < name:
+                    wrong += refused(files, table, command, setting, {name: "-", other: "-"}, (name, other), counts)
+            for output in outputs:
+                wrong += refused(files, table, command, setting, {name: "same", output: "same"}, (name, output), counts)
+    return wrong
+
+
+def refused(files, table, command, setting, typed, names, counts):
+    """Two arguments that name the same file are wrong usage; the message names both."""
+    known = dict(setting)
+    for name in names:
+        if name != "FILE" and name not in known:
+            known[name] = table[command][name].values(command)[-1]
+    run = Run(files, table, command, list(known.items()))
+    if any(name in table[command] and set(table[command][name].excludes) & set(run.asked) for name in run.asked):
+        return 0
+    run.typed = typed
+    file = files.folder / run.file
+    if "same" in typed.values():
+        value = Run(files, table, command, setting).value_of(names[0]) if names[0] != "FILE" else file
+        shutil.copy(value, run.folder / "same")
+    run.done = files.run(run.arguments(), folder=run.folder, stdin=open(file, "rb"))
+    counts["refused"] += 1
+    message = run.done.stderr.decode()
+    if (command, names[0]) in STORED or (command, names[1]) in STORED:
+        return report(run, [] if run.done.returncode else ["is not refused"])
+    missing = [name for name in names if name not in message.replace("MESH", "FILE").replace("INDEX", "FILE")]
+    is_right = run.done.returncode == 2 and not missing
+    return report(run, [] if is_right else [f"exit code {run.done.returncode}, not named: {missing}: {message}"])
+
+
+def report(run, found):
+    for line in found[:3]:
+        print(f"{run}\n    {line}", flush=True)
+    run.close()
+    return bool(found)
 
 
 def main():
@@ -414,8 +522,13 @@ def main():
             vertices, offsets, corners = plain.read_ply(root / f"{mesh}.ply")
             files = Files(program, root / mesh, mesh, np.stack([vertices[axis] for axis in "xyz"], axis=1), offsets, corners)
             wrong += run_pairs(files, table, commands, share * SCALE, counts)
-    print(f"{len(commands)} commands, {counts['options']} options: {counts['pairs']} pairs answered, {counts['refused']} refused, "
-          f"{counts['rows']} rows compared, {wrong} wrong")
+            if "batch" in commands:
+                wrong += run_all_rows(files, counts)
+            if share == 1:
+                wrong += run_inputs(files, table, commands, counts)
+    print(f"{len(commands)} commands, {counts['options']} options: {counts['pairs']} answered, {counts['refused']} refused, "
+          f"{counts['inputs']} inputs from streams, {counts['rows']} rows compared, {counts['same bytes']} times the same bytes, "
+          f"{wrong} wrong")
     return 1 if wrong or not counts["rows"] else 0
 
 
