@@ -32,7 +32,6 @@
 #include "row_query.h"
 #include "task.h"
 #include "value_files.h"
-#include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {

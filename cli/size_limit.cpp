@@ -22,7 +22,6 @@
 #include "io/descriptor.h"
 #include "io/messages.h"
 #include "quantity.h"
-#include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {

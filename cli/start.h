@@ -13,8 +13,8 @@
 #include "meshhood/filter.h"
 #include "meshhood/start.h"
 
-#include "filter_files.h"
 #include "input.h"
+#include "vertex_files.h"
 
 /// The options of a query beyond vertex and radius: where it starts, and what it may pass.
 namespace meshhood::cli {
