@@ -43,7 +43,9 @@ class Question:
     @property
     def starts(self):
         """The query vertices that were typed; None for the point."""
-        return [None] if self.point else [int(v) for v in self.run.asked["--vertex"].split(",")]
+        if self.point:
+            return [None]
+        return [int(self.mesh.kept[int(v)]) for v in self.run.value_of("--vertex").split(",")]
 
     @property
     def rows(self):
@@ -172,7 +174,7 @@ def connect(run, wrong):
     nearest = run.asked.get("--nearest")
     key = (question.starts[0], int(nearest) if nearest else None, question.walls, question.ignored, question.point, question.seeds)
     radii = connecting_radii(question.mesh, *key)
-    targets = list(radii) if nearest else [int(question.mesh.kept[int(v)]) for v in run.asked["--to"].split(",")]
+    targets = list(radii) if nearest else [int(question.mesh.kept[int(v)]) for v in run.value_of("--to").split(",")]
     if question.json:
         document = json.loads(run.text())
         found = list(zip(document["vertices"], (math.inf if r is None else r for r in document["radii"])))
@@ -451,7 +453,7 @@ def view(run, wrong):
     page = run.output().decode()
     settings = json.loads(re.search(r'id="meshhood-settings">(.*)</script>', page)[1])
     asked = run.asked
-    expect(wrong, "vertex", settings.get("vertex"), int(question.mesh.kept[question.starts[0]]) if "--vertex" in asked else None)
+    expect(wrong, "vertex", settings.get("vertex"), question.starts[0] if "--vertex" in asked else None)
     expect(wrong, "radius", settings.get("radius", math.nan), question.radii[0] if question.radii else math.nan)
     expect(wrong, "weld", settings.get("weld", math.nan), 0.0 if "--weld" in asked else math.nan)
     if "--ids" in asked:

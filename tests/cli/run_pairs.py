@@ -92,14 +92,14 @@ VALUES = {
     ("connect", "--vertex"): ["20011"],
     ("region", "--vertex"): ["20011"],
     ("view", "--vertex"): ["20011"],
-    "--vertex": ["20011,17,40500"],
+    "--vertex": ["20011,LAST,17"],
     "--radius": ["2,3.5"],
     ("region", "--radius"): ["5.5"],
     ("compare", "--radius"): ["5.5"],
     ("view", "--radius"): ["5.5"],
     "--point": ["point"],
     "--seed": ["20011"],
-    "--to": ["3,40000,20300"],
+    "--to": ["3,LAST,20300"],
     "--nearest": ["25"],
     "--factor": ["7.5"],
     "--largest": ["6"],
@@ -130,7 +130,7 @@ VALUES = {
     "--vtk": ["out.vtk"],
     "--arrays": ["arrays.npz"],
 }
-BASE_VALUES = {"--vertex": "17,20011", "--radius": "3.5", "--point": "point", "--to": "40000,20300", "--parts": "3"}
+BASE_VALUES = {"--vertex": "17,LAST", "--radius": "3.5", "--point": "point", "--to": "40000,20300", "--parts": "3"}
 OUTPUTS = {"build": "out.mhi", "region": "out.ply", "query": "out.ply", "compare": "out.ply", "generate": "out.ply",
            "view": "out.html", "partition": "parts"}
 
@@ -302,6 +302,8 @@ class Run:
             value = "radii_of_vertices"
         if value in ("mesh", "faces"):
             value += {"mesh": ".ply", "faces": ".npy"}[value]
+        if isinstance(value, str):
+            value = value.replace("LAST", str(self.files.count - 1))  # a vertex of the seam
         if isinstance(value, str) and (self.files.folder / value).is_file():
             return str(self.files.folder / value)
         return value
