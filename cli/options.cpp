@@ -111,9 +111,9 @@ CLI::Validator output_name(const std::string& option, const std::string& extensi
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
   std::error_code missing;
-  return std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal() ||
-         std::filesystem::equivalent(a, b, missing);
+  return fs::path(a).lexically_normal() == fs::path(b).lexically_normal() || fs::equivalent(a, b, missing);
 }
 
 /// Throws unless a file can be created there.

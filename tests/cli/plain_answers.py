@@ -11,6 +11,7 @@ import numpy as np
 
 import plain
 
+READING = ("--weld", "--precision")  # how a mesh is read
 ROWS = 60  # of each answer, which are compared
 
 
@@ -67,7 +68,7 @@ class Question:
         if self.sort == "distance":
             return sorted(found, key=lambda v: (found[v], v))
         if self.sort == "index":
-            places = places_in_index(self.files, self.run.file, "--weld" in self.run.asked)
+            places = places_in_index(self.files, self.run.file, words_of(self.run, READING))
             return sorted(found, key=places.__getitem__)
         return sorted(found)
 
@@ -79,9 +80,17 @@ class Question:
             wrong.append(f"{what}: lacks {sorted(set(found) - set(ids))}")
 
 
+def words_of(run, names):
+    """Those of the options that a command line has, as typed."""
+    words = ()
+    for name in set(names) & set(run.asked):
+        words += (name,) if run.asked[name] in (None, True) else (name, str(run.value_of(name)))
+    return words
+
+
 @functools.lru_cache(maxsize=None)
-def places_in_index(files, file, weld):
-    done = files.run(["batch", files.folder / file, "-r", "0", "-o", "-"] + (["--weld"] if weld else []))
+def places_in_index(files, file, words):
+    done = files.run(["batch", files.folder / file, *words, "-r", "0", "-o", "-"])
     vertices = np.load(io.BytesIO(done.stdout))["vertices"]
     return {int(v): place for place, v in enumerate(vertices)}
 
@@ -336,7 +345,7 @@ def unconnected(run, wrong):
     return len(sample(len(rows)))
 
 
-FITS = ("--walls", "--ignored", "--weld", "--unit", "--no-filter", "--like-libigl", "--kinds", "--threshold")
+FITS = (*READING, "--walls", "--ignored", "--unit", "--no-filter", "--like-libigl", "--kinds", "--threshold")
 
 
 @functools.lru_cache(maxsize=None)
@@ -352,10 +361,7 @@ def fits(run, wrong):
     """Curvatures and features, which are fitted, against the same for one vertex at a time."""
     question = Question(run)
     asked, arrays, rows = run.asked, arrays_of(run), question.rows
-    options = []
-    for name in FITS:
-        if name in asked:
-            options += [name] if asked[name] in (None, True) else [name, str(run.value_of(name))]
+    options = words_of(run, FITS)
     radii = asked.get("--radius")
     if "--largest" in asked:
         largest, count = float(asked["--largest"]), int(asked.get("--count", 16))
@@ -364,13 +370,13 @@ def fits(run, wrong):
         radii = smallest * (largest / smallest) ** ratio if "--smallest" in asked else largest * np.arange(1, count + 1) / count
         expect(wrong, "radii", arrays["radii"], radii * question.unit)
         if "--unit" in options:
-            options = [word for word in options if word not in ("--unit", "edge")]
+            options = tuple(word for word in options if word not in ("--unit", "edge"))
         radii = ",".join(map(repr, arrays["radii"].tolist()))
     else:
         check_radii(question, arrays, wrong)
     for row in sample(len(rows))[::20]:
         of_row = repr(question.files.radii[row].item()) if "--radii" in asked else radii
-        one = fitted(question.files, run.command, run.file, tuple(options), of_row, int(rows[row]))
+        one = fitted(question.files, run.command, run.file, options, of_row, int(rows[row]))
         for name in set(one) - {"radii", "vertices", "kinds"}:
             axis = 0 if name in ("scales", "strength", "radius") else 1
             found = np.take(arrays[name], [row], axis)

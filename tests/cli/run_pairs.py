@@ -49,6 +49,9 @@ STORED = {("partition", "FILE"), ("partition", "--faces"), ("view", "FILE")}
 LEFT_OUT = {"--help", "--version", "--shard"}
 COMMANDS_LEFT_OUT = {"merge", "manual"}  # of shards; without options
 
+# These are run on the mesh, check on its index, and all others on either: the index is faster to read.
+MESH_COMMANDS = {"build", "partition", "view", "info", "generate", "check"}
+
 # The options of each command that every command line has, unless one of the pair replaces or excludes them.
 BASE = {
     "info": [],
@@ -241,12 +244,6 @@ class Files:
             self._plain[weld, cut] = plain.Plain(*self.arrays, masks, weld, cut_edges)
         return self._plain[weld, cut]
 
-    @property
-    def inputs(self):
-        """By their first argument: what FILE may be."""
-        return {"check": ["index.mhi"], "build": ["mesh.ply"], "partition": ["mesh.ply"], "view": ["mesh.ply"],
-                "info": ["mesh.ply", "index.mhi"]}
-
 
 class Run:
     """A command line and its answer."""
@@ -287,7 +284,7 @@ class Run:
             return self.asked["FILE"]
         if self.command == "check":
             return "welded.mhi" if "--weld" in self.asked else "index.mhi"
-        if self.command in ("build", "partition", "view", "info") or "--weld" in self.asked:
+        if self.command in MESH_COMMANDS or {"--weld", "--precision"} & set(self.asked):
             return "positions.npy" if "--faces" in self.asked and self.command == "partition" else "mesh.ply"
         return "index.mhi"
 
@@ -400,10 +397,10 @@ def other_bytes(run, counts):
 
 def settings_of(table, command):
     """Each option with each of its values."""
-    settings = [[(name, value)] for name, option in table[command].items() for value in option.values(command)]
-    if command in ("query", "connect", "region", "closest", "batch", "aggregate", "curvature", "features", "unconnected", "compare"):
-        settings.append([("FILE", "mesh.ply")])
-    return [setting[0] for setting in settings]
+    if command not in BASE:
+        raise LookupError(f"{command}: no command line is known; add it to BASE and CHECKS")
+    settings = [(name, value) for name, option in table[command].items() for value in option.values(command)]
+    return settings + ([] if command in MESH_COMMANDS else [("FILE", "mesh.ply")])
 
 
 def pairs_of(table, command):
@@ -506,12 +503,14 @@ def report(run, found):
 
 def main():
     program, shared = Path(sys.argv[1]).resolve(), Path(os.environ.get("MESHHOOD_SHARED", sys.argv[2])) / "meshes"
-    table = table_of(program)
-    unknown = set(table) - set(BASE) - COMMANDS_LEFT_OUT
-    if unknown:
-        print(f"no question is known for the command {sorted(unknown)}: add it to BASE of run_pairs.py")
+    try:
+        table = table_of(program)
+        commands = sys.argv[3:] or [command for command in table if command not in COMMANDS_LEFT_OUT]
+        for command in commands:
+            settings_of(table, command)
+    except LookupError as error:
+        print(error.args[0])
         return 1
-    commands = sys.argv[3:] or [command for command in table if command in BASE]
     counts = collections.Counter(options=sum(len(table[command]) for command in commands))
     wrong = 0
     with tempfile.TemporaryDirectory() as name:
