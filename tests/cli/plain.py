@@ -8,7 +8,9 @@ from collections import deque
 
 import numpy as np
 
-TYPES = {"float": "f4", "double": "f8", "uchar": "u1", "char": "i1", "int": "i4", "uint": "u4", "short": "i2", "ushort": "u2"}
+TYPES = {"float": "f4", "double": "f8", "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4",
+         "uint": "u4"}
+TYPES.update({"float32": "f4", "float64": "f8", "uint8": "u1", "int32": "i4", "uint32": "u4"})
 
 
 def read_ply(file):
@@ -22,7 +24,7 @@ def read_ply(file):
     order = ">" if "big_endian" in header[1] else "<"
     count = {words[1]: int(words[2]) for words in (line.split() for line in header) if words[0] == "element"}
     fields = [line.split()[1:] for line in header if re.match(r"property (?!list)", line)]
-    row = np.dtype([(name, order + TYPES[kind.replace("32", "").replace("uint8", "uchar")]) for kind, name in fields])
+    row = np.dtype([(name, order + TYPES[kind]) for kind, name in fields])
     vertices = np.frombuffer(data, row, count["vertex"], end)
     rest = np.frombuffer(data, "u1", offset=end + vertices.nbytes)
     offsets, starts, at = [0], [], 0

@@ -181,8 +181,8 @@ def region(run, wrong):
 def connect(run, wrong):
     question = Question(run)
     nearest = run.asked.get("--nearest")
-    key = (question.starts[0], int(nearest) if nearest else None, question.walls, question.ignored, question.point, question.seeds)
-    radii = connecting_radii(question.mesh, *key)
+    start = (question.walls, question.ignored, question.point, question.seeds)
+    radii = connecting_radii(question.mesh, question.starts[0], int(nearest) if nearest else None, *start)
     targets = list(radii) if nearest else [int(question.mesh.kept[int(v)]) for v in run.value_of("--to").split(",")]
     if question.json:
         document = json.loads(run.text())
@@ -255,8 +255,7 @@ def batch(run, wrong):
     check_limit(run, wrong)
     asked, arrays = run.asked, arrays_of(run)
     counts = "--count" in asked
-    in_index_order = "shape" not in arrays and not (counts and len(arrays.get("vertices", ())) == 0 or "--vertices" in asked or
-                                                    (counts and asked.get("--order") != "index"))
+    in_index_order = asked.get("--order") == "index" if counts else "shape" not in arrays
     rows = arrays["vertices"] if in_index_order else question.rows
     if in_index_order:
         expect(wrong, "vertices", sorted(rows.tolist()), np.unique(question.mesh.kept).tolist())
@@ -353,7 +352,8 @@ def fitted(files, command, file, options, radius, v):
     """The answer for one vertex and one list of radii, from the mesh itself."""
     listed = files.folder / "one_vertex"
     listed.write_text(f"{v}\n", encoding="utf-8")
-    done = files.run([command, files.folder / file, *options, "-r", radius, "--vertices", listed, "--threads", "1", "-o", "-"])
+    alone = ["-r", radius, "--vertices", listed, "--threads", "1", "-o", "-"]
+    done = files.run([command, files.folder / file, *options, *alone])
     return dict(np.load(io.BytesIO(done.stdout)))
 
 
@@ -366,8 +366,9 @@ def fits(run, wrong):
     if "--largest" in asked:
         largest, count = float(asked["--largest"]), int(asked.get("--count", 16))
         smallest = float(asked.get("--smallest", largest / count))
-        ratio = np.arange(count) / (count - 1)
-        radii = smallest * (largest / smallest) ** ratio if "--smallest" in asked else largest * np.arange(1, count + 1) / count
+        radii = largest * np.arange(1, count + 1) / count
+        if "--smallest" in asked:
+            radii = smallest * (largest / smallest) ** (np.arange(count) / (count - 1))
         expect(wrong, "radii", arrays["radii"], radii * question.unit)
         if "--unit" in options:
             options = tuple(word for word in options if word not in ("--unit", "edge"))
@@ -381,7 +382,8 @@ def fits(run, wrong):
             axis = 0 if name in ("scales", "strength", "radius") else 1
             found = np.take(arrays[name], [row], axis)
             if not np.array_equal(found, one[name], equal_nan=True):
-                wrong.append(f"{name} of row {row}, vertex {rows[row]}: expected {one[name].ravel()}, got {found.ravel()}")
+                what = f"{name} of row {row}, vertex {rows[row]}"
+                wrong.append(f"{what}: expected {one[name].ravel()}, got {found.ravel()}")
     shown = arrays["features"][-1, :, 0] if "features" in arrays else (arrays["k1"][-1] + arrays["k2"][-1]) / 2
     check_mesh_files(run, wrong, shown)
     return len(sample(len(rows))[::20])
@@ -393,7 +395,8 @@ def fits(run, wrong):
 def info(run, wrong):
     question = Question(run)
     text = run.text()
-    document = json.loads(text) if question.json else {key: int(number) for key, number in re.findall(r"^(\w+) +(\d+)$", text, re.M)}
+    numbers = re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE)
+    document = json.loads(text) if question.json else {key: int(number) for key, number in numbers}
     expect(wrong, "vertices", document["vertices"], question.files.count)
     expect(wrong, "edges", document["edges"], len(question.mesh.edges))
     if "--index" in run.asked and not ("paper" in document["index"] if question.json else "index of the paper" in text):
