@@ -127,7 +127,10 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
 }
 
 void aggregate_command(const AggregateCommand& options) {
-  check_value_files(options.files, options.rows.with_files({options.file, options.values, options.weights}));
+  if (options.kernel != "box" && options.reduce != "mean" && options.reduce != "sum") {
+    raise(ErrorCode::InvalidOption, fmt::format("--kernel {}: expected --reduce mean or sum", options.kernel));
+  }
+  check_value_files(options.files);
   Input input(options.file, options.weld, options.rows.threads);
   input.need_edges("aggregate");
   const RowQuery rows(options.rows, input);

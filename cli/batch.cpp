@@ -2,6 +2,7 @@
 // meshhood batch: the neighborhoods of all vertices, or of a list, in CSR form.
 #include "meshhood/batch.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -31,7 +32,6 @@
 #include "shard.h"
 #include "size_limit.h"
 #include "task.h"
-#include "vertex_files.h"
 #include "vertex_order.h"
 
 namespace meshhood::cli {
@@ -196,8 +196,8 @@ std::string describe(const BatchCommand& options, const Shard& shard, std::size_
               {"method", options.search.method},
               {"metric", options.search.metric},
               {"radius", query.radii().front()},
-              {"walls", query.masks().wall_count()},
-              {"ignored", query.masks().ignored_count()},
+              {"walls", std::count(query.masks().walls.begin(), query.masks().walls.end(), 1)},
+              {"ignored", std::count(query.masks().ignored.begin(), query.masks().ignored.end(), 1)},
               {"sort", options.sort},
               {"count", options.count},
               {"distances", options.distances}}
@@ -254,13 +254,14 @@ void check_options(const BatchCommand& options) {
   if (radii == 1) return;
   if (!options.shard.empty()) raise(ErrorCode::InvalidOption, fmt::format("--shard: {} radii, expected one", radii));
   if (!options.count) {
-    raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one, or --count", radii));
+    raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one{}", radii,
+                                                options.distances ? " with --distances" : ", or --count"));
   }
 }
 
 void batch(const BatchCommand& options) {
   check_options(options);
-  check_output(options.output, options.rows.with_files({options.file}));
+  check_outputs();
   const RowOrder order = row_order(options);
   const unsigned threads = options.rows.threads;
   Input input(options.file, options.weld, threads);

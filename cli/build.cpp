@@ -105,7 +105,7 @@ void build(const BuildCommand& options) {
   if (options.faces && options.index == "paper") {
     raise(ErrorCode::InvalidOption, "--faces: the index of the paper is saved without faces; expected --index exact");
   }
-  check_output(options.output, {options.mesh, options.cut});
+  check_outputs();
   io::Mesh mesh = read_mesh(options.mesh, options.threads);
   const Welding welding(mesh, options.weld, options.mesh);
   const std::optional<FacesView> faces = options.faces ? std::optional(mesh.view().faces) : std::nullopt;

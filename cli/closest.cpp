@@ -90,7 +90,7 @@ void closest(const ClosestCommand& options) {
   if (options.point.empty() == options.points.empty()) {
     raise(ErrorCode::InvalidOption, "expected either --point or --points");
   }
-  check_output(options.output, {options.file, options.points});
+  check_outputs();
   Input input(options.file, options.weld, options.threads);
   input.need_faces("closest");
   const std::vector<SpacePoint> points =

@@ -84,7 +84,7 @@ void paint(const std::string& file, Input& input, VertexId v, const std::vector<
 }
 
 void compare(const CompareCommand& options) {
-  check_output(options.output, {options.file});
+  check_outputs();
   Input input(options.file, options.weld);
   input.need_edges("compare");
   const VertexId v = resolve_vertex(options.vertex, input);

@@ -26,7 +26,6 @@ namespace {
 struct ConnectCommand {
   std::string file;
   std::string weld;  ///< as typed; empty without
-  std::vector<std::uint64_t> vertices;
   StartOptions start;
   std::vector<std::uint64_t> targets;
   std::optional<std::uint64_t> nearest;
@@ -38,19 +37,21 @@ struct Connections {
   std::vector<double> radii;  ///< of each vertex; infinite if no radius connects it
 };
 
-Connections connections_of(const ConnectCommand& options, const QueryStart& start, Input& input) {
-  const FilterMasks masks(options.start.filter, input);
+Connections connections_of(const ConnectCommand& options, Input& input) {
+  const StartQuery query(options.start, input);
+  const Start start = query.starts.front().view();
+  const Filter filter = query.masks.filter();
   RegionSearcher searcher(input.exact_index());
   Connections found;
   if (options.nearest) {
     const std::size_t k = std::min<std::size_t>(*options.nearest, input.vertex_count());
-    searcher.nearest_connected(start.view(), k, found.vertices, found.radii, masks.filter());
+    searcher.nearest_connected(start, k, found.vertices, found.radii, filter);
     return found;
   }
   for (const std::uint64_t target : options.targets) {
     const VertexId w = resolve_vertex(target, input);
     found.vertices.push_back(w);
-    found.radii.push_back(searcher.connecting_radius(start.view(), w, masks.filter()));
+    found.radii.push_back(searcher.connecting_radius(start, w, filter));
   }
   return found;
 }
@@ -70,11 +71,10 @@ void connect(const ConnectCommand& options) {
   if (options.targets.empty() == !options.nearest) {
     raise(ErrorCode::InvalidOption, "expected either --to or --nearest");
   }
-  check_start_options(options.start, !options.vertices.empty());
+  check_start_options(options.start, false);
   Input input(options.file, options.weld);
   input.need_edges("connect");
-  const QueryStart start = start_of(options.start, options.vertices, input);
-  const Connections found = connections_of(options, start, input);
+  const Connections found = connections_of(options, input);
   print_result(options.json, to_json(found), to_text(found));
 }
 
@@ -86,9 +86,7 @@ void add_connect(CLI::App& program) {
       program.add_subcommand("connect", "Print the smallest radii at which vertices belong to a neighborhood");
   add_file(*command, options->file);
   add_weld(*command, options->weld);
-  add_numbers(*command, "-v,--vertex", "the vertex of the neighborhood, by its number in the file from 0",
-              options->vertices);
-  add_start(*command, options->start);
+  add_start(*command, "the vertex of the neighborhood, by its number in the file from 0", options->start);
   add_numbers(*command, "--to", "vertices to connect; prints each with its radius, or inf if no radius connects it",
               options->targets);
   command

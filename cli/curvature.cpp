@@ -2,6 +2,7 @@
 // meshhood curvature: principal curvatures at one or several scales.
 #include "meshhood/curvature.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,6 @@
 #include "row_query.h"
 #include "task.h"
 #include "value_files.h"
-#include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {
@@ -39,24 +39,17 @@ struct CurvatureCommand {
   bool json = false;
 };
 
-/// How many rows have each state.
-struct States {
-  std::size_t fitted = 0;
-  std::size_t rank_deficient = 0;
-  std::size_t too_few = 0;
-  std::size_t no_normal = 0;
-  std::size_t extended = 0;
-
-  void add(const std::vector<CurvatureState>& states) {
-    for (const CurvatureState state : states) {
-      fitted += static_cast<std::size_t>(state == CurvatureState::Fitted);
-      rank_deficient += static_cast<std::size_t>(state == CurvatureState::RankDeficient);
-      too_few += static_cast<std::size_t>(state == CurvatureState::TooFew);
-      no_normal += static_cast<std::size_t>(state == CurvatureState::NoNormal);
-      extended += static_cast<std::size_t>(state == CurvatureState::Extended);
-    }
-  }
+/// The states by the names of JSON, and what the text says of how many rows have each.
+struct StateName {
+  CurvatureState state;
+  const char* key;
+  const char* text;
 };
+constexpr std::array kStates{StateName{CurvatureState::Fitted, "fitted", "fitted"},
+                             StateName{CurvatureState::Extended, "extended", "extended to six vertices"},
+                             StateName{CurvatureState::RankDeficient, "rank_deficient", "without a unique fit"},
+                             StateName{CurvatureState::TooFew, "too_few", "of too few vertices"},
+                             StateName{CurvatureState::NoNormal, "no_normal", "without a normal"}};
 
 /// Radius after radius, as one array of each name.
 struct Columns {
@@ -110,26 +103,21 @@ void write_mesh(const ValueFiles& files, std::size_t scales, const Columns& colu
   values.write(files, mesh, (scales - 1) * kColumns);
 }
 
-void print(const CurvatureCommand& options, std::size_t rows, std::size_t scales, const States& states) {
+void print(const CurvatureCommand& options, std::size_t rows, std::size_t scales, const Columns& columns) {
   Json document = to_json(options.files);
-  document.update({{"rows", rows},
-                   {"radii", scales},
-                   {"fitted", states.fitted},
-                   {"extended", states.extended},
-                   {"rank_deficient", states.rank_deficient},
-                   {"too_few", states.too_few},
-                   {"no_normal", states.no_normal}});
-  print_result(
-      options.json, document,
-      fmt::format(
-          "{}: {} rows, radii: {}; {} fitted, {} extended to six vertices, {} without a unique fit, {} of too few "
-          "vertices, {} without a normal\n",
-          names_of(options.files), rows, scales, states.fitted, states.extended, states.rank_deficient, states.too_few,
-          states.no_normal));
+  document.update({{"rows", rows}, {"radii", scales}});
+  std::string text;
+  for (const auto& [state, key, name] : kStates) {
+    const auto count = std::count(columns.state.begin(), columns.state.end(), static_cast<std::int32_t>(state));
+    document[key] = count;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+  }
+  print_result(options.json, document,
+               fmt::format("{}: {} rows, radii: {}; {}\n", names_of(options.files), rows, scales, text));
 }
 
 void curvature(const CurvatureCommand& options) {
-  check_value_files(options.files, options.rows.with_files({options.file}));
+  check_value_files(options.files);
   Input input(options.file, options.weld, options.rows.threads);
   input.need_faces("curvature");
   const RowQuery rows(options.rows, input);
@@ -140,19 +128,16 @@ void curvature(const CurvatureCommand& options) {
   settings.filter = !options.no_filter;
   settings.threads = options.rows.threads;
   Columns columns;
-  States states;
   {
     Task task("fitting", {"rows", static_cast<double>(scales)});
     for (std::size_t i = 0; i < scales; ++i) {
       settings.progress = task.progress(i, scales);
-      const Curvatures found = curvatures(surface, rows.query_of_scale(i), settings);
-      states.add(found.state);
-      columns.append(found);
+      columns.append(curvatures(surface, rows.query_of_scale(i), settings));
     }
     if (!options.files.npz.empty()) write_npz(options.files.npz, rows, scales, columns);
   }
   if (options.files.has_mesh()) write_mesh(options.files, scales, columns, input.surface());
-  print(options, rows.size(), scales, states);
+  print(options, rows.size(), scales, columns);
 }
 
 }  // namespace

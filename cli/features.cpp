@@ -32,7 +32,6 @@
 #include "row_query.h"
 #include "task.h"
 #include "value_files.h"
-#include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {
@@ -208,7 +207,7 @@ void print(const FeaturesCommand& options, const FeaturesFound& found) {
 }
 
 void features_command(const FeaturesCommand& options) {
-  check_value_files(options.files, options.rows.with_files({options.file}));
+  check_value_files(options.files);
   Input input(options.file, options.weld, options.rows.threads);
   input.need_faces("features");
   const RowQuery rows(options.rows, input);
@@ -226,9 +225,13 @@ void add_radii(CLI::App& command, FeaturesCommand& options) {
       ->excludes("--radii")
       ->type_name("NUMBER");
   command.add_option("--smallest", options.smallest, "the smallest of --count radii")
+      ->excludes("--radii")
       ->type_name("NUMBER")
       ->needs("--largest");
-  add_number(command, "--count", "number of radii up to --largest", options.count, 1000)->capture_default_str();
+  add_number(command, "--count", "number of radii up to --largest", options.count, 1000)
+      ->capture_default_str()
+      ->excludes("--radii")
+      ->needs("--largest");
 }
 
 }  // namespace

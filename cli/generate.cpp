@@ -55,7 +55,7 @@ void generate(const GenerateCommand& options) {
   if (options.list) return list(options.json);
   if (options.kind.empty()) raise(ErrorCode::InvalidOption, "generate: KIND is missing; --list prints all");
   if (options.output.empty()) raise(ErrorCode::InvalidOption, "generate: --output is missing");
-  check_output(options.output);
+  check_outputs();
   const shapes::Shape shape = find(options.kind).make(options.vertices);
   const MeshView mesh = shape.view();
   save(options.output, mesh);
@@ -77,7 +77,8 @@ void add_generate(CLI::App& program) {
   add_number(*command, "--vertices", "number of vertices, exact or within 5 %", options->vertices)
       ->capture_default_str();
   add_output(*command, ".ply", "mesh file to write", options->output);
-  command->add_flag("--list", options->list, "print all kinds and what is difficult about them");
+  command->add_flag("--list", options->list, "print all kinds and what is difficult about them")
+      ->excludes("KIND", "--vertices", "--output");
   add_json(*command, options->json);
   command->callback([options] { generate(*options); });
 }

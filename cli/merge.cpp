@@ -190,7 +190,7 @@ std::uint64_t merge_files(const MergeCommand& options) {
 }
 
 void merge(const MergeCommand& options) {
-  for (const std::string& file : options.files) check_output(options.output, {file});
+  check_outputs();
   const std::uint64_t rows = merge_files(options);
   print_result(options.json, {{"output", options.output}, {"shards", options.files.size()}, {"rows", rows}},
                fmt::format("{}: {} rows of {} shards\n", printable_name(options.output), rows, options.files.size()));
@@ -203,7 +203,7 @@ void add_merge(CLI::App& program) {
   CLI::App* command = program.add_subcommand("merge", "Join the files that batch --shard has written");
   command->add_option("SHARD", options->files, "all shards of a batch, in any order")
       ->required()
-      ->check(stored_name())
+      ->check(stored_name("SHARD"))
       ->type_name("");
   add_output(*command, ".npz", "file to write", options->output)->required();
   add_json(*command, options->json);

@@ -62,34 +62,80 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last.back();
 }
 
+/// A file that an option names, or an argument.
+struct NamedFile {
+  std::string option;
+  std::string file;
+};
+
+/// Of "-o,--output" the latter.
+std::string long_name(const std::string& names) { return names.substr(names.rfind(',') + 1); }
+
+/// The files of this run of the program, which has one command.
+struct NamedFiles {
+  std::vector<NamedFile> inputs;
+  std::vector<NamedFile> outputs;
+};
+
+NamedFiles& named_files() {
+  static NamedFiles files;
+  return files;
+}
+
+CLI::Validator input_name(const std::string& option) {
+  const auto check = [option](std::string& name) -> std::string {
+    if (name.empty()) return kEmptyName;
+    if (name == kStream) name = io::kStandardInput;
+    for (const NamedFile& other : named_files().inputs) {
+      if (name == io::kStandardInput && other.file == name) return "standard input is " + other.option + " already";
+    }
+    named_files().inputs.push_back({long_name(option), name});
+    return {};
+  };
+  return {check, ""};
+}
+
 /// A name without extension may be a pipe or a device, and is accepted.
-CLI::Validator output_name(const std::string& extension) {
-  const auto check = [extension](std::string& name) -> std::string {
+CLI::Validator output_name(const std::string& option, const std::string& extension) {
+  const auto check = [option, extension](std::string& name) -> std::string {
     if (name.empty()) return kEmptyName;
     if (name == kStream) name = io::kStandardOutput;
     const std::string found = io::lower_case(std::filesystem::path(name).extension().string());
-    if (found.empty() || found == extension) return {};
-    return fmt::format("'{}' has the extension {}, but the file will be {}", name, found, extension);
+    if (!found.empty() && found != extension) {
+      return fmt::format("'{}' has the extension {}, but the file will be {}", name, found, extension);
+    }
+    name_output(option, name);
+    return {};
   };
   return {check, ""};
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  std::error_code missing;
+  return fs::path(a).lexically_normal() == fs::path(b).lexically_normal() || fs::equivalent(a, b, missing);
+}
+
+/// Throws unless a file can be created there.
+void check_place(const std::string& output) {
+  namespace fs = std::filesystem;
+  if (output == io::kStandardOutput) return keep_standard_output_for_file();
+  std::error_code ignored;
+  const fs::file_status status = fs::status(output, ignored);
+  if (fs::is_directory(status)) io::raise_errno(output, EISDIR, "create");
+  if (fs::exists(status) && !fs::is_regular_file(status)) return;  // a pipe or a device
+  const fs::path folder = fs::path(output).parent_path();
+  const fs::file_status status_of_folder = fs::status(folder.empty() ? "." : folder, ignored);
+  if (fs::exists(status_of_folder) && !fs::is_directory(status_of_folder)) io::raise_errno(output, ENOTDIR, "create");
+  if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) io::raise_errno(output, errno, "create");
 }
 
 }  // namespace
 
-CLI::Validator input_name() {
-  const auto check = [](std::string& name) -> std::string {
-    static bool is_taken = false;  // there is one standard input
+CLI::Validator stored_name(const std::string& option) {
+  const auto check = [option](const std::string& name) -> std::string {
     if (name.empty()) return kEmptyName;
-    if (name != kStream) return {};
-    name = io::kStandardInput;
-    return std::exchange(is_taken, true) ? "standard input is another argument already" : "";
-  };
-  return {check, ""};
-}
-
-CLI::Validator stored_name() {
-  const auto check = [](std::string& name) -> std::string {
-    if (name.empty()) return kEmptyName;
+    named_files().inputs.push_back({option, name});
     return name == kStream ? "expected the name of a file or folder, not a standard stream" : "";
   };
   return {check, ""};
@@ -135,7 +181,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::s
 
 CLI::Option* add_file_option(CLI::App& command, const std::string& name, const std::string& description,
                              std::string& file) {
-  return command.add_option(name, file, description)->transform(input_name())->type_name("FILE");
+  return command.add_option(name, file, description)->transform(input_name(name))->type_name("FILE");
 }
 
 void add_file(CLI::App& command, std::string& file) {
@@ -157,7 +203,7 @@ void add_surface(CLI::App& command, std::string& file) {
 CLI::Option* add_output(CLI::App& command, const std::string& extension, const std::string& description,
                         std::string& file, const std::string& name) {
   return command.add_option(name, file, fmt::format("{} ({})", description, extension))
-      ->transform(output_name(extension))
+      ->transform(output_name(name, extension))
       ->type_name("FILE");
 }
 
@@ -250,26 +296,26 @@ VertexId resolve_vertex(std::uint64_t v, const Input& input) {
         fmt::format("vertex {} is out of range: {} has {} vertices", v, printable_name(input.name()), vertices));
 }
 
-void check_output(const std::string& output, const std::vector<std::string>& inputs) {
-  namespace fs = std::filesystem;
-  if (output.empty()) return;
-  std::error_code ignored;
-  for (const std::string& input : inputs) {
-    if (output == io::kStandardOutput && input == output) {
-      raise(ErrorCode::InvalidOption, "- names standard output for two files, which would be mixed");
+void name_output(const std::string& name, const std::string& file) {
+  named_files().outputs.push_back({long_name(name), file});
+}
+
+void check_outputs() {
+  const std::vector<NamedFile>& outputs = named_files().outputs;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const auto& [option, output] = outputs[i];
+    for (const auto& [other, file] : named_files().inputs) {
+      if (!is_same_file(file, output)) continue;
+      raise(ErrorCode::InvalidOption, fmt::format("{} {} would overwrite {}, {}; name another file", option,
+                                                  printable_name(output), other, printable_name(file)));
     }
-    if (!fs::equivalent(input, output, ignored)) continue;
-    raise(ErrorCode::InvalidOption, printable_name(output) + ": " + printable_name(input) +
-                                        " would be overwritten; name another file for the output");
+    for (const auto& [other, file] : std::span(outputs).first(i)) {
+      if (!is_same_file(file, output)) continue;
+      raise(ErrorCode::InvalidOption,
+            fmt::format("{} and {} name the same file, {}; name two", other, option, printable_name(output)));
+    }
+    check_place(output);
   }
-  if (output == io::kStandardOutput) return keep_standard_output_for_file();
-  const fs::file_status status = fs::status(output, ignored);
-  if (fs::is_directory(status)) io::raise_errno(output, EISDIR, "create");
-  if (fs::exists(status) && !fs::is_regular_file(status)) return;  // a pipe or a device
-  const fs::path folder = fs::path(output).parent_path();
-  const fs::file_status status_of_folder = fs::status(folder.empty() ? "." : folder, ignored);
-  if (fs::exists(status_of_folder) && !fs::is_directory(status_of_folder)) io::raise_errno(output, ENOTDIR, "create");
-  if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) io::raise_errno(output, errno, "create");
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {

@@ -18,12 +18,9 @@
 /// outlive the command.
 namespace meshhood::cli {
 
-/// The name of a file to read. `-` is standard input, for one argument at most. An empty name is refused, which is what
-/// a shell makes of an unset variable.
-[[nodiscard]] CLI::Validator input_name();
-
-/// The name of a file that is read more than once, or of a folder: `-` is refused.
-[[nodiscard]] CLI::Validator stored_name();
+/// The name of a file that is read more than once, or of a folder: `-` is refused. An empty name is refused, too, which
+/// is what a shell makes of an unset variable.
+[[nodiscard]] CLI::Validator stored_name(const std::string& option);
 
 /// Accepts decimal digits only, for a number up to `most`: CLI11 reads 010 as 8, and 2^64 as 2^64 - 1.
 [[nodiscard]] CLI::Validator whole_number(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
@@ -46,7 +43,7 @@ CLI::Option* add_numbers(CLI::App& command, const std::string& name, const std::
 CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::string& description,
                         std::vector<std::string> values, std::string& value);
 
-/// An option whose value is the name of a file to read.
+/// An option whose value is the name of a file to read. `-` is standard input, for one argument at most.
 CLI::Option* add_file_option(CLI::App& command, const std::string& name, const std::string& description,
                              std::string& file);
 
@@ -109,10 +106,13 @@ void add_unit(CLI::App& command, const std::string& length, std::string& unit);
 /// mesh has it.
 [[nodiscard]] VertexId resolve_vertex(std::uint64_t v, const Input& input);
 
-/// Checks an output file before the work begins; does nothing if `output` is empty. From then on, if it is standard
-/// output, what the command prints goes to standard error. Throws Error{InvalidOption} if it is one of the `inputs`,
-/// and Error{IoFailure} if its folder does not exist or is not writable.
-void check_output(const std::string& output, const std::vector<std::string>& inputs = {});
+/// Makes `file` an output of the command, as if the option `name` had named it.
+void name_output(const std::string& name, const std::string& file);
+
+/// Checks all output files of the command before the work begins. From then on, if one is standard output, what the
+/// command prints goes to standard error. Throws Error{InvalidOption} if one is also another output or an input, and
+/// Error{IoFailure} if its folder does not exist or is not writable.
+void check_outputs();
 
 /// "; did you mean 'build'?", or "" if no candidate is similar to `word`.
 [[nodiscard]] std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);

@@ -116,13 +116,13 @@ void add_partition(CLI::App& program) {
   command
       ->add_option("MESH", options->mesh,
                    "binary PLY, or positions as .npy with --faces: read in chunks; other formats: read into memory")
-      ->check(stored_name())
+      ->check(stored_name("MESH"))
       ->required()
       ->type_name("");
   command->add_option("--faces", options->faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
-      ->check(stored_name())
+      ->check(stored_name("--faces"))
       ->type_name("FILE");
-  add_weld(*command, options->weld);
+  add_weld(*command, options->weld)->excludes("--faces");
   CLI::Option* parts = add_number(*command, "--parts", "number of parts", options->parts);
   add_number(*command, "--vertices-per-part",
              "approximate number of vertices of a part without its halo; sets the number of parts",
@@ -139,7 +139,7 @@ void add_partition(CLI::App& program) {
   add_threads(*command, options->threads);
   command->add_flag("--no-resume", options->no_resume, "remove the parts that an earlier run has finished");
   command->add_option("-o,--output", options->output, "folder to write; created if it does not exist")
-      ->check(stored_name())
+      ->check(stored_name("--output"))
       ->type_name("FOLDER")
       ->required();
   add_json(*command, options->json);

@@ -32,7 +32,6 @@ namespace {
 struct QueryCommand {
   std::string file;
   std::string weld;  ///< as typed; empty without
-  std::vector<std::uint64_t> vertices;
   Radii radii;
   StartOptions start;
   MethodOptions search;
@@ -174,13 +173,13 @@ void paint(const QueryCommand& options, Input& input, const std::vector<Answer>&
   painting.write(options.output, input.surface());
 }
 
-std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<const QueryStart> starts, double radius,
+std::vector<Answer> answers_of_method(const QueryCommand& options, const StartQuery& query, double radius,
                                       Input& input) {
   const std::string& method = options.search.method;
   AnySearcher searcher = searcher_of(options, input);
   VertexSorter sorter(options.sort, input);
   std::vector<Answer> answers;
-  for (const QueryStart& start : starts) {
+  for (const QueryStart& start : query.starts) {
     const VertexId v = *start.vertex();
     Answer answer = timed_answer(options, searcher, v, radius);
     if (method == "exact" || method == "bfs") note_whole_component(searcher, radius, answer, input);
@@ -194,13 +193,13 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<con
 }
 
 /// The answers that the methods do not give: from a point, with a filter, in another metric, for several radii.
-std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<const QueryStart> starts,
+std::vector<Answer> answers_of_starts(const QueryCommand& options, const StartQuery& query,
                                       std::span<const double> radii, Input& input) {
   input.need_edges("this query");
   VertexSorter sorter(options.sort, input);
   std::vector<Answer> answers;
-  for (const QueryStart& start : starts) {
-    StartAnswer found = regions_of(options.start, options.search.metric, start, radii, input);
+  for (const QueryStart& start : query.starts) {
+    StartAnswer found = regions_of(start, query.masks.filter(), options.search.metric, radii, input);
     std::size_t begin = 0;
     for (const std::size_t end : found.counts) {
       sorter.sort(std::span(found.vertices).subspan(begin, end - begin),
@@ -238,23 +237,24 @@ void check_options(const QueryCommand& options) {
     raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one with --method {}", radii, method));
   }
   check_sort(options.sort, method);
-  check_start_options(options.start, !options.vertices.empty());
+  check_start_options(options.start, true);
   if (has_point && !options.search.is_straight()) {
     raise(ErrorCode::InvalidOption,
-          fmt::format("--metric {}: expected --vertex, because a point has no edges", options.search.metric));
+          fmt::format("--metric {}: expected --vertex instead of --point, because a point has no edges",
+                      options.search.metric));
   }
   check_weld(options.weld, method);
 }
 
-void query(const QueryCommand& options) {
+void query_command(const QueryCommand& options) {
   check_options(options);
-  check_output(options.output, {options.file});
+  check_outputs();
   Input input(options.file, options.weld);
-  const std::vector<QueryStart> starts = starts_of(options.start, options.vertices, input);
+  const StartQuery query(options.start, input);
   const std::vector<double> radii = ascending_radii(options, input);
   const std::vector<Answer> answers = options.start.is_plain() && options.search.is_straight() && radii.size() == 1
-                                          ? answers_of_method(options, starts, radii.front(), input)
-                                          : answers_of_starts(options, starts, radii, input);
+                                          ? answers_of_method(options, query, radii.front(), input)
+                                          : answers_of_starts(options, query, radii, input);
   if (!options.output.empty()) paint(options, input, answers);
   print(options, radii, answers);
 }
@@ -266,16 +266,15 @@ void add_query(CLI::App& program) {
   CLI::App* command = program.add_subcommand("query", "Print the neighborhood of one or more vertices");
   add_file(*command, options->file);
   add_weld(*command, options->weld);
-  add_numbers(*command, "-v,--vertex",
-              "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, then each line of the "
-              "answer begins with the query vertex",
-              options->vertices);
   add_radii(*command, options->radii)
       ->description(
           "radius of the ball; a vertex at exactly this distance is inside; several, ascending: -r 1,2 or -r 1 -r 2, "
           "then each vertex is printed once, with the smallest radius whose neighborhood has it, and --count prints a "
           "line for each radius");
-  add_start(*command, options->start);
+  add_start(*command,
+            "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, then each line of the "
+            "answer begins with the query vertex",
+            options->start);
   add_method(*command, options->search);
   add_sort(*command, options->sort);
   command
@@ -289,7 +288,7 @@ void add_query(CLI::App& program) {
       ->excludes(count);
   add_output(*command, ".ply", "also write the mesh with the neighborhood in color", options->output);
   add_json(*command, options->json);
-  command->callback([options] { query(*options); });
+  command->callback([options] { query_command(*options); });
 }
 
 }  // namespace meshhood::cli

@@ -29,7 +29,6 @@ namespace {
 struct RegionCommand {
   std::string file;
   std::string weld;  ///< as typed; empty without
-  std::vector<std::uint64_t> vertices;
   Radius radius;
   StartOptions start;
   std::string faces = "all";
@@ -80,14 +79,15 @@ void write_arrays(const std::string& file, const Submesh& part, const Rim& rim) 
 }
 
 void region(const RegionCommand& options) {
-  check_start_options(options.start, !options.vertices.empty());
-  check_output(options.output, {options.file});
-  check_output(options.arrays, {options.file, options.output});
+  check_start_options(options.start, false);
+  check_outputs();
   Input input(options.file, options.weld);
   input.need_faces("region");
-  const QueryStart start = start_of(options.start, options.vertices, input);
+  const StartQuery query(options.start, input);
+  const QueryStart& start = query.starts.front();
   const double radius = resolve(options.radius, input);
-  const std::vector<VertexId> ids = regions_of(options.start, "straight", start, std::span(&radius, 1), input).vertices;
+  const std::vector<VertexId> ids =
+      regions_of(start, query.masks.filter(), "straight", std::span(&radius, 1), input).vertices;
   RegionMesher mesher(input.surface());
   const Submesh part = mesher.submesh(ids, options.faces == "all" ? Corners::All : Corners::Any);
   const Rim rim = mesher.rim(ids, center_of(start.view(), input.positions()), radius);
@@ -111,9 +111,8 @@ void add_region(CLI::App& program) {
   CLI::App* command = program.add_subcommand("region", "Write the part of the mesh in a neighborhood, and its rim");
   add_surface(*command, options->file);
   add_weld(*command, options->weld);
-  add_numbers(*command, "-v,--vertex", "query vertex, by its number in the file from 0", options->vertices);
   add_radius(*command, options->radius);
-  add_start(*command, options->start);
+  add_start(*command, "query vertex, by its number in the file from 0", options->start);
   add_choice(*command, "--faces", "all: the faces with all corners in the neighborhood; any: with at least one corner",
              {"all", "any"}, options->faces);
   add_output(*command, ".ply", "mesh file to write", options->output)->required();

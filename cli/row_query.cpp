@@ -16,6 +16,18 @@
 namespace meshhood::cli {
 namespace {
 
+std::optional<std::vector<VertexId>> list_of(const std::string& file, const Input& input) {
+  if (file.empty()) return std::nullopt;
+  std::vector<VertexId> list = read_vertex_list(file, input.vertex_count());
+  for (VertexId& v : list) v = input.welding().kept(v);
+  return list;
+}
+
+BatchVertices rows_of(const std::optional<std::vector<VertexId>>& list, const Input& input) {
+  if (list) return *list;
+  return input.welding().count() > 0 ? BatchVertices(input.welding().kept()) : BatchVertices();
+}
+
 std::vector<double> radii_of(const RowOptions& options, std::size_t rows, Input& input) {
   if (options.row_radii.empty()) return resolve(options.radii, input);
   std::vector<double> radii = read_channel(options.row_radii, rows, "radii");
@@ -32,11 +44,6 @@ std::vector<double> radii_of(const RowOptions& options, std::size_t rows, Input&
 
 }  // namespace
 
-std::vector<std::string> RowOptions::with_files(std::vector<std::string> files) const {
-  files.insert(files.end(), {vertices, row_radii, filter.walls, filter.ignored});
-  return files;
-}
-
 CLI::Option* add_rows(CLI::App& command, RowOptions& options) {
   CLI::Option* const radius = add_radii(command, options.radii);
   add_file_option(command, "--radii",
@@ -44,21 +51,28 @@ CLI::Option* add_rows(CLI::App& command, RowOptions& options) {
                   options.row_radii)
       ->excludes(radius)
       ->each([radius](const std::string&) { radius->required(false); });
-  add_vertices(command, options.vertices);
+  add_file_option(command, "--vertices", "text file with the query vertices, one per line (default: all)",
+                  options.vertices);
   add_filter(command, options.filter);
   add_threads(command, options.threads);
   return radius;
 }
 
 RowQuery::RowQuery(const RowOptions& options, Input& input)
-    : vertices_(options.vertices, input),
+    : list_(list_of(options.vertices, input)),
+      rows_(rows_of(list_, input)),
       masks_(options.filter, input),
-      size_(vertices_.view().count(input.vertex_count())),
+      size_(rows_.count(input.vertex_count())),
       are_of_rows_(!options.row_radii.empty()),
       radii_(radii_of(options, size_, input)) {}
 
 BatchQuery RowQuery::query(BatchRadius radius) const {
-  return {.vertices = vertices_.view(), .radius = std::move(radius), .filter = masks_.filter()};
+  return {.vertices = rows_, .radius = std::move(radius), .filter = masks_.filter()};
+}
+
+void write_vertices(io::NpzWriter& npz, const BatchVertices& rows) {
+  if (!rows.list()) return;
+  npz.add<std::int64_t>("vertices", std::vector<std::int64_t>(rows.list()->begin(), rows.list()->end()));
 }
 
 void write_radii(io::NpzWriter& npz, const BatchRadius& radius) {

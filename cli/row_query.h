@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,6 @@
 
 #include "meshhood/batch.h"
 
-#include "filter_files.h"
 #include "input.h"
 #include "io/npz_writer.h"
 #include "options.h"
@@ -28,9 +28,6 @@ struct RowOptions {
 
   /// The length of the first axis of the result.
   [[nodiscard]] std::size_t scale_count() const { return row_radii.empty() ? radii.values.size() : 1; }
-
-  /// `files` and those that these options name: all that a command reads.
-  [[nodiscard]] std::vector<std::string> with_files(std::vector<std::string> files) const;
 };
 
 /// --radius, --radii, --unit, --vertices, --walls, --ignored and --threads. Returns the first, which is required
@@ -43,6 +40,8 @@ class RowQuery {
  public:
   /// Borrows from `input`. Throws as `resolve`, `read_vertex_list` and `read_channel`.
   RowQuery(const RowOptions& options, Input& input);
+  RowQuery(const RowQuery&) = delete;  // `rows_` may borrow from `list_`
+  RowQuery& operator=(const RowQuery&) = delete;
 
   /// In the unit of the positions: those of all rows, or one for each row. Empty if --radius is optional and was not
   /// given.
@@ -50,7 +49,10 @@ class RowQuery {
 
   [[nodiscard]] const FilterMasks& masks() const { return masks_; }
 
-  /// The number of rows.
+  /// See `FilterMasks`. For what finds vertices by their places, connected or not.
+  void ignore_welded(const Input& input) { masks_.ignore_welded(input.welding()); }
+
+  /// The number of rows. A row of a vertex that was welded is that of the one that it has become.
   [[nodiscard]] std::size_t size() const { return size_; }
 
   /// The query of all scales, for calls whose results have a leading axis for them; of one of them; or of another
@@ -60,17 +62,21 @@ class RowQuery {
   [[nodiscard]] BatchQuery query(BatchRadius radius) const;
 
   /// For the array `vertices` of the result: none if the rows are those of all vertices. Borrows from this object.
-  [[nodiscard]] BatchVertices listed() const { return vertices_.listed(); }
+  [[nodiscard]] BatchVertices listed() const { return list_ ? BatchVertices(*list_) : BatchVertices(); }
 
  private:
   [[nodiscard]] BatchRadius of_rows() const { return radii_; }
 
-  QueryVertices vertices_;
+  std::optional<std::vector<VertexId>> list_;
+  BatchVertices rows_;
   FilterMasks masks_;
   std::size_t size_;
   bool are_of_rows_;
   std::vector<double> radii_;
 };
+
+/// Writes the array `vertices`, if the query vertices are listed.
+void write_vertices(io::NpzWriter& npz, const BatchVertices& rows);
 
 /// Writes the array `radii`: (scales,), or (1, rows) if each row has its own.
 void write_radii(io::NpzWriter& npz, const BatchRadius& radius);

@@ -22,7 +22,6 @@
 #include "io/descriptor.h"
 #include "io/messages.h"
 #include "quantity.h"
-#include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {
@@ -67,13 +66,20 @@ std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQue
   if (rows <= kSamples) return std::nullopt;
   std::mt19937_64 random(1);
   std::vector<VertexId> vertices(kSamplesPerStep);
+  std::vector<double> radii(kSamplesPerStep);
+  const BatchRadius radius = query.radius.list() ? BatchRadius(radii) : query.radius;
+  const SearchMethod sampled = query.filter.empty() ? method : method.restricted(query.filter);
   Sample sample;
   // A call of a scan, or of a search that copies the positions, also takes a time that grows with the mesh.
   const auto work_of_call = static_cast<double>(method.vertex_count());
   for (double work = 0; sample.rows < kSamples && work < kMostWork;
        work = sample.sum + work_of_call * sample.rows / kSamplesPerStep) {
-    for (VertexId& v : vertices) v = query.vertices[random() % rows];
-    for (const std::uint64_t size : counts(method, {.vertices = vertices, .radius = query.radius})) {
+    for (std::size_t i = 0; i < kSamplesPerStep; ++i) {
+      const std::size_t row = random() % rows;
+      vertices[i] = query.vertices[row];
+      if (query.radius.list()) radii[i] = (*query.radius.list())[row];
+    }
+    for (const std::uint64_t size : counts(sampled, {.vertices = vertices, .radius = radius})) {
       sample.add(static_cast<double>(size));
     }
   }
@@ -81,7 +87,7 @@ std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQue
     return BatchSize{rows, static_cast<std::uint64_t>(static_cast<double>(rows) * size)};
   };
   return BatchEstimate{of_all_rows(sample.mean()),
-                       of_all_rows(std::max(1.0, sample.mean() - 3 * sample.standard_error()))};
+                       of_all_rows(std::max(0.0, sample.mean() - 3 * sample.standard_error()))};
 }
 
 SizeLimit::SizeLimit(std::string output, std::optional<std::uint64_t> max_bytes)

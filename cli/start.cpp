@@ -81,7 +81,8 @@ CLI::Option* add_point(CLI::App& command, const std::string& description, std::v
   return command.add_option("--point", point, description)->delimiter(',')->allow_extra_args(false)->type_name("X,Y,Z");
 }
 
-void add_start(CLI::App& command, StartOptions& options) {
+void add_start(CLI::App& command, const std::string& vertex, StartOptions& options) {
+  add_numbers(command, "-v,--vertex", vertex, options.vertices);
   CLI::Option* point = add_point(command, "start at any point in space instead of a vertex; also X Y Z", options.point);
   add_numbers(command, "--seed",
               "with --point: the vertices from which the search starts, such as the corners of a face; by default the "
@@ -91,8 +92,11 @@ void add_start(CLI::App& command, StartOptions& options) {
   add_filter(command, options.filter);
 }
 
-void check_start_options(const StartOptions& options, bool has_vertices) {
-  if (options.point.empty() != has_vertices) raise(ErrorCode::InvalidOption, "expected either --vertex or --point");
+void check_start_options(const StartOptions& options, bool takes_many) {
+  if (options.point.empty() == options.vertices.empty()) {
+    raise(ErrorCode::InvalidOption, "expected either --vertex or --point");
+  }
+  if (!takes_many && options.vertices.size() > 1) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
 }
 
 QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(options.center()) {
@@ -100,30 +104,22 @@ QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(optio
   if (seeds_.empty()) seeds_.push_back(input.welding().kept(nearest(input.exact_index(), point_).vertex));
 }
 
-std::vector<QueryStart> starts_of(const StartOptions& options, std::span<const std::uint64_t> vertices, Input& input) {
-  std::vector<QueryStart> starts;
+StartQuery::StartQuery(const StartOptions& options, Input& input) : masks(options.filter, input) {
   if (!options.point.empty()) starts.emplace_back(options, input);
-  for (const std::uint64_t v : vertices) starts.emplace_back(resolve_vertex(v, input));
-  return starts;
+  for (const std::uint64_t v : options.vertices) starts.emplace_back(resolve_vertex(v, input));
 }
 
-QueryStart start_of(const StartOptions& options, std::span<const std::uint64_t> vertices, Input& input) {
-  if (vertices.size() > 1) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
-  return starts_of(options, vertices, input).front();
-}
-
-StartAnswer regions_of(const StartOptions& options, const std::string& metric, const QueryStart& start,
+StartAnswer regions_of(const QueryStart& start, const Filter& filter, const std::string& metric,
                        std::span<const double> radii, Input& input) {
-  const FilterMasks masks(options.filter, input);
-  if (metric == "path") return paths_of(*start.vertex(), radii, masks.filter(), input);
-  if (metric == "rings") return rings_of(*start.vertex(), radii, masks.filter(), input);
+  if (metric == "path") return paths_of(*start.vertex(), radii, filter, input);
+  if (metric == "rings") return rings_of(*start.vertex(), radii, filter, input);
   StartAnswer answer;
   RegionSearcher searcher(input.exact_index());
-  const bool is_near = searcher.region(start.view(), radii.back(), answer.vertices, answer.distances, masks.filter());
+  const bool is_near = searcher.region(start.view(), radii.back(), answer.vertices, answer.distances, filter);
   if (!is_near) note_far_point(searcher, start.view(), radii.back());
   std::vector<double> distance_of(input.vertex_count());  // `nested` returns no distances
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) distance_of[answer.vertices[i]] = answer.distances[i];
-  searcher.nested(start.view(), radii, answer.vertices, answer.counts, masks.filter());
+  searcher.nested(start.view(), radii, answer.vertices, answer.counts, filter);
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) answer.distances[i] = distance_of[answer.vertices[i]];
   return answer;
 }

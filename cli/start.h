@@ -13,8 +13,8 @@
 #include "meshhood/filter.h"
 #include "meshhood/start.h"
 
-#include "filter_files.h"
 #include "input.h"
+#include "vertex_files.h"
 
 /// The options of a query beyond vertex and radius: where it starts, and what it may pass.
 namespace meshhood::cli {
@@ -26,6 +26,7 @@ CLI::Option* add_point(CLI::App& command, const std::string& description, std::v
 [[nodiscard]] SpacePoint parse_point(const std::vector<std::string>& point);
 
 struct StartOptions {
+  std::vector<std::uint64_t> vertices;
   std::vector<std::string> point;
   std::vector<std::uint64_t> seeds;
   FilterFiles filter;
@@ -37,11 +38,11 @@ struct StartOptions {
   [[nodiscard]] bool is_plain() const { return point.empty() && filter.empty(); }
 };
 
-/// --point, --seed, --walls and --ignored.
-void add_start(CLI::App& command, StartOptions& options);
+/// --vertex, with its description, --point, --seed, --walls and --ignored.
+void add_start(CLI::App& command, const std::string& vertex, StartOptions& options);
 
-/// Throws Error{InvalidOption} unless there is either a point or a vertex.
-void check_start_options(const StartOptions& options, bool has_vertices);
+/// Throws Error{InvalidOption} unless there is either a point, or a vertex, or several for a command that `takes_many`.
+void check_start_options(const StartOptions& options, bool takes_many);
 
 /// Where a search starts. Owns the seeds.
 class QueryStart {
@@ -64,12 +65,14 @@ class QueryStart {
   std::vector<VertexId> seeds_;
 };
 
-/// The starts of a command: that of --point, or those of its vertices.
-[[nodiscard]] std::vector<QueryStart> starts_of(const StartOptions& options, std::span<const std::uint64_t> vertices,
-                                                Input& input);
+/// What these options mean for an input.
+struct StartQuery {
+  /// Reads the files. Throws as `QueryStart` and `FilterMasks`.
+  StartQuery(const StartOptions& options, Input& input);
 
-/// The start of a command that takes one. Throws Error{InvalidOption} if there are several vertices.
-[[nodiscard]] QueryStart start_of(const StartOptions& options, std::span<const std::uint64_t> vertices, Input& input);
+  std::vector<QueryStart> starts;  ///< that of --point, or those of the vertices
+  FilterMasks masks;
+};
 
 /// The answer to one query, ring by ring. With one radius there is one ring.
 struct StartAnswer {
@@ -81,7 +84,7 @@ struct StartAnswer {
 /// The regions of a start for ascending `radii`, at least one, as the rings of `RegionSearcher::nested`. With the
 /// metric "path" or "rings", the vertices whose path distance or number of edges is at most each radius; the start must
 /// then be a vertex.
-[[nodiscard]] StartAnswer regions_of(const StartOptions& options, const std::string& metric, const QueryStart& start,
+[[nodiscard]] StartAnswer regions_of(const QueryStart& start, const Filter& filter, const std::string& metric,
                                      std::span<const double> radii, Input& input);
 
 }  // namespace meshhood::cli

@@ -22,7 +22,6 @@
 #include "row_query.h"
 #include "task.h"
 #include "value_files.h"
-#include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {
@@ -68,10 +67,11 @@ void write_mesh(const ValueFiles& files, std::size_t scales, const Gaps& found, 
 }
 
 void unconnected(const UnconnectedCommand& options) {
-  check_value_files(options.files, options.rows.with_files({options.file}));
+  check_value_files(options.files);
   Input input(options.file, options.weld, options.rows.threads);
   input.need_edges("unconnected");
-  const RowQuery rows(options.rows, input);
+  RowQuery rows(options.rows, input);
+  rows.ignore_welded(input);
   const std::size_t scales = options.rows.scale_count();
   const Index& index = input.exact_index(options.rows.threads);
   Gaps found;

@@ -39,13 +39,11 @@ void add_value_files(CLI::App& command, ValueFiles& files, const std::string& sh
   }
 }
 
-void check_value_files(const ValueFiles& files, const std::vector<std::string>& inputs) {
+void check_value_files(const ValueFiles& files) {
   if (files.npz.empty() && !files.has_mesh()) {
     raise(ErrorCode::InvalidOption, "expected --output, --ply or --vtk");
   }
-  for_each(files, [&](const char* /*key*/, const std::string& name) { check_output(name, inputs); });
-  check_output(files.ply, {files.npz});
-  check_output(files.vtk, {files.npz, files.ply});
+  check_outputs();
 }
 
 std::string names_of(const ValueFiles& files) {

@@ -32,8 +32,8 @@ struct ValueFiles {
 /// the last two exclude --vertices, if the command has that option already.
 void add_value_files(CLI::App& command, ValueFiles& files, const std::string& shown);
 
-/// As `check_output`. Throws also if no file was requested.
-void check_value_files(const ValueFiles& files, const std::vector<std::string>& inputs);
+/// As `check_outputs`. Throws also if no file was requested.
+void check_value_files(const ValueFiles& files);
 
 /// The requested files, for a message and for JSON.
 [[nodiscard]] std::string names_of(const ValueFiles& files);

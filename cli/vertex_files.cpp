@@ -142,6 +142,13 @@ Channels read_numpy(io::InputBuffer& input, std::optional<std::size_t> vertices)
   return values;
 }
 
+std::vector<std::uint8_t> read_mask(const std::string& file, const Input& input) {
+  if (file.empty()) return {};
+  std::vector<std::uint8_t> mask(input.vertex_count());
+  for (const VertexId v : read_vertex_list(file, mask.size())) mask[input.welding().kept(v)] = 1;
+  return mask;
+}
+
 }  // namespace
 
 std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices, std::size_t columns) {
@@ -187,25 +194,18 @@ std::vector<double> read_channel(const std::string& file, std::size_t vertices, 
         fmt::format("{}: {} {} for each vertex, expected one", io::printable_name(file), read.channels, values));
 }
 
-void add_vertices(CLI::App& command, std::string& file) {
-  add_file_option(command, "--vertices", "text file with the query vertices, one per line (default: all)", file);
+void add_filter(CLI::App& command, FilterFiles& files) {
+  add_file_option(command, "--walls", "a list of vertices that no search passes, one in each line", files.walls);
+  add_file_option(command, "--ignored", "a list of vertices that a search passes but does not count", files.ignored);
 }
 
-QueryVertices::QueryVertices(const std::string& file, const Input& input) : are_listed_(!file.empty()) {
-  if (!are_listed_) {
-    if (input.welding().count() > 0) rows_ = input.welding().kept();
-    return;
-  }
-  list_ = read_vertex_list(file, input.vertex_count());
-  for (VertexId& v : list_) v = input.welding().kept(v);
-  rows_ = list_;
-}
+FilterMasks::FilterMasks(const FilterFiles& files, const Input& input)
+    : walls(read_mask(files.walls, input)), ignored(read_mask(files.ignored, input)) {}
 
-void write_vertices(io::NpzWriter& npz, const BatchVertices& rows) {
-  const auto& list = rows.list();
-  if (!list) return;
-  const std::vector<std::int64_t> listed(list->begin(), list->end());
-  npz.add<std::int64_t>("vertices", listed);
+void FilterMasks::ignore_welded(const Welding& welding) {
+  if (welding.count() == 0) return;
+  ignored.resize(welding.kept().size());
+  for (VertexId v = 0; v < ignored.size(); ++v) ignored[v] |= static_cast<std::uint8_t>(welding.kept(v) != v);
 }
 
 }  // namespace meshhood::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,12 +10,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include "meshhood/batch.h"
+#include "meshhood/filter.h"
 #include "meshhood/mesh.h"
 #include "meshhood/start.h"
 
 #include "input.h"
-#include "io/npz_writer.h"
 
 /// Files that list vertices, or that have values for them. In a text, blank lines and what follows `#` are skipped.
 /// Every reader throws Error{InvalidOption} with the place and what was expected, and Error{IoFailure, TooLarge}.
@@ -41,30 +41,30 @@ struct Channels {
 /// The same for values of one channel. `values` names them in the message: "weights".
 [[nodiscard]] std::vector<double> read_channel(const std::string& file, std::size_t vertices, std::string_view values);
 
-/// --vertices: a file with the query vertices of a command that writes a row for each.
-void add_vertices(CLI::App& command, std::string& file);
+/// The names of the files of --walls and --ignored; "" without.
+struct FilterFiles {
+  std::string walls;
+  std::string ignored;
 
-/// The query vertices of such a command. A row of a vertex that was welded is that of the one that it has become.
-class QueryVertices {
- public:
-  /// The vertices that `file` lists, or all if it is "". Borrows from `input`.
-  QueryVertices(const std::string& file, const Input& input);
-  QueryVertices(const QueryVertices&) = delete;  // `rows_` may borrow from `list_`
-  QueryVertices& operator=(const QueryVertices&) = delete;
-
-  /// For the search. Borrows from this object, as the next.
-  [[nodiscard]] BatchVertices view() const { return rows_; }
-
-  /// For the array `vertices` of the result: none if the rows are those of all vertices.
-  [[nodiscard]] BatchVertices listed() const { return are_listed_ ? rows_ : BatchVertices(); }
-
- private:
-  bool are_listed_;
-  std::vector<VertexId> list_;
-  BatchVertices rows_;
+  [[nodiscard]] bool empty() const { return walls.empty() && ignored.empty(); }
 };
 
-/// Writes the array `vertices`, if the query vertices are listed.
-void write_vertices(io::NpzWriter& npz, const BatchVertices& rows);
+/// --walls and --ignored.
+void add_filter(CLI::App& command, FilterFiles& files);
+
+/// The masks that these files describe. Empty, or #V.
+struct FilterMasks {
+  std::vector<std::uint8_t> walls;
+  std::vector<std::uint8_t> ignored;
+
+  /// Throws as `read_vertex_list`.
+  FilterMasks(const FilterFiles& files, const Input& input);
+
+  /// Ignores the vertices that have become others, which are still at their places.
+  void ignore_welded(const Welding& welding);
+
+  /// Borrows from this object.
+  [[nodiscard]] Filter filter() const { return {.walls = walls, .ignored = ignored}; }
+};
 
 }  // namespace meshhood::cli

@@ -100,7 +100,8 @@ PageSettings settings_of(const ViewCommand& options, Input& input) {
 void view(const ViewCommand& options) {
   const std::string output =
       options.output.empty() ? std::filesystem::path(options.file).stem().string() + ".html" : options.output;
-  check_output(output, {options.file, options.answer, options.values});
+  if (options.output.empty()) name_output("--output", output);
+  check_outputs();
   check_mesh_of_page(options.file);
   static_cast<void>(find_page());  // before the work begins
   Input input(options.file, options.weld);

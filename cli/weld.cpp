@@ -58,7 +58,8 @@ Welding::Welding(io::Mesh& mesh, const std::string& weld, const std::string& fil
 
 void check_weld(const std::string& weld, const std::string& method) {
   if (weld.empty() || method != "ball") return;
-  raise(ErrorCode::InvalidOption, "--weld: the method ball knows no faces, so that welding has no effect on it");
+  raise(ErrorCode::InvalidOption,
+        "--weld: expected another --method than ball, which knows no faces, so that welding has no effect on it");
 }
 
 }  // namespace meshhood::cli

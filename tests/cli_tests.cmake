@@ -27,5 +27,9 @@ if(MESHHOOD_BUILD_CLI)
       COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_manifest.py
         $<TARGET_FILE:meshhood_cli> ${PROJECT_SOURCE_DIR}/../shared)
     set_tests_properties(cli.manifest PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+    add_test(NAME cli.pairs
+      COMMAND ${with_python} -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_pairs.py
+        $<TARGET_FILE:meshhood_cli> ${PROJECT_SOURCE_DIR}/../shared)
+    set_tests_properties(cli.pairs PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800)
   endif()
 endif()

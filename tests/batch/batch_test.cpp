@@ -404,6 +404,17 @@ TEST_F(Batches, AcceptAResultWithinTheLimitThatTheSampleDoesNotExclude) {
   EXPECT_EQ(neighborhoods(index, query, {.max_bytes = ids * sizeof(VertexId)}).ids.size(), ids);
 }
 
+TEST_F(Batches, AcceptAFilteredResultWithinTheLimitThatTheWholeOneExceeds) {
+  const std::vector<VertexId> vertices(20'000, VertexId{7});
+  std::vector<std::uint8_t> others(index.vertex_count(), 1);
+  others[7] = 0;
+  const BatchOptions options{.max_bytes = vertices.size() * sizeof(VertexId)};
+  for (const Filter& filter : {Filter{.walls = others}, Filter{.ignored = others}}) {
+    const BatchQuery query{.vertices = vertices, .radius = kInfinity, .filter = filter};
+    EXPECT_EQ(neighborhoods(index, query, options).ids, vertices);
+  }
+}
+
 TEST_F(Batches, ReportFromZeroToTheTotalOnTheCallingThread) {
   for (const unsigned threads : kThreads) {
     std::vector<std::size_t> reports;

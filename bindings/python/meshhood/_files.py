@@ -63,8 +63,8 @@ def write_mesh(
     values: Optional[Mapping[str, ArrayLike]] = None,
     colors: Optional[ArrayLike] = None,
 ) -> None:
-    """Writes a mesh with values of its vertices, for MeshLab, ParaView and PyVista: PLY (.ply), or VTK's legacy format
-    (.vtk), both binary.
+    """Writes a mesh with values of its vertices: PLY (.ply) for MeshLab, meshio and plyfile, or VTK's legacy format (.vtk)
+    for ParaView and PyVista, which ignore the values of PLY. Both are binary.
 
     V, F : as for `MeshIndex`, but not a graph.
     values : by name, numbers (#V,) or vectors (#V, 3), written as float32. A name is printable ASCII without blanks.

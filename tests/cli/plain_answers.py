@@ -1,0 +1,476 @@
+# SPDX-License-Identifier: MIT
+"""Compares the answer to a command line with what plain.py computes. Each function of CHECKS appends what is wrong and
+returns the number of compared rows."""
+import functools
+import io
+import json
+import math
+import re
+
+import numpy as np
+
+import plain
+
+READING = ("--weld", "--precision")  # how a mesh is read
+ROWS = 60  # of each answer, which are compared
+
+
+def agree(found, expected):
+    return np.allclose(found, expected, rtol=1e-9, atol=1e-11, equal_nan=True)
+
+
+def expect(wrong, what, found, expected):
+    same = agree(found, expected) if isinstance(expected, (float, np.ndarray)) else found == expected
+    if not same:
+        wrong.append(f"{what}: expected {str(expected)[:200]}, got {str(found)[:200]}")
+
+
+class Question:
+    """The options of a command line as numbers."""
+
+    def __init__(self, run):
+        asked, self.run, self.files = run.asked, run, run.files
+        self.mesh = run.files.plain("--weld" in asked, "--cut" in asked)
+        self.metric, self.method = asked.get("--metric", "straight"), asked.get("--method", "exact")
+        self.walls, self.ignored = (name if f"--{name}" in asked else "" for name in ("walls", "ignored"))
+        self.unit = float(self.mesh.mean_edge) if asked.get("--unit") == "edge" else 1
+        self.radii = [float(r) * self.unit for r in asked.get("--radius", "").split(",") if r]
+        self.point = tuple(self.files.point.tolist()) if "--point" in asked else None
+        self.seeds = None
+        if self.point:
+            self.seeds = (int(asked.get("--seed", np.argmin(self.mesh.squared(np.array(self.point))))),)
+        self.sort, self.json = asked.get("--sort", "id"), "--json" in asked
+
+    @property
+    def starts(self):
+        """The query vertices that were typed; None for the point."""
+        if self.point:
+            return [None]
+        return [int(self.mesh.kept[int(v)]) for v in self.run.value_of("--vertex").split(",")]
+
+    @property
+    def rows(self):
+        """The query vertices of a command of rows."""
+        return self.files.vertices if "--vertices" in self.run.asked else np.arange(self.files.count)
+
+    def radii_of(self, row):
+        """One for each scale."""
+        return [self.files.radii[row] * self.unit] if "--radii" in self.run.asked else self.radii
+
+    def neighborhood(self, v, r):
+        if self.method == "ball":
+            squared = self.mesh.squared(self.mesh.V[v])
+            return {int(w): math.sqrt(squared[w]) for w in np.flatnonzero(squared <= r * r)}
+        return self.mesh.neighborhood(v, r, self.metric, self.walls, self.ignored, self.point, self.seeds)
+
+    def in_order(self, found):
+        """Sorted as --sort says."""
+        if self.sort == "distance":
+            return sorted(found, key=lambda v: (found[v], v))
+        if self.sort == "index":
+            places = places_in_index(self.files, self.run.file, words_of(self.run, READING))
+            return sorted(found, key=places.__getitem__)
+        return sorted(found)
+
+    def compare(self, wrong, what, ids, v, found):
+        """The ids of an answer with a neighborhood. The method of the paper may find more."""
+        if self.method != "paper":
+            expect(wrong, what, list(ids), self.in_order(found))
+        elif not set(found) <= set(ids):
+            wrong.append(f"{what}: lacks {sorted(set(found) - set(ids))}")
+
+
+def words_of(run, names):
+    """Those of the options that a command line has, as typed."""
+    words = ()
+    for name in set(names) & set(run.asked):
+        words += (name,) if run.asked[name] in (None, True) else (name, str(run.value_of(name)))
+    return words
+
+
+@functools.lru_cache(maxsize=None)
+def places_in_index(files, file, words):
+    done = files.run(["batch", files.folder / file, *words, "-r", "0", "-o", "-"])
+    vertices = np.load(io.BytesIO(done.stdout))["vertices"]
+    return {int(v): place for place, v in enumerate(vertices)}
+
+
+def sample(count):
+    """Some rows, among them the first and the last, of an answer of at least one."""
+    return sorted({0, min(1, count - 1), count - 1, *np.random.default_rng(count).integers(0, count, ROWS).tolist()})
+
+
+def arrays_of(run, name="--output"):
+    return dict(np.load(io.BytesIO(run.output(name))))
+
+
+# Single queries.
+
+
+def answers_of_query(question, text):
+    """For each start: the counts, the vertices, their distances and their radii, as printed."""
+    asked, starts, radii = question.run.asked, question.starts, question.radii
+    if question.json:
+        documents = json.loads(text)
+        for one in documents if isinstance(documents, list) else [documents]:
+            counts = one.get("counts", [one.get("count")])
+            rings = np.searchsorted(counts, np.arange(counts[-1]), side="right")
+            yield counts, one.get("vertices"), one.get("distances"), [radii[i] for i in rings]
+        return
+    lines = [line.split() for line in text.splitlines()]
+    for start in starts:
+        rows = [line[1:] for line in lines if int(line[0]) == start] if len(starts) > 1 else lines
+        if "--count" in asked:
+            yield [int(row[-1]) for row in rows], None, None, None
+            continue
+        distances = [float(row[1]) for row in rows] if "--distances" in asked else None
+        ring = [float(row[-1]) for row in rows] if len(radii) > 1 else [radii[0]] * len(rows)
+        counts = [sum(one <= r * (1 + 1e-9) for one in ring) for r in radii]
+        yield counts, [int(row[0]) for row in rows], distances, ring
+
+
+def query(run, wrong):
+    question = Question(run)
+    answers = list(answers_of_query(question, run.text()))
+    expect(wrong, "answers", len(answers), len(question.starts))
+    for start, (counts, vertices, distances, rings) in zip(question.starts, answers):
+        nested = [question.neighborhood(start, r) for r in question.radii]
+        if question.method != "paper":
+            expect(wrong, f"counts of {start}", counts, [len(one) for one in nested])
+        if vertices is None:
+            continue
+        expect(wrong, f"number of vertices of {start}", len(vertices), counts[-1])
+        begin = 0
+        for inner, found, r, end in zip([{}, *nested], nested, question.radii, counts):
+            ring = {v: d for v, d in found.items() if v not in inner}
+            question.compare(wrong, f"ring {r} of {start}", vertices[begin:end], start, ring)
+            expect(wrong, f"radii of {start}", rings[begin:end], np.full(end - begin, r))
+            begin = end
+        if distances is not None:
+            known = nested[-1]
+            of = {v: known.get(v, math.dist(question.mesh.V[v], question.mesh.V[start or 0])) for v in vertices}
+            expect(wrong, f"distances of {start}", distances, np.array([of[v] for v in vertices]))
+    if "--output" in run.asked:
+        painted, _, _ = read_ply(run, "--output")
+        expect(wrong, "painted vertices", len(painted), question.files.count)
+    return len(answers)
+
+
+def read_ply(run, name):
+    file = run.folder / "read.ply"
+    file.write_bytes(run.output(name))
+    return plain.read_ply(file)
+
+
+def region(run, wrong):
+    question = Question(run)
+    mesh, arrays = question.mesh, arrays_of(run, "--arrays")
+    found = question.neighborhood(question.starts[0], question.radii[0])
+    inside = np.isin(mesh.corners, list(found))
+    of_face = np.add.reduceat(inside, mesh.offsets[:-1])
+    faces = np.flatnonzero(of_face == np.diff(mesh.offsets) if run.asked.get("--faces") != "any" else of_face > 0)
+    expect(wrong, "faces", arrays["faces"].tolist(), faces.tolist())
+    corners = mesh.corners[np.isin(np.repeat(np.arange(len(of_face)), np.diff(mesh.offsets)), faces)]
+    vertices = sorted(set(corners.tolist()))
+    expect(wrong, "vertices", sorted(arrays["vertices"].tolist()), vertices)
+    written, offsets, _ = read_ply(run, "--output")
+    expect(wrong, "written", (len(written), len(offsets) - 1), (len(vertices), len(faces)))
+    return 1
+
+
+def connect(run, wrong):
+    question = Question(run)
+    nearest = run.asked.get("--nearest")
+    start = (question.walls, question.ignored, question.point, question.seeds)
+    radii = connecting_radii(question.mesh, question.starts[0], int(nearest) if nearest else None, *start)
+    targets = list(radii) if nearest else [int(question.mesh.kept[int(v)]) for v in run.value_of("--to").split(",")]
+    if question.json:
+        document = json.loads(run.text())
+        found = list(zip(document["vertices"], (math.inf if r is None else r for r in document["radii"])))
+    else:
+        found = [(int(v), float(r)) for v, r in (line.split() for line in run.text().splitlines())]
+    expect(wrong, "vertices", [v for v, _ in found], targets)
+    expect(wrong, "radii", [r for _, r in found], np.array([radii.get(v, math.inf) for v in targets]))
+    return len(found)
+
+
+@functools.lru_cache(maxsize=None)
+def connecting_radii(mesh, v, most, walls, ignored, point, seeds):
+    return mesh.connecting_radii(v, most, walls, ignored, point, seeds)
+
+
+def closest(run, wrong):
+    question = Question(run)
+    points = np.array([question.point]) if question.point else question.files.points
+    if "--output" in run.asked:
+        arrays = arrays_of(run)
+        found = np.column_stack([arrays["face"], arrays["point"], arrays["distance"]])
+    elif question.json:
+        found = np.array([[one["face"], *one["point"], one["distance"]] for one in json.loads(run.text())])
+    else:
+        found = np.array([line.split() for line in run.text().splitlines()], float)
+    expect(wrong, "points", len(found), len(points))
+    some = sample(len(points))[:4]
+    for i in some:
+        expect(wrong, f"distance of point {i}", found[i, 4], distance_to_surface(question.mesh, tuple(points[i])))
+        expect(wrong, f"point {i}", np.linalg.norm(found[i, 1:4] - points[i]), found[i, 4])
+    return len(some)
+
+
+@functools.lru_cache(maxsize=None)
+def distance_to_surface(mesh, p):
+    return mesh.distance_to_surface(np.array(p))
+
+
+def compare(run, wrong):
+    question = Question(run)
+    v, r = question.starts[0], question.radii[0]
+    text = run.text()
+    rows = json.loads(text)["methods"] if question.json else [
+        dict(zip(("method", "count", "extra", "missing"), line.split())) for line in text.splitlines()[1:]]
+    counts = {row["method"]: int(row["count"]) for row in rows}
+    exact = len(question.neighborhood(v, r))
+    expect(wrong, "exact", (counts["exact"], counts["bfs"]), (exact, exact))
+    kept = question.mesh.kept == np.arange(question.files.count)
+    expect(wrong, "ball", counts["ball"], int(((question.mesh.squared(question.mesh.V[v]) <= r * r) & kept).sum()))
+    return len(rows)
+
+
+# Rows.
+
+
+def check_limit(run, wrong):
+    """With --max-bytes, the same bytes as without; and a refusal where it is too small."""
+    if "--max-bytes" not in run.asked:
+        return
+    if run.output() != run.without.output():
+        wrong.append("another answer with --max-bytes")
+    arguments = run.arguments()
+    arguments[arguments.index("--max-bytes") + 1] = str(run.enough // 2)
+    expect(wrong, "exit code with half of the bytes", run.files.run(arguments, folder=run.folder).returncode, 6)
+
+
+def batch(run, wrong):
+    question = Question(run)
+    check_limit(run, wrong)
+    asked, arrays = run.asked, arrays_of(run)
+    counts = "--count" in asked
+    in_index_order = asked.get("--order") == "index" if counts else "shape" not in arrays
+    rows = arrays["vertices"] if in_index_order else question.rows
+    if in_index_order:
+        expect(wrong, "vertices", sorted(rows.tolist()), np.unique(question.mesh.kept).tolist())
+    if counts:
+        expect(wrong, "shape", arrays["count"].shape, (len(question.radii_of(0)), len(rows)))
+    else:
+        expect(wrong, "rows", len(arrays["indptr"]), len(rows) + 1)
+        if not in_index_order:
+            expect(wrong, "shape", arrays["shape"].tolist(), [len(rows), question.files.count])
+    for row in sample(len(rows)):
+        v = int(question.mesh.kept[rows[row]])
+        # In index order, the radii of a file are still those of the vertices.
+        radii = question.radii_of(rows[row] if in_index_order else row)
+        if counts:
+            found = [len(question.neighborhood(v, r)) for r in radii]
+            if question.method == "paper":
+                found = np.maximum(found, arrays["count"][:, row]).tolist()
+            expect(wrong, f"counts of row {row}, vertex {v}", arrays["count"][:, row].tolist(), found)
+            continue
+        ids = arrays["indices"][arrays["indptr"][row] : arrays["indptr"][row + 1]].tolist()
+        found = question.neighborhood(v, radii[0])
+        question.compare(wrong, f"row {row}, vertex {v}", ids, v, found)
+        if "--distances" in asked:
+            name = "distances" if in_index_order else "data"
+            distances = arrays[name][arrays["indptr"][row] : arrays["indptr"][row + 1]]
+            of = np.array([found.get(w, math.dist(question.mesh.V[w], question.mesh.V[v])) for w in ids])
+            expect(wrong, f"distances of row {row}, vertex {v}", distances, of)
+    return len(sample(len(rows)))
+
+
+def check_radii(question, arrays, wrong):
+    per_row = "--radii" in question.run.asked
+    expected = question.files.radii[None, : len(question.rows)] * question.unit if per_row else np.array(question.radii)
+    expect(wrong, "radii", arrays["radii"].shape, expected.shape)
+    expect(wrong, "radii", arrays["radii"], expected)
+
+
+def check_mesh_files(run, wrong, quality):
+    """The values that a program shows: the property quality of PLY, an array of VTK."""
+    quality = np.asarray(quality, np.float32)
+    if "--ply" in run.asked:
+        expect(wrong, "quality", read_ply(run, "--ply")[0]["quality"], quality)
+    if "--vtk" in run.asked and quality.astype(">f4").tobytes() not in run.output("--vtk"):
+        wrong.append("the file of --vtk lacks the values")
+
+
+def aggregate(run, wrong):
+    question = Question(run)
+    check_limit(run, wrong)
+    asked, arrays, files = run.asked, arrays_of(run), question.files
+    rows, values = question.rows, files.values
+    expect(wrong, "shape", arrays["values"].shape, (len(question.radii_of(0)), len(rows), values.shape[1]))
+    check_radii(question, arrays, wrong)
+    weights = None
+    if "--weights" in asked:
+        weights = files.weights if asked["--weights"] == "weights" else areas(question.mesh)
+    how = (asked.get("--reduce", "mean"), asked.get("--kernel", "box"), weights, asked.get("--nan", "propagate"))
+    for row in sample(len(rows)):
+        v, radii = int(question.mesh.kept[rows[row]]), question.radii_of(row)
+        for scale, r in enumerate(radii):
+            found = question.neighborhood(v, max(radii) if asked.get("--nesting") == "patch" else r)
+            found = {w: d for w, d in found.items() if d <= r}
+            ids, distances = list(found), list(found.values())
+            expected = [plain.aggregate(ids, distances, values[:, c], *how, r) for c in range(values.shape[1])]
+            expect(wrong, f"row {row}, vertex {v}, radius {r}", arrays["values"][scale, row], np.array(expected))
+    check_mesh_files(run, wrong, arrays["values"][-1, :, 0])
+    return len(sample(len(rows)))
+
+
+@functools.lru_cache(maxsize=None)
+def areas(mesh):
+    return mesh.vertex_areas()
+
+
+def unconnected(run, wrong):
+    question = Question(run)
+    arrays, rows = arrays_of(run), question.rows
+    expect(wrong, "shape", arrays["gap"].shape, (len(question.radii_of(0)), len(rows)))
+    check_radii(question, arrays, wrong)
+    for row in sample(len(rows)):
+        for scale, r in enumerate(question.radii_of(row)):
+            other, gap = question.mesh.nearest_unconnected(rows[row], r, question.walls, question.ignored)
+            expect(wrong, f"other of row {row}, vertex {rows[row]}", int(arrays["other"][scale, row]), other)
+            expect(wrong, f"gap of row {row}", arrays["gap"][scale, row], gap)
+    check_mesh_files(run, wrong, arrays["gap"][-1])
+    return len(sample(len(rows)))
+
+
+FITS = (*READING, "--walls", "--ignored", "--unit", "--no-filter", "--like-libigl", "--kinds", "--threshold")
+
+
+@functools.lru_cache(maxsize=None)
+def fitted(files, command, file, options, radius, v):
+    """The answer for one vertex and one list of radii, from the mesh itself."""
+    listed = files.folder / "one_vertex"
+    listed.write_text(f"{v}\n", encoding="utf-8")
+    alone = ["-r", radius, "--vertices", listed, "--threads", "1", "-o", "-"]
+    done = files.run([command, files.folder / file, *options, *alone])
+    return dict(np.load(io.BytesIO(done.stdout)))
+
+
+def fits(run, wrong):
+    """Curvatures and features, which are fitted, against the same for one vertex at a time."""
+    question = Question(run)
+    asked, arrays, rows = run.asked, arrays_of(run), question.rows
+    options = words_of(run, FITS)
+    radii = asked.get("--radius")
+    if "--largest" in asked:
+        largest, count = float(asked["--largest"]), int(asked.get("--count", 16))
+        smallest = float(asked.get("--smallest", largest / count))
+        radii = largest * np.arange(1, count + 1) / count
+        if "--smallest" in asked:
+            radii = smallest * (largest / smallest) ** (np.arange(count) / (count - 1))
+        expect(wrong, "radii", arrays["radii"], radii * question.unit)
+        if "--unit" in options:
+            options = tuple(word for word in options if word not in ("--unit", "edge"))
+        radii = ",".join(map(repr, arrays["radii"].tolist()))
+    else:
+        check_radii(question, arrays, wrong)
+    for row in sample(len(rows))[::20]:
+        of_row = repr(question.files.radii[row].item()) if "--radii" in asked else radii
+        one = fitted(question.files, run.command, run.file, options, of_row, int(rows[row]))
+        for name in set(one) - {"radii", "vertices", "kinds"}:
+            axis = 0 if name in ("scales", "strength", "radius") else 1
+            found = np.take(arrays[name], [row], axis)
+            if not np.array_equal(found, one[name], equal_nan=True):
+                what = f"{name} of row {row}, vertex {rows[row]}"
+                wrong.append(f"{what}: expected {one[name].ravel()}, got {found.ravel()}")
+    shown = arrays["features"][-1, :, 0] if "features" in arrays else (arrays["k1"][-1] + arrays["k2"][-1]) / 2
+    check_mesh_files(run, wrong, shown)
+    return len(sample(len(rows))[::20])
+
+
+# Files.
+
+
+def info(run, wrong):
+    question = Question(run)
+    text = run.text()
+    numbers = re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE)
+    document = json.loads(text) if question.json else {key: int(number) for key, number in numbers}
+    expect(wrong, "vertices", document["vertices"], question.files.count)
+    expect(wrong, "edges", document["edges"], len(question.mesh.edges))
+    if "--index" in run.asked and not ("paper" in document["index"] if question.json else "index of the paper" in text):
+        wrong.append("no sizes of the indexes")
+    return 1
+
+
+def build(run, wrong):
+    question = Question(run)
+    (run.folder / "built.mhi").write_bytes(run.output())
+    paper = run.asked.get("--index") == "paper"
+    for v in (17, 20011):
+        method = ["--method", "paper"] if paper else []
+        done = question.files.run(["query", "built.mhi", "-v", str(v), "-r", "3.5", *method], folder=run.folder)
+        found = set(map(int, done.stdout.split()))
+        expected = set(question.mesh.neighborhood(int(question.mesh.kept[v]), 3.5))
+        if found != expected and not (paper and expected <= found):
+            wrong.append(f"of {v}: expected {sorted(expected)}, got {sorted(found)} {done.stderr.decode()}")
+    if not paper:
+        done = question.files.run(["region", "built.mhi", "-v", "17", "-r", "2", "-o", "x.ply"], folder=run.folder)
+        expect(wrong, "faces", done.returncode == 0, "--faces" in run.asked)
+    return 2
+
+
+def verify(run, wrong):
+    text = run.text()
+    compared = json.loads(text)["mesh"] is not None if "--json" in run.asked else "the same as" in text
+    expect(wrong, "compared", compared, "--mesh" in run.asked)
+    return 1
+
+
+def partition(run, wrong):
+    question = Question(run)
+    folder = run.folder / run.asked["--output"]
+    parts = sorted(folder.glob("part-*"))
+    if "--parts" in run.asked:
+        expect(wrong, "parts", len(parts), int(run.asked["--parts"]))
+    radius = float(run.asked["--halo"]) * question.unit
+    for part in parts:
+        numbers = np.load(part / "vertices.npy")
+        v = int(np.median(np.load(part / "owned.npy"))) if (part / "owned.npy").exists() else 0
+        done = question.files.run(["query", part / "index.mhi", "-v", str(v), "-r", repr(radius)])
+        found = sorted(numbers[np.array(done.stdout.split(), int)].tolist())
+        start = int(question.mesh.kept[numbers[v]])
+        expect(wrong, f"{part.name}, vertex {numbers[v]}", found, sorted(question.mesh.neighborhood(start, radius)))
+    return len(parts)
+
+
+def generate(run, wrong):
+    if "--list" in run.asked:
+        names = [one["kind"] for one in json.loads(run.text())] if "--json" in run.asked else run.text().split()
+        expect(wrong, "plates is listed", "plates" in names, True)
+        return 1
+    vertices, _, _ = read_ply(run, "--output")
+    asked = int(run.asked.get("--vertices", 10000))
+    if abs(len(vertices) - asked) > asked / 20:
+        wrong.append(f"{len(vertices)} vertices, expected {asked}")
+    return 1
+
+
+def view(run, wrong):
+    question = Question(run)
+    page = run.output().decode()
+    settings = json.loads(re.search(r'id="meshhood-settings">(.*)</script>', page)[1])
+    asked = run.asked
+    expect(wrong, "vertex", settings.get("vertex"), question.starts[0] if "--vertex" in asked else None)
+    expect(wrong, "radius", settings.get("radius", math.nan), question.radii[0] if question.radii else math.nan)
+    expect(wrong, "weld", settings.get("weld", math.nan), 0.0 if "--weld" in asked else math.nan)
+    if "--ids" in asked:
+        expect(wrong, "ids", settings["ids"], question.mesh.kept[question.files.vertices].tolist())
+    expect(wrong, "values", "scalar" in settings, "--values" in asked)
+    return 1
+
+
+CHECKS = {"query": query, "region": region, "connect": connect, "closest": closest, "compare": compare, "batch": batch,
+          "aggregate": aggregate, "unconnected": unconnected, "curvature": fits, "features": fits, "info": info,
+          "build": build, "check": verify, "partition": partition, "generate": generate, "view": view}
