@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <system_error>
 
 #include <fast_float/fast_float.h>
 
+#include "io/float_keeps.h"
 #include "shared/distance.h"
 
 /// Text in the form that programs write: blanks are spaces and tabs, and numbers are digits. Each function takes a
@@ -42,6 +44,15 @@ template <class Real>
 [[nodiscard]] const char* take_coordinate(const char* at, const char* end, Real& value) {
   const char* const after = take_number(at, end, value);
   return after != nullptr && double{std::abs(value)} <= kLargestCoordinate ? after : nullptr;  // false for NaN
+}
+
+/// The same; `keeps` becomes false unless float keeps the coordinate.
+template <class Real>
+[[nodiscard]] const char* take_coordinate(const char* at, const char* end, Real& value, bool& keeps) {
+  at = skip_blanks(at);
+  const char* const after = take_coordinate(at, end, value);
+  if (after != nullptr && keeps) keeps = float_keeps({at, static_cast<std::size_t>(after - at)}, value);
+  return after;
 }
 
 /// A whole number of at most nine digits, whatever follows.
