@@ -19,9 +19,11 @@ std::ptrdiff_t significant_digits(std::string_view number) {
 
 }  // namespace
 
-bool prints_as(std::string_view number, double value) {
+bool float_keeps(std::string_view number, double value) {
   constexpr std::ptrdiff_t kMostDigits = 17;  // which tell doubles from each other
+  if (std::abs(value) >= kFloatOverflow) return false;
   const auto nearest = static_cast<float>(value);
+  if (double{nearest} == value) return true;
   const auto digits = std::clamp<std::ptrdiff_t>(significant_digits(number), 1, kMostDigits);
   return parse_real<double>(fmt::format("{:.{}e}", double{nearest}, digits - 1)) == value ||
          parse_real<double>(fmt::format("{}", nearest)) == value;

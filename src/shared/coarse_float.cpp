@@ -26,11 +26,11 @@ double step_at(double largest) {
 
 template <class Real>
 double largest_coordinate(const StridedPositions<Real>& xyz) {
-  Real largest = 0;
+  std::array<Real, 3> largest = {};
   for (std::size_t v = 0; v < xyz.size(); ++v) {
-    for (std::size_t axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(xyz(v, axis)));
+    for (std::size_t axis = 0; axis < 3; ++axis) largest[axis] = std::max(largest[axis], std::abs(xyz(v, axis)));
   }
-  return static_cast<double>(largest);
+  return static_cast<double>(*std::max_element(largest.begin(), largest.end()));
 }
 
 // The mean length of the sides of the faces; nothing if there are none, or if it is at least `least`.
