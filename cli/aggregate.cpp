@@ -49,7 +49,7 @@ constexpr Names<Nesting, 2> kNestings{{{"own", Nesting::Own}, {"patch", Nesting:
 
 struct AggregateCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   std::string values;
   RowOptions rows;
   std::string metric = "straight";
@@ -128,7 +128,7 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
 
 void aggregate_command(const AggregateCommand& options) {
   check_value_files(options.files, options.rows.with_files({options.file, options.values, options.weights}));
-  Input input(options.file, options.weld, options.rows.threads);
+  Input input(options.file, options.reading, options.rows.threads);
   input.need_edges("aggregate");
   const RowQuery rows(options.rows, input);
   const BatchQuery batch = rows.query();
@@ -156,7 +156,7 @@ void add_aggregate(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("aggregate", "Write the mean or another aggregate of values over each neighborhood");
   add_file(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_file_option(*command, "--values", "numbers by vertex: text with a line per vertex, or an array of NumPy (.npy)",
                   options->values)
       ->required();

@@ -25,7 +25,7 @@ namespace {
 
 struct ConnectCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   std::vector<std::uint64_t> vertices;
   StartOptions start;
   std::vector<std::uint64_t> targets;
@@ -71,7 +71,7 @@ void connect(const ConnectCommand& options) {
     raise(ErrorCode::InvalidOption, "expected either --to or --nearest");
   }
   check_start_options(options.start, !options.vertices.empty());
-  Input input(options.file, options.weld);
+  Input input(options.file, options.reading);
   input.need_edges("connect");
   const QueryStart start = start_of(options.start, options.vertices, input);
   const Connections found = connections_of(options, start, input);
@@ -85,7 +85,7 @@ void add_connect(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("connect", "Print the smallest radii at which vertices belong to a neighborhood");
   add_file(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_numbers(*command, "-v,--vertex", "the vertex of the neighborhood, by its number in the file from 0",
               options->vertices);
   add_start(*command, options->start);

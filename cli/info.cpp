@@ -27,7 +27,7 @@ constexpr std::size_t kWidth = 19;  // of the names in the text
 
 struct InfoCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   bool index = false;
   bool json = false;
 };
@@ -151,7 +151,7 @@ void info_of_mesh(const InfoCommand& options, Input& input) {
 }
 
 void info(const InfoCommand& options) {
-  Input input(options.file, options.weld);
+  Input input(options.file, options.reading);
   if (input.mesh() != nullptr) return info_of_mesh(options, input);
   print_result(options.json, to_json(input), to_text(input));
 }
@@ -163,7 +163,7 @@ void add_info(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "info", "Print the size, components, boundary and defects of a mesh, or the size and levels of an index");
   add_file(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   command->add_flag("--index", options->index, "for a mesh: also build both indexes and print their sizes and levels");
   add_json(*command, options->json);
   command->callback([options] { info(*options); });

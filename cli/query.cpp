@@ -31,7 +31,7 @@ namespace {
 
 struct QueryCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   std::vector<std::uint64_t> vertices;
   Radii radii;
   StartOptions start;
@@ -243,13 +243,13 @@ void check_options(const QueryCommand& options) {
     raise(ErrorCode::InvalidOption,
           fmt::format("--metric {}: expected --vertex, because a point has no edges", options.search.metric));
   }
-  check_weld(options.weld, method);
+  check_weld(options.reading.weld, method);
 }
 
 void query(const QueryCommand& options) {
   check_options(options);
   check_output(options.output, {options.file});
-  Input input(options.file, options.weld);
+  Input input(options.file, options.reading);
   const std::vector<QueryStart> starts = starts_of(options.start, options.vertices, input);
   const std::vector<double> radii = ascending_radii(options, input);
   const std::vector<Answer> answers = options.start.is_plain() && options.search.is_straight() && radii.size() == 1
@@ -265,7 +265,7 @@ void add_query(CLI::App& program) {
   auto options = std::make_shared<QueryCommand>();
   CLI::App* command = program.add_subcommand("query", "Print the neighborhood of one or more vertices");
   add_file(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_numbers(*command, "-v,--vertex",
               "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, then each line of the "
               "answer begins with the query vertex",

@@ -28,7 +28,7 @@ namespace {
 
 struct RegionCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   std::vector<std::uint64_t> vertices;
   Radius radius;
   StartOptions start;
@@ -83,7 +83,7 @@ void region(const RegionCommand& options) {
   check_start_options(options.start, !options.vertices.empty());
   check_output(options.output, {options.file});
   check_output(options.arrays, {options.file, options.output});
-  Input input(options.file, options.weld);
+  Input input(options.file, options.reading);
   input.need_faces("region");
   const QueryStart start = start_of(options.start, options.vertices, input);
   const double radius = resolve(options.radius, input);
@@ -110,7 +110,7 @@ void add_region(CLI::App& program) {
   auto options = std::make_shared<RegionCommand>();
   CLI::App* command = program.add_subcommand("region", "Write the part of the mesh in a neighborhood, and its rim");
   add_surface(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_numbers(*command, "-v,--vertex", "query vertex, by its number in the file from 0", options->vertices);
   add_radius(*command, options->radius);
   add_start(*command, options->start);
