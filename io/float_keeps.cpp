@@ -2,6 +2,7 @@
 #include "io/float_keeps.h"
 
 #include <algorithm>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -25,8 +26,10 @@ bool float_keeps(std::string_view number, double value) {
   const auto nearest = static_cast<float>(value);
   if (double{nearest} == value) return true;
   const auto digits = std::clamp<std::ptrdiff_t>(significant_digits(number), 1, kMostDigits);
-  return parse_real<double>(fmt::format("{:.{}e}", double{nearest}, digits - 1)) == value ||
-         parse_real<double>(fmt::format("{}", nearest)) == value;
+  if (parse_real<double>(fmt::format("{:.{}e}", double{nearest}, digits - 1)) == value) return true;
+  // Below a power of two floats are nearer, so that the nearest number of so many digits may read as another float.
+  const std::string fewest = fmt::format("{}", nearest);
+  return significant_digits(fewest) == digits && parse_real<double>(fewest) == value;
 }
 
 }  // namespace meshhood::io

@@ -50,17 +50,17 @@ std::optional<double> mean_side_below(double least, const StridedPositions<Real>
   return sum / static_cast<double>(count);
 }
 
-std::string four_digits(double value) {
+std::string three_digits(double value) {
   std::array<char, 32> buffer{};
   constexpr auto kForm = std::chars_format::general;
-  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, kForm, 4).ptr};
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, kForm, 3).ptr};
 }
 
 }  // namespace
 
 std::string CoarseFloat::text() const {
-  return "the mean edge is " + four_digits(mean_edge) + ", but floats are " + four_digits(step) + " apart at " +
-         four_digits(largest);
+  return "the mean edge is " + three_digits(mean_edge) + ", but floats are " + three_digits(step) + " apart at " +
+         three_digits(largest);
 }
 
 std::optional<CoarseFloat> coarse_float(double mean_edge, double largest) {

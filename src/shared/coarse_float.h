@@ -15,7 +15,7 @@ struct CoarseFloat {
   double step;
   double largest;  ///< coordinate, in magnitude
 
-  /// "the mean edge is 0.1, but floats are 0.5 apart at 5.412e+06"
+  /// "the mean edge is 0.1, but floats are 0.5 apart at 5.41e+06"
   [[nodiscard]] std::string text() const;
 };
 
