@@ -49,11 +49,11 @@ io::Precision precision_of(const Reading& reading) {
 
 /// An index says itself how its mesh was read.
 void refuse_to_read_otherwise(const Reading& reading, const std::string& file) {
-  for (const auto& [value, option, verb] :
-       {std::array<std::string_view, 3>{reading.weld, "--weld", "weld"}, {reading.precision, "--precision", "read"}}) {
+  for (const auto& [value, option, advice] : {std::array<std::string_view, 3>{reading.weld, "--weld", "weld the mesh"},
+                                              {reading.precision, "--precision", "choose it"}}) {
     if (value.empty()) continue;
-    raise(ErrorCode::InvalidOption, fmt::format("{}: {} is an index; {} the mesh so when the index is built", option,
-                                                printable_name(file), verb));
+    raise(ErrorCode::InvalidOption,
+          fmt::format("{}: {} is an index; {} when the index is built", option, printable_name(file), advice));
   }
 }
 
