@@ -21,7 +21,7 @@ namespace {
 // What to do where float is coarse.
 std::string_view way_out(Declared declared) {
   switch (declared) {
-    case Declared::Float: return "move the mesh to the origin before it is written as float, or write double";
+    case Declared::Float: return kWriteOtherwise;
     case Declared::FloatInText: return "read the file in double precision if it has more digits than a float";
     case Declared::Double:
     case Declared::Nothing: break;

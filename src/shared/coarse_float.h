@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "meshhood/mesh.h"
 
@@ -18,6 +19,10 @@ struct CoarseFloat {
   /// "the mean edge is 0.1, but floats are 0.5 apart at 5.41e+06"
   [[nodiscard]] std::string text() const;
 };
+
+/// What helps where a file declares float.
+inline constexpr std::string_view kWriteOtherwise =
+    "move the mesh to the origin before it is written as float, or write double";
 
 /// Whether float is coarse for a mesh with edges of this mean length, and this largest coordinate.
 [[nodiscard]] std::optional<CoarseFloat> coarse_float(double mean_edge, double largest);
