@@ -49,7 +49,7 @@ constexpr Names<Nesting, 2> kNestings{{{"own", Nesting::Own}, {"patch", Nesting:
 
 struct AggregateCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   std::string values;
   RowOptions rows;
   std::string metric = "straight";
@@ -131,7 +131,7 @@ void aggregate_command(const AggregateCommand& options) {
     raise(ErrorCode::InvalidOption, fmt::format("--kernel {}: expected --reduce mean or sum", options.kernel));
   }
   check_value_files(options.files);
-  Input input(options.file, options.weld, options.rows.threads);
+  Input input(options.file, options.reading, options.rows.threads);
   input.need_edges("aggregate");
   const RowQuery rows(options.rows, input);
   const BatchQuery batch = rows.query();
@@ -159,7 +159,7 @@ void add_aggregate(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("aggregate", "Write the mean or another aggregate of values over each neighborhood");
   add_file(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_file_option(*command, "--values", "numbers by vertex: text with a line per vertex, or an array of NumPy (.npy)",
                   options->values)
       ->required();

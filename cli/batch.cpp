@@ -39,7 +39,7 @@ namespace {
 
 struct BatchCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   RowOptions rows;
   std::string order;  ///< as typed; empty for the default
   MethodOptions search;
@@ -244,7 +244,7 @@ std::vector<VertexId> all_in_index_order(const Index& index, const Welding& weld
 }
 
 void check_options(const BatchCommand& options) {
-  check_weld(options.weld, options.search.method);
+  check_weld(options.reading.weld, options.search.method);
   check_method(options.search, !options.rows.filter.empty(), options.rows.radii.unit);
   check_sort(options.sort, options.search.method);
   if (!options.shard.empty() && !options.rows.row_radii.empty()) {
@@ -264,7 +264,7 @@ void batch(const BatchCommand& options) {
   check_outputs();
   const RowOrder order = row_order(options);
   const unsigned threads = options.rows.threads;
-  Input input(options.file, options.weld, threads);
+  Input input(options.file, options.reading, threads);
   const RowQuery rows(options.rows, input);
   BatchQuery query = options.count ? rows.query() : rows.query_of_scale(0);
   const SearchMethod method = method_of(options.search, input, {}, threads);
@@ -303,7 +303,7 @@ void add_batch(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("batch", "Write the neighborhoods of all vertices, or of a list, in CSR form");
   add_file(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_rows(*command, options->rows);
   add_choice(
       *command, "--order",

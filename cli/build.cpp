@@ -31,7 +31,7 @@ namespace {
 
 struct BuildCommand {
   std::string mesh;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   std::string index = "exact";
   std::string cut;
   bool faces = false;
@@ -106,8 +106,8 @@ void build(const BuildCommand& options) {
     raise(ErrorCode::InvalidOption, "--faces: the index of the paper is saved without faces; expected --index exact");
   }
   check_outputs();
-  io::Mesh mesh = read_mesh(options.mesh, options.threads);
-  const Welding welding(mesh, options.weld, options.mesh);
+  io::Mesh mesh = read_mesh(options.mesh, options.reading, options.threads);
+  const Welding welding(mesh, options.reading.weld, options.mesh);
   const std::optional<FacesView> faces = options.faces ? std::optional(mesh.view().faces) : std::nullopt;
   Summary summary{};
   if (options.cut.empty()) {
@@ -125,7 +125,7 @@ void add_build(CLI::App& program) {
   auto options = std::make_shared<BuildCommand>();
   CLI::App* command = program.add_subcommand("build", "Build the index of a mesh and save it");
   add_mesh(*command, options->mesh);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_choice(*command, "--index", "exact: for exact answers; paper: the index of the paper", {"exact", "paper"},
              options->index);
   add_file_option(*command, "--cut", "a list of edges that no search crosses: on each line the two vertices of one",

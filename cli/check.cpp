@@ -23,7 +23,7 @@ namespace {
 struct CheckCommand {
   std::string index;
   std::string mesh;  ///< empty if not given
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   bool json = false;
 };
 
@@ -46,8 +46,8 @@ void expect_none(const CheckCommand& options, const std::vector<std::string>& vi
 
 template <class AnyIndex>
 void check_against_mesh(const CheckCommand& options, const IndexHeader& header, const AnyIndex& index) {
-  io::Mesh mesh = read_mesh(options.mesh);
-  static_cast<void>(Welding(mesh, options.weld, options.mesh));
+  io::Mesh mesh = read_mesh(options.mesh, options.reading);
+  static_cast<void>(Welding(mesh, options.reading.weld, options.mesh));
   expect_built_from(options, header, fingerprint(mesh.view()), options.mesh);
   expect_none(options, index.check(mesh.view()));
 }
@@ -104,7 +104,7 @@ void add_check(CLI::App& program) {
   add_file_option(*command, "INDEX", "index file (made by meshhood build)", options->index)->required()->type_name("");
   CLI::Option* mesh =
       add_file_option(*command, "--mesh", "also verify that the index was built from this mesh", options->mesh);
-  add_weld(*command, options->weld)->needs(mesh);
+  for (CLI::Option* option : add_reading(*command, options->reading)) option->needs(mesh);
   add_json(*command, options->json);
   command->callback([options] { check(*options); });
 }

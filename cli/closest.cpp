@@ -28,7 +28,7 @@ namespace {
 
 struct ClosestCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   std::vector<std::string> point;
   std::string points;  ///< a file with a list
   unsigned threads = kAllThreads;
@@ -91,7 +91,7 @@ void closest(const ClosestCommand& options) {
     raise(ErrorCode::InvalidOption, "expected either --point or --points");
   }
   check_outputs();
-  Input input(options.file, options.weld, options.threads);
+  Input input(options.file, options.reading, options.threads);
   input.need_faces("closest");
   const std::vector<SpacePoint> points =
       options.points.empty() ? std::vector{parse_point(options.point)} : read_points(options.points);
@@ -109,7 +109,7 @@ void add_closest(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("closest", "Print the face, point and distance of the surface nearest to points in space");
   add_surface(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_point(*command, "a point in space; also X Y Z", options->point);
   add_file_option(*command, "--points", "many points: text with X Y Z on each line, or an array of NumPy (.npy)",
                   options->points);

@@ -25,7 +25,7 @@ namespace {
 
 struct ConnectCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   StartOptions start;
   std::vector<std::uint64_t> targets;
   std::optional<std::uint64_t> nearest;
@@ -72,7 +72,7 @@ void connect(const ConnectCommand& options) {
     raise(ErrorCode::InvalidOption, "expected either --to or --nearest");
   }
   check_start_options(options.start, false);
-  Input input(options.file, options.weld);
+  Input input(options.file, options.reading);
   input.need_edges("connect");
   const Connections found = connections_of(options, input);
   print_result(options.json, to_json(found), to_text(found));
@@ -85,7 +85,7 @@ void add_connect(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("connect", "Print the smallest radii at which vertices belong to a neighborhood");
   add_file(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_start(*command, "the vertex of the neighborhood, by its number in the file from 0", options->start);
   add_numbers(*command, "--to", "vertices to connect; prints each with its radius, or inf if no radius connects it",
               options->targets);

@@ -31,7 +31,7 @@ namespace {
 
 struct CurvatureCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   RowOptions rows;
   bool like_libigl = false;
   bool no_filter = false;
@@ -118,7 +118,7 @@ void print(const CurvatureCommand& options, std::size_t rows, std::size_t scales
 
 void curvature(const CurvatureCommand& options) {
   check_value_files(options.files);
-  Input input(options.file, options.weld, options.rows.threads);
+  Input input(options.file, options.reading, options.rows.threads);
   input.need_faces("curvature");
   const RowQuery rows(options.rows, input);
   const std::size_t scales = options.rows.scale_count();
@@ -146,7 +146,7 @@ void add_curvature(CLI::App& program) {
   auto options = std::make_shared<CurvatureCommand>();
   CLI::App* command = program.add_subcommand("curvature", "Write the principal curvatures at one or several scales");
   add_surface(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_rows(*command, options->rows);
   command->add_flag("--like-libigl", options->like_libigl,
                     "the values of igl::principal_curvature, with the error of its shape operator");

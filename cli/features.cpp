@@ -49,7 +49,7 @@ constexpr Names<Feature, 10> kKinds{{{"crease", Feature::Crease},
 
 struct FeaturesCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   RowOptions rows;
   std::string smallest;
   std::string largest;
@@ -208,7 +208,7 @@ void print(const FeaturesCommand& options, const FeaturesFound& found) {
 
 void features_command(const FeaturesCommand& options) {
   check_value_files(options.files);
-  Input input(options.file, options.weld, options.rows.threads);
+  Input input(options.file, options.reading, options.rows.threads);
   input.need_faces("features");
   const RowQuery rows(options.rows, input);
   const FeaturesFound found = compute(options, rows, input);
@@ -240,7 +240,7 @@ void add_features(CLI::App& program) {
   auto options = std::make_shared<FeaturesCommand>();
   CLI::App* command = program.add_subcommand("features", "Write creases and other features at many scales");
   add_surface(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_radii(*command, *options);
   command
       ->add_option("--kinds", options->kinds,

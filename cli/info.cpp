@@ -27,7 +27,7 @@ constexpr std::size_t kWidth = 19;  // of the names in the text
 
 struct InfoCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   bool index = false;
   bool json = false;
 };
@@ -125,16 +125,31 @@ std::string to_text(Input& input) {
          (header.kind == IndexKind::Paper ? text_of(input.paper_index()) : text_of(input.exact_index()));
 }
 
-/// Names welding if repeated positions split components.
-void note_split_components(const Input& input, const Statistics& summary) {
-  if (summary.components < 2 || summary.repeated_positions == 0 || input.welding().count() > 0) return;
-  const io::WeldedMesh welded = io::weld(input.mesh()->view());
+std::size_t components_if_welded(const io::Mesh& mesh, double eps) {
+  const io::WeldedMesh welded = io::weld(mesh.view(), eps);
   const Adjacency graph = adjacency(welded.view());
-  const std::size_t joined = count_components(welded.view(), graph.view());
-  if (joined == summary.components) return;
-  print_error("note: ", fmt::format("vertices at equal positions split the mesh into {} components; --weld joins them "
-                                    "into {}",
-                                    summary.components, joined));
+  return count_components(welded.view(), graph.view());
+}
+
+/// Names welding if repeated positions split components or, of a mesh of nearly as many components as faces, positions
+/// that differ by rounding.
+void note_split_components(const Input& input, const Statistics& summary) {
+  if (summary.components < 2 || input.welding().count() > 0) return;
+  std::size_t fewest = summary.components;
+  std::string_view positions;
+  std::string option;
+  const auto attempt = [&](std::string_view positions_of_attempt, const std::string& eps) {
+    const std::size_t joined = components_if_welded(*input.mesh(), eps.empty() ? 0 : eps_of(eps));
+    if (joined >= fewest) return;
+    fewest = joined;
+    positions = positions_of_attempt;
+    option = eps.empty() ? "--weld" : "--weld=" + eps;
+  };
+  if (summary.repeated_positions > 0) attempt("equal", "");
+  if (10 * fewest >= 9 * summary.faces) attempt("nearly equal", rounding_eps(summary.average_edge));
+  if (fewest == summary.components) return;
+  print_error("note: ", fmt::format("vertices at {} positions split the mesh into {} components; {} joins them into {}",
+                                    positions, summary.components, option, fewest));
 }
 
 /// With --index, also builds both indexes.
@@ -151,7 +166,7 @@ void info_of_mesh(const InfoCommand& options, Input& input) {
 }
 
 void info(const InfoCommand& options) {
-  Input input(options.file, options.weld);
+  Input input(options.file, options.reading);
   if (input.mesh() != nullptr) return info_of_mesh(options, input);
   print_result(options.json, to_json(input), to_text(input));
 }
@@ -163,7 +178,7 @@ void add_info(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "info", "Print the size, components, boundary and defects of a mesh, or the size and levels of an index");
   add_file(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   command->add_flag("--index", options->index, "for a mesh: also build both indexes and print their sizes and levels");
   add_json(*command, options->json);
   command->callback([options] { info(*options); });

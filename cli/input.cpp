@@ -2,12 +2,14 @@
 #include "input.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -38,7 +40,22 @@ void refuse_parts(const std::string& file) {
                   printable_name(file), printable_name((folder / "part-00000" / "index.mhi").string())));
 }
 
-std::string reading(const std::string& file) { return "reading " + file; }
+std::string task_of(const std::string& file) { return "reading " + file; }
+
+io::Precision precision_of(const Reading& reading) {
+  if (reading.precision.empty()) return io::Precision::FromFile;
+  return reading.precision == "float" ? io::Precision::Float : io::Precision::Double;
+}
+
+/// An index says itself how its mesh was read.
+void refuse_to_read_otherwise(const Reading& reading, const std::string& file) {
+  for (const auto& [value, option, advice] : {std::array<std::string_view, 3>{reading.weld, "--weld", "weld the mesh"},
+                                              {reading.precision, "--precision", "choose it"}}) {
+    if (value.empty()) continue;
+    raise(ErrorCode::InvalidOption,
+          fmt::format("{}: {} is an index; {} when the index is built", option, printable_name(file), advice));
+  }
+}
 
 void print_warnings(const io::Mesh& mesh, const std::string& file) {
   for (const io::Warning& warning : mesh.warnings) {
@@ -63,22 +80,20 @@ PositionsData positions_of(const paper::Index& index) {
 
 }  // namespace
 
-Input::Input(std::string file, const std::string& weld, unsigned threads) : name_(std::move(file)) {
+Input::Input(std::string file, const Reading& reading, unsigned threads) : name_(std::move(file)) {
   refuse_parts(name_);
-  auto content = [this, threads] {
-    Task task(reading(name_), kMegabytes);
-    return io::read_mesh_or_index(name_, {.threads = threads, .progress = task.progress()});
+  auto content = [&] {
+    Task task(task_of(name_), kMegabytes);
+    return io::read_mesh_or_index(
+        name_, {.precision = precision_of(reading), .threads = threads, .progress = task.progress()});
   }();
   if (auto* mesh = std::get_if<io::Mesh>(&content)) {
     mesh_ = std::move(*mesh);
     print_warnings(*mesh_, name_);
-    welding_ = Welding(*mesh_, weld, name_);
+    welding_ = Welding(*mesh_, reading.weld, name_);
     return;
   }
-  if (!weld.empty()) {
-    raise(ErrorCode::InvalidOption,
-          fmt::format("--weld: {} is an index; weld the mesh when the index is built", printable_name(name_)));
-  }
+  refuse_to_read_otherwise(reading, name_);
   auto& loaded = std::get<io::LoadedIndex>(content);
   header_ = loaded.header;
   if (auto* exact = std::get_if<Index>(&loaded.index)) exact_ = std::move(*exact);
@@ -147,11 +162,13 @@ const paper::Index& Input::paper_index() {
   return *paper_;
 }
 
-io::Mesh read_mesh(const std::string& file, unsigned threads, std::uint64_t max_bytes) {
+io::Mesh read_mesh(const std::string& file, const Reading& reading, unsigned threads, std::uint64_t max_bytes) {
   refuse_parts(file);
   io::Mesh mesh = [&] {
-    Task task(reading(file), kMegabytes);
-    return io::read_mesh(file, {.threads = threads, .max_bytes = max_bytes, .progress = task.progress()});
+    Task task(task_of(file), kMegabytes);
+    return io::read_mesh(
+        file,
+        {.precision = precision_of(reading), .threads = threads, .max_bytes = max_bytes, .progress = task.progress()});
   }();
   print_warnings(mesh, file);
   return mesh;
@@ -159,7 +176,7 @@ io::Mesh read_mesh(const std::string& file, unsigned threads, std::uint64_t max_
 
 io::LoadedIndex load_index(const std::string& file) {
   refuse_parts(file);
-  Task task(reading(file), kMegabytes);
+  Task task(task_of(file), kMegabytes);
   return io::load_any(file, {.progress = task.progress()});
 }
 

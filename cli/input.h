@@ -20,6 +20,12 @@ namespace meshhood::cli {
 /// Use as many threads as the processor has.
 inline constexpr unsigned kAllThreads = 0;
 
+/// How a mesh file is read: --weld and --precision as typed; empty without.
+struct Reading {
+  std::string weld;
+  std::string precision;
+};
+
 /// FILE: a mesh, or an index, which represents the mesh it was built from.
 ///
 /// Each form is derived from the content of the file when it is first needed. Of indexes, only an exact one that was
@@ -27,8 +33,8 @@ inline constexpr unsigned kAllThreads = 0;
 class Input {
  public:
   /// Reads `file`, prints the warnings of the reader, and welds the mesh as --weld says. Throws as `io::read_mesh`,
-  /// `io::load` and `Welding`; Error{InvalidOption} if an index is to be welded.
-  Input(std::string file, const std::string& weld, unsigned threads = kAllThreads);
+  /// `io::load` and `Welding`; Error{InvalidOption} if `reading` says anything of an index.
+  Input(std::string file, const Reading& reading, unsigned threads = kAllThreads);
 
   /// As on the command line.
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -83,9 +89,9 @@ class Input {
   std::optional<std::vector<VertexId>> first_at_position_;
 };
 
-/// Reads a mesh of at most `max_bytes`, with progress, and prints the warnings of the reader. Throws as
-/// `io::read_mesh`.
-[[nodiscard]] io::Mesh read_mesh(const std::string& file, unsigned threads = kAllThreads,
+/// Reads a mesh of at most `max_bytes`, with progress, but does not weld it, and prints the warnings of the reader.
+/// Throws as `io::read_mesh`.
+[[nodiscard]] io::Mesh read_mesh(const std::string& file, const Reading& reading, unsigned threads = kAllThreads,
                                  std::uint64_t max_bytes = io::ReadOptions{}.max_bytes);
 
 /// Reads and verifies an index, with progress. Throws as `io::load`.

@@ -179,6 +179,14 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::s
       ->capture_default_str();
 }
 
+std::array<CLI::Option*, 2> add_reading(CLI::App& command, Reading& reading) {
+  CLI::Option* weld = add_weld(command, reading.weld);
+  return {weld, add_choice(command, "--precision",
+                           "of the positions of a mesh; without it, what the file declares, or for text that declares "
+                           "nothing, float if that keeps what is written, else double",
+                           {"float", "double"}, reading.precision)};
+}
+
 CLI::Option* add_file_option(CLI::App& command, const std::string& name, const std::string& description,
                              std::string& file) {
   return command.add_option(name, file, description)->transform(input_name(name))->type_name("FILE");

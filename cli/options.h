@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -60,6 +61,9 @@ void add_surface(CLI::App& command, std::string& file);
 /// `extension` (".ply") is refused.
 CLI::Option* add_output(CLI::App& command, const std::string& extension, const std::string& description,
                         std::string& file, const std::string& name = "-o,--output");
+
+/// --weld and --precision.
+std::array<CLI::Option*, 2> add_reading(CLI::App& command, Reading& reading);
 
 /// --max-bytes, for a `SizeLimit`.
 void add_max_bytes(CLI::App& command, std::optional<std::uint64_t>& max_bytes);

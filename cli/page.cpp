@@ -57,6 +57,7 @@ std::string to_script(const PageSettings& settings) {
   if (settings.vertex) document["vertex"] = *settings.vertex;
   if (settings.radius) document["radius"] = *settings.radius;
   if (settings.weld) document["weld"] = *settings.weld;
+  if (!settings.precision.empty()) document["precision"] = settings.precision;
   if (settings.answer) document["ids"] = *settings.answer;
   if (!settings.values.empty()) {
     document["scalar"] = {{"title", settings.values_name}, {"values", encode(settings.values)}};

@@ -18,6 +18,7 @@ struct PageSettings {
   std::optional<VertexId> vertex;               ///< otherwise one of the page's choice
   std::optional<double> radius;                 ///< in the unit of the positions
   std::optional<double> weld;                   ///< eps of --weld
+  std::string precision;                        ///< of --precision; empty without
   std::optional<std::vector<VertexId>> answer;  ///< shown instead of the answers of the methods
   std::vector<float> values;                    ///< one for each vertex, shown as colors; or empty
   std::string values_name;                      ///< the legend of the values

@@ -25,7 +25,7 @@ namespace {
 struct PartitionCommand {
   std::string mesh;
   std::string faces;  ///< a file of faces; empty if `mesh` has them
-  std::string weld;   ///< as typed; empty without
+  Reading reading;
   std::uint64_t parts = 0;
   std::uint64_t vertices_per_part = 0;
   std::string halo;
@@ -42,9 +42,10 @@ std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const 
   // A mesh that is read into memory takes several times the bytes of its file.
   constexpr std::uint64_t kMemoryPerByte = 4;
   const std::uint64_t most = options.memory / kMemoryPerByte;
-  if (options.weld.empty()) return parts::open_mesh(options.mesh, most, progress);
-  io::Mesh mesh = read_mesh(options.mesh, options.threads, most);
-  static_cast<void>(Welding(mesh, options.weld, options.mesh));
+  if (options.reading.weld.empty() && options.reading.precision.empty())
+    return parts::open_mesh(options.mesh, most, progress);
+  io::Mesh mesh = read_mesh(options.mesh, options.reading, options.threads, most);
+  static_cast<void>(Welding(mesh, options.reading.weld, options.mesh));
   return parts::chunked(std::move(mesh), printable_name(options.mesh));
 }
 
@@ -119,10 +120,11 @@ void add_partition(CLI::App& program) {
       ->check(stored_name("MESH"))
       ->required()
       ->type_name("");
-  command->add_option("--faces", options->faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
-      ->check(stored_name("--faces"))
-      ->type_name("FILE");
-  add_weld(*command, options->weld)->excludes("--faces");
+  CLI::Option* faces =
+      command->add_option("--faces", options->faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
+          ->check(stored_name("--faces"))
+          ->type_name("FILE");
+  for (CLI::Option* option : add_reading(*command, options->reading)) option->excludes(faces);
   CLI::Option* parts = add_number(*command, "--parts", "number of parts", options->parts);
   add_number(*command, "--vertices-per-part",
              "approximate number of vertices of a part without its halo; sets the number of parts",

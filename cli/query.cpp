@@ -31,7 +31,7 @@ namespace {
 
 struct QueryCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   Radii radii;
   StartOptions start;
   MethodOptions search;
@@ -69,22 +69,34 @@ Answer timed_answer(const QueryCommand& options, AnySearcher& searcher, VertexId
   return answer;
 }
 
-/// Names welding if vertices of other components lie where those of `component` do.
-std::string advice_to_weld(const std::vector<VertexId>& component, Input& input) {
-  // In an index of a welded mesh, a vertex that was not kept is a component.
-  if (input.mesh() == nullptr && component.size() == 1) return "";
-  const std::vector<VertexId>& first = input.first_at_position();
+/// How many of `component` are welded with vertices of other components. `first`: by vertex, the one that it becomes.
+std::ptrdiff_t count_shared(const std::vector<VertexId>& component, const std::vector<VertexId>& first,
+                            const Input& input) {
   std::vector<std::uint8_t> is_of_component(first.size());
   std::vector<std::uint8_t> is_shared(first.size());  // by the first vertex at each position
   for (const VertexId v : component) is_of_component[v] = 1;
   for (std::size_t v = 0; v < first.size(); ++v) {
     if (is_of_component[v] == 0 && input.welding().kept(static_cast<VertexId>(v)) == v) is_shared[first[v]] = 1;
   }
-  const auto shared =
-      std::count_if(component.begin(), component.end(), [&](VertexId v) { return is_shared[first[v]] != 0; });
-  if (shared == 0) return "";
-  return fmt::format("; {} of its vertices have the position of vertices outside it, which {} would join", shared,
-                     input.mesh() != nullptr ? "--weld" : "meshhood build --weld");
+  return std::count_if(component.begin(), component.end(), [&](VertexId v) { return is_shared[first[v]] != 0; });
+}
+
+/// Names welding if vertices of other components lie where those of `component` do. If it is hardly more than a face,
+/// they may also lie there but for rounding.
+std::string advice_to_weld(const std::vector<VertexId>& component, Input& input) {
+  constexpr std::size_t kMostOfFace = 8;
+  // In an index of a welded mesh, a vertex that was not kept is a component.
+  if (input.mesh() == nullptr && component.size() == 1) return "";
+  const auto advice = [&](std::ptrdiff_t shared, std::string_view position, const std::string& weld) {
+    return fmt::format("; {} of its vertices have {} of vertices outside it, which {} would join", shared, position,
+                       (input.mesh() != nullptr ? "" : "meshhood build ") + weld);
+  };
+  const auto equal = count_shared(component, input.first_at_position(), input);
+  if (equal != 0) return advice(equal, "the position", "--weld");
+  if (component.size() == 1 || component.size() > kMostOfFace) return "";
+  const std::string eps = rounding_eps(mean_edge_length(input.graph()));
+  const auto near = count_shared(component, kept_vertices(input.positions(), eps_of(eps)), input);
+  return near == 0 ? "" : advice(near, "nearly the position", "--weld=" + eps);
 }
 
 /// An answer of all vertices of a component is a sign of a radius in the wrong unit, or of a mesh of unconnected
@@ -243,13 +255,13 @@ void check_options(const QueryCommand& options) {
           fmt::format("--metric {}: expected --vertex instead of --point, because a point has no edges",
                       options.search.metric));
   }
-  check_weld(options.weld, method);
+  check_weld(options.reading.weld, method);
 }
 
 void query_command(const QueryCommand& options) {
   check_options(options);
   check_outputs();
-  Input input(options.file, options.weld);
+  Input input(options.file, options.reading);
   const StartQuery query(options.start, input);
   const std::vector<double> radii = ascending_radii(options, input);
   const std::vector<Answer> answers = options.start.is_plain() && options.search.is_straight() && radii.size() == 1
@@ -265,7 +277,7 @@ void add_query(CLI::App& program) {
   auto options = std::make_shared<QueryCommand>();
   CLI::App* command = program.add_subcommand("query", "Print the neighborhood of one or more vertices");
   add_file(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_radii(*command, options->radii)
       ->description(
           "radius of the ball; a vertex at exactly this distance is inside; several, ascending: -r 1,2 or -r 1 -r 2, "

@@ -28,7 +28,7 @@ namespace {
 
 struct RegionCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   Radius radius;
   StartOptions start;
   std::string faces = "all";
@@ -81,7 +81,7 @@ void write_arrays(const std::string& file, const Submesh& part, const Rim& rim) 
 void region(const RegionCommand& options) {
   check_start_options(options.start, false);
   check_outputs();
-  Input input(options.file, options.weld);
+  Input input(options.file, options.reading);
   input.need_faces("region");
   const StartQuery query(options.start, input);
   const QueryStart& start = query.starts.front();
@@ -110,7 +110,7 @@ void add_region(CLI::App& program) {
   auto options = std::make_shared<RegionCommand>();
   CLI::App* command = program.add_subcommand("region", "Write the part of the mesh in a neighborhood, and its rim");
   add_surface(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_radius(*command, options->radius);
   add_start(*command, "query vertex, by its number in the file from 0", options->start);
   add_choice(*command, "--faces", "all: the faces with all corners in the neighborhood; any: with at least one corner",

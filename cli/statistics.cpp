@@ -82,9 +82,9 @@ void mark_component(const AdjacencyView& adjacency, std::size_t start, std::vect
 }
 
 std::size_t repeated_positions(const PositionsView& positions) {
-  return positions.visit([](const auto& xyz) {
-    std::vector<std::array<float, 3>> points(xyz.size());
-    for (std::size_t i = 0; i < 3 * points.size(); ++i) points[i / 3][i % 3] = static_cast<float>(xyz(i / 3, i % 3));
+  return positions.visit([]<class Real>(const StridedPositions<Real>& xyz) {
+    std::vector<std::array<Real, 3>> points(xyz.size());
+    for (std::size_t i = 0; i < 3 * points.size(); ++i) points[i / 3][i % 3] = xyz(i / 3, i % 3);
     std::sort(points.begin(), points.end());
     return static_cast<std::size_t>(points.end() - std::unique(points.begin(), points.end()));
   });

@@ -28,7 +28,7 @@ struct Statistics {
   std::size_t nonmanifold_edges = 0;                   ///< in more than two faces
   double average_edge = 0;                             ///< mean length of the distinct edges; 0 if there are none
   std::size_t repeated_corners = 0;                    ///< corners whose vertex occurs earlier in the same face
-  std::size_t repeated_positions = 0;                  ///< #V minus the number of distinct positions, rounded to float
+  std::size_t repeated_positions = 0;                  ///< #V minus the number of distinct positions
   std::optional<Box> bounds;                           ///< empty for a mesh without vertices
 };
 

@@ -28,7 +28,7 @@ namespace {
 
 struct UnconnectedCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   RowOptions rows;
   ValueFiles files;
   bool json = false;
@@ -68,7 +68,7 @@ void write_mesh(const ValueFiles& files, std::size_t scales, const Gaps& found, 
 
 void unconnected(const UnconnectedCommand& options) {
   check_value_files(options.files);
-  Input input(options.file, options.weld, options.rows.threads);
+  Input input(options.file, options.reading, options.rows.threads);
   input.need_edges("unconnected");
   RowQuery rows(options.rows, input);
   rows.ignore_welded(input);
@@ -99,7 +99,7 @@ void add_unconnected(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "unconnected", "Write the nearest vertex of each ball that is not connected in it: gaps and wall thickness");
   add_file(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_rows(*command, options->rows);
   add_value_files(*command, options->files, "the gap at the last radius");
   add_json(*command, options->json);

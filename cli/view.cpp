@@ -33,7 +33,7 @@ namespace {
 
 struct ViewCommand {
   std::string file;
-  std::string weld;  ///< as typed; empty without
+  Reading reading;
   std::optional<std::uint64_t> vertex;
   Radius radius;
   std::string answer;
@@ -84,7 +84,8 @@ PageSettings settings_of(const ViewCommand& options, Input& input) {
       raise(ErrorCode::InvalidRadius, fmt::format("radius {}, expected a finite number for a page", *settings.radius));
     }
   }
-  if (!options.weld.empty()) settings.weld = eps_of(options.weld);
+  if (!options.reading.weld.empty()) settings.weld = eps_of(options.reading.weld);
+  settings.precision = options.reading.precision;
   if (!options.answer.empty()) {
     settings.answer = read_vertex_list(options.answer, input.vertex_count());
     for (VertexId& v : *settings.answer) v = input.welding().kept(v);
@@ -104,7 +105,7 @@ void view(const ViewCommand& options) {
   check_outputs();
   check_mesh_of_page(options.file);
   static_cast<void>(find_page());  // before the work begins
-  Input input(options.file, options.weld);
+  Input input(options.file, options.reading);
   input.need_edges("view");
   write_page(output, options.file, settings_of(options, input));
   print_text(output + "\n");
@@ -118,7 +119,7 @@ void add_view(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("view", "Write a page that shows the mesh and its neighborhoods in a browser");
   add_file(*command, options->file);
-  add_weld(*command, options->weld);
+  add_reading(*command, options->reading);
   add_number(*command, "-v,--vertex", "vertex to show at first, by its number in the file from 0", options->vertex);
   add_radius(*command, options->radius)->required(false);
   add_file_option(*command, "--ids", "show these vertices, one on each line, as printed by query", options->answer);

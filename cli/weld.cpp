@@ -37,6 +37,8 @@ double eps_of(const std::string& weld) {
   raise(ErrorCode::InvalidOption, fmt::format("--weld={}, expected a finite number >= 0", io::quote(weld)));
 }
 
+std::string rounding_eps(double mean_edge) { return fmt::format("{:.1g}", mean_edge / 1000); }
+
 std::vector<VertexId> kept_vertices(const PositionsView& positions, double eps) {
   std::vector<VertexId> kept = io::welded_ids(positions, eps);
   std::vector<VertexId> first;

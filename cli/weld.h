@@ -22,6 +22,9 @@ CLI::Option* add_weld(CLI::App& command, std::string& weld);
 /// What was typed, as a number; 0 if none was.
 [[nodiscard]] double eps_of(const std::string& weld);
 
+/// EPS for positions that differ by rounding, as a note names it: a thousandth of the mean edge, in one digit.
+[[nodiscard]] std::string rounding_eps(double mean_edge);
+
 /// For each vertex the one that it becomes, itself if it is kept. Throws as `io::welded_ids`.
 [[nodiscard]] std::vector<VertexId> kept_vertices(const PositionsView& positions, double eps);
 

@@ -10,17 +10,23 @@
 
 #include "meshhood/mesh.h"
 
+#include "io/float_keeps.h"
 #include "io/number.h"
+#include "shared/coarse_float.h"
 #include "shared/distance.h"
 
 namespace meshhood::io {
 namespace {
 
-// The least double that overflows when it is rounded to float.
-constexpr double kFloatOverflow = 0x1.ffffffp127;
-
-bool chooses_double(Precision precision, bool file_has_doubles) {
-  return precision == Precision::Double || (precision == Precision::FromFile && file_has_doubles);
+// What to do where float is coarse.
+std::string_view way_out(Declared declared) {
+  switch (declared) {
+    case Declared::Float: return kWriteOtherwise;
+    case Declared::FloatInText: return "read the file in double precision if it has more digits than a float";
+    case Declared::Double:
+    case Declared::Nothing: break;
+  }
+  return "read the file in double precision";
 }
 
 // Tells an overflow ("1e999") from "inf" and "nan".
@@ -56,6 +62,12 @@ template std::optional<std::string_view> to_coordinate(std::string_view token, d
 template std::optional<std::string_view> to_coordinate(double number, float& value);
 template std::optional<std::string_view> to_coordinate(double number, double& value);
 
+Positions::Positions(Precision precision, Declared declared)
+    : is_open_(precision == Precision::FromFile && declared == Declared::Nothing) {
+  const bool declares_double = precision == Precision::FromFile && declared == Declared::Double;
+  if (is_open_ || declares_double || precision == Precision::Double) xyz_.emplace<std::vector<double>>();
+}
+
 void Positions::reserve(std::uint64_t vertices) {
   const auto scalars = 3 * static_cast<std::size_t>(std::min<std::uint64_t>(vertices, kMaxVertices));
   std::visit([scalars](auto& xyz) { xyz.reserve(scalars); }, xyz_);
@@ -72,7 +84,12 @@ std::optional<std::string_view> Positions::append_as(Source source) {
   return std::visit(visitor, xyz_);
 }
 
-template std::optional<std::string_view> Positions::append_as(std::string_view source);
+std::optional<std::string_view> Positions::append(std::string_view token) {
+  const auto problem = append_as(token);
+  if (is_open_ && !problem) note(float_keeps(token, std::get<std::vector<double>>(xyz_).back()));
+  return problem;
+}
+
 template std::optional<std::string_view> Positions::append_as(double source);
 
 void Positions::reorder_last(const std::array<std::size_t, 3>& ranks) {
@@ -135,12 +152,21 @@ void Warnings::add(std::string_view what, const Location& location, std::uint64_
   }
 }
 
-MeshBuilder::MeshBuilder(const InputBuffer& input, const ReadOptions& options, bool file_has_doubles)
-    : positions(chooses_double(options.precision, file_has_doubles)), warnings(input.name(), options.strict) {}
+MeshBuilder::MeshBuilder(const InputBuffer& input, const ReadOptions& options, Declared declared)
+    : positions(options.precision, declared), warnings(input.name(), options.strict), way_out_(way_out(declared)) {}
 
 Mesh MeshBuilder::finish(Format format) {
-  return {format, std::move(positions.values()), std::move(faces.offsets()), std::move(faces.corners()),
-          std::move(warnings.list())};
+  Mesh mesh{format, std::move(positions.values()), std::move(faces.offsets()), std::move(faces.corners()),
+            std::move(warnings.list())};
+  if (positions.are_double() && !positions.are_open()) return mesh;
+  const auto coarse = coarse_float(mesh.view());
+  if (!positions.are_double()) {
+    if (coarse) mesh.warnings.push_back({.what = fmt::format("{}; {}", coarse->text(), way_out_), .first_place = {}});
+  } else if (!coarse) {
+    const auto& doubles = std::get<std::vector<double>>(mesh.positions);
+    mesh.positions = std::vector<float>(doubles.begin(), doubles.end());
+  }
+  return mesh;
 }
 
 void check_vertex_count(std::uint64_t vertices, const std::string& file, const Location& location) {

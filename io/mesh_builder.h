@@ -36,21 +36,27 @@ void append_many(std::vector<T>& array, std::span<const T> more) {
   array.insert(array.end(), more.begin(), more.end());
 }
 
-/// Positions in the chosen precision.
+/// What a file says about the type of its coordinates.
+enum class Declared { Float, FloatInText, Double, Nothing };
+
+/// Positions in the chosen precision. They are *open* if they are double and may become float at the end: those of a
+/// text that declares nothing, as long as float keeps every number.
 class Positions {
  public:
-  explicit Positions(bool as_double) {
-    if (as_double) xyz_.emplace<std::vector<double>>();
-  }
+  Positions(Precision precision, Declared declared);
 
   /// Reserves memory, so that appending does not copy.
   void reserve(std::uint64_t vertices);
 
   /// Appends the next coordinate, or returns the problem as `to_coordinate`.
-  [[nodiscard]] std::optional<std::string_view> append(std::string_view token) { return append_as(token); }
+  [[nodiscard]] std::optional<std::string_view> append(std::string_view token);
   [[nodiscard]] std::optional<std::string_view> append(double number) { return append_as(number); }
 
   [[nodiscard]] bool are_double() const { return std::holds_alternative<std::vector<double>>(xyz_); }
+  [[nodiscard]] bool are_open() const { return is_open_; }
+
+  /// Float does not keep a number, unless `keeps`.
+  void note(bool keeps) { is_open_ = is_open_ && keeps; }
 
   /// Appends coordinates that are valid.
   template <class Real>
@@ -73,6 +79,7 @@ class Positions {
   [[nodiscard]] std::optional<std::string_view> append_as(Source source);
 
   std::variant<std::vector<float>, std::vector<double>> xyz_;
+  bool is_open_;
 };
 
 /// 'x', 'y' or 'z': the axis of coordinate `scalar` in a list of positions.
@@ -138,10 +145,14 @@ struct MeshBuilder {
   Faces faces;
   Warnings warnings;
 
-  MeshBuilder(const InputBuffer& input, const ReadOptions& options, bool file_has_doubles);
+  MeshBuilder(const InputBuffer& input, const ReadOptions& options, Declared declared);
 
-  /// Moves the arrays out.
+  /// Moves the arrays out. Open positions become float unless that is coarse for the mesh. Warns if positions are float
+  /// and that is coarse, also in strict mode: it is no deviation from the format.
   [[nodiscard]] Mesh finish(Format format);
+
+ private:
+  std::string_view way_out_;  // where float is coarse
 };
 
 /// Throws Error{TooLarge} if `vertices` exceeds `kMaxVertices`.

@@ -19,7 +19,7 @@ enum class Format { Ply, Obj, Off, Stl };
 
 /// The precision of the coordinates in memory.
 enum class Precision {
-  FromFile,  ///< double if the file declares double (PLY), float otherwise
+  FromFile,  ///< as the file declares (PLY, binary STL); of other text float if that keeps what is written, else double
   Float,     ///< rounded to float
   Double,    ///< the double nearest to the text or value in the file
 };
@@ -27,7 +27,7 @@ enum class Precision {
 struct ReadOptions {
   Precision precision = Precision::FromFile;
 
-  /// Throw an error instead of recording a warning.
+  /// Throw an error instead of recording that a deviation was accepted.
   bool strict = false;
 
   /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread. The mesh, its
@@ -42,11 +42,11 @@ struct ReadOptions {
   Progress progress = {};
 };
 
-/// A deviation from the format that was accepted.
+/// A deviation from the format that was accepted, or that float is coarse for the mesh.
 struct Warning {
   std::string what;         ///< "data after the last element", ...
   std::uint64_t count = 1;  ///< how often it occurs
-  std::string first_place;  ///< where it occurs first: "line 12", "byte 1048621"
+  std::string first_place;  ///< where it occurs first: "line 12", "byte 1048621"; empty if it concerns the whole mesh
 };
 
 /// A mesh read from a file, owned.
@@ -66,8 +66,15 @@ struct Mesh {
 /// by content; the extension is used only if the content fits no format or is empty. STL corners are welded by exact
 /// equality of positions (-0 equals 0) and numbered in order of first appearance.
 ///
-/// Peak memory is at most twice the decoded arrays plus 64 MB. A count in a header allocates no memory unless the file
-/// is long enough for it. Parsing does not depend on the locale. No other file is opened.
+/// The coordinates of OBJ, OFF and STL text are read as double. They are stored as float if each float, printed with
+/// the digits that were written or with the fewest that tell it from others, is the number in the file; if vertices of
+/// an STL at different positions remain so; and if the mean edge is at least 64 times as long as the distance of
+/// neighboring floats at the largest coordinate. Where float is chosen otherwise and edges are shorter, a warning says
+/// so.
+///
+/// Peak memory is at most twice the decoded arrays plus 64 MB, where positions in text count as double. A count in a
+/// header allocates no memory unless the file is long enough for it. Parsing does not depend on the locale. No other
+/// file is opened.
 /// Throws Error{IoFailure, MalformedFile, UnsupportedFormat, TooLarge, InvalidMesh, Cancelled}: one line with the file,
 /// the line and column or the byte, the element, its value and what was expected.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});

@@ -19,6 +19,7 @@ namespace meshhood::io {
 struct VertexRow {
   std::size_t values;
   std::array<std::size_t, 3> axes;  ///< which values are x, y, z
+  bool is_open = false;             ///< find out whether float keeps the coordinates
 };
 
 /// What to read of a row of a face: values, the number of vertices, the vertices, and values.
@@ -35,33 +36,44 @@ class PlainVertexRows {
   static constexpr std::uint64_t kLines = 1;
   static std::size_t split(std::string_view text, std::size_t place) { return next_line_of(text, place); }
 
-  explicit PlainVertexRows(const VertexRow& row) : row_(row) {}
+  explicit PlainVertexRows(const VertexRow& row) : row_(row), keeps_(row.is_open) {}
 
   const char* take(const char* at, const char* end) {
     std::array<Real, 3> position;
+    bool keeps = keeps_;
     for (std::size_t value = 0; value < row_.values; ++value) {
-      at = take_value(value, at, end, position);
+      at = take_value(value, at, end, position, keeps);
       if (at == nullptr) return nullptr;
     }
     at = plain::take_line_end(at);
-    if (at != nullptr) positions_.insert(positions_.end(), position.begin(), position.end());
+    if (at == nullptr) return nullptr;
+    positions_.insert(positions_.end(), position.begin(), position.end());
+    keeps_ = keeps;
     return at;
   }
 
   [[nodiscard]] std::size_t size() const { return positions_.size() / 3; }
-  void clear() { positions_.clear(); }
+  void clear() {
+    positions_.clear();
+    keeps_ = row_.is_open;
+  }
 
   [[nodiscard]] std::span<const Real> content() const { return positions_; }
 
+  /// Whether float keeps all coordinates.
+  [[nodiscard]] bool float_keeps() const { return keeps_; }
+
  private:
-  const char* take_value(std::size_t value, const char* at, const char* end, std::array<Real, 3>& position) const {
+  const char* take_value(std::size_t value, const char* at, const char* end, std::array<Real, 3>& position,
+                         bool& keeps) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (row_.axes[axis] == value) return plain::take_coordinate(at, end, position[axis]);
+      if (row_.axes[axis] == value) return plain::take_coordinate(at, end, position[axis], keeps);
     }
     return plain::skip_token(at);
   }
 
   VertexRow row_;
+  bool keeps_;
   std::vector<Real> positions_;
 };
 

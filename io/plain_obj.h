@@ -20,6 +20,9 @@ namespace meshhood::io {
 template <class Real>
 class PlainObj {
  public:
+  /// is_open  whether to find out if float keeps the coordinates.
+  explicit PlainObj(bool is_open) : is_open_(is_open), keeps_(is_open) {}
+
   static constexpr std::uint64_t kLines = 1;
   static std::size_t split(std::string_view text, std::size_t place) { return next_line_of(text, place); }
 
@@ -43,11 +46,15 @@ class PlainObj {
     positions_.clear();
     faces_.clear();
     most_missing_ = 0;
+    keeps_ = is_open_;
   }
 
   [[nodiscard]] std::span<const Real> positions() const { return positions_; }
   [[nodiscard]] std::size_t vertex_count() const { return positions_.size() / 3; }
   [[nodiscard]] const PlainFaces& faces() const { return faces_; }
+
+  /// Whether float keeps all coordinates.
+  [[nodiscard]] bool float_keeps() const { return keeps_; }
 
   /// How many vertices must precede these rows, so that no face names a vertex that follows it.
   [[nodiscard]] std::size_t most_missing() const { return most_missing_; }
@@ -55,13 +62,16 @@ class PlainObj {
  private:
   const char* take_vertex(const char* at, const char* end) {
     std::array<Real, 3> position;
+    bool keeps = keeps_;
     for (Real& coordinate : position) {
-      at = plain::take_coordinate(at, end, coordinate);
+      at = plain::take_coordinate(at, end, coordinate, keeps);
       if (at == nullptr) return nullptr;
     }
     const char* after = plain::take_line_end(at);
     if (after == nullptr) after = skip_color(at, end);
-    if (after != nullptr) positions_.insert(positions_.end(), position.begin(), position.end());
+    if (after == nullptr) return nullptr;
+    positions_.insert(positions_.end(), position.begin(), position.end());
+    keeps_ = keeps;
     return after;
   }
 
@@ -117,6 +127,8 @@ class PlainObj {
     return plain::take_line_end(at);
   }
 
+  bool is_open_;
+  bool keeps_;
   std::size_t rows_ = 0;
   std::vector<Real> positions_;
   PlainFaces faces_;

@@ -21,6 +21,9 @@ class PlainStl {
  public:
   using Facet = std::array<typename VertexWelder<Real>::Point, 3>;
 
+  /// is_open  whether to find out if float keeps the coordinates.
+  explicit PlainStl(bool is_open) : is_open_(is_open), keeps_(is_open) {}
+
   static constexpr std::uint64_t kLines = 7;
   static std::size_t split(std::string_view text, std::size_t place) {
     return next_line_of(text, text.find("endfacet", place));
@@ -28,23 +31,31 @@ class PlainStl {
 
   const char* take(const char* at, const char* end) {
     Facet facet;
+    bool keeps = keeps_;
     at = take_words(at, end, "facet normal ");
     for (int i = 0; i < 3 && at != nullptr; ++i) at = plain::skip_token(at);
     at = take_line_end(at);
     at = take_line(at, end, "outer loop");
-    for (auto& corner : facet) at = take_corner(at, end, corner);
+    for (auto& corner : facet) at = take_corner(at, end, corner, keeps);
     at = take_line(at, end, "endloop");
     at = take_line(at, end, "endfacet");
     const auto& [a, b, c] = facet;
     if (at == nullptr || a == b || b == c || c == a) return nullptr;
     facets_.push_back(facet);
+    keeps_ = keeps;
     return at;
   }
 
   [[nodiscard]] std::size_t size() const { return facets_.size(); }
-  void clear() { facets_.clear(); }
+  void clear() {
+    facets_.clear();
+    keeps_ = is_open_;
+  }
 
   [[nodiscard]] std::span<const Facet> facets() const { return facets_; }
+
+  /// Whether float keeps all coordinates.
+  [[nodiscard]] bool float_keeps() const { return keeps_; }
 
  private:
   static const char* take_words(const char* at, const char* end, std::string_view words) {
@@ -60,14 +71,17 @@ class PlainStl {
     return take_line_end(take_words(at, end, words));
   }
 
-  static const char* take_corner(const char* at, const char* end, typename VertexWelder<Real>::Point& corner) {
+  static const char* take_corner(const char* at, const char* end, typename VertexWelder<Real>::Point& corner,
+                                 bool& keeps) {
     at = take_words(at, end, "vertex ");
     for (Real& coordinate : corner) {
-      if (at != nullptr) at = plain::take_coordinate(at, end, coordinate);
+      if (at != nullptr) at = plain::take_coordinate(at, end, coordinate, keeps);
     }
     return take_line_end(at);
   }
 
+  bool is_open_;
+  bool keeps_;
   std::vector<Facet> facets_;
 };
 

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <system_error>
 
 #include <fast_float/fast_float.h>
 
+#include "io/float_keeps.h"
 #include "shared/distance.h"
 
 /// Text in the form that programs write: blanks are spaces and tabs, and numbers are digits. Each function takes a
@@ -29,12 +32,13 @@ namespace meshhood::io::plain {
   return *at == '\n' ? at + 1 : nullptr;
 }
 
+[[nodiscard]] inline bool ends_token(const char* at) { return is_blank(*at) || *at == '\n' || *at == '\r'; }
+
 /// A number that ends with its token, whatever its size.
 template <class Real>
 [[nodiscard]] const char* take_number(const char* at, const char* end, Real& value) {
   const auto [after, error] = fast_float::from_chars(skip_blanks(at), end, value);
-  const bool ends = is_blank(*after) || *after == '\n' || *after == '\r';
-  return error == std::errc() && ends ? after : nullptr;
+  return error == std::errc() && ends_token(after) ? after : nullptr;
 }
 
 /// A number that is a coordinate.
@@ -42,6 +46,27 @@ template <class Real>
 [[nodiscard]] const char* take_coordinate(const char* at, const char* end, Real& value) {
   const char* const after = take_number(at, end, value);
   return after != nullptr && double{std::abs(value)} <= kLargestCoordinate ? after : nullptr;  // false for NaN
+}
+
+/// The same, with a look at how the number is written: `keeps` becomes false unless float keeps it (see `float_keeps`).
+[[nodiscard]] inline const char* take_coordinate(const char* at, const char* end, double& value, bool& keeps) {
+  at = skip_blanks(at);
+  Decimal decimal;
+  const char* after = keeps ? take_decimal(at, decimal) : nullptr;
+  if (after != nullptr && ends_token(after)) {
+    value = decimal.value();
+    if (surely_keeps(decimal, value)) return after;
+  } else {
+    after = take_coordinate(at, end, value);
+    if (after == nullptr || !keeps) return after;
+  }
+  keeps = float_keeps(std::string_view(at, static_cast<std::size_t>(after - at)), value);
+  return after;
+}
+
+/// Float is asked for.
+[[nodiscard]] inline const char* take_coordinate(const char* at, const char* end, float& value, bool& /*keeps*/) {
+  return take_coordinate(at, end, value);
 }
 
 /// A whole number of at most nine digits, whatever follows.
@@ -59,7 +84,7 @@ template <class Real>
 /// The same, where the token ends.
 [[nodiscard]] inline const char* take_integer(const char* at, std::uint32_t& value) {
   const char* const after = take_digits(skip_blanks(at), value);
-  return after != nullptr && (is_blank(*after) || *after == '\n' || *after == '\r') ? after : nullptr;
+  return after != nullptr && ends_token(after) ? after : nullptr;
 }
 
 /// A token of any printable characters.
@@ -67,8 +92,7 @@ template <class Real>
   const char* const begin = skip_blanks(at);
   at = begin;
   while ('!' <= *at && *at <= '~') ++at;
-  const bool ends = is_blank(*at) || *at == '\n' || *at == '\r';
-  return at != begin && ends ? at : nullptr;
+  return at != begin && ends_token(at) ? at : nullptr;
 }
 
 }  // namespace meshhood::io::plain

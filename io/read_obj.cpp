@@ -35,7 +35,7 @@ bool contains(const Words& words, std::string_view word) {
 class ObjReader {
  public:
   ObjReader(InputBuffer& input, const ReaderOptions& options)
-      : text_(input, {.hash_comments = true}), builder_(input, options, false), options_(options) {}
+      : text_(input, {.hash_comments = true}), builder_(input, options, Declared::Nothing), options_(options) {}
 
   Mesh read() {
     builder_.positions.are_double() ? read_all<double>() : read_all<float>();
@@ -47,7 +47,7 @@ class ObjReader {
  private:
   template <class Real>
   void read_all() {
-    PlainRows plain(text_, options_, PlainObj<Real>());
+    PlainRows plain(text_, options_, PlainObj<Real>(builder_.positions.are_open()));
     constexpr auto kAny = std::numeric_limits<uint64_t>::max();
     do {
       plain.take(kAny, [this](const PlainObj<Real>& rows) { return append(rows); });
@@ -66,6 +66,7 @@ class ObjReader {
     if (rows.most_missing() > before || before + rows.vertex_count() > kMaxVertices) return false;
     is_obj_ = true;
     builder_.positions.append(rows.positions());
+    builder_.positions.note(rows.float_keeps());
     builder_.faces.append(rows.faces());
     return true;
   }

@@ -29,7 +29,7 @@ constexpr uint64_t kLeastBytesOfFace = 2;
 class OffReader {
  public:
   OffReader(InputBuffer& input, const ReaderOptions& options)
-      : text_(input, {.hash_comments = true}), builder_(input, options, false), options_(options) {}
+      : text_(input, {.hash_comments = true}), builder_(input, options, Declared::Nothing), options_(options) {}
 
   Mesh read() {
     read_keyword();
@@ -87,9 +87,11 @@ class OffReader {
 
   template <class Real>
   void read_vertices() {
-    PlainRows plain(text_, options_, PlainVertexRows<Real>({.values = 3, .axes = {0, 1, 2}}));
+    PlainRows plain(text_, options_,
+                    PlainVertexRows<Real>({.values = 3, .axes = {0, 1, 2}, .is_open = builder_.positions.are_open()}));
     const auto append = [this](const PlainVertexRows<Real>& rows) {
       builder_.positions.append(rows.content());
+      builder_.positions.note(rows.float_keeps());
       return true;
     };
     for (;;) {

@@ -78,7 +78,7 @@ class PlyReader {
         vertex_(vertex_element(input, header_)),
         axes_(find_axes(input, vertex_)),
         values_(ply_values(input, header_, options)),
-        builder_(input, options, has_double_axis(vertex_, axes_)) {}
+        builder_(input, options, declared_type()) {}
 
   Mesh read() {
     for (const auto& element : header_.elements) {
@@ -92,6 +92,11 @@ class PlyReader {
   }
 
  private:
+  [[nodiscard]] Declared declared_type() const {
+    if (has_double_axis(vertex_, axes_)) return Declared::Double;
+    return header_.encoding == PlyEncoding::Ascii ? Declared::FloatInText : Declared::Float;
+  }
+
   // Before any loop or allocation: the file must be long enough for the count.
   void check_count() const {
     const auto least = least_bytes(*element_);

@@ -129,6 +129,19 @@ void read_soup(InputBuffer& input, const ReaderOptions& options, bool binary, Me
   }
 }
 
+// Whether vertices at different positions are so as floats.
+bool differ_as_floats(const std::vector<double>& positions, const std::string& file) {
+  std::vector<float> floats;
+  std::vector<std::uint32_t> ids;
+  VertexWelder<float> welder(floats, ids, file);
+  welder.expect(positions.size() / 3);
+  for (std::size_t i = 0; i < positions.size(); i += 3) {
+    welder.append(
+        {static_cast<float>(positions[i]), static_cast<float>(positions[i + 1]), static_cast<float>(positions[i + 2])});
+  }
+  return floats.size() == positions.size();
+}
+
 /// Calls `read`. If the file may be text or binary, the error names both reasons; without exceptions, only that of the
 /// text.
 template <class F>
@@ -156,12 +169,15 @@ Mesh read_stl(InputBuffer& input, const ReaderOptions& options) {
   const bool binary = is_binary(input);
   const bool may_be_either = !binary && !is_text(input.ahead(kHeaderBytes).substr(0, kHeaderBytes));
   const std::string not_binary = binary ? "" : why_not_binary(input);
-  MeshBuilder builder(input, options, false);
+  MeshBuilder builder(input, options, binary ? Declared::Float : Declared::Nothing);
   reserve(builder, input, binary);
   read_or_explain(may_be_either, not_binary, [&] {
     std::visit([&](auto& positions) { read_soup(input, options, binary, builder, positions); },
                builder.positions.values());
   });
+  if (builder.positions.are_open()) {
+    builder.positions.note(differ_as_floats(std::get<std::vector<double>>(builder.positions.values()), input.name()));
+  }
   return builder.finish(Format::Stl);
 }
 

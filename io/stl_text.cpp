@@ -5,6 +5,7 @@
 #include <limits>
 #include <string_view>
 
+#include "io/float_keeps.h"
 #include "io/plain_rows.h"
 #include "io/plain_stl.h"
 #include "io/text.h"
@@ -23,7 +24,10 @@ template <class Real>
 class StlText {
  public:
   StlText(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder, VertexWelder<Real>& weld)
-      : text_(input, {}), plain_(text_, options, {}), builder_(builder), weld_(weld) {}
+      : text_(input, {}),
+        plain_(text_, options, PlainStl<Real>(builder.positions.are_open())),
+        builder_(builder),
+        weld_(weld) {}
 
   void read() {
     if (!is_word(text_.token(), "solid")) text_.malformed("expected 'solid'");
@@ -46,6 +50,7 @@ class StlText {
         for (const auto& corner : corners) weld_.append(corner);
         builder_.faces.end_face(3);
       }
+      builder_.positions.note(rows.float_keeps());
       facets_ += rows.size();
       return true;
     });
@@ -110,6 +115,7 @@ class StlText {
       if (const auto problem = to_coordinate(token, corner[i])) {
         text_.malformed("facet {}, vertex {}, {} = {} {}", facets_, count, axis(i), quote(token), *problem);
       }
+      if (builder_.positions.are_open()) builder_.positions.note(float_keeps(token, corner[i]));
     }
     return corner;
   }

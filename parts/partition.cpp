@@ -23,6 +23,7 @@
 #include "parts/survey.h"
 #include "parts/temporary_folder.h"
 #include "parts/vertex_chunks.h"
+#include "shared/coarse_float.h"
 #include "shared/text.h"
 
 namespace meshhood::parts {
@@ -117,6 +118,15 @@ class Run {
               .mean_edge_length = mean,
               .halo = options_.halo_in_edges ? options_.halo * mean : options_.halo,
               .parts = static_cast<std::size_t>(parts)};
+    if (!mesh_.is_double() && mean > 0) warn_if_coarse(found.sample);
+  }
+
+  void warn_if_coarse(std::span<const Site> sample) {
+    double largest = 0;
+    for (const auto& [p, id] : sample) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (const auto coarse = coarse_float(plan().mean_edge_length, largest)) {
+      result_.warnings.push_back(fmt::format("{}: {}; {}", mesh_.name(), coarse->text(), kWriteOtherwise));
+    }
   }
 
   [[nodiscard]] fs::path folder_of(std::size_t part) const { return folder_ / part_name(part); }

@@ -39,9 +39,13 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
+/// scalar_bytes  the size of a coordinate; 0: as the file says.
 /// Returns positions (#V by 3), corners, offsets (empty if all faces are triangles) and warnings.
-auto read(const std::filesystem::path& path, unsigned threads, nb::handle progress) {
-  const io::ReadOptions options{.threads = threads, .progress = progress_to(progress)};
+auto read(const std::filesystem::path& path, std::size_t scalar_bytes, unsigned threads, nb::handle progress) {
+  const io::Precision precision = scalar_bytes == 0               ? io::Precision::FromFile
+                                  : scalar_bytes == sizeof(float) ? io::Precision::Float
+                                                                  : io::Precision::Double;
+  const io::ReadOptions options{.precision = precision, .threads = threads, .progress = progress_to(progress)};
   io::Mesh mesh = without_lock([&] { return io::read_mesh(path, options); });
   check_vertex_count(mesh.view().positions.size());
   nb::object positions = std::visit(
@@ -55,7 +59,7 @@ auto read(const std::filesystem::path& path, unsigned threads, nb::handle progre
   warnings.reserve(mesh.warnings.size());
   for (const auto& [what, count, place] : mesh.warnings) {
     std::string& warning = warnings.emplace_back(place);
-    warning.append(": ").append(what);
+    warning.append(place.empty() ? "" : ": ").append(what);
     if (count > 1) warning.append(" (").append(std::to_string(count)).append(" times)");
   }
   return std::tuple(std::move(positions), owned<std::int32_t>(std::move(mesh.corners)),
@@ -153,7 +157,8 @@ std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
 void bind_files(nb::module_& module) {
   module.def("write_mesh", &write, nb::arg(), nb::arg("V"), nb::arg("F"), nb::arg("offsets").none(), nb::arg("values"),
              nb::arg("colors").none(), nb::arg("vtk"));
-  module.def("read_mesh", &read, nb::arg("path"), nb::arg("threads"), nb::arg("progress").none());
+  module.def("read_mesh", &read, nb::arg("path"), nb::arg("scalar_bytes"), nb::arg("threads"),
+             nb::arg("progress").none());
   module.def("save", &save_file, nb::arg(), nb::arg("path"), nb::arg("faces").none(), nb::arg("progress").none());
   module.def("load", &load_file, nb::arg("path"), nb::arg("mmap"), nb::arg("trusted"), nb::arg("progress").none());
   module.def("to_bytes", &to_bytes);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -13,6 +14,7 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
 
 #include "meshhood/adjacency.h"
 #include "meshhood/face_graph.h"
@@ -27,6 +29,7 @@
 #include "graph_copy.h"
 #include "interpreter.h"
 #include "methods.h"
+#include "shared/coarse_float.h"
 
 namespace nb = nanobind;
 
@@ -90,6 +93,14 @@ std::shared_ptr<ExactMethod> make_refitted(const ExactMethod& method, const Inpu
   });
 }
 
+/// Says why float is coarse for a mesh; None if it is not.
+std::optional<std::string> why_coarse(const Input& positions, const Input& corners,
+                                      const std::optional<Input>& offsets) {
+  const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
+  const auto coarse = without_lock([&] { return coarse_float(mesh); });
+  return coarse ? std::optional(coarse->text()) : std::nullopt;
+}
+
 std::shared_ptr<GraphData> make_graph(const ExactMethod& method) {
   return without_lock([&] { return std::make_shared<GraphData>(extract_graph(method.index())); });
 }
@@ -139,6 +150,7 @@ void bind_makers(nb::module_& module) {
              nb::arg("progress").none());
   module.def("refit", &make_refitted, nb::arg(), nb::arg(), nb::arg("changed").none(), nb::arg("threads"),
              nb::arg("progress").none());
+  module.def("why_coarse", &why_coarse, nb::arg(), nb::arg(), nb::arg("offsets").none());
   module.def("graph", &make_graph);
   module.def("positions", &positions);
   module.def(

@@ -80,14 +80,17 @@ export interface Mesh {
   /** See `Faces`. */
   corners: Uint32Array;
   offsets: Uint32Array | null;
-  /** Deviations from the format that were accepted, one sentence each. */
+  /** Deviations from the format that were accepted, and whether float is coarse for the mesh; one sentence each. */
   warnings: string[];
 }
 
 export interface ReadOptions {
-  /** Of the coordinates: `file` means double if the file declares it, float otherwise. */
+  /**
+   * Of the coordinates: `file` means what the file declares (PLY, binary STL); of other text, float if that keeps what
+   * is written, else double.
+   */
   precision?: 'file' | 'float' | 'double';
-  /** Treat warnings as errors. */
+  /** Treat deviations from the format as errors. */
   strict?: boolean;
   progress?: Progress;
 }

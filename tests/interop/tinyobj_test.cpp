@@ -56,7 +56,7 @@ void compare(const std::string& name, Tally& tally) {
   const auto path = (shared_meshes_dir() / name).string();
   ASSERT_TRUE(tinyobj::LoadObj(&attributes, &shapes, nullptr, &warning, &error, path.c_str(), nullptr, false)) << error;
 
-  const auto mesh = io::read_mesh(path);
+  const auto mesh = io::read_mesh(path, {.precision = io::Precision::Float});
   EXPECT_EQ(faces_of(mesh), faces_of(shapes));
   const auto& ours = std::get<std::vector<float>>(mesh.positions);
   EXPECT_EQ(ours, attributes.vertices);

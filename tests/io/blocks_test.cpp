@@ -35,6 +35,7 @@ std::string outcome(Reader reader, std::string_view content, const io::ReaderOpt
       for (const auto& value : values) words += std::to_string(value) + ' ';
       words += '\n';
     };
+    words += mesh.positions.index() == 0 ? "float " : "double ";
     std::visit(add, mesh.positions);
     add(mesh.corners);
     add(mesh.offsets);
@@ -89,6 +90,12 @@ std::vector<File> files() {
        "solid name\n" + facet_with("0 1 0") + facet_with("1 0 0") + facet_with("0 1 -0") +
            facet_with("2 2 2\n vertex 3 3 3") + "FACET NORMAL 0 0 1\n" + facet_with("5 5 5").substr(19) +
            facet_with("7 7 1e-5") + "endsolid\nsolid\n" + facet_with("8 8 8") + "endsolid\n"},
+      {"OBJ of more digits", io::read_obj, "v 0 0 0\nv 1 0 0\nv 0 1 0 0.123456789\nv 0 5412345.2 0\nf 1 2 3 4\n"},
+      {"OBJ of more digits in a long row", io::read_obj, "v 0 0 0\nv 1 0 0\nv 0 5412345.2 0 1\nf 1 2 3\n"},
+      {"OFF of more digits", io::read_off, "OFF\n3 1 0\n0 0 0\n1 0 0.123456789012\n0 1 0\n3 0 1 2\n"},
+      {"OFF of more digits in a face", io::read_off, "OFF\n2 2 0\n0 0 0\n1 0 0\n1 0 0.123456789012\n1 1 5412345.2\n"},
+      {"STL of more digits", io::read_stl,
+       "solid\n" + facet_with("0 1 0") + facet_with("0 1 5412345.2") + "endsolid\n"},
       {"binary PLY", io::read_ply, binary_ply()},
   };
 }

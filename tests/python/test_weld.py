@@ -66,6 +66,17 @@ def test_a_mesh_of_read_mesh_is_welded_as_it_is(tmp_path):
     assert index.count(0, np.inf) > 100
 
 
+def test_a_soup_whose_corners_differ_by_rounding_warns_with_a_distance():
+    apart, separate = soup(V, F)
+    apart = apart + np.random.default_rng(3).uniform(-1e-7, 1e-7, apart.shape)
+    with pytest.warns(UserWarning, match=r"nearly equal positions.*meshhood.weld\(V, F, eps=") as caught:
+        meshhood.MeshIndex(apart, separate)
+    eps = float(str(caught[0].message).rpartition("eps=")[2].rstrip(")"))
+    vertices, faces, _ = meshhood.weld(apart, separate, eps=eps)
+    assert len(vertices) == len(V)
+    meshhood.MeshIndex(vertices, faces)  # no warning
+
+
 def test_zeros_of_both_signs_are_equal():
     assert meshhood.weld([[0.0, 0, 0], [-0.0, 0, 0]], np.zeros((0, 3), int)).ids.tolist() == [0, 0]
 

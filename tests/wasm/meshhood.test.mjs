@@ -159,6 +159,11 @@ test('polygons, precision and warnings of a file', () => {
   assert.ok(read.positions instanceof Float64Array);
   assert.deepEqual(read.offsets, mesh.offsets);
   assert.ok(readMesh(toPly(mesh), 'p.ply', { precision: 'float' }).positions instanceof Float32Array);
+  const far = Buffer.from('v 451234.5 5412345.2 0\nv 451234.6 5412345.2 0\nv 451234.6 5412345.3 0\nf 1 2 3\n');
+  assert.equal(readMesh(far, 'far.obj').positions[1], 5412345.2);
+  assert.deepEqual(readMesh(far, 'far.obj').warnings, []);
+  const rounded = readMesh(far, 'far.obj', { precision: 'float', strict: true });
+  assert.match(rounded.warnings[0], /^the mean edge is .* floats are 0.5 apart at 5.41e\+06/);
   const more = Buffer.concat([toPly(mesh), Buffer.from('1 2 3\n')]);
   assert.match(readMesh(more, 'p.ply').warnings[0], /^line \d+: data after the last element$/);
   assert.throws(() => readMesh(more, 'p.ply', { strict: true }), { code: 'MalformedFile' });

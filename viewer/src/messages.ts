@@ -12,7 +12,7 @@ export const METHODS: readonly Method[] = ['exact', 'ball', 'paper', 'bfs'];
 
 export type Source =
   /** With `weld`, vertices at most this far apart are joined: faces name the first of them. */
-  | { kind: 'file'; name: string; content: Blob; weld?: number }
+  | { kind: 'file'; name: string; content: Blob; weld?: number; precision?: 'float' | 'double' }
   | { kind: 'example'; name: string; vertices?: number };
 
 export interface Query {

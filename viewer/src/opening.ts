@@ -41,8 +41,8 @@ export class Opening {
   openFirst(link: State): void {
     const pageData = takePageData();
     if (pageData !== null) {
-      const { name, weld } = pageData.settings;
-      this.#open({ source: { kind: 'file', name, content: pageData.file, weld }, link, pageData });
+      const { name, weld, precision } = pageData.settings;
+      this.#open({ source: { kind: 'file', name, content: pageData.file, weld, precision }, link, pageData });
     } else {
       this.openExample(link.example ?? EXAMPLES[0].name, link);
     }

@@ -12,6 +12,8 @@ export interface Settings {
   ids?: number[];
   /** Join vertices at most this far apart; they keep their numbers. */
   weld?: number;
+  /** Of the positions; otherwise that of the file. */
+  precision?: 'float' | 'double';
   /** A value for each vertex: float32, little-endian, in base 64. */
   scalar?: { title: string; values: string };
 }

@@ -67,11 +67,11 @@ function joinVertices(mesh: Arrays, eps: number): void {
   mesh.corners = mesh.corners.map((v) => first[ids[v]]);
 }
 
-function read(bytes: Uint8Array<ArrayBuffer>, name: string, eps?: number): Arrays | MeshIndex {
+function read(bytes: Uint8Array<ArrayBuffer>, { name, weld: eps, precision }: Extract<Source, { kind: 'file' }>): Arrays | MeshIndex {
   if (INDEX_MARK.every((byte, i) => bytes[i] === byte)) {
     return MeshIndex.load(bytes, { progress: reportProgress('Verifying the index') });
   }
-  const mesh = readMesh(bytes, name, { progress: reportProgress('Reading') });
+  const mesh = readMesh(bytes, name, { precision, progress: reportProgress('Reading') });
   const arrays = { ...mesh, scalars: mesh.format === 'ply' ? readPlyScalars(bytes) : [] };
   if (eps !== undefined) joinVertices(arrays, eps);
   return arrays;
@@ -101,7 +101,7 @@ async function open(source: Source): Promise<void> {
   const bytes = source.kind === 'file' ? new Uint8Array(await source.content.arrayBuffer()) : null;
   if (opening !== latestOpening) return;
   const reading = await timed(() => {
-    return source.kind === 'file' ? read(bytes!, source.name, source.weld) : makeExample(source.name, source.vertices);
+    return source.kind === 'file' ? read(bytes!, source) : makeExample(source.name, source.vertices);
   });
   const building = await timed(() => build(reading.result));
   const arrays = reading.result;

@@ -202,6 +202,13 @@ def choice(value, name, choices):
     return value
 
 
+def real_type(dtype):
+    dtype = np.dtype(dtype)
+    if dtype not in (np.float32, np.float64):
+        raise ValueError(f"dtype: {dtype}, expected float32 or float64")
+    return dtype
+
+
 def integer(value, name, lowest, highest):
     value = _integer(value, name)
     if not lowest <= value <= highest:

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _convert, _core
 from ._index import MeshIndex
@@ -27,29 +27,36 @@ class Mesh(NamedTuple):
     faces: Union[NDArray[np.int32], tuple[NDArray[np.int64], NDArray[np.int32]]]
 
 
-def read_mesh(path: Union[str, os.PathLike[str]], *, workers: int = -1, progress: Progress = None) -> Mesh:
+def read_mesh(
+    path: Union[str, os.PathLike[str]], *, dtype: DTypeLike = None, workers: int = -1, progress: Progress = None
+) -> Mesh:
     """Reads a PLY, OBJ, OFF or STL file, whose format is recognized by content, or a GIFTI surface (.gii), which needs
     nibabel; its coordinates are not transformed.
 
+    dtype : of the positions, float32 or float64. Without it, what the file declares (PLY, binary STL, GIFTI); of other
+        text, float32 if that keeps what is written, else float64.
     workers : as for `MeshIndex`. The result does not depend on it.
     progress : as for `MeshIndex`; the parts are bytes. Their total is 0 if the size is unknown (a pipe).
 
-    Returns `Mesh(vertices, faces)`: positions (#V, 3), float64 if the file declares that, else float32; triangles
-    (#F, 3) int32, or polygons as a tuple (offsets int64, corners int32). Vertices and faces are in the order of the
-    file; STL corners with equal positions become one vertex. Irregularities that could be read cause a warning.
+    Returns `Mesh(vertices, faces)`: positions (#V, 3); triangles (#F, 3) int32, or polygons as a tuple (offsets int64,
+    corners int32). Vertices and faces are in the order of the file; STL corners with equal positions become one vertex.
+    Irregularities that could be read cause a warning, and so does float32 where the mesh is too fine for it.
 
     Raises OSError, with errno and filename; ValueError, naming the file, place and element; KeyboardInterrupt on Ctrl-C.
 
     >>> V, F = meshhood.read_mesh("hand.ply")
     """
     path, threads = _convert.path(path), _convert.threads(workers)
+    real = None if dtype is None else _convert.real_type(dtype)
     if os.fsdecode(path).endswith((".gii", ".gii.gz")):
         import nibabel
 
         vertices, corners, _ = mesh_arrays(nibabel.load(os.fsdecode(path)), None)
-        return Mesh(vertices, corners.astype(np.int32, copy=False).reshape(-1, 3))
+        return Mesh(vertices.astype(real or vertices.dtype), corners.astype(np.int32, copy=False).reshape(-1, 3))
     with reporter(progress, "read_mesh", "bytes") as report:
-        vertices, corners, offsets, irregularities = _core.read_mesh(path, threads=threads, progress=report)
+        vertices, corners, offsets, irregularities = _core.read_mesh(
+            path, scalar_bytes=real.itemsize if real else 0, threads=threads, progress=report
+        )
     for irregularity in irregularities:
         warnings.warn(f"{path}: {irregularity}", stacklevel=2)
     return Mesh(vertices, (offsets, corners) if len(offsets) else corners.reshape(-1, 3))

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from . import _convert, _core
 from ._aggregate import Aggregates
 from ._held import Held
-from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_no_faces, warn_if_unwelded
+from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_coarse, warn_if_no_faces, warn_if_unwelded
 from ._progress import Progress, reporter
 from ._queries import Queries
 from ._region_mesh import Regions
@@ -95,7 +95,8 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
     `__array_interface__`) or by DLPack, as tensors of PyTorch on the CPU do. Types other than float32, float64, int32,
     int64, uint32 and uint64 are converted. Cost: O(#V log #V + #E).
 
-    Warns if faces with coinciding corners are not connected (an unwelded mesh).
+    Warns if faces whose corners coincide, or differ by rounding, are not connected (an unwelded mesh), and if float32
+    positions are only some 64 times as fine as the mean edge: then edges are off by a percent, or vertices coincide.
 
     An exact answer depends on the index, the vertex, the radius and the masks alone. Its ids are in index order:
     ascending places of `permutation`.
@@ -129,6 +130,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
         if not hasattr(F, "tocoo"):
             warn_if_no_faces(positions, corners, stacklevel=3)
         warn_if_unwelded(positions, corners, offsets, stacklevel=3)
+        warn_if_coarse(positions, corners, offsets, stacklevel=3)
 
     @classmethod
     def _holding(cls, exact: Any, faces: Any = None) -> MeshIndex:

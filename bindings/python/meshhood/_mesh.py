@@ -7,6 +7,7 @@ import warnings
 
 import numpy as np
 
+from . import _core
 from ._convert import as_array
 
 
@@ -331,9 +332,31 @@ def warn_if_no_faces(positions, corners, stacklevel):
         )
 
 
+def warn_if_coarse(positions, corners, offsets, stacklevel):
+    """Warns if the positions are float32 and their edges are only a few times as long as its resolution."""
+    why = _core.why_coarse(positions, corners, offsets=offsets) if positions.dtype == np.float32 else None
+    if why is not None:
+        warnings.warn(f"V: {why}; {_KEEP_DIGITS}", stacklevel=stacklevel)
+
+
+def warn_if_link_is_coarse(points, link, stacklevel):
+    """The same of points, none of whose edges is longer than `link`."""
+    if points.dtype != np.float32 or len(points) == 0:
+        return
+    largest = np.abs(points).max()
+    if largest > 0 and link < 64 * np.spacing(largest):
+        step = f"floats are {np.spacing(largest):.3g} apart at {largest:.3g}"
+        warnings.warn(f"P: the link is {link:.3g}, but {step}; {_KEEP_DIGITS}", stacklevel=stacklevel)
+
+
+_KEEP_DIGITS = (
+    "pass positions that have been float64 from the beginning, or subtract an offset before they become float32"
+)
+
+
 def warn_if_unwelded(positions, corners, offsets, stacklevel):
-    """Warns if the faces are separate although their corners coincide, as in an STL file that was read without
-    welding."""
+    """Warns if the faces are separate although their corners coincide or differ by rounding, as in an STL file that was
+    read without welding."""
     faces = len(corners) // 3 if offsets is None else len(offsets) - 1
     triangles = len(corners) - 2 * faces
     # A connected surface of n vertices has at least n - 2 triangles; separate polygons have a third of n to nearly n.
@@ -341,9 +364,18 @@ def warn_if_unwelded(positions, corners, offsets, stacklevel):
         return
     x, y, z = positions.T.astype(np.float64)
     distinct = len(np.unique(x + 0.7548776662466927 * y + 0.5698402909980532 * z))
+    eps = 0.0
+    if 2 * distinct > len(positions):
+        starts = offsets[:-1] if offsets is not None else np.arange(0, len(corners), 3)
+        starts = starts[starts + 1 < len(corners)]
+        first, second = positions[corners[starts]].astype(np.float64), positions[corners[starts + 1]]
+        eps = float(f"{np.linalg.norm(first - second, axis=1).mean() / 1000:.0e}")
+        distinct = len(_core.weld(positions, corners, offsets=offsets, eps=eps)[0])
     if 2 * distinct <= len(positions):
+        places, tolerance = ("nearly equal", f", eps={eps:g}") if eps else ("different", "")
         warnings.warn(
-            f"V: {len(positions)} vertices at {distinct} different positions: the faces are not connected, and a "
-            "neighborhood cannot cross from one to the next. Weld the mesh first: V, F, ids = meshhood.weld(V, F)",
+            f"V: {len(positions)} vertices at {distinct} {places} positions: the faces are not connected, and a "
+            "neighborhood cannot cross from one to the next. Weld the mesh first: V, F, ids = "
+            f"meshhood.weld(V, F{tolerance})",
             stacklevel=stacklevel,
         )

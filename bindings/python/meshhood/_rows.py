@@ -136,10 +136,7 @@ def check_words(words: Mapping[str, Any], accepted: Any) -> None:
 def result_dtype(words: Mapping[str, Any], default: Any = np.float64) -> Any:
     """The type of the numbers of the result."""
     given = words.get("dtype")
-    dtype = np.dtype(default if given is None else given)
-    if dtype not in (np.float32, np.float64):
-        raise ValueError(f"dtype: {dtype}, expected float32 or float64")
-    return dtype
+    return _convert.real_type(default if given is None else given)
 
 
 def sort_of(words: Mapping[str, Any]) -> Optional[str]:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from . import _convert, _core
 from ._aggregate import area_weights
 from ._held import Held
-from ._mesh import mesh_arrays, positions_of
+from ._mesh import mesh_arrays, positions_of, warn_if_coarse, warn_if_link_is_coarse
 from ._progress import Progress, reporter
 from ._rows import Words, check_size, read_rows
 from ._types import Ids, Number, Radii, Reals, Vertex, Vertices
@@ -56,7 +56,9 @@ class SurfaceQueries(Held):
             "threads": _convert.threads(workers),
         }
         with reporter(progress, "from_points") as report:
-            return cls._holding(_core.exact_of_points(points, link=distance, **options, progress=report))
+            exact = _core.exact_of_points(points, link=distance, **options, progress=report)
+        warn_if_link_is_coarse(points, distance, stacklevel=3)
+        return cls._holding(exact)
 
     @classmethod
     def of_faces(cls, V: Any, F: Any = None, *, workers: int = -1, progress: Progress = None) -> Self:
@@ -70,9 +72,9 @@ class SurfaceQueries(Held):
         positions, corners, offsets = mesh_arrays(V, F)
         threads = _convert.threads(workers)
         with reporter(progress, "of_faces") as report:
-            return cls._holding(
-                _core.exact_of_faces(positions, corners, offsets=offsets, threads=threads, progress=report)
-            )
+            exact = _core.exact_of_faces(positions, corners, offsets=offsets, threads=threads, progress=report)
+        warn_if_coarse(positions, corners, offsets, stacklevel=3)
+        return cls._holding(exact)
 
     def nearest_unconnected(
         self,

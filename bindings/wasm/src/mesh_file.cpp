@@ -53,7 +53,7 @@ extern "C" {
 [[clang::export_name("mesh_warnings")]] const char* mesh_warnings() {
   warnings.clear();
   for (const io::Warning& warning : workspace.mesh().warnings) {
-    warnings += warning.first_place + ": " + warning.what;
+    warnings += warning.first_place + (warning.first_place.empty() ? "" : ": ") + warning.what;
     if (warning.count > 1) warnings += " (" + std::to_string(warning.count) + " times)";
     warnings += '\n';
   }
