@@ -73,6 +73,12 @@ std::string_view Text::token() {
   }
 }
 
+std::string_view Text::ahead(std::size_t most) {
+  const auto seen = input_.ahead(cursor_ + most);
+  line_ = seen.substr(0, line_.size());
+  return seen.substr(cursor_, most);
+}
+
 bool Text::at_line_end() const {
   const auto rest = line_.substr(cursor_);
   const auto next = rest.find_first_not_of(kBlanks);
