@@ -2,6 +2,7 @@
 #include "io/ply_layout.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "io/number.h"
 
@@ -17,12 +18,14 @@ constexpr std::string_view kBlanksInLine = kBlanks.substr(0, 4);
 // Passes rows, without regard to their values.
 class RowWalk {
  public:
-  RowWalk(std::string_view text, PlyLayout layout) : text_(text), are_lines_(layout == PlyLayout::Lines) { end_row(); }
+  RowWalk(std::string_view text, PlyLayout layout) : text_(text), are_lines_(layout == PlyLayout::Lines) {}
 
-  bool pass_rows(const PlyElement& element, uint64_t count) {
+  // The rows from `row` on. Those before have no further numbers.
+  bool pass_rows(const PlyElement& element, uint64_t row) {
     if (element.properties.empty()) return true;
-    while (count != 0 && pass_row(element)) --count;
-    return count == 0;
+    further_ = row == 0 && element.count > 1 ? std::nullopt : std::optional<uint64_t>(0);
+    while (row != element.count && pass_row(element)) ++row;
+    return row == element.count;
   }
 
   [[nodiscard]] bool is_over() const { return text_.find_first_not_of(kBlanks) == std::string_view::npos; }
@@ -35,8 +38,7 @@ class RowWalk {
           property.is_list && &property != element.properties.data() && !element.has_corners(property);
       if (!(may_lack && is_at_line_end()) && !pass(property)) return false;
     }
-    end_row();
-    return true;
+    return end_row();
   }
 
   bool pass(const PlyProperty& property) {
@@ -46,8 +48,12 @@ class RowWalk {
     return left == 0;
   }
 
-  void end_row() {
-    if (are_lines_) text_.remove_prefix(std::min(text_.find_first_of(kLineEnds), text_.size()));
+  bool end_row() {
+    if (!are_lines_) return true;
+    uint64_t further = 0;
+    while (!token().empty()) ++further;
+    if (!further_) further_ = further;
+    return *further_ == further;
   }
 
   // Empty at the end: of the row, if rows are lines.
@@ -67,17 +73,16 @@ class RowWalk {
 
   std::string_view text_;
   bool are_lines_;
+  std::optional<uint64_t> further_;  // numbers after each row of the element
 };
 
 }  // namespace
 
 bool fits(const PlyRest& rest, PlyLayout layout) {
   RowWalk walk(rest.text, layout);
-  uint64_t rows = rest.rows;
   const PlyElement* const end = rest.header.elements.data() + rest.header.elements.size();
   for (const PlyElement* element = &rest.element; element != end; ++element) {
-    if (element != &rest.element) rows = element->count;
-    if (!walk.pass_rows(*element, rows)) return rest.is_cut && walk.is_over();
+    if (!walk.pass_rows(*element, element == &rest.element ? rest.row : 0)) return false;
   }
   return walk.is_over();
 }

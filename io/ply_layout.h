@@ -16,17 +16,16 @@ enum class PlyLayout {
   Running,    ///< line ends are blanks
 };
 
-/// What follows a row.
+/// Rows that must follow, and the text that does.
 struct PlyRest {
-  std::string_view text;
-  bool is_cut;  ///< the file has more text
+  std::string_view text;  ///< up to the end of the file
   const PlyHeader& header;
   const PlyElement& element;  ///< of the header
-  std::uint64_t rows;         ///< of `element`, that follow
+  std::uint64_t row;          ///< of the element, the first that follows
 };
 
-/// Whether `rest` consists of exactly the rows that must follow, each in a line of its own with `Lines`. If the text is
-/// cut, whether it may.
+/// Whether the text consists of exactly these rows. With `Lines`, each must have a line of its own. A writer that adds
+/// numbers to a row adds as many to each row of the element, so that one row with more numbers proves nothing.
 [[nodiscard]] bool fits(const PlyRest& rest, PlyLayout layout);
 
 }  // namespace meshhood::io

@@ -107,8 +107,9 @@ class TextValues final : public PlyValues {
   }
 
   [[nodiscard]] std::string hint() const override {
-    if (long_row_.line == 0) return "";
-    return fmt::format("; {} runs on after line {}", long_row_.name, long_row_.line);
+    if (long_row_.line != 0) return fmt::format("; {} runs on after line {}", long_row_.name, long_row_.line);
+    const bool runs_on = row_line_ != 0 && row_line_ != text_.location().line;
+    return runs_on ? fmt::format("; the row runs on after line {}", row_line_) : "";
   }
 
   bool anything_left() override { return !text_.token().empty(); }
@@ -125,15 +126,20 @@ class TextValues final : public PlyValues {
 
   Problem missing() { return std::string(text_.input().ahead(1).empty() ? kFileEnds : kLineEnds); }
 
-  // Decided at the first row that ends within a line. A text that cannot be seen to its end may fit.
+  // Decided at the first row that ends within a line. In a text that is too long to be searched, rows are lines if all
+  // were so far.
   PlyLayout layout_after(const PlyElement& element, std::uint64_t row) {
     constexpr std::size_t kFarthest = std::size_t{16} << 20;
-    const auto text = text_.ahead(kFarthest);
-    const PlyRest rest{text, text.size() == kFarthest, header_, element, element.count - row - 1};
-    const bool may_be_lines = long_row_.line == 0;
-    if (may_be_lines && fits(rest, PlyLayout::Lines)) return PlyLayout::Lines;
-    if (fits(rest, PlyLayout::Running)) return PlyLayout::Running;
-    if (may_be_lines) return PlyLayout::Lines;
+    const bool were_lines = long_row_.line == 0;
+    const auto text = text_.from_line_start(kFarthest);
+    if (text.size() == kFarthest) return were_lines ? PlyLayout::Lines : PlyLayout::Running;
+    // If rows are lines, one that is too short has taken numbers from the line of the next.
+    const bool may_be_short = long_row_.line + 1 == text_.location().line;
+    const PlyRest lines{text, header_, element, were_lines ? row : row + 1};
+    const bool are_lines = (were_lines || may_be_short) && fits(lines, PlyLayout::Lines);
+    const PlyRest running{text.substr(text_.bytes_read()), header_, element, row + 1};
+    if (!are_lines && fits(running, PlyLayout::Running)) return PlyLayout::Running;
+    if (were_lines) return PlyLayout::Lines;
     fail_at(text_.input().name(), {.line = long_row_.line, .column = 1}, ErrorCode::MalformedFile,
             fmt::format("{} has fewer numbers in its line than the header declares", long_row_.name));
   }

@@ -65,7 +65,7 @@ class PlyValues {
   /// follow in the line, which are skipped. Throws Error{MalformedFile} if a row so far has too few numbers.
   [[nodiscard]] virtual bool end_row(const PlyElement& element, std::uint64_t row) = 0;
 
-  /// "; vertex 0 runs on after line 12", the first row that is not a line, as it may be the cause of an error. Empty if
+  /// "; vertex 0 runs on after line 12": the first row that is not a line, which may be the cause of an error. Empty if
   /// there is none.
   [[nodiscard]] virtual std::string hint() const = 0;
 

@@ -73,12 +73,12 @@ class OffReader {
 
   // The counts are a line, which may lack that of the edges. A line of a single number is no vertex, though.
   void skip_edge_count(bool are_in_line) {
-    const bool may_lack = are_in_line && text_.at_line_end();
-    if (may_lack && (text_.token().empty() || !text_.at_line_end())) {
-      builder_.warnings.add("no number of edges", text_.location());
-      return text_.put_back();
+    const Location faces = text_.location();
+    if (are_in_line && text_.at_line_end()) {
+      const bool is_missing = text_.token().empty() || !text_.at_line_end();
+      text_.put_back();
+      if (is_missing) return builder_.warnings.add("no number of edges", faces);
     }
-    if (may_lack) text_.put_back();
     read_count("edges");
   }
 

@@ -267,8 +267,8 @@ class PlyReader {
   [[nodiscard]] std::uint32_t checked(std::int64_t index, uint64_t corner) const {
     if (index >= 0 && static_cast<uint64_t>(index) < vertex_.count) return static_cast<std::uint32_t>(index);
     fail_at(input_.name(), values_->location(), ErrorCode::MalformedFile,
-            fmt::format("{} {}, {}[{}] = {}, but there are {} vertices", element_->name, row_, property_->name, corner,
-                        index, vertex_.count));
+            fmt::format("{} {}, {}[{}] = {}, but there are {} vertices{}", element_->name, row_, property_->name,
+                        corner, index, vertex_.count, values_->hint()));
   }
 
   void require(const Problem& problem) const {

@@ -73,10 +73,10 @@ std::string_view Text::token() {
   }
 }
 
-std::string_view Text::ahead(std::size_t most) {
-  const auto seen = input_.ahead(cursor_ + most);
+std::string_view Text::from_line_start(std::size_t most) {
+  const auto seen = input_.ahead(most);
   line_ = seen.substr(0, line_.size());
-  return seen.substr(cursor_, most);
+  return seen.substr(0, most);
 }
 
 bool Text::at_line_end() const {

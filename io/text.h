@@ -67,8 +67,11 @@ class Text {
   /// Whether this line holds no further token.
   [[nodiscard]] bool at_line_end() const;
 
-  /// The text after the last token, `most` bytes of it unless the file ends before. Valid until the next call.
-  std::string_view ahead(std::size_t most);
+  /// The text from the start of this line, `most` bytes of it unless the file ends before. Valid until the next call.
+  std::string_view from_line_start(std::size_t most);
+
+  /// How many bytes of this line have been read.
+  [[nodiscard]] std::size_t bytes_read() const { return cursor_; }
 
   /// As `token_on_line`, but a backslash at the end of a line continues it on the next.
   std::string_view token_on_continued_line();

@@ -36,7 +36,8 @@ def read_mesh(path: Union[str, os.PathLike[str]], *, workers: int = -1, progress
 
     Returns `Mesh(vertices, faces)`: positions (#V, 3), float64 if the file declares that, else float32; triangles
     (#F, 3) int32, or polygons as a tuple (offsets int64, corners int32). Vertices and faces are in the order of the
-    file; STL corners with equal positions become one vertex. Irregularities that could be read cause a warning.
+    file; STL corners with equal positions become one vertex. Irregularities that could be read cause a warning, such
+    as more numbers in a line of a PLY file than its header declares.
 
     Raises OSError, with errno and filename; ValueError, naming the file, place and element; KeyboardInterrupt on Ctrl-C.
 
