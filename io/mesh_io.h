@@ -72,6 +72,10 @@ struct Mesh {
 /// neighboring floats at the largest coordinate. Where float is chosen otherwise and edges are shorter, a warning says
 /// so.
 ///
+/// If each row of an ASCII PLY file has a line of its own, further numbers in the line are skipped with a warning, and
+/// fewer are an error. Otherwise rows may run over lines and share them, and there must be exactly as many numbers as
+/// the header declares. Where more than 16 MiB follow the first row that ends within a line, rows are taken for lines.
+///
 /// Peak memory is at most twice the decoded arrays plus 64 MB, where positions in text count as double. A count in a
 /// header allocates no memory unless the file is long enough for it. Parsing does not depend on the locale. No other
 /// file is opened.

@@ -89,10 +89,11 @@ class PlainRows {
 
   bool parse_window(std::uint64_t most) {
     front_ = used_ = 0;
-    if (block_bytes_ == 0) return false;
-    auto window = text_.input().ahead(kBlocks * block_bytes_);
-    window = window.substr(0, window.rfind('\n') + 1);
     const std::uint64_t offset = text_.input().offset();
+    if (block_bytes_ == 0 || offset < searched_) return false;
+    auto window = text_.input().ahead(kBlocks * block_bytes_);
+    searched_ = offset + window.size();
+    window = window.substr(0, window.rfind('\n') + 1);
     for (std::size_t begin = 0; begin != window.size();) {
       const std::size_t end = Rows::split(window, std::min(begin + block_bytes_, window.size()) - 1);
       if (used_ == blocks_.size()) blocks_.push_back({0, 0, empty_});
@@ -128,6 +129,7 @@ class PlainRows {
   std::vector<Block> blocks_;  // of the last window; the first `used_` of them, of which those before `front_` are over
   std::size_t used_ = 0;
   std::size_t front_ = 0;
+  std::uint64_t searched_ = 0;  // blocks have all line ends before this byte; without it, CR as line end is quadratic
 };
 
 }  // namespace meshhood::io

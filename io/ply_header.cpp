@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 
 #include "io/number.h"
@@ -97,10 +98,7 @@ class HeaderParser {
 
   void parse_element() {
     const std::string name(word("the name of an element"));
-    const auto same = [&name](const PlyElement& e) { return e.name == name; };
-    if (std::any_of(header_.elements.begin(), header_.elements.end(), same)) {
-      text_.malformed("a second element {}", quote(name));
-    }
+    if (!names_.insert(name).second) text_.malformed("a second element {}", quote(name));
     const auto digits = word("a count");
     const auto count = parse_count(digits);
     if (!count) text_.malformed("expected the number of elements {}, found {}", quote(name), quote(digits));
@@ -142,6 +140,7 @@ class HeaderParser {
 
   Text text_;
   PlyHeader header_;
+  std::set<std::string> names_;  // of the elements; a set, because a header may have a million
   bool has_format_ = false;
 };
 

@@ -39,6 +39,12 @@ struct PlyElement {
   std::uint64_t count;
   std::vector<PlyProperty> properties;
   Location location;  ///< of its count in the header
+
+  /// Whether faces or strips have their corners there.
+  [[nodiscard]] bool has_corners(const PlyProperty& property) const {
+    const bool is_kept = name == "face" || name == "tristrips";
+    return is_kept && (property.name == "vertex_indices" || property.name == "vertex_index");
+  }
 };
 
 struct PlyHeader {

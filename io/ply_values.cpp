@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "io/number.h"
+#include "io/ply_layout.h"
 #include "io/text.h"
 
 namespace meshhood::io {
@@ -44,7 +45,7 @@ bool is_in_range(std::int64_t value, PlyType type) {
 class TextValues final : public PlyValues {
  public:
   TextValues(InputBuffer& input, const PlyHeader& header, ReaderOptions options)
-      : text_(input, {.lines_before = header.lines}), options_(std::move(options)) {}
+      : text_(input, {.lines_before = header.lines}), header_(header), options_(std::move(options)) {}
 
   std::unique_ptr<PlyRows> vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
                                        Positions& positions) override {
@@ -57,16 +58,16 @@ class TextValues final : public PlyValues {
   }
 
   Problem take_coordinate(PlyType /*type*/, Positions& positions) override {
-    const auto token = text_.token();
-    if (token.empty()) return std::string(kFileEnds);
+    const auto token = next();
+    if (token.empty()) return missing();
     const auto problem = positions.append(token);
     if (!problem) return std::nullopt;
     return fmt::format("{} {}", quote(token), *problem);
   }
 
   Problem take_integer(PlyType type, std::int64_t& value) override {
-    const auto token = text_.token();
-    if (token.empty()) return std::string(kFileEnds);
+    const auto token = next();
+    if (token.empty()) return missing();
     const auto integer = parse_integer(token);
     if (!integer || !is_in_range(*integer, type))
       return fmt::format("{} is not an integer of the declared type", quote(token));
@@ -76,7 +77,7 @@ class TextValues final : public PlyValues {
 
   Problem skip(PlyType /*type*/, std::uint64_t count) override {
     for (std::uint64_t i = 0; i < count; ++i) {
-      if (text_.token().empty()) return std::string(kFileEnds);
+      if (next().empty()) return missing();
     }
     return std::nullopt;
   }
@@ -92,12 +93,69 @@ class TextValues final : public PlyValues {
   }
 
   [[nodiscard]] bool row_is_over() const override { return text_.at_line_end(); }
+
+  bool end_row(const PlyElement& element, std::uint64_t row) override {
+    const auto line = std::exchange(row_line_, 0);
+    if (line != text_.location().line && long_row_.line == 0) {
+      long_row_ = {line, fmt::format("{} {}", escape(element.name), row)};
+    }
+    if (text_.at_line_end()) return false;
+    if (layout_ == PlyLayout::Undecided) layout_ = layout_after(element, row);
+    if (layout_ == PlyLayout::Running) return false;
+    text_.skip_line();
+    return true;
+  }
+
+  [[nodiscard]] std::string hint() const override {
+    if (long_row_.line != 0) return fmt::format("; {} runs on after line {}", long_row_.name, long_row_.line);
+    const bool runs_on = row_line_ != 0 && row_line_ != text_.location().line;
+    return runs_on ? fmt::format("; the row runs on after line {}", row_line_) : "";
+  }
+
   bool anything_left() override { return !text_.token().empty(); }
   [[nodiscard]] Location location() const override { return text_.location(); }
 
  private:
+  // The next value; empty at the end of the file, or of a row that is a line.
+  std::string_view next() {
+    if (row_line_ != 0) return layout_ == PlyLayout::Lines ? text_.token_on_line() : text_.token();
+    const auto token = text_.token();
+    row_line_ = text_.location().line;
+    return token;
+  }
+
+  Problem missing() { return std::string(text_.input().ahead(1).empty() ? kFileEnds : kLineEnds); }
+
+  // Decided at the first row that ends within a line. In a text that is too long to be searched, rows are lines if all
+  // were so far.
+  PlyLayout layout_after(const PlyElement& element, std::uint64_t row) {
+    constexpr std::size_t kFarthest = std::size_t{16} << 20;
+    const bool were_lines = long_row_.line == 0;
+    const auto text = text_.from_line_start(kFarthest);
+    if (text.size() == kFarthest) return were_lines ? PlyLayout::Lines : PlyLayout::Running;
+    // If rows are lines, one that is too short has taken numbers from the line of the next.
+    const bool may_be_short = long_row_.line + 1 == text_.location().line;
+    const PlyRest lines{text, header_, element, were_lines ? row : row + 1};
+    const bool are_lines = (were_lines || may_be_short) && fits(lines, PlyLayout::Lines);
+    const PlyRest running{text.substr(text_.bytes_read()), header_, element, row + 1};
+    if (!are_lines && fits(running, PlyLayout::Running)) return PlyLayout::Running;
+    if (were_lines) return PlyLayout::Lines;
+    fail_at(text_.input().name(), {.line = long_row_.line, .column = 1}, ErrorCode::MalformedFile,
+            fmt::format("{} has fewer numbers in its line than the header declares", long_row_.name));
+  }
+
+  // The first row that runs over several lines.
+  struct LongRow {
+    std::uint64_t line = 0;
+    std::string name;
+  };
+
   Text text_;
+  const PlyHeader& header_;
   ReaderOptions options_;
+  PlyLayout layout_ = PlyLayout::Undecided;
+  std::uint64_t row_line_ = 0;  // where the current row begins; 0 before its first value
+  LongRow long_row_;
 };
 
 /// Reads the next value; false at the end of the file.
@@ -162,6 +220,8 @@ class BinaryValues final : public PlyValues {
   [[nodiscard]] std::uint64_t least_bytes(PlyType type) const override { return size_of(type); }
   [[nodiscard]] std::optional<std::uint64_t> bytes_left() const override { return input_.left(); }
   [[nodiscard]] bool row_is_over() const override { return false; }
+  bool end_row(const PlyElement& /*element*/, std::uint64_t /*row*/) override { return false; }
+  [[nodiscard]] std::string hint() const override { return ""; }
 
   bool anything_left() override {
     begin_ = input_.offset();

@@ -24,6 +24,9 @@ using Problem = std::optional<std::string>;
 /// The problem of a file that is too short.
 inline constexpr std::string_view kFileEnds = "the file ends here";
 
+/// The problem of a line that is too short, in a file whose rows are lines.
+inline constexpr std::string_view kLineEnds = "the line ends here";
+
 /// The values of a PLY file in order, from text or bytes.
 class PlyValues {
  public:
@@ -58,6 +61,14 @@ class PlyValues {
   /// Whether the current row certainly has no further value.
   [[nodiscard]] virtual bool row_is_over() const = 0;
 
+  /// To be called after the values of row `row` of `element`, which is in the header. Returns whether more numbers
+  /// follow in the line, which are skipped. Throws Error{MalformedFile} if a row so far has too few numbers.
+  [[nodiscard]] virtual bool end_row(const PlyElement& element, std::uint64_t row) = 0;
+
+  /// "; vertex 0 runs on after line 12": the first row that is not a line, which may be the cause of an error. Empty if
+  /// there is none.
+  [[nodiscard]] virtual std::string hint() const = 0;
+
   /// Whether there is data left; if so, it becomes the location.
   [[nodiscard]] virtual bool anything_left() = 0;
 
@@ -65,7 +76,7 @@ class PlyValues {
   [[nodiscard]] virtual Location location() const = 0;
 };
 
-/// The values after a header that was read from `input`, which must outlive them.
+/// The values after a header that was read from `input`. Both must outlive them.
 [[nodiscard]] std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& header,
                                                     const ReaderOptions& options = {});
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -10,9 +11,10 @@
 #include "io/readers.h"
 #include "io/text.h"
 
-// `[ST][C][N]OFF` in text. The rest of a line after the position of a vertex or the corners of a face (normals,
-// colors, texture coordinates) is skipped. Vertices of 4 or n dimensions (4OFF, nOFF) and `OFF BINARY` are refused.
-// Many files of ModelNet40 lack the separator before the counts (`OFF8 6 12`); they are read with a warning.
+// `[ST][C][N]OFF` in text, with the prefixes in any order. The rest of a line after the position of a vertex or the
+// corners of a face (normals, colors, texture coordinates) is skipped. Vertices of 4 or n dimensions (4OFF, nOFF) and
+// `OFF BINARY` are refused. Many files of ModelNet40 lack the separator before the counts (`OFF8 6 12`), those of
+// AIM@SHAPE the number of edges; they are read with a warning.
 //
 // Many programs write colors after the vertices of a plain OFF file, so a vertex ends with its line there too. If a
 // line holds several vertices, the rest are skipped, the file ends too early and is refused.
@@ -57,15 +59,27 @@ class OffReader {
 
   void read_counts() {
     vertices_ = read_count("vertices");
+    const auto line = text_.location().line;
     check_bytes(vertices_, kLeastBytesOfVertex, "vertices");
     check_vertex_count(vertices_, text_.input().name(), text_.location());
     faces_ = read_count("faces");
     check_bytes(faces_, kLeastBytesOfFace, "faces");
-    read_count("edges");
+    skip_edge_count(text_.location().line == line);
     const auto left = text_.input().left();
     if (!left) return;
     builder_.positions.reserve(vertices_);
     builder_.faces.reserve_corners(std::min(3 * faces_, *left / 2));
+  }
+
+  // The counts are a line, which may lack that of the edges. A line of a single number is no vertex, though.
+  void skip_edge_count(bool are_in_line) {
+    const Location faces = text_.location();
+    if (are_in_line && text_.at_line_end()) {
+      const bool is_missing = text_.token().empty() || !text_.at_line_end();
+      text_.put_back();
+      if (is_missing) return builder_.warnings.add("no number of edges", faces);
+    }
+    read_count("edges");
   }
 
   uint64_t read_count(std::string_view what) {
@@ -178,7 +192,14 @@ bool take_prefix(std::string_view& word, std::string_view prefix) {
 }  // namespace
 
 bool is_off_keyword(std::string_view word) {
-  for (const std::string_view prefix : {"ST", "C", "N", "4", "n"}) take_prefix(word, prefix);
+  std::array<std::string_view, 5> prefixes = {"ST", "C", "N", "4", "n"};
+  const auto take = [&word](std::string_view& prefix) {
+    const bool is_next = !prefix.empty() && take_prefix(word, prefix);
+    if (is_next) prefix = {};
+    return is_next;
+  };
+  while (std::any_of(prefixes.begin(), prefixes.end(), take)) {
+  }
   return take_prefix(word, "OFF") && (word.empty() || parse_count(word));
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <memory>
 
 #include <fmt/format.h>
@@ -19,15 +18,16 @@ namespace {
 
 using std::uint64_t;
 
-// The index of the property of `element` that has one of `names`, if there is one.
-std::optional<std::size_t> find_property(const InputBuffer& input, const PlyElement& element,
-                                         std::initializer_list<std::string_view> names) {
+// The index of the property of `element` for which `is_it` holds, if there is one. `name` is for the error.
+template <class Predicate>
+std::optional<std::size_t> find_property(const InputBuffer& input, const PlyElement& element, std::string_view name,
+                                         Predicate&& is_it) {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
-    if (std::find(names.begin(), names.end(), element.properties[i].name) == names.end()) continue;
+    if (!is_it(element.properties[i])) continue;
     if (found) {
       fail_at(input.name(), element.location, ErrorCode::MalformedFile,
-              fmt::format("element {} has the property {} twice", element.name, *names.begin()));
+              fmt::format("element {} has the property {} twice", element.name, name));
     }
     found = i;
   }
@@ -47,7 +47,7 @@ Axes find_axes(const InputBuffer& input, const PlyElement& vertex) {
   Axes axes = {};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name(1, axis(i));
-    const auto found = find_property(input, vertex, {name});
+    const auto found = find_property(input, vertex, name, [&name](const auto& p) { return p.name == name; });
     if (!found || vertex.properties[*found].is_list) {
       fail_at(input.name(), vertex.location, ErrorCode::MalformedFile,
               fmt::format("element vertex has no scalar property {}", name));
@@ -87,7 +87,7 @@ class PlyReader {
       check_count();
       read_element();
     }
-    if (values_->anything_left()) builder_.warnings.add("data after the last element", values_->location());
+    if (values_->anything_left()) judge_rest();
     return builder_.finish(Format::Ply);
   }
 
@@ -95,6 +95,14 @@ class PlyReader {
   [[nodiscard]] Declared declared_type() const {
     if (has_double_axis(vertex_, axes_)) return Declared::Double;
     return header_.encoding == PlyEncoding::Ascii ? Declared::FloatInText : Declared::Float;
+  }
+
+  // Where rows run over lines, it may be that one of them has lost a number.
+  void judge_rest() {
+    constexpr std::string_view kRest = "data after the last element";
+    const std::string hint = values_->hint();
+    if (hint.empty()) return builder_.warnings.add(kRest, values_->location());
+    fail_at(input_.name(), values_->location(), ErrorCode::MalformedFile, fmt::format("{}{}", kRest, hint));
   }
 
   // Before any loop or allocation: the file must be long enough for the count.
@@ -122,7 +130,7 @@ class PlyReader {
     if (element_ == &vertex_) return read_vertices();
     if (element_->name == "face") return read_faces();
     if (element_->name == "tristrips") return read_lists(nullptr, &PlyReader::read_strip);
-    for (; row_ < element_->count; ++row_) skip_properties(0, element_->properties.size());
+    read_rows(nullptr, [&] { skip_properties(0, element_->properties.size()); });
   }
 
   void read_vertices() {
@@ -151,6 +159,9 @@ class PlyReader {
       if (plain) row_ += plain->take(element_->count - row_);
       if (row_ == element_->count) return;
       read_row();
+      if (values_->end_row(*element_, row_)) {
+        builder_.warnings.add("lines with more numbers than the header declares", values_->location());
+      }
     }
   }
 
@@ -174,7 +185,7 @@ class PlyReader {
   }
 
   [[nodiscard]] std::optional<std::size_t> find_list() const {
-    return find_property(input_, *element_, {"vertex_indices", "vertex_index"});
+    return find_property(input_, *element_, "vertex_indices", [&](const auto& p) { return element_->has_corners(p); });
   }
 
   [[nodiscard]] std::size_t list_property() const {
@@ -261,8 +272,8 @@ class PlyReader {
   [[nodiscard]] std::uint32_t checked(std::int64_t index, uint64_t corner) const {
     if (index >= 0 && static_cast<uint64_t>(index) < vertex_.count) return static_cast<std::uint32_t>(index);
     fail_at(input_.name(), values_->location(), ErrorCode::MalformedFile,
-            fmt::format("{} {}, {}[{}] = {}, but there are {} vertices", element_->name, row_, property_->name, corner,
-                        index, vertex_.count));
+            fmt::format("{} {}, {}[{}] = {}, but there are {} vertices{}", element_->name, row_, property_->name,
+                        corner, index, vertex_.count, values_->hint()));
   }
 
   void require(const Problem& problem) const {
@@ -273,8 +284,8 @@ class PlyReader {
     const std::string missing =
         problem == kFileEnds ? fmt::format(", {} of {} rows are missing", element_->count - row_, element_->count) : "";
     fail_at(input_.name(), values_->location(), ErrorCode::MalformedFile,
-            fmt::format("{} {} of {}, {}: {}{}", escape(element_->name), row_, element_->count, escape(property_->name),
-                        problem, missing));
+            fmt::format("{} {} of {}, {}: {}{}{}", escape(element_->name), row_, element_->count,
+                        escape(property_->name), problem, missing, values_->hint()));
   }
 
   InputBuffer& input_;

@@ -13,7 +13,8 @@
 #include "io/stl_text.h"
 #include "io/vertex_welder.h"
 
-// A file of the size of a binary STL is binary, even if it begins with "solid", as many do.
+// A file of the size of a binary STL is binary, even if it begins with "solid", as many do. In a longer one, each facet
+// is followed by as many bytes as its last two say; in others, programs keep a color there.
 
 namespace meshhood::io {
 namespace {
@@ -64,11 +65,12 @@ class BinaryStl {
   void read() {
     const auto facets = facet_count(input_.ahead(kHeaderBytes));
     input_.skip(kHeaderBytes);
+    are_followed_ = input_.left().value_or(0) > kFacetBytes * uint64_t{facets};
     // A closed surface has half as many vertices as triangles. The file has as many bytes as its header says, if the
     // number is known.
     if (const auto left = input_.left()) welder_.expect(static_cast<std::size_t>(*left / kFacetBytes / 2));
     for (std::uint32_t facet = 0; facet < facets; ++facet) read_facet(facet, facets);
-    if (!input_.ahead(1).empty()) builder_.warnings.add("bytes after the last facet", {.byte = input_.offset()});
+    if (!input_.ahead(1).empty()) judge_rest(facets);
   }
 
  private:
@@ -89,7 +91,28 @@ class BinaryStl {
     }
     if (!are_valid) refuse(bytes, facet);
     append_triangle(corners, {.byte = input_.offset()}, builder_, welder_);
+    const std::size_t payload = little_endian_word(bytes.substr(kFacetBytes - 4)) >> 16U;
+    if (payload != 0) has_payload_ = true;
     input_.skip(kFacetBytes);
+    if (payload != 0 && are_followed_) skip_payload(payload, facet);
+  }
+
+  void skip_payload(std::size_t bytes, std::uint32_t facet) {
+    builder_.warnings.add("facets followed by bytes of their own", {.byte = input_.offset()});
+    if (input_.ahead(bytes).size() < bytes) {
+      fail_at(input_.name(), {.byte = input_.offset()}, ErrorCode::MalformedFile,
+              fmt::format("facet {} says that {} bytes follow, and the file is shorter", facet, bytes));
+    }
+    input_.skip(bytes);
+  }
+
+  // Without facets, or if bytes may follow each, the rest may be part of the mesh.
+  void judge_rest(std::uint32_t facets) {
+    const Location location{.byte = input_.offset()};
+    if (facets != 0 && !has_payload_) return builder_.warnings.add("bytes after the last facet", location);
+    fail_at(input_.name(), location, ErrorCode::MalformedFile,
+            fmt::format("bytes after the last of {} facets, expected {}", facets,
+                        facets == 0 ? "the number of facets in the header" : "as many as the facets say"));
   }
 
   static float coordinate(std::string_view facet, std::size_t i) {
@@ -106,6 +129,8 @@ class BinaryStl {
   InputBuffer& input_;
   MeshBuilder& builder_;
   VertexWelder<Real>& welder_;
+  bool are_followed_ = false;  // by bytes that belong to them
+  bool has_payload_ = false;   // a facet says so, or has a color
 };
 
 // Reserves memory for the largest possible number of corners, each with its own vertex.

@@ -34,7 +34,7 @@ class StlText {
     text_.skip_line();
     for (;;) {
       take_plain_facets();
-      const auto token = text_.token();
+      const auto token = keyword();
       if (token.empty()) break;
       read_item(token);
     }
@@ -56,6 +56,18 @@ class StlText {
     });
   }
 
+  // The next token, with `end loop` as `endloop`.
+  std::string_view keyword() {
+    const auto token = text_.token();
+    if (!is_word(token, "end")) return token;
+    builder_.warnings.add("'end' is a word of its own", text_.location());
+    const auto word = text_.token();
+    for (const std::string_view known : {"endloop", "endfacet", "endsolid"}) {
+      if (is_word(word, known.substr(3))) return known;
+    }
+    text_.malformed("expected 'loop', 'facet' or 'solid' after 'end', found {}", quote(word));
+  }
+
   void read_item(std::string_view token) {
     if (is_word(token, "facet")) return read_facet();
     in_solid_ = is_word(token, "solid");
@@ -75,13 +87,13 @@ class StlText {
     check(token, "outer");
     check(text_.token(), "loop");
     read_loop(location);
-    check(text_.token(), "endfacet");
+    check(keyword(), "endfacet");
     ++facets_;
   }
 
   void read_loop(const Location& location) {
     uint64_t count = 0;
-    for (auto token = text_.token(); !is_word(token, "endloop"); token = text_.token()) {
+    for (auto token = keyword(); !is_word(token, "endloop"); token = keyword()) {
       check(token, "vertex");
       const auto corner = read_corner(count);
       if (count == 3) append_first_three();

@@ -11,7 +11,8 @@
 
 namespace meshhood::io {
 
-/// Reads all facets of an ASCII STL file, of any number of solids and in any letter case. A solid may be empty. The
+/// Reads all facets of an ASCII STL file, of any number of solids and in any letter case. A solid may be empty. `end
+/// facet` as two words is read with a warning. The
 /// format allows only triangles: a facet of more vertices is kept as a polygon, so that no vertex is lost, and one of
 /// fewer is left out, both with a warning.
 template <class Real>

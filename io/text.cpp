@@ -73,6 +73,12 @@ std::string_view Text::token() {
   }
 }
 
+std::string_view Text::from_line_start(std::size_t most) {
+  const auto seen = input_.ahead(most);
+  line_ = seen.substr(0, line_.size());
+  return seen.substr(0, most);
+}
+
 bool Text::at_line_end() const {
   const auto rest = line_.substr(cursor_);
   const auto next = rest.find_first_not_of(kBlanks);

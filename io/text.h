@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -46,6 +47,9 @@ class Text {
   /// The next token of this or a later line; empty at the end of the file.
   std::string_view token();
 
+  /// Makes the last token the next one again.
+  void put_back() { cursor_ = std::min(token_begin_, line_.size()); }
+
   void skip_line() { cursor_ = line_.size(); }
 
   /// Leaves the current line behind: the next one is at the front of the input.
@@ -62,6 +66,12 @@ class Text {
 
   /// Whether this line holds no further token.
   [[nodiscard]] bool at_line_end() const;
+
+  /// The text from the start of this line, `most` bytes of it unless the file ends before. Valid until the next call.
+  std::string_view from_line_start(std::size_t most);
+
+  /// How many bytes of this line have been read.
+  [[nodiscard]] std::size_t bytes_read() const { return cursor_; }
 
   /// As `token_on_line`, but a backslash at the end of a line continues it on the next.
   std::string_view token_on_continued_line();

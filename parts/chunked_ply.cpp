@@ -70,7 +70,7 @@ std::optional<std::size_t> find_corner_list(const io::PlyElement& face) {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < face.properties.size(); ++i) {
     const io::PlyProperty& property = face.properties[i];
-    if (property.name != "vertex_indices" && property.name != "vertex_index") continue;
+    if (!face.has_corners(property)) continue;
     if (found || !property.is_list || !is_integer(property.type)) return std::nullopt;
     found = i;
   }

@@ -92,6 +92,35 @@ def compare(dump_mesh, name):
     return True
 
 
+def odd_files():
+    """A cube in files that deviate from their format as those of some programs do, by name."""
+    cube = [(x, y, z) for x in (1, 2) for y in (1, 2) for z in (1, 2)]
+    faces = "".join(f"3 {a} {b} {c}\n" for a, b, c in ((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5)))
+    rows = lambda more: "".join(f"{x} {y} {z}{more}\n" for x, y, z in cube)
+    axes = "property float x\nproperty float y\nproperty float z\n"
+    ply = f"ply\nformat ascii 1.0\nelement vertex 8\n{axes}element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+    return {
+        "weights.ply": ply + rows(" 1") + faces,
+        "colors.ply": ply + rows("") + faces.replace("\n", " 255 0 0\n"),
+        "normals_first.off": "NCOFF\n8 4 0\n" + rows(" 0 0 1 255 0 0 255") + faces,
+        "two_counts.off": "OFF\n8 4\n" + rows("") + faces,
+    }
+
+
+def compare_odd(dump_mesh):
+    """The names of the files that trimesh reads otherwise."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in odd_files().items():
+            file = Path(folder).resolve() / name
+            file.write_text(text)
+            try:
+                ours = our_reading(dump_mesh, str(file), Path(folder))
+                with open(file, "rb") as opened:
+                    compare_indexed(ours, trimesh_reading(opened, file.suffix[1:]))
+            except AssertionError as difference:
+                yield f"{name}: {difference}"
+
+
 def main(dump_mesh, meshes):
     if not meshes.is_dir():
         print(f"skipped: no meshes at {meshes}")
@@ -109,6 +138,9 @@ def main(dump_mesh, meshes):
         except AssertionError as difference:
             failures += 1
             print(f"{name}: {difference}")
+    for difference in compare_odd(dump_mesh):
+        failures += 1
+        print(difference)
     compared = sum(tally.values())
     print(f"{compared} meshes compared ({tally}), {failures} differ")
     return 0 if failures == 0 and compared >= FEWEST else 1

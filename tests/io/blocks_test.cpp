@@ -86,6 +86,13 @@ std::vector<File> files() {
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty int q\n"
        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
        "3 0 1 2\n3 0 1 2\n3 0 1 2\n3 0 1 2\n3 0 1 2\n"},
+      {"PLY of long lines", io::read_ply,
+       kPlyHeader + "0 9 0 0 1\n1 9 0 0 1\n1 9 1 1 1\n0 9 0.5 1 1\n7 3 0 1 2 0\n7 4 0 1 2 3 nan\n7 2 3 1 0\n"},
+      {"PLY of rows that share lines", io::read_ply,
+       kPlyHeader + "0 9 0 0 1 9\n0 0 1 9 1 1 0 9 0.5 1\n7 3 0 1 2 0\n7 4 0 1 2 3 nan\n7 2 3 1 0\n"},
+      {"PLY in CR", io::read_ply,
+       kPlyHeader + "0 9 0 0\n1 9 0 0\r1 9 1 1\r0 9 0.5 1\n7 3 0 1 2 0\r7 4 0 1 2 3 nan\r7 2 3 1 0\r"},
+      {"OFF without edges", io::read_off, "NCOFF\n3 2\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n3 2 1 0\n"},
       {"STL", io::read_stl,
        "solid name\n" + facet_with("0 1 0") + facet_with("1 0 0") + facet_with("0 1 -0") +
            facet_with("2 2 2\n vertex 3 3 3") + "FACET NORMAL 0 0 1\n" + facet_with("5 5 5").substr(19) +

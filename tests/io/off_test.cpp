@@ -81,6 +81,37 @@ TEST(Off, AllDocumentedVariantsAreRead) {
   expect_triangle("OFF\n3\n1\n0\n0\n0 0\n1 0\n0\n0 1 0\n3 0\n1 2\n");
 }
 
+// M15
+TEST(Off, PrefixesMayHaveAnyOrder) {
+  for (const std::string keyword : {"NCOFF", "CNOFF", "STNCOFF", "CSTNOFF", "NSTOFF"}) {
+    const auto mesh = read("a", keyword + "\n3 1 0\n0 0 0 9 9\n1 0 0 9 9\n0 1 0 9 9\n3 0 1 2\n");
+    EXPECT_THAT(floats(mesh), ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0)) << keyword;
+    EXPECT_TRUE(mesh.warnings.empty()) << keyword;
+  }
+  expect_refused("a.off", "CCOFF\n3 1 0\n", ErrorCode::MalformedFile, "'CCOFF'");
+  expect_refused("a.off", "4NCOFF\n3 1 0\n", ErrorCode::UnsupportedFormat, "'4NCOFF'");
+}
+
+// M15
+TEST(Off, TheNumberOfEdgesMayBeMissing) {
+  const std::string rest = "1 0 0\n2 0 0\n0 3 0\n3 0 1 2\n";
+  for (const std::string& file :
+       {"OFF\n3 1\n" + rest, "OFF 3 1 # counts\n\n# vertices\n" + rest, "COFF\n3 1\n" + rest}) {
+    const auto mesh = read("a.off", file);
+    EXPECT_THAT(floats(mesh), ElementsAre(1, 0, 0, 2, 0, 0, 0, 3, 0)) << file;
+    EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2)) << file;
+    EXPECT_EQ(warned(mesh, "no number of edges"), 1U) << file;
+    EXPECT_TRUE(refusal("a.off", file, {.strict = true}).refused) << file;
+  }
+  EXPECT_EQ(read("a.off", "OFF\n3 1\n" + rest).warnings.at(0).first_place, "line 2");
+  EXPECT_EQ(vertex_count(read("a.off", "OFF\n0 0")), 0U);
+  for (const std::string counts : {"3 1\n0\n", "3\n1 0\n", "3\n1\n0\n", "3 1 0\n"}) {
+    const auto mesh = read("a.off", "OFF\n" + counts + rest);
+    EXPECT_EQ(floats(mesh).at(0), 1) << counts;
+    EXPECT_TRUE(mesh.warnings.empty()) << counts;
+  }
+}
+
 TEST(Off, CountsWithoutABlankAfterTheKeywordAreAWarning) {
   const auto mesh = read("a.off", "OFF3 1 0\n" + kOffVertices + "3 0 1 2\n");
   EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2));

@@ -3,13 +3,17 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/hostile.h"
+#include "support/scale.h"
 
 // PLY files: rows of the catalogue of mesh files.
 
@@ -116,6 +120,127 @@ TEST(Ply, BytesAfterTheLastElementAreAWarning) {
   }
   EXPECT_TRUE(read("a.ply", triangle(kVertices + "3 0 1 2\n \n\n")).warnings.empty());
   EXPECT_EQ(read("a.ply", binary + "x").warnings.at(0).first_place, "byte " + std::to_string(binary.size()));
+}
+
+// M24
+TEST(Ply, MoreNumbersInALineThanDeclaredAreSkippedWithAWarning) {
+  const auto vertices = [](const std::string& more) {
+    return "0 0 0" + more + "\n1 0 0" + more + "\n0 1 0" + more + "\n";
+  };
+  const std::string face = "3 0 1 2\n";
+  const std::vector<std::pair<std::string, std::uint64_t>> files = {
+      {vertices(" 1") + face, 3},
+      {vertices(" 0 0 1 3 0 1 2") + face, 3},
+      {vertices("") + "3 0 1 2 255 0 0 1\n", 1},
+      {vertices(" 1") + "\n" + "3 0 1 2 3\n", 4},
+      {"0 0 0\n1 0 0 7\n0 1 0\n" + face, 1},  // one line alone
+  };
+  for (const auto& [rows, lines] : files) {
+    const auto mesh = read("a.ply", triangle(rows));
+    EXPECT_THAT(floats(mesh), ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0)) << rows;
+    EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2)) << rows;
+    EXPECT_EQ(mesh.warnings.size(), 1U) << rows;
+    EXPECT_EQ(warned(mesh, "more numbers than the header declares"), lines) << rows;
+    EXPECT_TRUE(refusal("a.ply", triangle(rows), {.strict = true}).refused) << rows;
+  }
+  EXPECT_EQ(read("a.ply", triangle(files[0].first)).warnings.at(0).first_place, "line 10");
+  EXPECT_EQ(warned(read("a.ply", triangle(files[0].first + "7\n")), "after the last element"), 1U);
+}
+
+// M24
+TEST(Ply, MoreNumbersBehindAListAreSkippedInTheirElement) {
+  const std::string elements = "element vertex 3\n" + kAxes +
+                               "element strange 2\nproperty list uchar int a\nproperty float b\n"
+                               "element face 2\nproperty list uchar int vertex_indices\nproperty uchar red\n";
+  const auto mesh =
+      read("a.ply", header("ascii", elements) + kVertices + "1 7 2 9 9\n0 2 9 9\n3 0 1 2 255\n3 2 1 0 0\n");
+  EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2, 2, 1, 0));
+  EXPECT_EQ(warned(mesh, "more numbers"), 2U);
+}
+
+// M24
+TEST(Ply, FewerNumbersInALineThanDeclaredAreRefusedByRow) {
+  const std::string too_few = "has fewer numbers in its line than the header declares";
+  expect_refused("a.ply", triangle("0 0 0\n1 0\n0 1 0\n3 0 1 2\n"), ErrorCode::MalformedFile,
+                 "a.ply:11:1: vertex 1 " + too_few);
+  expect_refused("a.ply", triangle("0 0 0 1\n1 0 0 1\n0 1\n3 0 1 2\n"), ErrorCode::MalformedFile, "a.ply:12:4",
+                 "vertex 2 of 3, z: the line ends here");
+  const std::string two_faces =
+      header("ascii", "element vertex 3\n" + kAxes + "element face 2\nproperty list uchar int vertex_indices\n") +
+      kVertices;
+  expect_refused("a.ply", two_faces + "3 0 1\n2 1 0\n", ErrorCode::MalformedFile, "a.ply:13:1: face 0 " + too_few);
+  expect_refused("a.ply", two_faces + "3 0 1\n3 2 1 0\n", ErrorCode::MalformedFile,
+                 "a.ply:14:1: face 0, vertex_indices[2] = 3, but there are 3 vertices; the row runs on after line 13");
+  // Half of the numbers: two lines are taken for a row until the file ends.
+  const std::string six = "element vertex 4\n" + kAxes + "property float nx\nproperty float ny\nproperty float nz\n";
+  expect_refused("a.ply", header("ascii", six) + "0.00 0.0 0.0\n1.00 0.0 0.0\n0.00 1.0 0.0\n0.00 0.0 1.0\n",
+                 ErrorCode::MalformedFile, "vertex 2 of 4, x: the file ends here, 2 of 4 rows are missing",
+                 "; vertex 0 runs on after line 11");
+}
+
+// M24
+TEST(Ply, RowsMayRunOverLinesAndShareThem) {
+  const std::vector<std::string> layouts = {"0 0 0 1 0 0 0 1 0\n3 0 1 2\n", "0 0 0 1\n0 0 0 1\n0 3 0 1\n2\n",
+                                            "0\n0\n0\n1 0 0\n0 1\n0\n3\n0 1 2\n", "0 0 0 1 0 0 0 1 0 3 0 1 2",
+                                            "0 0\n0 1 0 0 0 1 0\n3 0 1\n2"};
+  for (const auto& rows : layouts) {
+    const auto mesh = read("a.ply", triangle(rows));
+    EXPECT_THAT(floats(mesh), ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0)) << rows;
+    EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2)) << rows;
+    EXPECT_TRUE(mesh.warnings.empty()) << rows;
+  }
+  // A face of no corners and a number more would have a line of its own, too.
+  const auto one = read("a.ply", header("ascii", "element vertex 1\n" + kAxes +
+                                                     "element face 1\nproperty list uchar int vertex_indices\n") +
+                                     "0 0 0 2 0\n0\n");
+  EXPECT_THAT(one.corners, ElementsAre(0, 0));
+  expect_refused("a.ply", triangle(layouts[2] + "7\n"), ErrorCode::MalformedFile,
+                 "a.ply:18:1: data after the last element; vertex 0 runs on after line 10");
+}
+
+// M24
+TEST(Ply, RowsAreToldFromLinesInAnyLayout) {
+  std::mt19937 random(24);
+  const auto number = [&random] { return fmt::format("{:.2f}", static_cast<double>(random() % 1000) / 100); };
+  const std::size_t cases = scaled(3000, 200);
+  for (std::size_t i = 0; i < cases; ++i) {
+    const std::size_t vertices = 2 + random() % 5;
+    std::vector<std::string> rows;
+    while (rows.size() < vertices) rows.push_back(number() + ' ' + number() + ' ' + number());
+    for (int face = 0; face < 4; ++face) rows.push_back(face % 2 == 0 ? "3 0 1 0" : "2 1 0");
+    const std::string head = header("ascii", fmt::format("element vertex {}\n", vertices) + kAxes +
+                                                 "element face 4\nproperty list uchar int vertex_indices\n");
+    std::string plain = head;
+    std::string running = head;
+    std::string longer = head;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      plain += rows[row] + '\n';
+      longer += rows[row] + (row < vertices ? " 1 2\n" : " 3\n");
+      running += rows[row] + ' ';
+    }
+    for (std::size_t at = head.size(); at < running.size(); ++at) {
+      if (running[at] == ' ' && random() % 3 == 0) running[at] = '\n';
+    }
+    const auto mesh = read("a.ply", plain);
+    const auto same = [&mesh](const io::Mesh& other) {
+      return other.positions == mesh.positions && other.corners == mesh.corners && other.offsets == mesh.offsets;
+    };
+    const auto run = read("a.ply", running);
+    EXPECT_TRUE(same(run) && run.warnings.empty()) << running;
+    EXPECT_TRUE(same(read("a.ply", longer))) << longer;
+  }
+  std::printf("%zu meshes in three layouts\n", cases);
+}
+
+// M24
+TEST(Ply, ALongTextIsReadByLines) {
+  constexpr std::size_t kCount = 400'000;
+  std::string file = header("ascii", fmt::format("element vertex {}\n", kCount) + kAxes);
+  for (std::size_t i = 0; i < kCount; ++i) file += fmt::format("{} 0.123456789012345 0.123456789012345 1\n", i);
+  EXPECT_GT(file.size(), std::size_t{16} << 20);
+  const auto mesh = read("a.ply", file);
+  EXPECT_EQ(warned(mesh, "more numbers"), kCount);
+  EXPECT_EQ(floats(mesh)[3 * (kCount - 1)], static_cast<float>(kCount - 1));
 }
 
 template <class Count, class Index>

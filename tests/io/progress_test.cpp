@@ -58,6 +58,27 @@ TEST(Progress, CountsTheBytesOfAFileAndOfMemory) {
   expect_ascending(of_memory, file.size(), file.size());
 }
 
+TEST(Progress, IsHeardInTextThatIsNotPlain) {
+  std::string elements = "ply\nformat ascii 1.0\n";
+  while (elements.size() < 3U << 20) elements += "element e" + std::to_string(elements.size()) + " 0\n";
+  std::string carriage_returns = large_obj();
+  std::replace(carriage_returns.begin(), carriage_returns.end(), '\n', '\r');
+  std::string long_rows;
+  std::size_t rows = 0;
+  for (; long_rows.size() < 3U << 20; ++rows) long_rows += "1.25 2.5 3.75 1\n";
+  const std::string axes = "property float x\nproperty float y\nproperty float z\nend_header\n";
+  for (const std::string& file :
+       {elements + "element vertex 0\n" + axes, carriage_returns,
+        "ply\nformat ascii 1.0\nelement vertex " + std::to_string(rows) + "\n" + axes + long_rows}) {
+    Reports reports;
+    static_cast<void>(read("a.obj", file, watching(reports)));
+    expect_ascending(reports, file.size(), file.size());
+    std::size_t left = reports.size() / 2;
+    const io::ReadOptions stopping{.progress = [&left](std::size_t, std::size_t) { return left-- != 0; }};
+    EXPECT_EQ(refusal("a.obj", file, stopping).code, ErrorCode::Cancelled);
+  }
+}
+
 TEST(Progress, EndsWithTheTotalIfTheLastBytesAreNotRead) {
   const Scratch scratch;
   const std::string file = "OFF\n1 0 0\n0 0 0\n" + std::string(3U << 20, '\n');

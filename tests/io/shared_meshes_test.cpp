@@ -32,6 +32,8 @@ const std::map<std::string, Expectation>& rulings() {
       {"broken/invalid-relative-texture-index.obj", {{}, {}, "M6: indices of vertices that do not exist"}},
       {"broken/float_inf_point_cloud.ply", {{}, {}, "M17: infinite coordinates"}},
       {"broken/delim_test.ply", {24, 8, "M18: a header whose lines end in CR alone"}},
+      {"broken/multiWordName.bin.stl",
+       {{}, {}, "M4: damaged, so that facets seem to be followed by bytes of their own"}},
       {"broken/no_facet_ascii.stl", {0, 0, "an STL text without facets is an empty mesh"}},
       {"scan/brain_tristrips.ply", {18844, 36752, "M12: triangle strips are faces"}},
   };

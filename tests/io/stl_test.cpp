@@ -63,6 +63,49 @@ TEST(Stl, BytesAfterTheLastFacetAreAWarning) {
   EXPECT_TRUE(refusal("a.stl", file, {.strict = true}).refused);
 }
 
+// Each facet is followed by as many bytes as its attribute says, but the last `cut` bytes of the file are missing.
+std::string stl_with_payload(const std::vector<std::uint16_t>& payloads, std::size_t cut = 0) {
+  std::string file = binary_stl(std::vector<std::array<float, 9>>(payloads.size(), kTriangle));
+  for (std::size_t facet = payloads.size(); facet-- != 0;) {
+    const std::size_t attribute = 84 + 50 * facet + 48;
+    file.replace(attribute, 2, little(payloads[facet]) + std::string(payloads[facet], '\x3f'));
+  }
+  return file.substr(0, file.size() - cut);
+}
+
+// M25
+TEST(Stl, BytesAfterEachFacetAreSkippedIfTheSizeSaysSo) {
+  for (const std::vector<std::uint16_t>& payloads : {std::vector<std::uint16_t>{4, 4, 4}, {0, 7, 1}}) {
+    const std::string file = stl_with_payload(payloads);
+    const auto mesh = read("a.stl", file);
+    EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2, 0, 1, 2, 0, 1, 2));
+    EXPECT_EQ(vertex_count(mesh), 3U);
+    EXPECT_EQ(warned(mesh, "followed by bytes of their own"), payloads[0] == 4 ? 3U : 2U);
+    EXPECT_TRUE(refusal("a.stl", file, {.strict = true}).refused);
+  }
+  expect_refused("a.stl", stl_with_payload({4, 4, 4}, 1), ErrorCode::MalformedFile, "a.stl@242",
+                 "facet 2 says that 4 bytes follow, and the file is shorter");
+  expect_refused("a.stl", stl_with_payload({4, 4, 4}) + "x", ErrorCode::MalformedFile, "a.stl@246",
+                 "bytes after the last of 3 facets");
+}
+
+// M25
+TEST(Stl, ColorsOfFacetsAreNoCounts) {
+  std::string file = binary_stl({kTriangle, kNeighbor});
+  file.replace(84 + 48, 2, little(std::uint16_t{0x801f}));
+  const auto mesh = read("a.stl", file);
+  EXPECT_EQ(face_count(mesh), 2U);
+  EXPECT_TRUE(mesh.warnings.empty());
+}
+
+// M25
+TEST(Stl, FacetsAfterACountOfZeroAreRefused) {
+  std::string file = binary_stl({kTriangle});
+  file.replace(80, 4, little(0U));
+  expect_refused("a.stl", file, ErrorCode::MalformedFile, "a.stl@84", "after the last of 0 facets");
+  EXPECT_EQ(face_count(read("a.stl", file.substr(0, 84))), 0U);
+}
+
 // M13
 TEST(Stl, ABinaryFileMayBeginWithSolid) {
   for (const std::string header : {"solid", "solid name", "SOLID facet normal 0 0 1"}) {
@@ -93,6 +136,19 @@ TEST(Stl, TextOfAnyCaseAndAnyNumberOfSolids) {
   EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2, 0, 1, 2));
   EXPECT_TRUE(mesh.warnings.empty());
   expect_refused("a.stl", "solid\nface\n", ErrorCode::MalformedFile, "a.stl:2:1", "found 'face'");
+}
+
+// M13
+TEST(Stl, EndAsAWordOfItsOwnIsAWarning) {
+  const std::string file = "solid a\nfacet normal 0 0 1\nouter loop\n" + kStlVertices +
+                           "end loop\nEnd Facet\nend solid a\nsolid b\nend solid\n";
+  const auto mesh = read("a.stl", file);
+  EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2));
+  EXPECT_EQ(warned(mesh, "'end' is a word of its own"), 4U);
+  EXPECT_EQ(mesh.warnings.size(), 1U);
+  EXPECT_TRUE(refusal("a.stl", file, {.strict = true}).refused);
+  expect_refused("a.stl", "solid\nend of it\n", ErrorCode::MalformedFile, "a.stl:2:5", "'facet'", "found 'of'");
+  expect_refused("a.stl", "solid\nend facet\n", ErrorCode::MalformedFile, "expected 'facet', 'endsolid' or 'solid'");
 }
 
 TEST(Stl, TextWithoutFacetsIsAnEmptyMesh) {

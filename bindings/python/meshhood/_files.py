@@ -40,7 +40,8 @@ def read_mesh(
 
     Returns `Mesh(vertices, faces)`: positions (#V, 3); triangles (#F, 3) int32, or polygons as a tuple (offsets int64,
     corners int32). Vertices and faces are in the order of the file; STL corners with equal positions become one vertex.
-    Irregularities that could be read cause a warning, and so does float32 where the mesh is too fine for it.
+    Irregularities that could be read cause a warning, such as more numbers in a line of a PLY file than its header
+    declares, and so does float32 where the mesh is too fine for it.
 
     Raises OSError, with errno and filename; ValueError, naming the file, place and element; KeyboardInterrupt on Ctrl-C.
 
