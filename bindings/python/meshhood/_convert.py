@@ -58,6 +58,8 @@ def is_single(v):
 
 def radius(r, name="r"):
     """`r`, one number, as a float >= 0."""
+    if r is None:
+        raise TypeError(f"{name}: missing, expected a radius")
     if not isinstance(r, float):
         r = _number(r, name)
     if not r >= 0:
@@ -182,9 +184,9 @@ def threads(workers):
     return workers
 
 
-def max_bytes(value):
-    """`value`, or for None the memory that this process may still take."""
-    return free_bytes() if value is None else integer(value, "max_bytes", 0, 2**64 - 1)
+def max_bytes(value, copies=1):
+    """`value`, or for None what fits `copies` times into the memory that this process may still take."""
+    return free_bytes() // copies if value is None else integer(value, "max_bytes", 0, 2**64 - 1)
 
 
 def path(value):
