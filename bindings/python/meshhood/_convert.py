@@ -205,10 +205,13 @@ def choice(value, name, choices):
 
 
 def real_type(dtype):
-    dtype = np.dtype(dtype)
-    if dtype not in (np.float32, np.float64):
-        raise ValueError(f"dtype: {dtype}, expected float32 or float64")
-    return dtype
+    try:
+        found = np.dtype(dtype)
+    except TypeError:
+        raise TypeError(f"dtype: {dtype!r}, expected float32 or float64") from None
+    if found not in (np.float32, np.float64):
+        raise ValueError(f"dtype: {found}, expected float32 or float64")
+    return found
 
 
 def integer(value, name, lowest, highest):
