@@ -631,7 +631,7 @@ OPTIONS_ELSE = {
     "like": {"libigl": "libigl"},
     "fit": {"jet": "jet"},
     "filter": {"no": False},
-    "return_distance": {"yes": True},
+    "dtype": {"single": np.float32},
 }
 
 
