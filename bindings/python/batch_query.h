@@ -32,9 +32,8 @@ using Radius = std::optional<std::variant<double, Radii>>;
   return std::span(reinterpret_cast<const VertexId*>(vertices->data()), vertices->size());
 }
 
-/// Without either, a radius that every call rejects.
-[[nodiscard]] inline BatchRadius radius_of(const Radius& radius, const std::optional<Radii>& scales = std::nullopt) {
-  if (scales) return BatchRadius::scales({numbers_of(*scales).begin(), numbers_of(*scales).end()});
+/// Without one, a radius that every call rejects.
+[[nodiscard]] inline BatchRadius radius_of(const Radius& radius) {
   if (!radius) return {};
   if (const auto* const radii = std::get_if<Radii>(&*radius)) return numbers_of(*radii);
   return std::get<double>(*radius);
@@ -42,8 +41,8 @@ using Radius = std::optional<std::variant<double, Radii>>;
 
 /// The query of a batch. Borrows the arrays.
 [[nodiscard]] inline BatchQuery query_of(const std::optional<Rows>& vertices, const Radius& radius, const Mask& walls,
-                                         const Mask& ignored, const std::optional<Radii>& scales = std::nullopt) {
-  return {.vertices = vertices_of(vertices), .radius = radius_of(radius, scales), .filter = filter_of(walls, ignored)};
+                                         const Mask& ignored) {
+  return {.vertices = vertices_of(vertices), .radius = radius_of(radius), .filter = filter_of(walls, ignored)};
 }
 
 /// A result beyond the limit of bytes: a MemoryError in Python.
@@ -51,14 +50,14 @@ class ResultTooLarge : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Calls `f`, whose result alone may be too large.
+/// Calls `f`, whose result alone may be too large. `advice`: what to do then.
 template <class F>
-auto limited(F&& f) {
+auto limited(const char* advice, F&& f) {
   try {
     return std::forward<F>(f)();
   } catch (const Error& error) {
     if (error.code() != ErrorCode::TooLarge) throw;
-    throw ResultTooLarge(std::string(error.what()) + "; iter_neighborhoods returns the rows in chunks");
+    throw ResultTooLarge(std::string(error.what()) + "; " + advice);
   }
 }
 

@@ -70,26 +70,20 @@ auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& ver
   return std::tuple(k1, k2, nb::object(vectors[0]), nb::object(vectors[1]), state, count);
 }
 
-/// With scales, each array has a leading axis.
 auto corrected_curvatures_of(const CurvatureIndex& surface, const Input& corners, const std::optional<Input>& offsets,
                              const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
-                             nb::handle progress, const Mask& walls, const Mask& ignored,
-                             const std::optional<Radii>& scales) {
+                             nb::handle progress, const Mask& walls, const Mask& ignored) {
   const FacesView faces = faces_of(corners, offsets);
-  const BatchQuery query = query_of(vertices, radius, walls, ignored, scales);
+  const BatchQuery query = query_of(vertices, radius, walls, ignored);
   const CorrectedCurvatureOptions options{.threads = threads, .progress = progress_to(progress)};
   CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, faces, query, options); });
-  const std::size_t count = scales ? scales->size() : 1;
-  const std::size_t rows = found.area.size() / count;
-  const auto numbers = [&](std::vector<double>& values) {
-    return scales ? owned<double>(std::move(values), {count, rows}) : owned<double>(std::move(values), {rows});
+  const std::size_t rows = found.area.size();
+  const auto vectors = [rows](std::vector<double>& values, std::size_t columns) {
+    return owned<double>(std::move(values), {rows, columns});
   };
-  const auto vectors = [&](std::vector<double>& values, std::size_t columns) {
-    return scales ? owned<double>(std::move(values), {count, rows, columns})
-                  : owned<double>(std::move(values), {rows, columns});
-  };
-  return std::tuple(numbers(found.area), numbers(found.mean), numbers(found.gaussian), numbers(found.k1),
-                    numbers(found.k2), vectors(found.d1, 3), vectors(found.d2, 3),
+  return std::tuple(owned<double>(std::move(found.area)), owned<double>(std::move(found.mean)),
+                    owned<double>(std::move(found.gaussian)), owned<double>(std::move(found.k1)),
+                    owned<double>(std::move(found.k2)), vectors(found.d1, 3), vectors(found.d2, 3),
                     vectors(found.measures, CorrectedCurvatures::kMeasures));
 }
 
@@ -127,8 +121,8 @@ auto components_of(const ExactMethod& method, const std::optional<Rows>& vertice
 Output<double> features_of(const CurvatureIndex& surface, const std::optional<Rows>& vertices, const Radii& radii,
                            std::vector<Feature> kinds, const std::optional<Radii>& areas, bool filter, unsigned threads,
                            nb::handle progress, const Mask& walls, const Mask& ignored, const Radius& radius) {
-  const BatchQuery query =
-      radius ? query_of(vertices, radius, walls, ignored) : query_of(vertices, std::nullopt, walls, ignored, radii);
+  BatchQuery query = query_of(vertices, radius, walls, ignored);
+  if (!radius) query.radius = BatchRadius::scales({numbers_of(radii).begin(), numbers_of(radii).end()});
   FeatureOptions options{
       .kinds = std::move(kinds), .areas = {}, .filter = filter, .threads = threads, .progress = progress_to(progress)};
   if (areas) options.areas = numbers_of(*areas);
@@ -170,8 +164,7 @@ void bind_curvature(nb::module_& module) {
       .def("curvatures", &curvatures_of, nb::arg().none(), nb::arg(), nb::arg("libigl"), nb::arg("jet"),
            nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), walls, ignored)
       .def("corrected", &corrected_curvatures_of, nb::arg(), nb::arg("offsets").none(), nb::arg("vertices").none(),
-           nb::arg("radius").none(), nb::arg("threads"), nb::arg("progress").none(), walls, ignored,
-           nb::arg("scales") = nb::none())
+           nb::arg("radius").none(), nb::arg("threads"), nb::arg("progress").none(), walls, ignored)
       .def("features", &features_of, nb::arg().none(), nb::arg("radii"), nb::arg("kinds"), nb::arg("areas").none(),
            nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), walls, ignored,
            nb::arg("radius") = nb::none());

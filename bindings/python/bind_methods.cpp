@@ -57,20 +57,15 @@ auto many(Method& method, const std::optional<Rows>& vertices, const Radius& rad
       return {values_of<VertexId>(ids), values_of<double>(found_distances)};
     });
   };
-  std::vector<std::uint64_t> offsets = limited([&] { return method.neighborhoods(query, allocate, options); });
+  std::vector<std::uint64_t> offsets = limited("iter_neighborhoods returns the rows in chunks",
+                                               [&] { return method.neighborhoods(query, allocate, options); });
   return std::tuple(owned<std::int64_t>(std::move(offsets)), std::move(ids), std::move(found_distances));
 }
 
-/// #rows; #scales by #rows if there are scales.
 Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vertices, const Radius& radius,
-                                 unsigned threads, nb::handle progress, const Mask& walls, const Mask& ignored,
-                                 const std::optional<Radii>& scales) {
-  const BatchQuery query = query_of(vertices, radius, walls, ignored, scales);
+                                 unsigned threads, nb::handle progress, const Mask& walls, const Mask& ignored) {
   const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
-  std::vector<std::uint64_t> sizes = method.counts(query, options);
-  if (!scales) return owned<std::int64_t>(std::move(sizes));
-  const std::size_t rows = sizes.size() / scales->size();
-  return owned<std::int64_t>(std::move(sizes), {scales->size(), rows});
+  return owned<std::int64_t>(method.counts(query_of(vertices, radius, walls, ignored), options));
 }
 
 /// Not a copy: the array keeps the index alive, and may not be written to.
@@ -119,8 +114,8 @@ void bind_methods(nb::module_& module) {
       .def("neighborhoods", &many, nb::arg().none(), nb::arg(), nb::arg("distances"), nb::arg("sorted"),
            nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none(), nb::arg("walls") = nb::none(),
            nb::arg("ignored") = nb::none())
-      .def("counts", &many_counts, nb::arg().none(), nb::arg().none(), nb::arg("threads"), nb::arg("progress").none(),
-           nb::arg("walls") = nb::none(), nb::arg("ignored") = nb::none(), nb::arg("scales") = nb::none());
+      .def("counts", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none(),
+           nb::arg("walls") = nb::none(), nb::arg("ignored") = nb::none());
   nb::class_<ExactMethod, Method>(module, "ExactMethod")
       .def("quality",
            [](const ExactMethod& method) {

@@ -71,23 +71,28 @@ auto closest_points(const FaceIndex& surface, const Points& points, unsigned thr
 }
 
 NearestOptions nearest_options(Metric metric, double radius, const Mask& walls, const Mask& ignored, unsigned threads,
-                               nb::handle progress) {
+                               std::uint64_t max_bytes, nb::handle progress) {
   return {.metric = metric,
           .radius = radius,
           .filter = filter_of(walls, ignored),
           .threads = threads,
+          .max_bytes = max_bytes,
           .progress = progress_to(progress)};
 }
 
+constexpr const char* kFewer = "take fewer vertices at a time";
+
 auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices, std::size_t k, std::int32_t fill,
                   Metric metric, double radius, const Mask& walls, const Mask& ignored, unsigned threads,
-                  nb::handle progress) {
+                  std::uint64_t max_bytes, nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
-  const NearestOptions options = nearest_options(metric, radius, walls, ignored, threads, progress);
-  KNearest found = without_lock([&] {
-    KNearest result = k_nearest(method.index(), asked, k, options);
-    for (VertexId& id : result.ids) id = id == kNoVertex ? static_cast<VertexId>(fill) : id;
-    return result;
+  const NearestOptions options = nearest_options(metric, radius, walls, ignored, threads, max_bytes, progress);
+  KNearest found = limited(kFewer, [&] {
+    return without_lock([&] {
+      KNearest result = k_nearest(method.index(), asked, k, options);
+      for (VertexId& id : result.ids) id = id == kNoVertex ? static_cast<VertexId>(fill) : id;
+      return result;
+    });
   });
   const std::size_t rows = vertices ? vertices->size() : method.index().vertex_count();
   return std::pair(owned<std::int32_t>(std::move(found.ids), {rows, k}),
@@ -96,11 +101,13 @@ auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices
 
 auto discs_of(const ExactMethod& method, const std::optional<Rows>& vertices, double area, const Radii& areas,
               Metric metric, double radius, const Mask& walls, const Mask& ignored, unsigned threads,
-              nb::handle progress) {
+              std::uint64_t max_bytes, nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
-  const NearestOptions options = nearest_options(metric, radius, walls, ignored, threads, progress);
-  Neighborhoods found =
-      without_lock([&] { return discs(method.index(), asked, area, std::span(areas.data(), areas.size()), options); });
+  const NearestOptions options = nearest_options(metric, radius, walls, ignored, threads, max_bytes, progress);
+  Neighborhoods found = limited(kFewer, [&] {
+    return without_lock(
+        [&] { return discs(method.index(), asked, area, std::span(areas.data(), areas.size()), options); });
+  });
   return std::tuple(owned<std::int64_t>(std::move(found.offsets)), owned<std::int32_t>(std::move(found.ids)),
                     owned<double>(std::move(found.distances)));
 }
@@ -116,9 +123,9 @@ void bind_surface_queries(nb::module_& module) {
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none());
   module.def("face_index", &make_face_index, nb::arg(), nb::arg(), nb::arg("offsets").none());
   module.def("k_nearest", &k_nearest_of, nb::arg(), nb::arg().none(), nb::arg("k"), nb::arg("fill"), nb::arg("metric"),
-             nb::arg("radius"), walls, ignored, nb::arg("threads"), nb::arg("progress").none());
+             nb::arg("radius"), walls, ignored, nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none());
   module.def("discs", &discs_of, nb::arg(), nb::arg().none(), nb::arg("area"), nb::arg("areas"), nb::arg("metric"),
-             nb::arg("radius"), walls, ignored, nb::arg("threads"), nb::arg("progress").none());
+             nb::arg("radius"), walls, ignored, nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none());
 }
 
 }  // namespace meshhood::python

@@ -44,8 +44,9 @@ enum class SmoothingKernel : std::uint8_t {
 
 /// The meaning of NaN in the values.
 enum class MissingValues : std::uint8_t {
-  Propagate,  ///< a neighborhood with a NaN gives NaN
-  Omit,       ///< NaN marks a missing value, which is left out; a neighborhood without values gives NaN, its sum 0
+  Propagate,  ///< a neighborhood with a NaN gives NaN; only its count is a number, that of all vertices
+  Omit,       ///< NaN marks a missing value, which is left out; a neighborhood without values gives NaN, its sum
+              ///< and its count 0
 };
 
 /// The meaning of several radii. Both are the same with `Metric::Path`.
@@ -89,7 +90,8 @@ struct SignalView {
   /// Numbers per vertex, each aggregated by itself; at least 1.
   std::size_t channels = 1;
 
-  /// #V, finite and >= 0; empty: 1 each. A vertex of weight 0 is left out, whatever its value. See `vertex_areas`.
+  /// #V, finite and >= 0; empty: 1 each. Sums, means and variances leave out a vertex of weight 0, whatever its value;
+  /// minimum, maximum and count ignore the weights. See `vertex_areas`.
   Borrowed<double> weights = {};
 };
 

@@ -30,6 +30,7 @@ struct NearestOptions {
 
   /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
   unsigned threads = 1;
+  std::uint64_t max_bytes = BatchOptions::kUnlimited;
   Progress progress = {};
 };
 
@@ -44,8 +45,8 @@ struct KNearest {
 /// A row depends on the index, its vertex, `k` and the options alone, and begins with the row for any smaller `k`. Each
 /// thread owns a `RegionSearcher`, or a search of an `EdgeSearcher`. O(k log k) a row on most surfaces.
 ///
-/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming the row; TooLarge if rows
-/// times k is more than 2^40; on a machine of 32 bits, more than 2^28.
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming the row; TooLarge if the
+/// result exceeds `options.max_bytes`, or rows times k is more than 2^40; on a machine of 32 bits, more than 2^28.
 [[nodiscard]] KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k,
                                  const NearestOptions& options = {});
 
@@ -55,7 +56,9 @@ struct KNearest {
 /// areas  of each vertex, such as `vertex_areas`: #V, >= 0 and finite.
 /// area   > 0 and finite, in the unit of `areas`.
 ///
-/// Ignored vertices do not count. Throws as `k_nearest`; InvalidOption also for `area` and `areas`, naming the vertex.
+/// Ignored vertices do not count. The result is held twice while its rows are joined. Throws as `k_nearest`;
+/// InvalidOption also for `area` and `areas`, naming the vertex. A result above `options.max_bytes` is refused as that
+/// of `neighborhoods`.
 [[nodiscard]] Neighborhoods discs(const Index& index, const BatchVertices& vertices, double area,
                                   std::span<const double> areas, const NearestOptions& options = {});
 

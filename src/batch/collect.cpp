@@ -2,8 +2,6 @@
 // Rows kept in memory, all in one array. They are counted first, so that each is written to its final place. What was
 // found is kept meanwhile, in less memory than the ids take, so that most rows are searched once.
 #include <algorithm>
-#include <atomic>
-#include <cmath>
 #include <numeric>
 #include <span>
 #include <string>
@@ -14,76 +12,42 @@
 
 #include "base/prefetch.h"
 #include "batch/batch.h"
+#include "batch/size_limit.h"
 
 namespace meshhood {
 namespace {
 
-/// Refuses a result of more bytes than the caller allows.
-class SizeLimit {
- public:
-  SizeLimit(const BatchOptions& options, std::size_t rows)
-      : rows_(rows),
-        max_bytes_(options.max_bytes),
-        id_bytes_(sizeof(VertexId) + (options.distances ? sizeof(double) : 0)),
-        max_ids_(options.max_bytes / id_bytes_) {}
-
-  [[nodiscard]] bool allows(double ids) const { return ids <= static_cast<double>(max_ids_); }
-
-  /// How many ids each of `threads` may count before it adds them. All together are at most a sixteenth of the limit.
-  [[nodiscard]] std::uint64_t ids_at_once(unsigned threads) const {
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 16;
-    return std::min(kMost, max_ids_ / (std::uint64_t{16} * threads));
-  }
-
-  /// Any thread: counts the ids of some rows.
-  void add(std::uint64_t ids) {
-    const std::uint64_t total = total_.fetch_add(ids, std::memory_order_relaxed) + ids;
-    if (total > max_ids_) refuse("at least ", total);
-  }
-
-  /// After all rows were added: whether the result and `bytes` more are within the limit.
-  [[nodiscard]] bool leaves(std::uint64_t bytes) const { return bytes <= max_bytes_ - total_ * id_bytes_; }
-
-  /// `ids`: the size of the result, as far as it is known.
-  [[noreturn]] void refuse(const char* how_exact, std::uint64_t ids) const {
-    raise(ErrorCode::TooLarge, "the result of " + std::to_string(rows_) + " rows, " + how_exact +
-                                   std::to_string(ids * id_bytes_) + " bytes, exceeds max_bytes, " +
-                                   std::to_string(max_bytes_));
-  }
-
- private:
-  std::size_t rows_;
-  std::uint64_t max_bytes_;
-  std::uint64_t id_bytes_;
-  std::uint64_t max_ids_;
-  std::atomic<std::uint64_t> total_{0};
-};
-
-/// Refuses a result that is far too large, by the mean size of a sample. Counting all rows would show it only after
-/// most of the time is spent.
+/// Refuses a result that is far too large, by the sizes of a sample of the rows.
 void check_sample(Batch& batch, const SizeLimit& limit) {
-  constexpr std::size_t kSample = 64;       // each is searched alone, which takes as long as several rows of a packet
-  constexpr std::size_t kWorthwhile = 256;  // rows for each row of the sample
-  constexpr double kDeviations = 4;         // so that no result is refused by chance
-  const auto rows = static_cast<double>(batch.rows().size());
-  if (rows < kWorthwhile * kSample || limit.allows(rows * static_cast<double>(batch.vertex_count()))) return;
-  // One row from each stretch of the batch. The multiplier scatters them, so that the sample is right for alternating
-  // rows too.
-  const std::size_t stretch = batch.rows().size() / kSample;
-  const auto row_of = [stretch](std::size_t i) { return i * stretch + i * std::size_t{0x9E37'79B1} % stretch; };
-  std::vector<double> sizes(kSample);
-  batch.for_each_chunk(kSample, row_of, [&](unsigned thread, const BatchChunk& chunk) {
+  constexpr std::size_t kWorthwhile = 256;  // rows for each of the sample, whose search alone takes as long as several
+  const std::size_t rows = batch.rows().size();
+  if (rows < kWorthwhile * SizeLimit::kSample ||
+      limit.allows(static_cast<double>(rows) * static_cast<double>(batch.vertex_count()))) {
+    return;
+  }
+  std::vector<double> sizes(SizeLimit::kSample);
+  const auto row_of = [&limit](std::size_t i) { return limit.sampled_row(i); };
+  batch.for_each_chunk(sizes.size(), row_of, [&](unsigned thread, const BatchChunk& chunk) {
     const auto sink = [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
-      for (std::size_t i = 0; i < items.size(); ++i) sizes[items[i].row / stretch] = static_cast<double>(some[i]);
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        sizes[items[i].row / limit.stretch()] = static_cast<double>(some[i]);
+      }
       return batch.task().should_continue(thread);
     };
     batch.worker(thread).count(chunk.items, sink, nullptr);
   });
-  const double mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / kSample;
-  double variance = 0;
-  for (const double size : sizes) variance += (size - mean) * (size - mean) / kSample;
-  if (limit.allows(rows * (mean - kDeviations * std::sqrt(variance / kSample)))) return;
-  limit.refuse("about ", static_cast<std::uint64_t>(std::llround(rows * mean)));
+  limit.check_sample(sizes, "about ");
+}
+
+/// How many ids each of `threads` may count before it adds them. All together are at most a sixteenth of the limit.
+std::uint64_t ids_at_once(const SizeLimit& limit, unsigned threads) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 16;
+  return std::min(kMost, limit.max_items() / (std::uint64_t{16} * threads));
+}
+
+/// Of the result.
+SizeLimit limit_of(const BatchOptions& options, std::size_t rows) {
+  return {options.max_bytes, sizeof(VertexId) + (options.distances ? sizeof(double) : 0), rows};
 }
 
 /// What rows need that are counted first and written later: a limit for their ids, and a place for what was found.
@@ -101,7 +65,7 @@ struct alignas(64) NewIds {
 /// `writing` is null for rows that are only counted.
 void count_rows(Batch& batch, std::uint64_t* sizes, const ForWriting* writing) {
   const unsigned threads = batch.task().threads();
-  const std::uint64_t ids_at_once = writing == nullptr ? 0 : writing->limit.ids_at_once(threads);
+  const std::uint64_t most_ids = writing == nullptr ? 0 : ids_at_once(writing->limit, threads);
   std::vector<NewIds> new_ids(threads);
   batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
     std::uint64_t& ids = new_ids[thread].count;
@@ -111,7 +75,7 @@ void count_rows(Batch& batch, std::uint64_t* sizes, const ForWriting* writing) {
     };
     batch.worker(thread).count(chunk.items, sink,
                                writing == nullptr ? nullptr : &writing->kept.begin(thread, chunk.number));
-    if (writing != nullptr && ids >= ids_at_once) writing->limit.add(std::exchange(ids, 0));
+    if (writing != nullptr && ids >= most_ids) writing->limit.add(std::exchange(ids, 0));
     batch.task().advance(thread, chunk.items.size());
   });
   if (writing == nullptr) return;
@@ -133,7 +97,7 @@ BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool di
 /// Searches each row once. The rows wait in memory of our own until their number of ids is known.
 std::vector<std::uint64_t> stream_and_copy(const SearchMethod& method, const BatchQuery& query,
                                            const BatchAllocator& allocate, const BatchOptions& options) {
-  SizeLimit limit(options, query.vertices.count(method.vertex_count()));
+  SizeLimit limit = limit_of(options, query.vertices.count(method.vertex_count()));
   Neighborhoods rows{{0}, {}, {}};
   const auto append = [&](const BatchRow& row) {
     limit.add(row.ids.size());
@@ -215,7 +179,7 @@ std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const Batch
   if (!allocate) raise(ErrorCode::InvalidOption, "allocate is empty, expected a function");
   if (!method.searchers().is_count_cheap) return stream_and_copy(method, query, allocate, options);
   Batch batch(method, query, options, 2);
-  SizeLimit limit(options, batch.rows().size());
+  SizeLimit limit = limit_of(options, batch.rows().size());
   check_sample(batch, limit);
   std::vector<std::uint64_t> offsets(batch.rows().size() + 1);
   KeptChunks kept(batch.task().threads());

@@ -14,6 +14,7 @@
 #include "meshhood/region.h"
 
 #include "batch/filter_copy.h"
+#include "batch/size_limit.h"
 #include "exact/bound_index.h"
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
@@ -31,6 +32,8 @@ constexpr std::size_t kRowsAtOnce = 32;
 // Of a result. Fewer where addresses have 32 bits.
 constexpr std::size_t kMostValues = static_cast<std::size_t>(
     std::min<std::uint64_t>(std::uint64_t{1} << 40U, std::numeric_limits<std::size_t>::max() / 16));
+
+constexpr std::size_t kItemBytes = sizeof(VertexId) + sizeof(double);
 
 // The areas of a row are added in two orders, each of fewer than 2^31 terms: the sums differ by less than this share.
 constexpr double kAreaSlack = 1e-6;
@@ -154,6 +157,48 @@ void for_each_row(const Index& index, NearestRows& rows, F&& f) {
   }
 }
 
+struct Disc {
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+};
+
+/// Adds up to `enough` vertices to `disc`.
+template <class Search>
+void find_disc(Search& search, VertexId v, std::size_t enough, double area, std::span<const double> areas, Disc& disc) {
+  double sum = 0;
+  search.run(v, enough, area, areas, [&](VertexId vertex, double distance) {
+    disc.ids.push_back(vertex);
+    disc.distances.push_back(distance);
+    sum += areas[vertex];
+    return sum < area && disc.ids.size() < enough;
+  });
+}
+
+/// Refuses discs that are far too large, by the sizes of a sample. Its rows end at several times the mean size that
+/// fits, so that they take a part of the time of all rows.
+void check_sample(const Index& index, const BatchVertices& vertices, double area, std::span<const double> areas,
+                  NearestOptions options, const SizeLimit& limit) {
+  constexpr std::size_t kWorthwhile = 64;
+  constexpr std::uint64_t kTimesTheMean = 8;
+  const std::size_t count = vertices.count(index.vertex_count());
+  if (count < kWorthwhile * SizeLimit::kSample) return;
+  const std::uint64_t most = limit.max_items() / count;
+  if (most >= index.vertex_count()) return;
+  std::vector<VertexId> some;
+  for (std::size_t i = 0; i < SizeLimit::kSample; ++i) some.push_back(vertices[limit.sampled_row(i)]);
+  if (options.progress) {
+    options.progress = [count, all = options.progress](std::size_t, std::size_t) { return all(0, count); };
+  }
+  NearestRows rows(index, some, options);
+  std::vector<double> sizes(some.size());
+  for_each_row(index, rows, [&](auto& search, std::size_t row) {
+    Disc disc;
+    find_disc(search, rows.vertex(row), static_cast<std::size_t>(kTimesTheMean * (most + 1)), area, areas, disc);
+    sizes[row] = static_cast<double>(disc.ids.size());
+  });
+  limit.check_sample(sizes, "at least about ");
+}
+
 void check_areas(double area, std::span<const double> areas, std::size_t vertices) {
   if (!(area > 0 && std::isfinite(area))) {
     raise(ErrorCode::InvalidOption, "area: " + to_text(area) + ", expected a finite number > 0");
@@ -177,6 +222,8 @@ KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_
     raise(ErrorCode::TooLarge, "k: " + std::to_string(k) + " vertices for each of " + std::to_string(rows.size()) +
                                    " rows, expected at most " + std::to_string(kMostValues) + " in all");
   }
+  const SizeLimit limit(options.max_bytes, kItemBytes, rows.size());
+  if (rows.size() * k > limit.max_items()) limit.refuse("", rows.size() * k);
   KNearest result{std::vector<VertexId>(rows.size() * k, kNoVertex),
                   std::vector<double>(rows.size() * k, std::numeric_limits<double>::infinity())};
   if (k == 0) return result;
@@ -197,19 +244,14 @@ Neighborhoods discs(const Index& index, const BatchVertices& vertices, double ar
   areas = copy;
   check_areas(area, areas, index.vertex_count());
   NearestRows rows(index, vertices, options);
-  struct Disc {
-    std::vector<VertexId> ids;
-    std::vector<double> distances;
-  };
+  SizeLimit limit(options.max_bytes, kItemBytes, rows.size());
+  check_sample(index, vertices, area, areas, rows.options(), limit);
   std::vector<Disc> found(rows.size());
   for_each_row(index, rows, [&](auto& search, std::size_t row) {
-    double sum = 0;
-    search.run(rows.vertex(row), index.vertex_count() + 1, area, areas, [&](VertexId vertex, double distance) {
-      found[row].ids.push_back(vertex);
-      found[row].distances.push_back(distance);
-      sum += areas[vertex];
-      return sum < area;
-    });
+    Disc disc;
+    find_disc(search, rows.vertex(row), index.vertex_count() + 1, area, areas, disc);
+    limit.add(disc.ids.size());
+    found[row] = disc;  // a copy has no spare memory
   });
   Neighborhoods result;
   result.offsets.push_back(0);

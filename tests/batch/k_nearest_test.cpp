@@ -176,6 +176,54 @@ TEST(KNearest, RefusesWrongArguments) {
   });
 }
 
+TEST(KNearest, RefusesAResultBeyondTheLimit) {
+  const TestMesh mesh = bumpy_grid(30);
+  const Index index = build(mesh.view());
+  const std::vector<double> areas(mesh.size(), 1.0);
+  const std::uint64_t bytes = 12 * 20 * mesh.size();
+  for (const Metric metric : {Metric::Straight, Metric::Path}) {
+    NearestOptions options{.metric = metric, .threads = 2, .max_bytes = bytes};
+    EXPECT_EQ(k_nearest(index, {}, 20, options).ids.size(), bytes / 12);
+    EXPECT_EQ(discs(index, {}, 20, areas, options).ids.size(), bytes / 12);
+    --options.max_bytes;
+    const std::string message = " bytes, exceeds max_bytes, " + std::to_string(options.max_bytes);
+    expect_refused(ErrorCode::TooLarge, message, [&] { static_cast<void>(k_nearest(index, {}, 20, options)); });
+    expect_refused(ErrorCode::TooLarge, message, [&] { static_cast<void>(discs(index, {}, 20, areas, options)); });
+  }
+}
+
+TEST(KNearest, RefusesDiscsFarBeyondTheLimitByASample) {
+  const TestMesh mesh = bumpy_grid(30);
+  const Index index = build(mesh.view());
+  const std::vector<double> areas(mesh.size(), 1.0);
+  const std::vector<VertexId> vertices(10'000, VertexId{7});
+  std::size_t most = 0;
+  const NearestOptions options{.max_bytes = std::uint64_t{12} * 100 * vertices.size(),
+                               .progress = [&](std::size_t done, std::size_t) {
+                                 most = std::max(most, done);
+                                 return true;
+                               }};
+  expect_refused(ErrorCode::TooLarge, "at least about",
+                 [&] { static_cast<void>(discs(index, vertices, 1e9, areas, options)); });
+  EXPECT_EQ(most, 0U) << "rows of the refused call were searched";
+}
+
+TEST(KNearest, ReturnsDiscsWithinTheLimitThatTheSampleDoesNotExclude) {
+  // A component of one vertex and one of many: half of the rows are large, and their sample does not prove that the
+  // result is too large.
+  const TestMesh mesh = bumpy_grid(30);
+  const Index index = build(mesh.view());
+  const std::vector<double> areas(mesh.size(), 1.0);
+  std::vector<std::uint8_t> walls(mesh.size(), 0);
+  walls[5] = 1;
+  std::vector<VertexId> vertices(10'000, VertexId{7});
+  std::fill_n(vertices.begin(), vertices.size() / 2, VertexId{5});
+  const std::uint64_t ids = (mesh.size() - 1) * (vertices.size() / 2);
+  const NearestOptions options{.filter = {.walls = VertexMask(std::span<const std::uint8_t>(walls))},
+                               .max_bytes = 12 * ids};
+  EXPECT_EQ(discs(index, vertices, 1e9, areas, options).ids.size(), ids);
+}
+
 TEST(KNearest, StopsWhenItIsCancelled) {
   const TestMesh mesh = bumpy_grid(30);
   const Index index = build(mesh.view());

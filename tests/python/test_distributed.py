@@ -157,6 +157,30 @@ def test_curvatures_are_those_of_one_index(tmp_path, options):
         parts.curvature(6.1)
 
 
+@pytest.mark.parametrize("like", (None, "libigl"))
+@pytest.mark.parametrize("stretch", (3, 1.2))
+def test_a_fit_that_needs_edges_beyond_the_halo_is_refused(tmp_path, stretch, like):
+    """Balls of three or five vertices, so that the fit is extended, for the rows at the rim of a part beyond the halo."""
+    V, quads = meshes.grid(40)
+    V[:, 1] *= stretch
+    V[:, 2] = np.cos(V[:, 0] / 3) * np.sin(V[:, 1] / 5)
+    V, F, r = V.astype(np.float32), meshes.triangles(quads), 1.5
+    expected = meshhood.MeshIndex(V, F).curvature(r, like=like)
+    assert (expected.count < 6).all()
+    for halo in (r, 6.0):
+        parts = meshhood.partition(write_ply(tmp_path / "mesh.ply", V, F), tmp_path / f"{halo}", parts=7, halo=halo)
+        k1, k2, _, _, state, count = dask.compute(*parts.curvature(r, like=like))
+        refused = state == 5
+        print(f"stretch {stretch}, halo {halo}, {like}: {refused.sum()} of {len(V)} rows refused")
+        assert np.isnan(k1[refused]).all() and refused.sum() < len(V) / 8
+        assert refused.any() or not (stretch == 3 and halo == r)
+        assert not refused.any() or halo == r
+        np.testing.assert_array_equal(state[~refused], expected.state[~refused])
+        np.testing.assert_array_equal(count, expected.count)
+        for found, wanted in ((k1, expected.k1), (k2, expected.k2)):  # sums in another order
+            np.testing.assert_allclose(found[~refused], wanted[~refused], rtol=0, atol=1e-9)
+
+
 def ones_too_many(part, index, owned):
     return np.ones(len(owned) + 1)
 

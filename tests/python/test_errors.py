@@ -206,3 +206,84 @@ def test_a_result_of_just_the_limit_is_returned(method):
     np.testing.assert_array_equal(got[1], wanted[1])
     with pytest.raises(MemoryError, match="max_bytes"):
         INDEX.query_ball(None, 2.0, return_distance=True, method=method, max_bytes=size - 1)
+
+
+NAMES = [name for name in dir(meshhood.MeshIndex) if not name.startswith("_")]
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if callable(getattr(meshhood.MeshIndex, name))])
+def test_a_method_that_is_called_on_the_class_asks_for_an_instance(name):
+    if name in ("from_points", "of_faces"):  # which make one
+        return
+    with pytest.raises(TypeError, match=rf"MeshIndex.{name}: called on the class, expected on an instance"):
+        getattr(meshhood.MeshIndex, name)(3, 2.0)
+    assert getattr(meshhood.MeshIndex, name).__doc__ == getattr(INDEX, name).__doc__
+
+
+def test_the_class_can_be_used_as_others():
+    from abc import ABC
+
+    class Abstract(meshhood.MeshIndex, ABC):
+        def query_ball(self, *arguments, **words):
+            return super().query_ball(*arguments, **words)
+
+    index = Abstract(*meshes.two_plates(5))
+    wanted = INDEX.query_ball(3, 2.0)
+    for found in (index.query_ball(3, 2.0), Abstract.query_ball(index, 3, 2.0), meshhood.MeshIndex.query_ball(index, 3, 2.0)):
+        np.testing.assert_array_equal(found, wanted)
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "message"),
+    (
+        (lambda: INDEX.query_ball(3), TypeError, "r: missing"),
+        (lambda: INDEX.query_ball([3]), TypeError, "r: missing"),
+        (lambda: INDEX.count(3), TypeError, "r: missing"),
+        (lambda: INDEX.curvature(), TypeError, "r: missing"),
+        (lambda: INDEX.curvature(1.0, scales=[1.0]), TypeError, "r: given, but so are scales"),
+        (lambda: INDEX.smooth(np.ones(50)), TypeError, "fwhm: missing"),
+        (lambda: INDEX.smooth(np.ones(50), 1.0, scales=[1.0]), TypeError, "fwhm: given, but so are scales"),
+        (lambda: INDEX.smoothing_matrix(), TypeError, "fwhm: missing"),
+        (lambda: INDEX.smooth(np.ones(50), 1.0, weights=-np.ones(50)), ValueError, "weights: vertex 0: -1.0"),
+        (lambda: INDEX.radius_neighbors_graph(1.0, sort="distance"), ValueError, "sort: 'distance', expected None or 'id'"),
+        (lambda: meshhood.MeshIndex("hand.stl"), TypeError, r"V: a path, .* read_mesh\(path\)"),
+        (lambda: meshhood.MeshIndex("hand.stl", [[0, 1, 2]]), TypeError, r"V: a path, .* read_mesh\(path\)"),
+        (lambda: INDEX.refit("hand.stl"), TypeError, r"V: a path, .* read_mesh\(path\)"),
+    ),
+)
+def test_an_error_says_what_is_missing_or_what_helps(call, error, message):
+    with pytest.raises(error, match=message):
+        call()
+
+
+def test_a_mesh_file_is_not_an_index_file(tmp_path):
+    path = tmp_path / "mesh.ply"
+    meshhood.write_mesh(path, *meshes.two_plates(5))
+    for mmap in (False, True):
+        with pytest.raises(ValueError, match=f"{path}: .*not a saved index.* a mesh file is read by read_mesh"):
+            meshhood.load(path, mmap=mmap)
+
+
+@pytest.mark.parametrize(
+    ("library", "call"),
+    (
+        ("nibabel", lambda: meshhood.read_mesh("left.surf.gii")),
+        ("scipy", lambda: INDEX.radius_neighbors_graph(1.0)),
+        ("scipy", lambda: INDEX.smoothing_matrix(1.0)),
+        ("pyvista", lambda: meshhood.plot_neighborhood(INDEX, 3, 1.0)),
+        ("dask", lambda: meshhood.distributed.map_meshes(["hand.ply"], len)),
+    ),
+)
+def test_a_library_that_is_missing_is_named_with_its_installation(monkeypatch, library, call):
+    for name in [name for name in sys.modules if name.partition(".")[0] == library]:
+        monkeypatch.delitem(sys.modules, name)
+
+    class Missing:
+        @staticmethod
+        def find_spec(name, path=None, target=None):
+            if name.partition(".")[0] == library:
+                raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+    monkeypatch.setattr(sys, "meta_path", [Missing, *sys.meta_path])
+    with pytest.raises(ModuleNotFoundError, match=f"needs {library}: pip install '?{library}"):
+        call()

@@ -256,3 +256,26 @@ def test_the_accessor_of_pyvista():
     assert "smooth" in dir(mesh.meshhood)
     with pytest.raises(AttributeError, match="sharpen"):
         mesh.meshhood.sharpen
+
+
+@pytest.mark.filterwarnings("ignore:The default value of `algorithm`")
+def test_what_is_no_surface_is_refused_with_the_call_that_makes_one():
+    trimesh, pyvista = pytest.importorskip("trimesh"), pytest.importorskip("pyvista")
+    plane = pyvista.Plane()
+    strip = pyvista.PolyData(V[:4], strips=[4, 0, 1, 2, 3])
+    for mesh, advice in (
+        (trimesh.Scene(trimesh.creation.box()), r"scene\.to_mesh\(\)"),
+        (plane.cast_to_unstructured_grid(), r"mesh\.extract_surface\(\)"),
+        (strip, r"1 strips, .*mesh\.triangulate\(\)"),
+    ):
+        with pytest.raises((TypeError, ValueError), match=advice):
+            meshhood.MeshIndex(mesh)
+    boxes = trimesh.Scene([trimesh.creation.box(), trimesh.creation.box()])
+    surfaces = boxes.to_mesh(), plane.cast_to_unstructured_grid().extract_surface(), strip.triangulate()
+    assert [len(meshhood.MeshIndex(mesh)) for mesh in surfaces] == [16, plane.n_points, 4]
+
+
+def test_what_vtk_does_not_call_polygons_is_refused_with_the_filter_that_makes_them():
+    vtk = pytest.importorskip("vtk")
+    with pytest.raises(TypeError, match="vtkUnstructuredGrid, expected one surface: vtkGeometryFilter"):
+        meshhood.MeshIndex(vtk.vtkUnstructuredGrid())

@@ -160,7 +160,7 @@ def test_a_mesh_is_accepted_for_its_positions():
         (lambda V: (V, np.ones(7, bool)), ValueError, "changed: a bool mask of shape"),
         (lambda V: (np.full_like(V, np.inf), [3]), ValueError, "V: vertex 3: x is inf"),
         (lambda V: (V.astype(np.float64), [3]), ValueError, "V: the positions are double, but those of the index are"),
-        (lambda V: ("V", None), TypeError, "V: expected float32 or float64"),
+        (lambda V: ("V", None), TypeError, "V: a path, expected arrays or a mesh"),
     ),
 )
 def test_wrong_arguments_are_refused_by_name(change, error, message):

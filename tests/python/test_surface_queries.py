@@ -227,9 +227,17 @@ def test_query_knn_refuses_wrong_arguments(mesh):
         index.query_knn(None, 3, metric="geodesic")
     with pytest.raises(ValueError, match="walls: a bool mask of shape"):
         index.query_knn(None, 3, walls=np.zeros(3, bool))
-    with pytest.raises(MemoryError, match="exceeds max_bytes"):
+    for wrong in ({"k": 10**9}, {"k": 3, "max_bytes": 36 * len(V) - 1}, {"until": 1e9, "max_bytes": 12 * len(V)}):
+        with pytest.raises(MemoryError, match="exceeds max_bytes, .*; take fewer vertices at a time"):
+            index.query_knn(None, **wrong)
+    with pytest.raises(MemoryError, match="k: 4611686018427387904 vertices for each"):
         index.query_knn(None, 2**62)
-    with pytest.raises(ValueError, match="areas: vertex 2 has -1"):
+    for call in (index.query_knn, index.nearest_connected):
+        with pytest.raises(ValueError, match="k: 0, expected 1 to"):
+            call(3, 0)
+    with pytest.raises(TypeError, match="K: no argument of this call"):
+        index.query_knn(None, K=5)
+    with pytest.raises(ValueError, match="weights: vertex 2: -1.0, expected a finite number >= 0"):
         index.query_knn(None, until=1.0, weights=np.where(np.arange(len(V)) == 2, -1.0, 1.0))
 
 

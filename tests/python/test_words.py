@@ -93,7 +93,7 @@ def test_a_list_of_another_length_is_never_guessed(name):
         CALLS[name]([1.0, 2.0])
     with pytest.raises(ValueError, match="scales: expected a list"):
         CALLS[name](scales=2.0)
-    with pytest.raises(TypeError, match="r: expected a radius"):
+    with pytest.raises(TypeError, match="r: missing, expected a number"):
         CALLS[name]()
     with pytest.raises(TypeError, match="wall: no argument of this call"):
         CALLS[name](1.0, wall=WALLS)

@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._held import Held
 from ._mesh import mesh_arrays, only_part
-from ._rows import ResultWords, check_size, check_words, read_rows, result_dtype
+from ._optional import optional
+from ._rows import ResultWords, check_one_given, check_size, check_words, read_rows, result_dtype
 from ._types import Floats, Number, Radii, Reals, Scales, Vertex, Vertices
 
 if TYPE_CHECKING:
@@ -100,11 +101,12 @@ class Aggregates(Held):
             one part.
         r, scales, vertices, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
         reduce : "sum", "mean", "min", "max", "var", "std" or "count".
-        weights : (#V,) finite and >= 0, for sum, mean, var and std; "area" for `vertex_areas`. A vertex of weight 0
-            is left out.
+        weights : (#V,) finite and >= 0, for sum, mean, var and std, which leave out a vertex of weight 0; "area" for
+            `vertex_areas`. The others ignore them.
         kernel : for sum and mean, how the weight falls with the distance d. None: not at all; "epanechnikov":
             1 - (d/r)^2; "biweight": (1 - (d/r)^2)^2, which is close to a Gaussian of the standard deviation 0.4 r.
-        nan : "propagate", a neighborhood with a NaN gives NaN; "omit", NaN marks a missing value, which is left out.
+        nan : "propagate", a neighborhood with a NaN gives NaN, but its count is that of all vertices; "omit", NaN marks a
+            missing value, which is left out.
         nesting : what scales mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the largest,
             and of them the vertices within each smaller radius. With metric="path" both are the same.
         ddof : "var" and "std" divide by the number of values minus this, 0 or 1.
@@ -114,11 +116,12 @@ class Aggregates(Held):
         max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
 
         Returns an axis of scales if there are any, one of vertices unless `vertices` is a single one, then the axes of
-        `values` but the first. NaN where a neighborhood has no values; 0 for their sum.
+        `values` but the first. NaN where a neighborhood has no values; 0 for their sum and their count.
 
         No ids are listed. The cost is that of `count` for all vertices and a little for each channel. Sums
         are exact to 1e-14 of the sum of the absolute terms, with a kernel to 1e-13 of the sum without it. A result does
-        not depend on the other vertices of the call, bit for bit.
+        not depend on the other vertices of the call, bit for bit. With a kernel, its last bits may depend on whether
+        `values` have more than 16 channels, and on whether one of them exceeds 2^300.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> index.aggregate(V, 0.3, "std", weights="area").shape
@@ -140,6 +143,8 @@ class Aggregates(Held):
             "nesting": getattr(_core.Nesting, nesting),
             "ddof": _convert.integer(words.get("ddof", 0), "ddof", 0, 1),
         }
+        if words.get("kernel") is not None and reduce not in ("sum", "mean"):
+            raise ValueError(f"kernel: {words['kernel']!r}, expected None with reduce={reduce!r}")
         weights = area_weights(self, words.get("weights"), words.get("F"))
         if 0 in given.shape[1:]:
             return np.empty(shape, dtype)
@@ -198,7 +203,7 @@ class Aggregates(Held):
         >>> smooth = index.smooth(V[:, 2], 0.5, metric="path", walls=V[:, 2] < -0.9)
         """
         check_words(words, SmoothWords)
-        words["scales"], r = _smoothing_radii(words.get("scales"), "scales"), _smoothing_radii(fwhm, "fwhm")
+        r, words["scales"] = _smoothing_radii(fwhm, words.get("scales"))
         return self.aggregate(values, r, "mean", kernel="biweight", vertices=vertices, **words)
 
     def smoothing_matrix(
@@ -216,15 +221,14 @@ class Aggregates(Held):
         >>> np.allclose(W @ V[:, 2], index.smooth(V[:, 2], 0.5, weights="area"))
         True
         """
-        from scipy.sparse import csr_array
-
+        csr_array = optional("scipy.sparse", "smoothing_matrix").csr_array
         check_words(words, SmoothWords)
         if "nan" in words:
             raise TypeError("nan: no argument of this call, because a matrix does not depend on the values")
         _refuse_rings(words.get("metric"))
         weights = area_weights(self, words.get("weights"), words.get("F"))
         listed: Any = {word: value for word, value in words.items() if word not in ("weights", "F", "dtype")}
-        listed["scales"], r = _smoothing_radii(words.get("scales"), "scales"), _smoothing_radii(fwhm, "fwhm")
+        r, listed["scales"] = _smoothing_radii(fwhm, words.get("scales"))
         graph = self.radius_neighbors_graph(r, vertices=vertices, mode="distance", **listed)
         sizes = np.diff(graph.indptr)
         radii = np.atleast_1d(self._scale(words.get("unit", "mesh")) * (r if listed["scales"] is None else listed["scales"]))
@@ -239,8 +243,13 @@ class Aggregates(Held):
         return graph
 
 
-def _smoothing_radii(fwhm: Any, name: str) -> Any:
-    """The radii of the kernels of one width or several; None for None."""
+def _smoothing_radii(fwhm: Any, scales: Any) -> tuple[Any, Any]:
+    """The radii of the kernels, one of which is None."""
+    check_one_given(fwhm, scales, "fwhm")
+    return _kernel_radii(fwhm, "fwhm"), _kernel_radii(scales, "scales")
+
+
+def _kernel_radii(fwhm: Any, name: str) -> Any:
     if fwhm is None or np.ndim(fwhm) == 0:
         return None if fwhm is None else smoothing_radius(_convert.finite(fwhm, name, or_zero=False))
     widths = _numbers(fwhm, name, "iuf")
@@ -279,6 +288,9 @@ def area_weights(index: Held, weights: Any, F: Any) -> Any:
     array = _numbers(weights, "weights", "biuf")
     if array.shape != (index._count,):
         raise ValueError(f"weights: expected an array of shape ({index._count},), not {array.shape}")
+    wrong = np.flatnonzero(~((array >= 0) & (array < np.inf)))
+    if wrong.size:
+        raise ValueError(f"weights: vertex {wrong[0]}: {array[wrong[0]]}, expected a finite number >= 0")
     return array
 
 

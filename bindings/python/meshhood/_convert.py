@@ -58,6 +58,8 @@ def is_single(v):
 
 def radius(r, name="r"):
     """`r`, one number, as a float >= 0."""
+    if r is None:
+        raise TypeError(f"{name}: missing, expected a radius")
     if not isinstance(r, float):
         r = _number(r, name)
     if not r >= 0:
@@ -182,9 +184,9 @@ def threads(workers):
     return workers
 
 
-def max_bytes(value):
-    """`value`, or for None the memory that this process may still take."""
-    return free_bytes() if value is None else integer(value, "max_bytes", 0, 2**64 - 1)
+def max_bytes(value, copies=1):
+    """`value`, or for None what fits `copies` times into the memory that this process may still take."""
+    return free_bytes() // copies if value is None else integer(value, "max_bytes", 0, 2**64 - 1)
 
 
 def path(value):
@@ -203,10 +205,13 @@ def choice(value, name, choices):
 
 
 def real_type(dtype):
-    dtype = np.dtype(dtype)
-    if dtype not in (np.float32, np.float64):
-        raise ValueError(f"dtype: {dtype}, expected float32 or float64")
-    return dtype
+    try:
+        found = np.dtype(dtype)
+    except TypeError:
+        raise TypeError(f"dtype: {dtype!r}, expected float32 or float64") from None
+    if found not in (np.float32, np.float64):
+        raise ValueError(f"dtype: {found}, expected float32 or float64")
+    return found
 
 
 def integer(value, name, lowest, highest):

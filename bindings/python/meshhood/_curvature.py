@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from . import _convert, _core
 from ._types import Floats
 
-FITTED, RANK_DEFICIENT, TOO_FEW, NO_NORMAL, EXTENDED = range(5)
+FITTED, RANK_DEFICIENT, TOO_FEW, NO_NORMAL, EXTENDED, BEYOND_HALO = range(6)
+FEWEST_POINTS = 6  # of a fit
 
 
 class Curvature(NamedTuple):
@@ -24,7 +25,7 @@ class Curvature(NamedTuple):
     state : (#rows,) uint8. 0: fitted. 1: the points determine no unique quadric; the values are those of the one with
         the smallest coefficients. 2: fewer than six vertices are connected with the vertex; all values are 0. 3: the
         vertex has no normal, as it belongs to no face with an area; all values are 0. 4: fewer than six vertices are in
-        the ball; the fit is to these and to the nearest connected ones.
+        the ball; the fit is to these and to the nearest connected ones. 5: only of `Parts.curvature`, see there.
     count : (#rows,) uint32, the vertices within the radius to which the quadric is fitted, without those that the
         filter leaves out. If they are fewer than six, the state is not 0.
 

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from . import _convert, _core
 from ._index import MeshIndex
 from ._mesh import kept_faces, mesh_arrays
+from ._optional import optional
 from ._progress import Progress, reporter
 
 
@@ -50,8 +51,7 @@ def read_mesh(
     path, threads = _convert.path(path), _convert.threads(workers)
     real = None if dtype is None else _convert.real_type(dtype)
     if os.fsdecode(path).endswith((".gii", ".gii.gz")):
-        import nibabel
-
+        nibabel = optional("nibabel", f"{os.fsdecode(path)}: a GIFTI surface")
         vertices, corners, _ = mesh_arrays(nibabel.load(os.fsdecode(path)), None)
         return Mesh(vertices.astype(real or vertices.dtype), corners.astype(np.int32, copy=False).reshape(-1, 3))
     with reporter(progress, "read_mesh", "bytes") as report:
@@ -137,6 +137,11 @@ def load(
         raise ValueError("trusted: expected only with mmap=True")
     path = _convert.path(path)
     with reporter(progress, "load", "bytes") as report:
-        exact = _core.load(path, mmap=bool(mmap), trusted=bool(trusted), progress=report)
+        try:
+            exact = _core.load(path, mmap=bool(mmap), trusted=bool(trusted), progress=report)
+        except ValueError as error:
+            if str(error).endswith("not a saved index"):
+                raise ValueError(f"{error}, as MeshIndex.save writes it; a mesh file is read by read_mesh") from None
+            raise
     faces = exact.faces
     return MeshIndex._holding(exact, faces and kept_faces(*faces))

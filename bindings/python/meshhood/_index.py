@@ -16,11 +16,24 @@ from numpy.typing import NDArray
 from . import _convert, _core
 from ._aggregate import Aggregates
 from ._held import Held
+from ._instance import NeedsInstance
 from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_coarse, warn_if_no_faces, warn_if_unwelded
+from ._optional import optional
 from ._progress import Progress, reporter
 from ._queries import Queries
 from ._region_mesh import Regions
-from ._rows import CountWords, ListWords, Rows, check_words, read_rows, result_dtype, sort_of, sorted_rows
+from ._rows import (
+    CountWords,
+    ListWords,
+    Rows,
+    check_of_many,
+    check_size,
+    check_words,
+    read_rows,
+    result_dtype,
+    sort_of,
+    sorted_rows,
+)
 from ._shape import Shape
 from ._surface_queries import SurfaceQueries
 from ._types import Counts, Floats, Ids, Number, Offsets, Radii, Scales, Vertex, Vertices
@@ -56,7 +69,7 @@ class Quality(NamedTuple):
     gain: float
 
 
-class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
+class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=NeedsInstance):
     """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the part of the mesh inside the
     ball of radius r around v that is connected to v within the ball.
 
@@ -320,6 +333,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
         has_masks = words.get("walls") is not None or words.get("ignored") is not None
         if scales is None and vertices is not None and not has_masks and _convert.is_single(vertices):
             check_words(words, CountWords)
+            check_of_many(words)
             radius = self._scale(words.get("unit", "mesh")) * _convert.radius(r)
             return searched.count(_convert.vertex(vertices, self._count), radius)
         rows = read_rows(self, vertices, r, scales, words, CountWords)
@@ -354,14 +368,18 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
         >>> index.radius_neighbors_graph(0.3, vertices=[42, 43], mode="distance").shape
         (2, 642)
         """
-        from scipy.sparse import csr_array
-
+        csr_array = optional("scipy.sparse", "radius_neighbors_graph").csr_array
         with_distances = _convert.choice(mode, "mode", ("connectivity", "distance")) == "distance"
         rows = read_rows(self, vertices, r, scales, words, ListWords)
-        by_id: Any = {**words, "sort": "id"}
+        dtype, limit = result_dtype(words), _convert.max_bytes(words.get("max_bytes"))
+        if sort_of(words) not in (None, "id"):
+            raise ValueError(f"sort: {words['sort']!r}, expected None or 'id', because the ids of a row ascend")
+        by_id: Any = {**words, "sort": "id", "max_bytes": limit}
         searched = self._method(words)
         indptr, indices, distances = self._query_many(searched, rows, with_distances, by_id, "radius_neighbors_graph")
-        data = distances if with_distances else np.ones(len(indices), result_dtype(words))
+        if not with_distances:
+            check_size(indices.shape, indices.itemsize + dtype.itemsize, limit)
+        data = distances if with_distances else np.ones(len(indices), dtype)
         graph = csr_array((data, indices, indptr), shape=(len(indptr) - 1, self._count))
         graph.has_sorted_indices = graph.has_canonical_format = True
         return graph
@@ -394,6 +412,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
         chunk = _convert.positive(chunk, "chunk")
         in_index_order = _convert.choice(order, "order", ("query", "index")) == "index"
         rows = read_rows(self, vertices, r, scales, words, ListWords)
+        check_of_many(words)
         sort_of(words)
         searched, rows = rows.restrict(self._method(words))
         all_rows = np.arange(self._count, dtype=np.int32) if rows.vertices is None else rows.vertices
@@ -418,6 +437,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
         if not words and not return_distance:  # a microsecond, of which the words below would be a half
             return self._exact.neighborhood(_convert.vertex(vertex, self._count), _convert.radius(r))
         check_words(words, ListWords)
+        check_of_many(words)
         searched, sort, unit = self._method(words), sort_of(words), self._scale(words.get("unit", "mesh"))
         v = _convert.vertex(vertex, self._count)
         radius = unit * _convert.radius(r)
@@ -448,7 +468,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
 
         def search(radius: Any, report: Any) -> Any:
             nonlocal left
-            found = searched.neighborhoods(
+            indptr, indices, distances = searched.neighborhoods(
                 rows.vertices,
                 radius,
                 distances=with_distances,
@@ -458,8 +478,8 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
                 progress=report,
                 **rows.filter,
             )
-            left = max(0, left - sum(array.nbytes for array in found[1:]))
-            return found
+            left = max(0, left - indices.nbytes - distances.nbytes)
+            return indptr, indices, distances if with_distances else None
 
         indptr, indices, distances = _joined(rows.for_each_scale(title, search))
         if sort in ("index", "distance"):
@@ -552,7 +572,8 @@ def _joined(scales: list[Any]) -> tuple[Any, Any, Any]:
     offsets, indices, distances = zip(*scales)
     begins = np.cumsum([0, *(int(each[-1]) for each in offsets[:-1])])
     joined = [offsets[0][:1], *(begin + each[1:] for begin, each in zip(begins, offsets))]
-    return np.concatenate(joined), np.concatenate(indices), np.concatenate(distances)
+    whole = None if distances[0] is None else np.concatenate(distances)
+    return np.concatenate(joined), np.concatenate(indices), whole
 
 
 def _as_size(count: float) -> str:

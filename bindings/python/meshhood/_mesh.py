@@ -3,6 +3,7 @@
 not checked here, the C++ library checks."""
 
 import itertools
+import os
 import warnings
 
 import numpy as np
@@ -53,6 +54,7 @@ def moved_positions(V):
 
 def positions_of(V, name="V"):
     """`V` as float32 or float64 (#V, 3) in C order."""
+    _refuse_path(V, name)
     array = as_array(V, name)
     if array.dtype.kind in "iu" or array.dtype == np.float16:
         array = _as_float64(array, name)
@@ -61,6 +63,11 @@ def positions_of(V, name="V"):
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{name}: expected an array of shape (#V, 3), not {array.shape}")
     return np.ascontiguousarray(array)
+
+
+def _refuse_path(V, name):
+    if isinstance(V, (str, bytes, os.PathLike)):
+        raise TypeError(f"{name}: a path, expected arrays or a mesh; read_mesh(path) reads a mesh file")
 
 
 def _as_float64(array, name):
@@ -218,6 +225,7 @@ def _is_mesh(V):
 
 def _parts(mesh):
     """Positions and faces of a mesh of another library or of this package."""
+    _refuse_path(mesh, "V")
     if hasattr(mesh, "mesh") and hasattr(mesh, "data"):  # nilearn's SurfaceImage
         mesh = mesh.mesh
     if hasattr(mesh, "parts"):
@@ -235,18 +243,33 @@ def _parts(mesh):
     if hasattr(mesh, "points") and isinstance(getattr(mesh, "cells", None), list):
         return mesh.points, _meshio_polygons(mesh)
     if hasattr(mesh, "points") and (hasattr(mesh, "GetPolys") or hasattr(mesh, "faces")):
-        for kind in ("n_strips", "n_lines"):
-            if getattr(mesh, kind, 0):
-                raise ValueError(f"V: has {getattr(mesh, kind)} {kind[2:]}, expected only polygons")
+        for kind in ("strips", "lines"):
+            _refuse_cells(getattr(mesh, f"n_{kind}", 0), kind, "mesh.triangulate()")
         return mesh.points, _pyvista_faces(mesh)
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         return mesh.vertices, mesh.faces
     if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):  # Open3D
         return mesh.vertices, np.asarray(mesh.triangles)
+    for attribute, call in _SURFACES.items():
+        if hasattr(mesh, attribute):
+            raise TypeError(f"V: {type(mesh).__name__}, expected one surface: {call}")
     raise TypeError(
         "V: expected a mesh of trimesh, PyVista, VTK, vedo, meshio, Open3D, nilearn or nibabel if F is omitted, "
         f"not {type(mesh).__name__}; for points without faces, use MeshIndex.from_points(V, link=...)"
     )
+
+
+# What makes a surface of other classes of PyVista, VTK and trimesh, by an attribute that these have.
+_SURFACES = {
+    "extract_surface": "mesh.extract_surface()",
+    "GetCellTypes": "vtkGeometryFilter makes it",
+    "geometry": "scene.to_mesh(), or of an older trimesh scene.dump(concatenate=True)",
+}
+
+
+def _refuse_cells(count, kind, call):
+    if count:
+        raise ValueError(f"V: has {count} {kind}, expected only polygons: {call} makes triangles of strips, and drops lines")
 
 
 def only_part(parts, name):
@@ -271,9 +294,7 @@ _GIFTI_INTENTS = {"pointset": 1008, "triangle": 1009}  # NIFTI_INTENT_POINTSET, 
 def _vtk_parts(mesh):
     """Of vtkPolyData."""
     for kind in ("Strips", "Lines"):
-        if getattr(mesh, f"GetNumberOf{kind}")():
-            count = getattr(mesh, f"GetNumberOf{kind}")()
-            raise ValueError(f"V: has {count} {kind.lower()}, expected only polygons")
+        _refuse_cells(getattr(mesh, f"GetNumberOf{kind}")(), kind.lower(), "vtkTriangleFilter with PassLinesOff()")
     if mesh.GetPoints() is None:
         raise ValueError("V: has no points")
     from vtkmodules.util.numpy_support import vtk_to_numpy

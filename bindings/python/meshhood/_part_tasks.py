@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._atomic_file import atomic_file
+from ._curvature import BEYOND_HALO, FEWEST_POINTS, NO_NORMAL
 from ._files import load, read_mesh
 from ._index import MeshIndex
 from ._open_part import OpenPart, PartName
@@ -67,9 +68,32 @@ def aggregate_values(
 
 
 def curvature_rows(
-    radius: float, options: dict[str, Any], part: OpenPart, index: MeshIndex, owned: Any
+    radius: float, halo: float, options: dict[str, Any], part: OpenPart, index: MeshIndex, owned: Any
 ) -> NDArray[np.float64]:
-    return np.column_stack(index.curvature(radius, owned, F=part.mesh.faces, workers=1, **options))
+    found = index.curvature(radius, owned, F=part.mesh.faces, workers=1, **options)
+    rows = np.column_stack(found)
+    few = np.flatnonzero((found.count < FEWEST_POINTS) & (found.state != NO_NORMAL))
+    few = few[index.count(owned[few], halo, workers=1) < FEWEST_POINTS - 1]  # else all that a fit needs is in the halo
+    refused = few[[_needs_more(index, owned, int(owned[row]), radius, halo) for row in few]]
+    rows[refused, :8], rows[refused, 8] = np.nan, BEYOND_HALO
+    return rows
+
+
+def _needs_more(index: MeshIndex, owned: Any, vertex: int, radius: float, halo: float) -> bool:
+    """Whether the fit at a vertex, which is extended to six, needs edges that the part may not have. It adds the nearest
+    of the vertices that an edge joins to those it has (see `curvatures` in C++), and the part has all edges of the
+    vertices within the halo of one that it owns."""
+    found = index.query_ball(vertex, radius).tolist()
+    while len(found) < FEWEST_POINTS:
+        last = found[-1]  # those before it have been looked at, or are within the radius
+        if not np.isin(index.query_ball(last, halo, method="ball"), owned).any():
+            return True
+        linked = np.setdiff1d(index.query_ball(found, 1, metric="rings")[1], found)
+        if not len(linked):
+            return False
+        x, y, z = (index.positions[linked].astype(np.float64) - index.positions[vertex].astype(np.float64)).T
+        found.append(int(linked[np.argmin(x * x + y * y + z * z)]))  # the first, of those as near as it
+    return False
 
 
 def is_area(weights: Any) -> bool:

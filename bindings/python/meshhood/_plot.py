@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from . import _convert
 from ._index import MeshIndex
 from ._mesh import mesh_arrays
+from ._optional import optional
 from ._types import Mask, Metric, Number, Unit, Vertex
 
 # A vertex that belongs to nothing, and to each layer of a plot, the last in front; the colors of the paper.
@@ -57,8 +58,7 @@ def plot_neighborhood(
     >>> index, plotter = meshhood.MeshIndex(V, F), pyvista.Plotter(off_screen=True)
     >>> image = meshhood.plot_neighborhood(index, 42, 0.5, plotter=plotter).screenshot("picture.png")
     """
-    import pyvista
-
+    pyvista = optional("pyvista", "plot_neighborhood")
     v = _convert.vertex(v, len(index), "v")
     if (r is None) == (ids is None):
         raise TypeError("r: expected a radius, or ids instead")

@@ -19,11 +19,13 @@ def reporter(progress: Progress, title: str, unit: str = "steps", count: Optiona
     if progress is True:
         with _bar(title, unit, count) as report:
             yield report
-    elif progress is None or progress is False:
-        yield None
-    elif callable(progress):
-        yield progress
     else:
+        check_progress(progress)
+        yield progress if callable(progress) else None
+
+
+def check_progress(progress: Any) -> None:
+    if not (progress is None or isinstance(progress, bool) or callable(progress)):
         raise TypeError(f"progress: expected True or a function, not {type(progress).__name__}")
 
 
@@ -47,7 +49,7 @@ def _bar(title: str, unit: str, count: Optional[int]) -> Iterator[Report]:
     try:
         from tqdm.auto import tqdm
     except ImportError:
-        warnings.warn("progress=True needs tqdm, which is not installed", stacklevel=5)
+        warnings.warn("progress=True needs tqdm, which is not installed: pip install tqdm", stacklevel=5)
         yield None
         return
     bar: Any

@@ -220,7 +220,7 @@ class Queries(Held):
         walls: Mask = None,
         ignored: Mask = None,
     ) -> tuple[Ids, Reals]:
-        """The `k` nearest connected vertices and their connecting radii: the first k, ordered by connecting radius,
+        """The `k` >= 1 nearest connected vertices and their connecting radii: the first k, ordered by connecting radius,
         then by distance from `start`, then by id. Fewer if no more are connected. The other words are those of
         `query_region`.
 
@@ -229,7 +229,7 @@ class Queries(Held):
         42
         """
         center, first = self._start(start, seeds, face, "query_knn(vertices, k), or seeds= around a point")
-        k = _convert.integer(k, "k", 0, 2**63 - 1)
+        k = _convert.integer(k, "k", 1, 2**63 - 1)
         indices, radii = self._queries.nearest_connected(center, first, k, *self._masks(walls, ignored))
         return indices, radii
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _convert
 from ._methods import Method
-from ._progress import Progress, Report, in_parts, reporter
+from ._progress import Progress, Report, check_progress, in_parts, reporter
 from ._types import METRICS, Ids, Mask, Metric, Reals, Sort, Unit
 
 if TYPE_CHECKING:
@@ -139,6 +139,15 @@ def result_dtype(words: Mapping[str, Any], default: Any = np.float64) -> Any:
     return _convert.real_type(default if given is None else given)
 
 
+def check_of_many(words: Mapping[str, Any]) -> None:
+    """Checks the words that have no effect on a call for one vertex."""
+    _convert.threads(words.get("workers", -1))
+    check_progress(words.get("progress"))
+    result_dtype(words)
+    if words.get("max_bytes") is not None:
+        _convert.max_bytes(words["max_bytes"])
+
+
 def sort_of(words: Mapping[str, Any]) -> Optional[str]:
     sort = words.get("sort")
     return None if sort is None else _convert.choice(sort, "sort", ("index", "id", "distance"))
@@ -166,10 +175,16 @@ def check_size(shape: tuple[int, ...], itemsize: int, max_bytes: Any) -> None:
         )
 
 
+def check_one_given(r: Any, scales: Any, name: str) -> None:
+    if r is None and scales is None:
+        raise TypeError(f"{name}: missing, expected a number, or one for each row, or several for all rows as scales")
+    if r is not None and scales is not None:
+        raise TypeError(f"{name}: given, but so are scales; expected one of them")
+
+
 def _radii(r: Any, scales: Any, rows: Optional[int], unit: float) -> list[Any]:
     """`rows`: None for a single vertex."""
-    if (r is None) == (scales is None):
-        raise TypeError("r: expected a radius, or one for each row; or several radii for all rows as scales, not both")
+    check_one_given(r, scales, "r")
     if scales is None:
         return [unit * (_convert.radius(r) if rows is None else _convert.radii(r, rows))]
     values = _convert.as_array(scales, "scales")

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from ._optional import optional
 from ._progress import Progress, reporter
 
 
@@ -32,7 +33,7 @@ def _client() -> Any:
 
 
 def _run_here(tasks: Any, report: Any) -> list[Any]:
-    import dask
+    dask = optional("dask", "a task for each part")
     from dask.callbacks import Callback
 
     class Count(Callback):

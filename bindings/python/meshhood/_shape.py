@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Optional, Union, get_args
 
 import numpy as np
@@ -96,6 +96,8 @@ class Shape(Held):
         like, fit = words.get("like"), words.get("fit", "quadric")
         if like is not None:
             _convert.choice(like, "like", ("libigl",))
+        if like is not None and fit == "jet":
+            raise ValueError(f"like: {like!r}, expected None with fit='jet'")
         rows = self._surface_rows(vertices, r, words, CurvatureWords)
         options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
         options |= {"filter": bool(words.get("filter", True)), "threads": rows.threads, **rows.filter}
@@ -211,6 +213,8 @@ class Shape(Held):
         (3, 642, 2)
         """
         rows = self._surface_rows(vertices, r, words, FeatureWords)
+        if not isinstance(kinds, Iterable):
+            raise TypeError(f"kinds: expected a name or several, not {type(kinds).__name__}")
         names = (kinds,) if isinstance(kinds, str) else tuple(kinds)
         if not names:
             raise ValueError("kinds: there are none, expected at least one")

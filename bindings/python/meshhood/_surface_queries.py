@@ -13,7 +13,7 @@ from ._aggregate import area_weights
 from ._held import Held
 from ._mesh import mesh_arrays, positions_of, warn_if_coarse, warn_if_link_is_coarse
 from ._progress import Progress, reporter
-from ._rows import Words, check_size, read_rows
+from ._rows import Words, check_words, read_rows
 from ._types import Ids, Number, Radii, Reals, Vertex, Vertices
 
 if TYPE_CHECKING:
@@ -158,7 +158,7 @@ class SurfaceQueries(Held):
         or (k,) for a single vertex.
 
         vertices : a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
-        k : how many. A row for a smaller `k` is the beginning of that for a larger one.
+        k : how many, at least 1. A row for a smaller `k` is the beginning of that for a larger one.
         r : only vertices within this connecting radius or path length.
         metric : "straight": the nearest by connecting radius, the smallest radius whose neighborhood has the vertex,
             then by distance, then by id, as for `nearest_connected`; the distances are the connecting radii. "path": by
@@ -170,12 +170,15 @@ class SurfaceQueries(Held):
         F : other faces than those that the index keeps, for weights="area".
         walls, ignored, unit, workers, progress : see `MeshIndex`. A row whose vertex is a wall is empty. The result has
             the unit of V, `until` its square.
-        max_bytes : refuse a larger result of `k`; by default, one larger than the memory that is free.
+        max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free, or with
+            `until`, for which the result is held twice, than half of it. A sample of the rows usually shows this within
+            a second.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> ids, distances = index.query_knn(None, 20)
         >>> indptr, ids, distances = index.query_knn([4, 7], until=0.3, metric="path")
         """
+        check_words(words, NearestWords)
         if (k is None) == (until is None):
             raise ValueError("k: expected a number of vertices, or an area as `until`, and not both")
         rows = read_rows(self, vertices, r, None, words, NearestWords)
@@ -185,6 +188,7 @@ class SurfaceQueries(Held):
             "metric": getattr(_core.Metric, _one_of(rows.metric, "straight", "path")),
             "radius": rows.radii[0],
             "threads": rows.threads,
+            "max_bytes": _convert.max_bytes(words.get("max_bytes"), copies=1 if until is None else 2),
             **rows.filter,
         }
         with rows.reporter("nearest") as report:
@@ -194,8 +198,7 @@ class SurfaceQueries(Held):
                     raise ValueError("weights: expected 'area' or (#V,) numbers")
                 area = _convert.finite(until, "until", or_zero=False)
                 return _core.discs(self._exact, rows.vertices, area=area, areas=areas, **options, progress=report)
-            options["k"] = _convert.integer(k, "k", 0, 2**63 - 1)
-            check_size((rows.count, options["k"]), 12, words.get("max_bytes"))
+            options["k"] = _convert.integer(k, "k", 1, 2**63 - 1)
             options["fill"] = _convert.integer(fill, "fill", -(2**31), 2**31 - 1)
             ids, distances = _core.k_nearest(self._exact, rows.vertices, **options, progress=report)
         return (ids[0], distances[0]) if rows.shape == () else (ids, distances)

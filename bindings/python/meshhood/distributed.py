@@ -40,6 +40,7 @@ from ._part_tasks import (
     save_rows,
     shape_of,
 )
+from ._optional import optional
 from ._progress import Progress
 from ._result_files import result_folder
 from ._run_tasks import run_all
@@ -161,14 +162,15 @@ class Parts:
         #V rows. See `map` for `order`.
 
         Normals are those of the whole mesh, because each part has all faces around the vertices within its halo. The
-        last digits may differ from those of one index, because the order of the sums does. Compute all arrays together,
-        by `dask.compute(found.k1, found.k2)`.
+        last digits may differ from those of one index, because the order of the sums does. A row is refused, with state
+        5 and NaN for its values, if fewer than six vertices are within `r` and the fit to the nearest ones needs edges
+        beyond the halo, which its part may not have. Compute all arrays together, by `dask.compute(found.k1, found.k2)`.
 
         >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
         >>> mean = parts.curvature(0.3).mean.compute()
         """
         options = {"like": like, "fit": fit, "filter": bool(filter)}
-        function = functools.partial(curvature_rows, self._radius(r, unit), options)
+        function = functools.partial(curvature_rows, self._radius(r, unit), self.halo, options)
         rows = self.map(function, r, unit=unit, shape=(CURVATURE_COLUMNS,), order=order)
         state, count = rows[:, 8].astype(np.uint8), rows[:, 9].astype(np.uint32)
         return Curvature(rows[:, 0], rows[:, 1], rows[:, 2:5], rows[:, 5:8], state, count)
@@ -209,15 +211,13 @@ class Parts:
         >>> np.allclose(parts.map(heights, 0).compute(), V[:, 2])
         True
         """
-        import dask.array as da
-
+        da = optional("dask.array", "Parts")
         self._radius(r, unit)
         _convert.choice(order, "order", ("mesh", "parts"))
         dtype = np.dtype(dtype)
         blocks = self._blocks(functools.partial(result_rows, function, dtype=dtype, shape=shape))
         if order == "mesh":
-            import dask
-
+            dask = optional("dask", "Parts")
             in_order = dask.delayed(in_mesh_order)(self._blocks(owned_ids), blocks, self.n_vertices)
             return da.from_delayed(in_order, (self.n_vertices, *shape), dtype)
         return self._array(blocks, dtype, shape)
@@ -276,8 +276,7 @@ class Parts:
         radius = self._radius(r, unit)
         _convert.choice(format, "format", ("npz", "zarr"))
         if format == "zarr":
-            import zarr  # missing here rather than on the workers
-
+            zarr = optional("zarr", "format: 'zarr'")  # missing here rather than on the workers
             if not hasattr(zarr.Group, "create_array"):
                 raise ImportError(f"format: 'zarr' needs zarr 3, found {zarr.__version__}")
         task = functools.partial(save_neighborhoods, radius, format, bool(return_distance))
@@ -300,13 +299,11 @@ class Parts:
         return PartName(self.folder, number, self._checksum)
 
     def _blocks(self, task: Callable[[OpenPart], Any]) -> list[Any]:
-        import dask
-
+        dask = optional("dask", "Parts")
         return [dask.delayed(on_part)(task, self._name(number)) for number in range(len(self))]
 
     def _array(self, blocks: list[Any], dtype: np.dtype[Any], shape: tuple[int, ...]) -> da.Array:
-        import dask.array as da
-
+        da = optional("dask.array", "Parts")
         rows = [size.owned for size in self.sizes]
         return da.concatenate([da.from_delayed(block, (n, *shape), dtype) for block, n in zip(blocks, rows)])
 

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""Questions about a mesh, answered one vertex at a time in the plainest way. Shares no code with the library."""
+
+import heapq
+
+import numpy as np
+
+
+class PlainMesh:
+    def __init__(self, V, triangles, walls=None, ignored=None):
+        self.V = V.astype(np.float64)
+        count = len(V)
+        self.walls = np.zeros(count, bool) if walls is None else walls
+        self.hidden = self.walls | (np.zeros(count, bool) if ignored is None else ignored)
+        sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+        both = np.unique(np.concatenate([sides, sides[:, ::-1]]), axis=0)
+        self.begin = np.searchsorted(both[:, 0], np.arange(count + 1))
+        self.to = both[:, 1]
+
+    def neighbors(self, v):
+        near = self.to[self.begin[v] : self.begin[v + 1]]
+        return near[~self.walls[near]]
+
+    def distances(self, center):
+        dx, dy, dz = (self.V - center).T
+        return np.sqrt((dx * dx + dy * dy) + dz * dz)
+
+    def region(self, center, seeds, r):
+        """Ascending ids, and their distances from the center."""
+        distances = self.distances(center)
+        found = np.zeros(len(self.V), bool)
+        front = [v for v in seeds if distances[v] <= r and not self.walls[v]]
+        found[front] = True
+        while front:
+            v = front.pop()
+            for w in self.neighbors(v):
+                if distances[w] <= r and not found[w]:
+                    found[w] = True
+                    front.append(w)
+        ids = np.flatnonzero(found & ~self.hidden)
+        return ids, distances[ids]
+
+    def straight(self, v, r):
+        return self.region(self.V[v], [v], r)
+
+    def ball(self, v, r):
+        distances = self.distances(self.V[v])
+        ids = np.flatnonzero(distances <= r)
+        return ids, distances[ids]
+
+    def path(self, v, r):
+        return self._by_key({v: 0.0}, r, lambda key, a, b: key + float(self.distances_of(a, b)))
+
+    def rings(self, v, r):
+        return self._by_key({v: 0.0}, r, lambda key, a, b: key + 1)
+
+    def connecting(self, center, seeds, r):
+        """By the largest distance from the center on the way."""
+        distances = self.distances(center)
+        starts = {int(v): float(distances[v]) for v in seeds if distances[v] <= r}
+        return self._by_key(starts, r, lambda key, a, b: max(key, float(distances[b])))
+
+    def distances_of(self, a, b):
+        dx, dy, dz = (self.V[a] - self.V[b]).T
+        return np.sqrt((dx * dx + dy * dy) + dz * dz)
+
+    def _by_key(self, starts, r, key_of):
+        """Ascending ids, and the smallest key of each."""
+        keys, queue = {}, [(key, v) for v, key in starts.items() if not self.walls[v]]
+        heapq.heapify(queue)
+        while queue:
+            key, a = heapq.heappop(queue)
+            if a in keys:
+                continue
+            keys[a] = key
+            for b in map(int, self.neighbors(a)):
+                if b not in keys and (following := key_of(key, a, b)) <= r:
+                    heapq.heappush(queue, (following, b))
+        ids = np.array(sorted(a for a in keys if not self.hidden[a]), np.int64)
+        return ids, np.array([keys[a] for a in ids.tolist()], np.float64)
