@@ -188,6 +188,10 @@ def table_of(program):
     return table
 
 
+def index_name(weld, precision):
+    return f"index{'_welded' if weld else ''}{precision}.mhi"
+
+
 class Files:
     """A mesh, its indexes, and lists for it, with the arrays that they stand for."""
 
@@ -230,8 +234,9 @@ class Files:
         np.save(self.folder / "positions.npy", self.arrays[0])
         if set(np.diff(self.arrays[1])) == {3}:
             np.save(self.folder / "faces.npy", self.arrays[2].reshape(-1, 3))
-        for weld in ([], ["--weld"]):
-            self.run(["build", "mesh.ply", *weld, "--faces", "-o", "welded.mhi" if weld else "index.mhi"])
+        for weld, precision in itertools.product((False, True), ("", "float", "double")):
+            reading = (["--weld"] if weld else []) + (["--precision", precision] if precision else [])
+            self.run(["build", "mesh.ply", *reading, "--faces", "-o", index_name(weld, precision)])
 
     def run(self, arguments, stdin=None, folder=None, program=None):
         environment = dict(os.environ, MESHHOOD_VIEWER=str(self.folder.parent / "viewer.html"))
@@ -287,7 +292,7 @@ class Run:
         if "FILE" in self.asked:
             return self.asked["FILE"]
         if self.command == "check":
-            return "welded.mhi" if "--weld" in self.asked else "index.mhi"
+            return index_name("--weld" in self.asked, self.asked.get("--precision", ""))
         if self.command in MESH_COMMANDS or {"--weld", "--precision"} & set(self.asked):
             return "positions.npy" if "--faces" in self.asked and self.command == "partition" else "mesh.ply"
         return "index.mhi"
