@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Reads the shared PLY, OFF and STL meshes with plyfile and trimesh too, and compares vertices and faces.
+"""Reads the shared PLY, OFF and STL meshes, and some that deviate from their format, with plyfile and trimesh too, and
+compares vertices and faces.
 
     compare_readers.py DUMP_MESH SHARED
 
@@ -96,14 +97,15 @@ def odd_files():
     """A cube in files that deviate from their format as those of some programs do, by name."""
     cube = [(x, y, z) for x in (1, 2) for y in (1, 2) for z in (1, 2)]
     faces = "".join(f"3 {a} {b} {c}\n" for a, b, c in ((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5)))
-    rows = lambda more: "".join(f"{x} {y} {z}{more}\n" for x, y, z in cube)
+    vertices = "".join(f"{x} {y} {z}\n" for x, y, z in cube)
     axes = "property float x\nproperty float y\nproperty float z\n"
-    ply = f"ply\nformat ascii 1.0\nelement vertex 8\n{axes}element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+    corners = "property list uchar int vertex_indices\n"
+    ply = f"ply\nformat ascii 1.0\nelement vertex 8\n{axes}element face 4\n{corners}end_header\n"
     return {
-        "weights.ply": ply + rows(" 1") + faces,
-        "colors.ply": ply + rows("") + faces.replace("\n", " 255 0 0\n"),
-        "normals_first.off": "NCOFF\n8 4 0\n" + rows(" 0 0 1 255 0 0 255") + faces,
-        "two_counts.off": "OFF\n8 4\n" + rows("") + faces,
+        "weights.ply": ply + vertices.replace("\n", " 1\n") + faces,
+        "colors.ply": ply + vertices + faces.replace("\n", " 255 0 0\n"),
+        "normals_first.off": "NCOFF\n8 4 0\n" + vertices.replace("\n", " 0 0 1 255 0 0 255\n") + faces,
+        "two_counts.off": "OFF\n8 4\n" + vertices + faces,
     }
 
 
