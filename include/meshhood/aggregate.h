@@ -18,7 +18,8 @@
 /// Sums, means and other aggregates of values over neighborhoods, without lists of ids.
 ///
 ///     const std::vector<double> smooth = meshhood::aggregate(
-///         index, {.values = thickness}, {.radius = 6.0, .kernel = meshhood::SmoothingKernel::Biweight});
+///         index, {.values = thickness},
+///         {.radius = meshhood::smoothing_radius(6.0), .kernel = meshhood::SmoothingKernel::Gaussian});
 ///
 /// See docs/aggregate.md.
 namespace meshhood {
@@ -39,7 +40,8 @@ enum class Reduce : std::uint8_t {
 enum class SmoothingKernel : std::uint8_t {
   Box,           ///< 1
   Epanechnikov,  ///< 1 - (d/r)^2
-  Biweight,      ///< (1 - (d/r)^2)^2, close to a Gaussian of the standard deviation 0.4 r
+  Biweight,      ///< (1 - (d/r)^2)^2
+  Gaussian,      ///< 1000^-(d/r)^2, which is 1/1000 at the radius: see `smoothing_radius`
 };
 
 /// The meaning of NaN in the values.
@@ -170,8 +172,12 @@ void aggregate(const Index& index, const SignalView& signal, const AggregateQuer
 /// polygon is the length of its vector area. Throws Error{InvalidMesh, TooLarge}. O(#corners).
 [[nodiscard]] std::vector<double> vertex_areas(const MeshView& mesh);
 
-/// The radius at which `SmoothingKernel::Biweight` is nearest to a Gaussian of this full width at half maximum, in the
-/// same unit. Throws Error{InvalidRadius} unless `fwhm` is >= 0 or infinite.
+/// The radius of the `SmoothingKernel::Gaussian` of this full width at half maximum, in the same unit: 1.57843 fwhm, at
+/// which exp(-4 ln 2 (d/fwhm)^2) is 1/1000. Throws Error{InvalidRadius} unless `fwhm` is >= 0 or infinite.
 [[nodiscard]] double smoothing_radius(double fwhm);
+
+/// The weight of a vertex at a distance, as a part of its own; 0 beyond the radius. To 1e-14 of the weight of the
+/// query vertex, and of a Gaussian to 1e-14 of itself. The same bits on every processor and with every C library.
+[[nodiscard]] double smoothing_weight(SmoothingKernel kernel, double distance, double radius);
 
 }  // namespace meshhood

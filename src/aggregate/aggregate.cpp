@@ -8,13 +8,13 @@
 #include <iterator>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "meshhood/error.h"
 
+#include "aggregate/gaussian_sums.h"
 #include "aggregate/kernel_sums.h"
 #include "aggregate/listed_sums.h"
 #include "aggregate/maximal_nodes.h"
@@ -139,7 +139,12 @@ std::unique_ptr<Reduction> make_reduction(const IndexView& index, const NodeTree
     case Reduce::Count: break;
   }
   SumColumns columns(std::move(block), query.reduce);
-  if (query.kernel == SmoothingKernel::Box) return std::make_unique<SumReduction>(tree, kernels, std::move(columns));
+  switch (query.kernel) {
+    case SmoothingKernel::Box: return std::make_unique<SumReduction>(tree, kernels, std::move(columns));
+    case SmoothingKernel::Gaussian: return std::make_unique<GaussianReduction>(index, kernels, std::move(columns));
+    case SmoothingKernel::Epanechnikov:
+    case SmoothingKernel::Biweight: break;
+  }
   return std::make_unique<KernelSumReduction>(index, tree, kernels, std::move(columns),
                                               query.kernel == SmoothingKernel::Biweight);
 }
@@ -197,8 +202,7 @@ class Aggregation {
       SignalBlock block = make_block(view_, signal_, first, count, query_);
       if (query_.metric == Metric::Path && query_.kernel != SmoothingKernel::Box) {
         const SumColumns columns(std::move(block), query_.reduce);
-        const bool squared = query_.kernel == SmoothingKernel::Biweight;
-        reduce_paths([&] { return std::make_unique<PathKernelReducer>(columns, squared); }, first, count);
+        reduce_paths([&] { return std::make_unique<PathKernelReducer>(columns, query_.kernel); }, first, count);
         continue;
       }
       const std::unique_ptr<Reduction> reduction = make_reduction(view_, tree_, std::move(block), query_);
@@ -410,15 +414,6 @@ std::vector<double> aggregate(const Index& index, const SignalView& signal, cons
   std::vector<double> result(aggregate_size(index, signal, query, options));
   aggregate(index, signal, query, result, options);
   return result;
-}
-
-double smoothing_radius(double fwhm) {
-  check_radius(fwhm, "fwhm: ");
-  // Of all Gaussians in the plane, that of the standard deviation 0.4 r differs least from the biweight, by 10 % of its
-  // L2 norm.
-  constexpr double kDeviationOfBiweight = 0.4;
-  const double deviations_of_fwhm = 2 * std::sqrt(2 * std::numbers::ln2);
-  return fwhm / deviations_of_fwhm / kDeviationOfBiweight;
 }
 
 }  // namespace meshhood

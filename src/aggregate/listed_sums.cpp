@@ -24,15 +24,6 @@ constexpr double kMostVertices = 400;          // of a mean row; with more, the 
 constexpr std::size_t kRowsTogether = 4096;    // whose lists wait for the product
 constexpr std::size_t kChannelsOfABlock = 32;  // the values of a row's vertices, 32 of each, stay in the cache
 
-/// The weight of a vertex at a distance, as a part of its own; 1 without a smoothing kernel.
-double kernel_weight(SmoothingKernel kernel, double distance, double radius) {
-  if (kernel == SmoothingKernel::Box || distance == 0) return 1;
-  const double share = distance / radius;
-  // Not 1 - share^2, whose rounding would give a vertex at the rim a weight.
-  const double weight = (1 - share) * (1 + share);
-  return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
-}
-
 /// Far from overflow and underflow, so that values need no scaling.
 bool is_moderate(const SignalView& signal) {
   constexpr double kLargestTerm = 0x1p+300;
@@ -110,7 +101,7 @@ class ListedRows {
         const double own = signal_.weights.empty() ? 1 : signal_.weights[id];
         if (own == 0) continue;
         rows_.ids[kept] = id;
-        rows_.distances[kept++] = own * kernel_weight(query_.kernel, rows_.distances[i], radius_);
+        rows_.distances[kept++] = own * smoothing_weight(query_.kernel, rows_.distances[i], radius_);
       }
       rows_.offsets[row + 1] = kept;
     }

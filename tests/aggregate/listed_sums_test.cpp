@@ -59,7 +59,8 @@ TEST_P(ListedSumsOf, ManyChannelsAreThoseOfEachByItself) {
   for (const bool gaps : {false, true}) {
     const Values drawn = draw(mesh.size(), gaps);
     for (const Reduce reduce : {Reduce::Sum, Reduce::Mean}) {
-      for (const SmoothingKernel kernel : {SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight}) {
+      for (const SmoothingKernel kernel :
+           {SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight, SmoothingKernel::Gaussian}) {
         const AggregateQuery query{.radius = radius,
                                    .reduce = reduce,
                                    .kernel = kernel,
@@ -83,7 +84,7 @@ TEST_P(ListedSumsOf, ManyChannelsAreThoseOfEachByItself) {
       }
     }
   }
-  std::printf("%s: %zu of 8 calls listed\n", std::string(GetParam().name).c_str(), listed);
+  std::printf("%s: %zu of 12 calls listed\n", std::string(GetParam().name).c_str(), listed);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ListedSumsOf, testing::ValuesIn(families()), family_name);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The kernels of aggregates give the results of their definitions, with the same bits on every processor.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "simd/aggregate.h"
+#include "simd/gaussian.h"
 #include "support/exact_answer.h"
 #include "support/random.h"
 #include "support/scale.h"
@@ -128,6 +130,29 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfTheFirstInstructionSetForWeightsByDista
     tried.add_moments(moments, offsets, radii, squared, words[0], sums);
     plain.add_moments(moments, offsets, radii, squared, words[0], other);
     ASSERT_EQ(bits_of(sums), bits_of(other));
+  }
+}
+
+TEST_P(EveryAggregatePath, GivesTheBitsOfOneNumberForGaussians) {
+  for (std::size_t round = 0; round < scaled(3000, 200); ++round) {
+    draw();
+    const Point point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    for (std::size_t row = 0; row < kPacketCapacity; ++row) {
+      centers.set(row, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+      centers.unit[row] = random.below(8) == 0 ? 0 : random.uniform(0.2, 1);
+    }
+    PerLane<double> weights;
+    tried.set_gaussians(point, centers, weights);
+    for (std::size_t row = 0; row < kPacketCapacity; ++row) {
+      const double unit = centers.unit[row];
+      const Point offset{(point.x - centers.x[row]) * unit, (point.y - centers.y[row]) * unit,
+                         (point.z - centers.z[row]) * unit};
+      const double share = std::min(1.0, (offset.x * offset.x + offset.y * offset.y) + offset.z * offset.z);
+      ASSERT_EQ(weights[row], gaussian(share));
+      if (unit == 0) {
+        ASSERT_EQ(weights[row], 1);
+      }
+    }
   }
 }
 
