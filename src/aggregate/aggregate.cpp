@@ -38,8 +38,10 @@
 namespace meshhood {
 namespace {
 
-// Channels that are aggregated together share the search; their tables and sums should stay in the cache.
+// Channels that are aggregated together share the search and the weights; their tables and sums should stay in the
+// cache. With a Gaussian, weights cost more and there are no tables.
 constexpr std::size_t kChannelsTogether = 16;
+constexpr std::size_t kChannelsOfAGaussian = 32;
 
 void check_signal(const SignalView& signal, std::size_t vertices) {
   if (signal.channels == 0) raise(ErrorCode::InvalidOption, "channels is 0, expected at least 1");
@@ -188,7 +190,8 @@ class Aggregation {
         rows_(checked.rows()),
         result_(result),
         options_(options),
-        blocks_((signal.channels + kChannelsTogether - 1) / kChannelsTogether) {
+        together_(query_.kernel == SmoothingKernel::Gaussian ? kChannelsOfAGaussian : kChannelsTogether),
+        blocks_((signal.channels + together_ - 1) / together_) {
     query_.filter = filter_->view();
   }
 
@@ -197,8 +200,8 @@ class Aggregation {
     for (std::size_t i = 0; i < radii_.size(); ++i) (is_listed(radii_[i]) ? listed : passes_).push_back(i);
     for (const std::size_t i : listed) reduce_listed(i);
     if (passes_.empty()) return;
-    for (std::size_t first = 0; first < signal_.channels; first += kChannelsTogether) {
-      const std::size_t count = std::min(kChannelsTogether, signal_.channels - first);
+    for (std::size_t first = 0; first < signal_.channels; first += together_) {
+      const std::size_t count = std::min(together_, signal_.channels - first);
       SignalBlock block = make_block(view_, signal_, first, count, query_);
       if (query_.metric == Metric::Path && query_.kernel != SmoothingKernel::Box) {
         const SumColumns columns(std::move(block), query_.reduce);
@@ -340,6 +343,7 @@ class Aggregation {
   std::size_t rows_;
   std::span<double> result_;
   const AggregateOptions& options_;
+  std::size_t together_;
   std::size_t blocks_;
   std::size_t passes_begun_ = 0;
 };

@@ -2,6 +2,7 @@
 #include "aggregate/gaussian_sums.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <variant>
 #include <vector>
@@ -32,11 +33,10 @@ class GaussianReducer final : public PacketReducer {
     const AggregateKernels& kernels = reduction_->kernels();
     std::visit(
         [&](auto xyz) {
-          for (std::size_t k = 0; k < vertices.size(); ++k) {
-            if (queries[k] != 0) kernels.set_gaussians(point(xyz, vertices.begin + k), centers_, weights_[k]);
-          }
+          for (std::size_t k = 0; k < vertices.size(); ++k) points_[k] = point(xyz, vertices.begin + k);
         },
         reduction_->index().positions);
+    kernels.set_gaussians(std::span(points_).first(vertices.size()), queries, centers_, weights_);
     reduction_->columns().add_weighted(kernels, vertices, queries, weights_, sums_);
   }
 
@@ -47,6 +47,7 @@ class GaussianReducer final : public PacketReducer {
  private:
   const GaussianReduction* reduction_;
   PacketCenters centers_{};
+  std::array<Point, kLeafCapacity> points_{};
   RowWeights weights_{};
   std::vector<RowSums> sums_;  // by column
 };

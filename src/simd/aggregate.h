@@ -85,8 +85,10 @@ struct AggregateKernels {
   /// negative, and where d^2 is r^2 the weight is 0.
   void (*set_weights)(const Offsets& offsets, const KernelRadii& radii, bool squared, PerLane<double>& weights);
 
-  /// Sets the weights of a vertex by the Gaussian (see gaussian.h). Beyond the radius they are that of the radius.
-  void (*set_gaussians)(const Point& point, const PacketCenters& centers, PerLane<double>& weights);
+  /// Sets the weights of up to 32 vertices by the Gaussian (see gaussian.h), for the rows of the word of each; those of
+  /// other rows have no meaning. Beyond the radius they are that of the radius.
+  void (*set_gaussians)(std::span<const Point> points, const QueryWord* words, const PacketCenters& centers,
+                        RowWeights& weights);
 
   /// The weights of a vertex by the lengths of paths to it, with each kernel but the box. An infinite radius makes the
   /// weights 1; where there is no path within the radius they have no meaning.

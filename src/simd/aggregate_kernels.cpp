@@ -181,12 +181,19 @@ HWY_INLINE Numbers gaussians(Numbers shares) {
   return result;
 }
 
-void set_gaussians(const Point& point, const PacketCenters& centers, PerLane<double>& weights) {
+void set_gaussians(std::span<const Point> points, const QueryWord* words, const PacketCenters& centers,
+                   RowWeights& weights) {
   const Doubles d;
-  set_each(weights, false, [&](std::size_t i) HWY_ATTR {
-    const auto offset = difference(splat_point(d, point), load_rows(d, centers, i));
-    return gaussians(squared_length(scaled(offset, load(centers.unit[i]))));
-  });
+  for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Doubles>) {
+    const QueryWord rows = first_lanes(kLanes<Doubles>) << i;
+    const auto center = load_rows(d, centers, i);
+    const auto unit = load(centers.unit[i]);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if ((words[k] & rows) == 0) continue;
+      const auto offset = scaled(difference(splat_point(d, points[k]), center), unit);
+      store(gaussians(squared_length(offset)), weights[k][i]);
+    }
+  }
 }
 
 void set_path_weights(const PathLengths& lengths, const PathLengths& radii, SmoothingKernel kernel,

@@ -99,6 +99,12 @@ TEST(ListedSums, AreForManyChannelsOfModerateValuesOverSmallNeighborhoods) {
   EXPECT_FALSE(is_better_listed(index, drawn.view(), {.radius = 3.0}, 3));
   const std::vector<double> few(mesh.size() * 16, 1.0);
   EXPECT_FALSE(is_better_listed(index, {few, 16}, mean, 3));
+  // The weights of a Gaussian serve some channels without a list, too.
+  const AggregateQuery smooth{.radius = 3.0, .kernel = SmoothingKernel::Gaussian};
+  const std::vector<double> many(mesh.size() * 48, 1.0);
+  EXPECT_TRUE(is_better_listed(index, drawn.view(), smooth, 3));
+  EXPECT_FALSE(is_better_listed(index, drawn.view(), smooth, 6));
+  EXPECT_TRUE(is_better_listed(index, {many, 48}, smooth, 6));
   drawn.values[5] = 1e200;
   EXPECT_FALSE(is_better_listed(index, drawn.view(), mean, 3));
 }

@@ -136,21 +136,23 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfTheFirstInstructionSetForWeightsByDista
 TEST_P(EveryAggregatePath, GivesTheBitsOfOneNumberForGaussians) {
   for (std::size_t round = 0; round < scaled(3000, 200); ++round) {
     draw();
-    const Point point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    std::vector<Point> points(random.below(kLeafCapacity + 1));
+    const auto place = [&] { return Point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
+    std::ranges::generate(points, place);
     for (std::size_t row = 0; row < kPacketCapacity; ++row) {
-      centers.set(row, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+      centers.set(row, place());
       centers.unit[row] = random.below(8) == 0 ? 0 : random.uniform(0.2, 1);
     }
-    PerLane<double> weights;
-    tried.set_gaussians(point, centers, weights);
-    for (std::size_t row = 0; row < kPacketCapacity; ++row) {
-      const double unit = centers.unit[row];
-      const Point offset{(point.x - centers.x[row]) * unit, (point.y - centers.y[row]) * unit,
-                         (point.z - centers.z[row]) * unit};
-      const double share = std::min(1.0, (offset.x * offset.x + offset.y * offset.y) + offset.z * offset.z);
-      ASSERT_EQ(weights[row], gaussian(share));
-      if (unit == 0) {
-        ASSERT_EQ(weights[row], 1);
+    RowWeights weights;
+    tried.set_gaussians(points, words.data(), centers, weights);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      for (std::size_t row = 0; row < kPacketCapacity; ++row) {
+        if ((words[k] >> row & 1U) == 0) continue;
+        const double unit = centers.unit[row];
+        const double x = (points[k].x - centers.x[row]) * unit;
+        const double y = (points[k].y - centers.y[row]) * unit;
+        const double z = (points[k].z - centers.z[row]) * unit;
+        ASSERT_EQ(weights[k][row], gaussian(std::min(1.0, (x * x + y * y) + z * z)));
       }
     }
   }
