@@ -152,12 +152,11 @@ struct AggregateOptions {
 ///
 /// With `Metric::Path`, each row takes the time of a search of `EdgeSearcher` at the largest radius, and the first call
 /// for an index computes the lengths of its edges. Else the neighborhoods of one leaf are found together, and vertices
-/// that they have in common are read once for all of them, most of them as precomputed sums, but one by one for a Gaussian.
-/// Memory: for up to 16 channels at a time 9 bytes for each vertex and channel, and as much for the weights; with a
-/// kernel 14 bytes instead; with a Gaussian 8, for up to 32 channels at a time; twice as much for a channel with values
-/// above 2^300. Added are the time of `counts`, 8 to 16 bytes a row of at most
-/// 2^22 rows at a time, and for each thread a searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a
-/// group (docs/joint.md).
+/// that they have in common are read once for all of them, most of them as precomputed sums, but one by one for a
+/// Gaussian. Memory: for up to 16 channels at a time 9 bytes for each vertex and channel, and as much for the weights;
+/// with a kernel 14 bytes instead; with a Gaussian 8, for up to 32 channels at a time; twice as much for a channel with
+/// values above 2^300. Added are the time of `counts`, 8 to 16 bytes a row of at most 2^22 rows at a time, and for each
+/// thread a searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming row, radius or vertex. The
 /// contents of `result` are then unspecified.
