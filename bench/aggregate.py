@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The mean of one channel over all neighborhoods, beside a sparse matrix of ours that SciPy multiplies.
+"""The mean of one channel over all neighborhoods, beside a sparse matrix of ours that SciPy multiplies. With --smooth,
+smoothing by a Gaussian beside the biweight nearest to it in L2 and that of the same radius.
 
-    PYTHONPATH=build/release/python bench/aggregate.py [--workers N] MESH...
+    PYTHONPATH=build/release/python bench/aggregate.py [--workers N] [--smooth] MESH...
 
 MESH is a file; radii are in mean edge lengths. Both have the same rows, consecutive in index order: all vertices, or
 the first ones, so that the matrix has at most 100 million entries. The matrix is made by `query_ball` without sorting,
 with a value of one for each entry, in pieces of 20 million entries; the product is divided by the size of each row. Both
 results are compared. Times are medians of alternating rounds. `aggregate` includes its preparation for the whole mesh,
-which few rows share where the radius is large. The table is Markdown. """
+which few rows share where the radius is large. The tables are Markdown. """
 
 import argparse
 import statistics
@@ -23,6 +24,8 @@ RADII = (3, 5, 10, 20, 65)
 MOST_ENTRIES = 100_000_000
 ENTRIES_OF_A_PIECE = 20_000_000
 ROUNDS = 3
+WIDTHS = (3, 4, 6, 10)  # in mean edge lengths
+BIWEIGHT = 1.06165  # its radius by the width of the Gaussian nearest to it, whose standard deviation is 0.4 of it
 
 
 def mean_by_matrix(index, values, rows, piece, r, workers):
@@ -70,15 +73,41 @@ def measure(name, index, workers):
         print(f"| {name} | {edges} | {size:.0f} | {len(rows)} | {ours:.3f} | {theirs:.3f} | {theirs / ours:.1f} |", flush=True)
 
 
+def smooth(name, index, workers):
+    for channels in (1, 20):
+        values = np.random.default_rng(1).normal(size=(len(index), channels))
+        for metric in ("straight", "path"):
+            for fwhm in np.multiply(WIDTHS, index.mean_edge_length):
+                gaussian, biweight = meshhood.smoothing_radius(fwhm), BIWEIGHT * fwhm
+                words = {"metric": metric, "workers": workers}
+                kernels = [(gaussian, "gaussian"), (biweight, "biweight"), (gaussian, "biweight")]
+                took = np.full((ROUNDS, len(kernels)), np.inf)
+                for i in range(ROUNDS):
+                    for k, (r, kernel) in enumerate(kernels):
+                        took[i, k] = seconds(lambda: index.aggregate(values, r, kernel=kernel, **words), workers)[0]  # noqa: B023
+                ours, near, same = 1e6 * np.median(took, axis=0) / len(index)
+                sizes = [index.count(None, r, **words).mean() for r in (gaussian, biweight)]
+                edges = fwhm / index.mean_edge_length
+                row = f"{name} | {channels} | {metric} | {edges:.0f} | {sizes[0]:.0f} | {sizes[1]:.0f}"
+                print(f"| {row} | {ours:.2f} | {near:.2f} | {ours / near:.2f} | {ours / same:.2f} |", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--smooth", action="store_true")
     parser.add_argument("meshes", nargs="+", metavar="MESH")
     options = parser.parse_args()
-    print("| mesh | radius in edges | vertices in it | rows | aggregate, µs a row | matrix, µs a row | ratio |")
-    print("|--|--|--|--|--|--|--|")
+    if options.smooth:
+        print("| mesh | channels | metric | width in edges | vertices, Gaussian | biweight "
+              "| Gaussian, µs a row | biweight | ratio | ratio at the same radius |")  # fmt: skip
+        print("|--|--|--|--|--|--|--|--|--|--|")
+    else:
+        print("| mesh | radius in edges | vertices in it | rows | aggregate, µs a row | matrix, µs a row | ratio |")
+        print("|--|--|--|--|--|--|--|")
     for name in options.meshes:
-        measure(Path(name).stem, meshhood.MeshIndex(*meshhood.read_mesh(name)), options.workers)
+        index = meshhood.MeshIndex(*meshhood.read_mesh(name))
+        (smooth if options.smooth else measure)(Path(name).stem, index, options.workers)
 
 
 if __name__ == "__main__":

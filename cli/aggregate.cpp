@@ -2,6 +2,7 @@
 // meshhood aggregate: a mean, a sum or another aggregate of values over the neighborhood of each vertex.
 #include "meshhood/aggregate.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -41,9 +42,10 @@ constexpr Names<Reduce, 7> kReductions{{{"mean", Reduce::Mean},
                                         {"std", Reduce::StandardDeviation},
                                         {"count", Reduce::Count}}};
 constexpr Names<Metric, 2> kMetrics{{{"straight", Metric::Straight}, {"path", Metric::Path}}};
-constexpr Names<SmoothingKernel, 3> kKernels{{{"box", SmoothingKernel::Box},
+constexpr Names<SmoothingKernel, 4> kKernels{{{"box", SmoothingKernel::Box},
                                               {"epanechnikov", SmoothingKernel::Epanechnikov},
-                                              {"biweight", SmoothingKernel::Biweight}}};
+                                              {"biweight", SmoothingKernel::Biweight},
+                                              {"gaussian", SmoothingKernel::Gaussian}}};
 constexpr Names<MissingValues, 2> kMissing{{{"propagate", MissingValues::Propagate}, {"omit", MissingValues::Omit}}};
 constexpr Names<Nesting, 2> kNestings{{{"own", Nesting::Own}, {"patch", Nesting::Patch}}};
 
@@ -55,6 +57,7 @@ struct AggregateCommand {
   std::string metric = "straight";
   std::string reduce = "mean";
   std::string kernel = "box";
+  bool fwhm = false;
   std::string weights;  ///< "area", a file, or empty
   std::string missing = "propagate";
   std::string nesting = "own";
@@ -135,12 +138,15 @@ void aggregate_command(const AggregateCommand& options) {
   input.need_edges("aggregate");
   const RowQuery rows(options.rows, input);
   const BatchQuery batch = rows.query();
+  std::vector<double> radii = rows.radii();
+  if (options.fwhm) std::ranges::transform(radii, radii.begin(), smoothing_radius);
+  const bool are_scales = batch.radius.scales().has_value();
   const AggregateQuery query{.vertices = batch.vertices,
-                             .radius = batch.radius,
+                             .radius = are_scales ? BatchRadius::scales(radii) : BatchRadius(radii),
                              .filter = batch.filter,
                              .metric = value_of(kMetrics, options.metric),
                              .reduce = value_of(kReductions, options.reduce),
-                             .kernel = value_of(kKernels, options.kernel),
+                             .kernel = options.fwhm ? SmoothingKernel::Gaussian : value_of(kKernels, options.kernel),
                              .missing = value_of(kMissing, options.missing),
                              .nesting = value_of(kNestings, options.nesting)};
   const AggregateShape shape = run(options, input, query, rows.listed());
@@ -167,9 +173,15 @@ void add_aggregate(CLI::App& program) {
   add_metric(*command, options->metric);
   add_choice(*command, "--reduce", "what to compute: mean, sum, min, max, var, std or count", names_of(kReductions),
              options->reduce);
-  add_choice(*command, "--kernel",
-             "how the weight falls with the distance, for sum and mean: box (not at all), epanechnikov or biweight",
-             names_of(kKernels), options->kernel);
+  CLI::Option* const kernel = add_choice(
+      *command, "--kernel",
+      "how the weight falls with the distance, for sum and mean: box (not at all), epanechnikov, biweight or gaussian, "
+      "which is 1/1000 at the radius",
+      names_of(kKernels), options->kernel);
+  command
+      ->add_flag("--fwhm", options->fwhm,
+                 "a Gaussian of which the radii are full widths at half maximum; it ends at 1.578 times the width")
+      ->excludes(kernel);
   add_file_option(*command, "--weights",
                   "weights of the vertices: area, or a file like that of --values (default: 1 each)", options->weights)
       ->type_name("area|FILE");

@@ -13,7 +13,7 @@ target_compile_options(meshhood_families PRIVATE $<$<CONFIG:Release>:-O1>)
 foreach(part
     base/adjacency base/frame base/mesh shared/coarse_float shared/distance base/sphere base/reference base/error shared/helper_threads shared/parallel shared/raw_vector
     base/cut_edges base/epoch_array base/number_set base/packed_positions base/face_graph
-    aggregate/aggregate aggregate/listed_sums
+    aggregate/aggregate aggregate/listed_sums aggregate/smoothing
     batch/batch batch/joint_batch batch/packets batch/path_rows batch/position_sort batch/kept_packets batch/ring_rows batch/k_nearest batch/unconnected
     exact/cell_components exact/collect_rows exact/cells exact/edge_buckets exact/edge_source exact/query/filtered exact/forest exact/joint_search exact/kd_order exact/layout exact/leaf_spheres exact/leaves exact/link_points
     exact/links exact/node_groups exact/node_links exact/node_parts exact/path_packet exact/quality exact/refit exact/root_tree exact/tree exact/check exact/damage exact/file exact/index exact/verify

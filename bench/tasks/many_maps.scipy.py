@@ -7,5 +7,5 @@ maps = np.random.default_rng(1).normal(size=(len(V), 200))
 r = meshhood.smoothing_radius(6.0)
 tree = cKDTree(V)
 W = csr_array(tree.sparse_distance_matrix(tree, r, output_type="coo_matrix"))
-W.data = (1 - (W.data / r) ** 2) ** 2
+W.data = 0.5 ** ((W.data / 3) ** 2)
 result = diags_array(1 / W.sum(axis=1)) @ (W @ maps)

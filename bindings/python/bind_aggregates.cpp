@@ -57,6 +57,17 @@ nb::object aggregates(const ExactMethod& method, const Values& values, const std
   return result;
 }
 
+/// By distance, each with its radius.
+Output<double> smoothing_weights(SmoothingKernel kernel, const Weights& distances, const Weights& radii) {
+  std::vector<double> weights(distances.size());
+  without_lock([&] {
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      weights[i] = smoothing_weight(kernel, distances.data()[i], radii.data()[i]);
+    }
+  });
+  return owned<double>(std::move(weights));
+}
+
 Output<double> areas(const Input& positions, const Input& corners, const std::optional<Input>& offsets) {
   const IndicesView flat = indices_of(corners, "F");
   const MeshView mesh{positions_of(positions, "V"),
@@ -78,7 +89,8 @@ void bind_aggregates(nb::module_& module) {
   nb::enum_<SmoothingKernel>(module, "SmoothingKernel")
       .value("box", SmoothingKernel::Box)
       .value("epanechnikov", SmoothingKernel::Epanechnikov)
-      .value("biweight", SmoothingKernel::Biweight);
+      .value("biweight", SmoothingKernel::Biweight)
+      .value("gaussian", SmoothingKernel::Gaussian);
   nb::enum_<MissingValues>(module, "MissingValues")
       .value("propagate", MissingValues::Propagate)
       .value("omit", MissingValues::Omit);
@@ -91,6 +103,7 @@ void bind_aggregates(nb::module_& module) {
              nb::arg("metric") = Metric::Straight);
   module.def("vertex_areas", &areas, nb::arg("V"), nb::arg("F"), nb::arg("offsets").none());
   module.def("smoothing_radius", &smoothing_radius, nb::arg());
+  module.def("smoothing_weights", &smoothing_weights, nb::arg("kernel"), nb::arg("distances"), nb::arg("radii"));
 }
 
 }  // namespace meshhood::python

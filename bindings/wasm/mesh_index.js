@@ -14,7 +14,7 @@ const LENGTHS = ['straight', 'path']; // the metrics that measure lengths
 const ORDERS = ['index', 'id', 'distance'];
 const UNITS = ['mesh', 'edge'];
 const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count'];
-const KERNELS = ['box', 'epanechnikov', 'biweight'];
+const KERNELS = ['box', 'epanechnikov', 'biweight', 'gaussian'];
 const MISSING = ['propagate', 'omit'];
 const NESTINGS = ['own', 'patch'];
 const FITS = ['quadric', 'jet'];
@@ -374,7 +374,7 @@ export class MeshIndex extends Owner {
     const chosen = withDefaults(options, SMOOTHING);
     expectNumber(fwhm, 'fwhm');
     const radius = this.instance.call('smoothing_radius', fwhm);
-    return this.aggregate(values, radius, { ...chosen, reduce: 'mean', kernel: 'biweight' });
+    return this.aggregate(values, radius, { ...chosen, reduce: 'mean', kernel: 'gaussian' });
   }
 
   #weights(weights, faces) {

@@ -219,10 +219,10 @@ export interface AggregateOptions extends Masks, Scales {
   weights?: Float64Array | Float32Array | 'area' | null;
   faces?: Faces | null;
   /**
-   * For `sum` and `mean`, how the weight falls with the distance d: not at all, as 1 - (d/r)^2, or as (1 - (d/r)^2)^2,
-   * which is close to a Gaussian of the standard deviation 0.4 r.
+   * For `sum` and `mean`, how the weight falls with the distance d: not at all, as 1 - (d/r)^2, as (1 - (d/r)^2)^2, or
+   * as 1000^-(d/r)^2, a Gaussian of the full width at half maximum r / 1.57843.
    */
-  kernel?: 'box' | 'epanechnikov' | 'biweight';
+  kernel?: 'box' | 'epanechnikov' | 'biweight' | 'gaussian';
   /** The vertices whose neighborhoods are aggregated; null for all. */
   vertices?: Uint32Array | null;
   /** `propagate`: a neighborhood with a NaN gives NaN. `omit`: NaN marks a missing value, which is left out. */
@@ -558,8 +558,8 @@ export class MeshIndex {
   ): Float64Array;
 
   /**
-   * The values smoothed by a biweight that is close to a Gaussian of this full width at half maximum. Values beyond
-   * 1.06 fwhm, or not connected within it, have no influence.
+   * The values smoothed by a Gaussian of this full width at half maximum, cut where its weight is below 1/1000. Values
+   * beyond 1.57843 fwhm, or not connected within it, have no influence.
    */
   smooth(
     values: Float64Array | Float32Array,

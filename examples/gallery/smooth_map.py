@@ -18,8 +18,8 @@ wall = np.linalg.norm(V - V[5456] - (-24, 2, 0), axis=1) < 8
 values = np.random.default_rng(1).normal(0, 0.5, len(V)) + 5 * wall
 values[index.query_ball(5456, 8.0)] += 1
 smooth = index.smooth(values, fwhm=6.0, metric="path", walls=wall)
-d = KDTree(V).sparse_distance_matrix(KDTree(V), 6.37, output_type="coo_matrix")  # the same kernel in space
-d.data = (1 - (d.data / 6.37) ** 2) ** 2
+d = KDTree(V).sparse_distance_matrix(KDTree(V), 9.47, output_type="coo_matrix")  # the same kernel in space
+d.data = 0.5 ** ((d.data / 3) ** 2)
 error = abs(d @ values / d.sum(1).A1 - smooth)
 plotter = pyvista.Plotter(shape=(1, 3), window_size=(1200, 420))
 for i, (title, map) in enumerate({"measured": values, "smooth()": smooth, "error of a kernel in space": error}.items()):

@@ -18,7 +18,8 @@
 /// Sums, means and other aggregates of values over neighborhoods, without lists of ids.
 ///
 ///     const std::vector<double> smooth = meshhood::aggregate(
-///         index, {.values = thickness}, {.radius = 6.0, .kernel = meshhood::SmoothingKernel::Biweight});
+///         index, {.values = thickness},
+///         {.radius = meshhood::smoothing_radius(6.0), .kernel = meshhood::SmoothingKernel::Gaussian});
 ///
 /// See docs/aggregate.md.
 namespace meshhood {
@@ -39,7 +40,8 @@ enum class Reduce : std::uint8_t {
 enum class SmoothingKernel : std::uint8_t {
   Box,           ///< 1
   Epanechnikov,  ///< 1 - (d/r)^2
-  Biweight,      ///< (1 - (d/r)^2)^2, close to a Gaussian of the standard deviation 0.4 r
+  Biweight,      ///< (1 - (d/r)^2)^2
+  Gaussian,      ///< 1000^-(d/r)^2, which is 1/1000 at the radius: see `smoothing_radius`
 };
 
 /// The meaning of NaN in the values.
@@ -150,11 +152,11 @@ struct AggregateOptions {
 ///
 /// With `Metric::Path`, each row takes the time of a search of `EdgeSearcher` at the largest radius, and the first call
 /// for an index computes the lengths of its edges. Else the neighborhoods of one leaf are found together, and vertices
-/// that they have in common are read once for all of them, most of them as precomputed sums. Memory: for up to 16
-/// channels at a time 9 bytes for each vertex and channel, and as much for the weights; with a kernel 14 bytes instead;
-/// twice as much for a channel with values above 2^300. Added are the time of `counts`, 8 to 16 bytes a row of at most
-/// 2^22 rows at a time, and for each thread a searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a
-/// group (docs/joint.md).
+/// that they have in common are read once for all of them, most of them as precomputed sums, but one by one for a
+/// Gaussian. Memory: for up to 16 channels at a time 9 bytes for each vertex and channel, and as much for the weights;
+/// with a kernel 14 bytes instead; with a Gaussian 8, for up to 32 channels at a time; twice as much for a channel with
+/// values above 2^300. Added are the time of `counts`, 8 to 16 bytes a row of at most 2^22 rows at a time, and for each
+/// thread a searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming row, radius or vertex. The
 /// contents of `result` are then unspecified.
@@ -170,8 +172,12 @@ void aggregate(const Index& index, const SignalView& signal, const AggregateQuer
 /// polygon is the length of its vector area. Throws Error{InvalidMesh, TooLarge}. O(#corners).
 [[nodiscard]] std::vector<double> vertex_areas(const MeshView& mesh);
 
-/// The radius at which `SmoothingKernel::Biweight` is nearest to a Gaussian of this full width at half maximum, in the
-/// same unit. Throws Error{InvalidRadius} unless `fwhm` is >= 0 or infinite.
+/// The radius of the `SmoothingKernel::Gaussian` of this full width at half maximum, in the same unit: 1.57843 fwhm, at
+/// which exp(-4 ln 2 (d/fwhm)^2) is 1/1000. Throws Error{InvalidRadius} unless `fwhm` is >= 0 or infinite.
 [[nodiscard]] double smoothing_radius(double fwhm);
+
+/// The weight of a vertex at a distance, as a part of its own; 0 beyond the radius. To 1e-14 of the weight of the
+/// query vertex, and of a Gaussian to 1e-14 of itself. The same bits on every processor and with every C library.
+[[nodiscard]] double smoothing_weight(SmoothingKernel kernel, double distance, double radius);
 
 }  // namespace meshhood

@@ -8,13 +8,13 @@
 #include <iterator>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "meshhood/error.h"
 
+#include "aggregate/gaussian_sums.h"
 #include "aggregate/kernel_sums.h"
 #include "aggregate/listed_sums.h"
 #include "aggregate/maximal_nodes.h"
@@ -38,8 +38,10 @@
 namespace meshhood {
 namespace {
 
-// Channels that are aggregated together share the search; their tables and sums should stay in the cache.
+// Channels that are aggregated together share the search and the weights; their tables and sums should stay in the
+// cache. With a Gaussian, weights cost more and there are no tables.
 constexpr std::size_t kChannelsTogether = 16;
+constexpr std::size_t kChannelsOfAGaussian = 32;
 
 void check_signal(const SignalView& signal, std::size_t vertices) {
   if (signal.channels == 0) raise(ErrorCode::InvalidOption, "channels is 0, expected at least 1");
@@ -139,7 +141,12 @@ std::unique_ptr<Reduction> make_reduction(const IndexView& index, const NodeTree
     case Reduce::Count: break;
   }
   SumColumns columns(std::move(block), query.reduce);
-  if (query.kernel == SmoothingKernel::Box) return std::make_unique<SumReduction>(tree, kernels, std::move(columns));
+  switch (query.kernel) {
+    case SmoothingKernel::Box: return std::make_unique<SumReduction>(tree, kernels, std::move(columns));
+    case SmoothingKernel::Gaussian: return std::make_unique<GaussianReduction>(index, kernels, std::move(columns));
+    case SmoothingKernel::Epanechnikov:
+    case SmoothingKernel::Biweight: break;
+  }
   return std::make_unique<KernelSumReduction>(index, tree, kernels, std::move(columns),
                                               query.kernel == SmoothingKernel::Biweight);
 }
@@ -183,7 +190,8 @@ class Aggregation {
         rows_(checked.rows()),
         result_(result),
         options_(options),
-        blocks_((signal.channels + kChannelsTogether - 1) / kChannelsTogether) {
+        together_(query_.kernel == SmoothingKernel::Gaussian ? kChannelsOfAGaussian : kChannelsTogether),
+        blocks_((signal.channels + together_ - 1) / together_) {
     query_.filter = filter_->view();
   }
 
@@ -192,13 +200,12 @@ class Aggregation {
     for (std::size_t i = 0; i < radii_.size(); ++i) (is_listed(radii_[i]) ? listed : passes_).push_back(i);
     for (const std::size_t i : listed) reduce_listed(i);
     if (passes_.empty()) return;
-    for (std::size_t first = 0; first < signal_.channels; first += kChannelsTogether) {
-      const std::size_t count = std::min(kChannelsTogether, signal_.channels - first);
+    for (std::size_t first = 0; first < signal_.channels; first += together_) {
+      const std::size_t count = std::min(together_, signal_.channels - first);
       SignalBlock block = make_block(view_, signal_, first, count, query_);
       if (query_.metric == Metric::Path && query_.kernel != SmoothingKernel::Box) {
         const SumColumns columns(std::move(block), query_.reduce);
-        const bool squared = query_.kernel == SmoothingKernel::Biweight;
-        reduce_paths([&] { return std::make_unique<PathKernelReducer>(columns, squared); }, first, count);
+        reduce_paths([&] { return std::make_unique<PathKernelReducer>(columns, query_.kernel); }, first, count);
         continue;
       }
       const std::unique_ptr<Reduction> reduction = make_reduction(view_, tree_, std::move(block), query_);
@@ -336,6 +343,7 @@ class Aggregation {
   std::size_t rows_;
   std::span<double> result_;
   const AggregateOptions& options_;
+  std::size_t together_;
   std::size_t blocks_;
   std::size_t passes_begun_ = 0;
 };
@@ -410,15 +418,6 @@ std::vector<double> aggregate(const Index& index, const SignalView& signal, cons
   std::vector<double> result(aggregate_size(index, signal, query, options));
   aggregate(index, signal, query, result, options);
   return result;
-}
-
-double smoothing_radius(double fwhm) {
-  check_radius(fwhm, "fwhm: ");
-  // Of all Gaussians in the plane, that of the standard deviation 0.4 r differs least from the biweight, by 10 % of its
-  // L2 norm.
-  constexpr double kDeviationOfBiweight = 0.4;
-  const double deviations_of_fwhm = 2 * std::sqrt(2 * std::numbers::ln2);
-  return fwhm / deviations_of_fwhm / kDeviationOfBiweight;
 }
 
 }  // namespace meshhood

@@ -7,7 +7,6 @@
 #include <utility>
 #include <variant>
 
-#include "aggregate/compensated.h"
 #include "aggregate/moments.h"
 
 namespace meshhood {
@@ -31,7 +30,7 @@ PerLane<double> filled(double number) {
 class KernelSumReducer final : public PacketReducer {
  public:
   explicit KernelSumReducer(const KernelSumReduction& reduction)
-      : reduction_(&reduction), sums_(reduction.columns().size()), totals_(sums_.size()) {}
+      : reduction_(&reduction), sums_(reduction.columns().size()) {}
 
   void begin(const PacketAnswer& packet) override {
     for (RowSums& sums : sums_) sums = {};
@@ -54,22 +53,17 @@ class KernelSumReducer final : public PacketReducer {
     std::visit(
         [&](auto xyz) {
           for (std::size_t k = 0; k < vertices.size(); ++k) {
+            if (queries[k] == 0) continue;
             kernels.set_offsets(point(xyz, vertices.begin + k), centers_, offsets_);
             kernels.set_weights(offsets_, squares_, reduction_->squared(), weights_[k]);
           }
         },
         reduction_->index().positions);
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const auto values = std::span(reduction_->columns().column(i)).subspan(vertices.begin, vertices.size());
-      kernels.add_weighted(values, queries, weights_, sums_[i]);
-    }
+    reduction_->columns().add_weighted(kernels, vertices, queries, weights_, sums_);
   }
 
   void write(std::size_t row, std::span<double> channels) override {
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      totals_[i] = CompensatedSum{sums_[i].high[row], sums_[i].low[row]}.value();
-    }
-    for (std::size_t i = 0; i < channels.size(); ++i) channels[i] = reduction_->columns().result(i, totals_);
+    reduction_->columns().write(sums_, row, channels);
   }
 
  private:
@@ -180,7 +174,6 @@ class KernelSumReducer final : public PacketReducer {
   Offsets offsets_{};
   RowWeights weights_{};
   std::vector<RowSums> sums_;  // by column
-  std::vector<double> totals_;
 };
 
 }  // namespace

@@ -19,19 +19,14 @@
 namespace meshhood {
 namespace {
 
-constexpr std::size_t kFewestChannels = 17;    // more than share one search over nodes
-constexpr double kMostVertices = 400;          // of a mean row; with more, the rounding errors would be too large
+constexpr std::size_t kFewestChannels = 17;  // more than share one search over nodes
+constexpr double kMostVertices = 400;        // of a mean row; with more, the rounding errors would be too large
+// A Gaussian has no sums over nodes, and its weights serve all channels either way. With fewer channels than these, and
+// more vertices than these, a list takes longer.
+constexpr std::size_t kManyChannels = 48;
+constexpr double kFewVertices = 60;
 constexpr std::size_t kRowsTogether = 4096;    // whose lists wait for the product
 constexpr std::size_t kChannelsOfABlock = 32;  // the values of a row's vertices, 32 of each, stay in the cache
-
-/// The weight of a vertex at a distance, as a part of its own; 1 without a smoothing kernel.
-double kernel_weight(SmoothingKernel kernel, double distance, double radius) {
-  if (kernel == SmoothingKernel::Box || distance == 0) return 1;
-  const double share = distance / radius;
-  // Not 1 - share^2, whose rounding would give a vertex at the rim a weight.
-  const double weight = (1 - share) * (1 + share);
-  return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
-}
 
 /// Far from overflow and underflow, so that values need no scaling.
 bool is_moderate(const SignalView& signal) {
@@ -110,7 +105,7 @@ class ListedRows {
         const double own = signal_.weights.empty() ? 1 : signal_.weights[id];
         if (own == 0) continue;
         rows_.ids[kept] = id;
-        rows_.distances[kept++] = own * kernel_weight(query_.kernel, rows_.distances[i], radius_);
+        rows_.distances[kept++] = own * smoothing_weight(query_.kernel, rows_.distances[i], radius_);
       }
       rows_.offsets[row + 1] = kept;
     }
@@ -154,9 +149,10 @@ class ListedRows {
 bool is_better_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius) {
   const bool has_kernel = query.kernel != SmoothingKernel::Box;
   constexpr double kSmallestRadius = 0x1p-450;  // squares of shorter distances underflow
+  const bool is_slower = query.kernel == SmoothingKernel::Gaussian && signal.channels < kManyChannels;
+  const double most = is_slower ? kFewVertices : kMostVertices;
   return has_kernel && radius > kSmallestRadius && query.nesting == Nesting::Own &&
-         signal.channels >= kFewestChannels && mean_count(index, query.metric, radius) <= kMostVertices &&
-         is_moderate(signal);
+         signal.channels >= kFewestChannels && mean_count(index, query.metric, radius) <= most && is_moderate(signal);
 }
 
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,

@@ -7,6 +7,7 @@ namespace meshhood {
 
 void MaximalNodes::reduce(const PacketAnswer& packet, PacketReducer& reducer) {
   reducer.begin(packet);
+  if (!reducer.takes_nodes()) return pass_on_leaves(packet, reducer);
   rows_.clear();
   named_.clear();
   parents_.clear();
@@ -26,6 +27,16 @@ void MaximalNodes::reduce(const PacketAnswer& packet, PacketReducer& reducer) {
   }
   for (const std::uint32_t group : named_) place_of_[group] = kNone;
   for (const std::uint32_t group : parents_) place_of_[group] = kNone;
+}
+
+void MaximalNodes::pass_on_leaves(const PacketAnswer& packet, PacketReducer& reducer) const {
+  PerLane<QueryWord> words;
+  for (const Piece& piece : packet.pieces) {
+    words.fill(piece.queries);
+    for (NodeTree::Node leaf = piece.leaves.begin; leaf < piece.leaves.end; ++leaf) {
+      reducer.add_leaf(tree_->vertices(leaf), piece.is_run() ? words.data() : piece.reached);
+    }
+  }
 }
 
 /// The rows of the group of a node. A new one is noted in `groups`.

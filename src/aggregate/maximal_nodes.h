@@ -19,7 +19,8 @@ class MaximalNodes {
  public:
   explicit MaximalNodes(const NodeTree& tree) : tree_(&tree), place_of_(tree.group_count(), kNone) {}
 
-  /// Passes the neighborhoods of a packet to a reducer, level by level, each in index order.
+  /// Passes the neighborhoods of a packet to a reducer, level by level, each in index order. If it takes no nodes, the
+  /// leaves alone.
   void reduce(const PacketAnswer& packet, PacketReducer& reducer);
 
  private:
@@ -32,6 +33,7 @@ class MaximalNodes {
   };
 
   GroupRows& group_with(NodeTree::Node node, std::vector<std::uint32_t>& groups);
+  void pass_on_leaves(const PacketAnswer& packet, PacketReducer& reducer) const;
   void add_run(const LeafRun& run, QueryWord queries);
   void pass_on(std::uint32_t group, PacketReducer& reducer);
   void pass_on_part(const VertexRange& vertices, const QueryWord* reached, QueryWord& whole, PacketReducer& reducer);

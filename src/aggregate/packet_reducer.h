@@ -22,10 +22,13 @@ class PacketReducer {
   /// Begins with the rows of another packet.
   virtual void begin(const PacketAnswer& packet) = 0;
 
-  /// Adds all vertices of each of up to eight nodes, which are neighbors, to the rows of its word.
-  virtual void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) = 0;
+  /// Whether it takes whole nodes. If not, all vertices are passed to `add_leaf`, in index order.
+  [[nodiscard]] virtual bool takes_nodes() const { return true; }
 
-  /// Adds each vertex of a leaf to the rows of its word.
+  /// Adds all vertices of each of up to eight nodes, which are neighbors, to the rows of its word.
+  virtual void add_nodes(const NodeTree::Children& /*nodes*/, const QueryWord* /*queries*/) {}
+
+  /// Adds each vertex of a leaf, of which rows may have all, to the rows of its word.
   virtual void add_leaf(const VertexRange& vertices, const QueryWord* queries) = 0;
 
   /// Writes the result of a row, a number for each channel. Called after everything has been added.

@@ -3,8 +3,6 @@
 
 #include <limits>
 
-#include "aggregate/compensated.h"
-
 namespace meshhood {
 
 void PathSetReducer::reduce(PathPacket& packet, std::span<const double> radii) {
@@ -14,8 +12,8 @@ void PathSetReducer::reduce(PathPacket& packet, std::span<const double> radii) {
   nodes_.reduce(answer, *reducer_);
 }
 
-PathKernelReducer::PathKernelReducer(const SumColumns& columns, bool squared)
-    : kernels_(&aggregate_kernels(best_isa())), columns_(&columns), squared_(squared), sums_(columns.size()) {}
+PathKernelReducer::PathKernelReducer(const SumColumns& columns, SmoothingKernel kernel)
+    : kernels_(&aggregate_kernels(best_isa())), columns_(&columns), kernel_(kernel), sums_(columns.size()) {}
 
 void PathKernelReducer::reduce(PathPacket& packet, std::span<const double> radii) {
   for (RowSums& sums : sums_) sums = {};
@@ -28,19 +26,14 @@ void PathKernelReducer::reduce(PathPacket& packet, std::span<const double> radii
   packet.for_each_leaf(radii, [&](const PathLeaf& leaf) {
     for (std::size_t lane = 0; lane < leaf.vertices.size(); ++lane) {
       if (leaf.queries[lane] == 0) continue;
-      kernels_->set_path_weights(leaf.lengths[lane], divisors, squared_, weights_[lane]);
+      kernels_->set_path_weights(leaf.lengths[lane], divisors, kernel_, weights_[lane]);
     }
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const auto values = std::span(columns_->column(i)).subspan(leaf.vertices.begin, leaf.vertices.size());
-      kernels_->add_weighted(values, leaf.queries.data(), weights_, sums_[i]);
-    }
+    columns_->add_weighted(*kernels_, leaf.vertices, leaf.queries.data(), weights_, sums_);
   });
 }
 
 void PathKernelReducer::write(std::size_t query, std::span<double> channels) {
-  totals_.clear();
-  for (const RowSums& sums : sums_) totals_.push_back(CompensatedSum{sums.high[query], sums.low[query]}.value());
-  for (std::size_t i = 0; i < channels.size(); ++i) channels[i] = columns_->result(i, totals_);
+  columns_->write(sums_, query, channels);
 }
 
 }  // namespace meshhood

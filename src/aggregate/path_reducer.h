@@ -52,8 +52,8 @@ class PathSetReducer final : public PathReducer {
 /// Sum and mean with weights that fall with the length of the path.
 class PathKernelReducer final : public PathReducer {
  public:
-  /// `squared`: the biweight, else Epanechnikov. Borrows `columns`.
-  PathKernelReducer(const SumColumns& columns, bool squared);
+  /// With a kernel that is not the box. Borrows `columns`.
+  PathKernelReducer(const SumColumns& columns, SmoothingKernel kernel);
 
   void reduce(PathPacket& packet, std::span<const double> radii) override;
   void write(std::size_t query, std::span<double> channels) override;
@@ -61,10 +61,9 @@ class PathKernelReducer final : public PathReducer {
  private:
   const AggregateKernels* kernels_;
   const SumColumns* columns_;
-  bool squared_;
+  SmoothingKernel kernel_;
   RowWeights weights_{};
-  std::vector<RowSums> sums_;   // by column
-  std::vector<double> totals_;  // likewise
+  std::vector<RowSums> sums_;  // by column
 };
 
 }  // namespace meshhood

@@ -33,8 +33,7 @@ std::vector<double> sums_by_node(const NodeTree& tree, const Column& column) {
 
 class SumReducer final : public PacketReducer {
  public:
-  explicit SumReducer(const SumReduction& reduction)
-      : reduction_(&reduction), sums_(reduction.columns().size()), totals_(sums_.size()) {}
+  explicit SumReducer(const SumReduction& reduction) : reduction_(&reduction), sums_(reduction.columns().size()) {}
 
   void begin(const PacketAnswer& /*packet*/) override {
     for (RowSums& sums : sums_) sums = {};
@@ -55,16 +54,12 @@ class SumReducer final : public PacketReducer {
   }
 
   void write(std::size_t row, std::span<double> channels) override {
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      totals_[i] = CompensatedSum{sums_[i].high[row], sums_[i].low[row]}.value();
-    }
-    for (std::size_t i = 0; i < channels.size(); ++i) channels[i] = reduction_->columns().result(i, totals_);
+    reduction_->columns().write(sums_, row, channels);
   }
 
  private:
   const SumReduction* reduction_;
   std::vector<RowSums> sums_;  // by column
-  std::vector<double> totals_;
 };
 
 }  // namespace
@@ -94,14 +89,28 @@ SumColumns::SumColumns(SignalBlock block, Reduce reduce) : reduce_(reduce) {
   }
 }
 
-double SumColumns::result(std::size_t channel, std::span<const double> sums) const {
-  const std::size_t weights = channels_[channel].weights;
-  if (reduce_ == Reduce::Count) return sums[weights];
-  const Values& moderate = channels_[channel].values;
-  const auto& [values, exponent] = std::isfinite(sums[moderate.column]) ? moderate : channels_[channel].large;
-  if (reduce_ == Reduce::Sum) return std::ldexp(sums[values], exponent);
-  if (sums[weights] == 0) return std::numeric_limits<double>::quiet_NaN();
-  return std::ldexp(sums[values] / sums[weights], exponent);
+void SumColumns::add_weighted(const AggregateKernels& kernels, const VertexRange& vertices, const QueryWord* queries,
+                              const RowWeights& weights, std::span<RowSums> sums) const {
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const auto values = std::span(columns_[i]).subspan(vertices.begin, vertices.size());
+    kernels.add_weighted(values, queries, weights, sums[i]);
+  }
+}
+
+void SumColumns::write(std::span<const RowSums> sums, std::size_t row, std::span<double> channels) const {
+  for (std::size_t i = 0; i < channels.size(); ++i) channels[i] = result(channels_[i], sums, row);
+}
+
+double SumColumns::result(const Channel& channel, std::span<const RowSums> sums, std::size_t row) const {
+  const auto sum = [&](std::size_t column) {
+    return CompensatedSum{sums[column].high[row], sums[column].low[row]}.value();
+  };
+  if (reduce_ == Reduce::Count) return sum(channel.weights);
+  const auto& [values, exponent] = std::isfinite(sum(channel.values.column)) ? channel.values : channel.large;
+  if (reduce_ == Reduce::Sum) return std::ldexp(sum(values), exponent);
+  const double weights = sum(channel.weights);
+  if (weights == 0) return std::numeric_limits<double>::quiet_NaN();
+  return std::ldexp(sum(values) / weights, exponent);
 }
 
 SumReduction::SumReduction(const NodeTree& tree, const AggregateKernels& kernels, SumColumns columns)

@@ -22,8 +22,12 @@ class SumColumns {
   [[nodiscard]] std::size_t channels() const { return channels_.size(); }
   [[nodiscard]] const Column& column(std::size_t i) const { return columns_[i]; }
 
-  /// The result of a channel from the sums of all columns.
-  [[nodiscard]] double result(std::size_t channel, std::span<const double> sums) const;
+  /// Adds the values of a leaf to the rows of its words, times the weights.
+  void add_weighted(const AggregateKernels& kernels, const VertexRange& vertices, const QueryWord* queries,
+                    const RowWeights& weights, std::span<RowSums> sums) const;
+
+  /// Writes the results of a row from the sums of all columns, a number for each channel.
+  void write(std::span<const RowSums> sums, std::size_t row, std::span<double> channels) const;
 
  private:
   struct Values {
@@ -35,6 +39,8 @@ class SumColumns {
     Values large;         // of rows whose result would not be finite: see `SignalBlock::large`
     std::size_t weights;  // the column
   };
+
+  [[nodiscard]] double result(const Channel& channel, std::span<const RowSums> sums, std::size_t row) const;
 
   Reduce reduce_;
   std::vector<Column> columns_;

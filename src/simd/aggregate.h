@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <span>
 
+#include "meshhood/aggregate.h"
+
 #include "shared/distance.h"
 #include "simd/joint.h"
 #include "simd/kernels.h"
@@ -29,9 +31,10 @@ struct RowSpreads {
   PerLane<double> squares;
 };
 
-/// The query vertices of a packet, and the units in which distances from them are computed.
+/// The query vertices of a packet, and the units in which distances from them are computed: powers of two, or for
+/// `AggregateKernels::set_gaussians` the radii.
 struct PacketCenters : PointPerLane<double> {
-  PerLane<double> unit;  // powers of two, by which differences of coordinates are multiplied. 0: every weight is 1
+  PerLane<double> unit;  // by which differences of coordinates are multiplied. 0: every weight is 1
 };
 
 /// The square of the radius of each query, in its unit.
@@ -82,9 +85,14 @@ struct AggregateKernels {
   /// negative, and where d^2 is r^2 the weight is 0.
   void (*set_weights)(const Offsets& offsets, const KernelRadii& radii, bool squared, PerLane<double>& weights);
 
-  /// The same of a vertex by the lengths of paths to it. An infinite radius makes the weights 1; where there is no path
-  /// within the radius they have no meaning.
-  void (*set_path_weights)(const PathLengths& lengths, const PathLengths& radii, bool squared,
+  /// Sets the weights of up to 32 vertices by the Gaussian (see gaussian.h), for the rows of the word of each; those of
+  /// other rows have no meaning. Beyond the radius they are that of the radius.
+  void (*set_gaussians)(std::span<const Point> points, const QueryWord* words, const PacketCenters& centers,
+                        RowWeights& weights);
+
+  /// The weights of a vertex by the lengths of paths to it, with each kernel but the box. An infinite radius makes the
+  /// weights 1; where there is no path within the radius they have no meaning.
+  void (*set_path_weights)(const PathLengths& lengths, const PathLengths& radii, SmoothingKernel kernel,
                            PerLane<double>& weights);
 
   /// As `add_values`, each value multiplied by its weight for the row.

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "simd/aggregate.h"
+#include "simd/gaussian.h"
 #include "simd/query_word.h"
 
 #define HWY_TARGET_INCLUDE "simd/aggregate_kernels.cpp"
@@ -171,9 +172,35 @@ void set_weights(const Offsets& offsets, const KernelRadii& radii, bool squared,
   });
 }
 
-void set_path_weights(const PathLengths& lengths, const PathLengths& radii, bool squared, PerLane<double>& weights) {
-  set_each(weights, squared, [&](std::size_t i) HWY_ATTR {
+/// `gaussian` of each share; of 1 for larger ones and NaN.
+HWY_INLINE Numbers gaussians(Numbers shares) {
+  shares = either(Doubles(), hn::Lt(shares, splat(1.0)), shares, splat(1.0));
+  auto result = splat(kGaussian.back());
+  for (std::size_t i = kGaussian.size() - 1; i-- > 0;) result = hn::Add(hn::Mul(result, shares), splat(kGaussian[i]));
+  for (int i = 0; i < kGaussianSquarings; ++i) result = hn::Mul(result, result);
+  return result;
+}
+
+void set_gaussians(std::span<const Point> points, const QueryWord* words, const PacketCenters& centers,
+                   RowWeights& weights) {
+  const Doubles d;
+  for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Doubles>) {
+    const QueryWord rows = first_lanes(kLanes<Doubles>) << i;
+    const auto center = load_rows(d, centers, i);
+    const auto unit = load(centers.unit[i]);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if ((words[k] & rows) == 0) continue;
+      const auto offset = scaled(difference(splat_point(d, points[k]), center), unit);
+      store(gaussians(squared_length(offset)), weights[k][i]);
+    }
+  }
+}
+
+void set_path_weights(const PathLengths& lengths, const PathLengths& radii, SmoothingKernel kernel,
+                      PerLane<double>& weights) {
+  set_each(weights, kernel == SmoothingKernel::Biweight, [&](std::size_t i) HWY_ATTR {
     const auto t = hn::Div(load(lengths[i]), load(radii[i]));
+    if (kernel == SmoothingKernel::Gaussian) return gaussians(hn::Mul(t, t));
     return hn::Mul(hn::Sub(splat(1.0), t), hn::Add(splat(1.0), t));
   });
 }
@@ -216,8 +243,8 @@ void add_moments(const Moments& moments, const Offsets& offsets, const KernelRad
   });
 }
 
-constexpr AggregateKernels kAggregateKernels{add_values,  lower_minima,     sum_deviations, merge_spreads, set_offsets,
-                                             set_weights, set_path_weights, add_weighted,   add_moments};
+constexpr AggregateKernels kAggregateKernels{add_values,  lower_minima,  sum_deviations,   merge_spreads, set_offsets,
+                                             set_weights, set_gaussians, set_path_weights, add_weighted,  add_moments};
 
 }  // namespace
 }  // namespace meshhood::HWY_NAMESPACE

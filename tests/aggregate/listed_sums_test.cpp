@@ -59,7 +59,8 @@ TEST_P(ListedSumsOf, ManyChannelsAreThoseOfEachByItself) {
   for (const bool gaps : {false, true}) {
     const Values drawn = draw(mesh.size(), gaps);
     for (const Reduce reduce : {Reduce::Sum, Reduce::Mean}) {
-      for (const SmoothingKernel kernel : {SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight}) {
+      for (const SmoothingKernel kernel :
+           {SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight, SmoothingKernel::Gaussian}) {
         const AggregateQuery query{.radius = radius,
                                    .reduce = reduce,
                                    .kernel = kernel,
@@ -83,7 +84,7 @@ TEST_P(ListedSumsOf, ManyChannelsAreThoseOfEachByItself) {
       }
     }
   }
-  std::printf("%s: %zu of 8 calls listed\n", std::string(GetParam().name).c_str(), listed);
+  std::printf("%s: %zu of 12 calls listed\n", std::string(GetParam().name).c_str(), listed);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ListedSumsOf, testing::ValuesIn(families()), family_name);
@@ -98,6 +99,12 @@ TEST(ListedSums, AreForManyChannelsOfModerateValuesOverSmallNeighborhoods) {
   EXPECT_FALSE(is_better_listed(index, drawn.view(), {.radius = 3.0}, 3));
   const std::vector<double> few(mesh.size() * 16, 1.0);
   EXPECT_FALSE(is_better_listed(index, {few, 16}, mean, 3));
+  // The weights of a Gaussian serve some channels without a list, too.
+  const AggregateQuery smooth{.radius = 3.0, .kernel = SmoothingKernel::Gaussian};
+  const std::vector<double> many(mesh.size() * 48, 1.0);
+  EXPECT_TRUE(is_better_listed(index, drawn.view(), smooth, 3));
+  EXPECT_FALSE(is_better_listed(index, drawn.view(), smooth, 6));
+  EXPECT_TRUE(is_better_listed(index, {many, 48}, smooth, 6));
   drawn.values[5] = 1e200;
   EXPECT_FALSE(is_better_listed(index, drawn.view(), mean, 3));
 }

@@ -36,15 +36,22 @@ def test_equals_numpy(plates, reduce, r):
         np.testing.assert_allclose(got[v], want, rtol=1e-12, atol=1e-13)
 
 
-@pytest.mark.parametrize(("kernel", "power"), (("epanechnikov", 1), ("biweight", 2)))
-def test_smoothing_kernels(plates, kernel, power):
+WEIGHTS = {
+    "epanechnikov": lambda share: 1 - share**2,
+    "biweight": lambda share: (1 - share**2) ** 2,
+    "gaussian": lambda share: np.exp(-np.log(1000) * share**2),
+}
+
+
+@pytest.mark.parametrize("kernel", WEIGHTS)
+def test_smoothing_kernels(plates, kernel):
     V, F, edges, index, values = plates
     areas = meshhood.vertex_areas(V, F)
     got = index.aggregate(values, 2.5, kernel=kernel, weights="area", F=F)
     np.testing.assert_array_equal(got, index.aggregate(values, 2.5, kernel=kernel, weights=areas))
     for v in range(len(V)):
         ids = oracle.neighborhood(V, edges, v, 2.5)
-        weights = (1 - (oracle.distances(V, v)[ids] / 2.5) ** 2) ** power * areas[ids]
+        weights = WEIGHTS[kernel](oracle.distances(V, v)[ids] / 2.5) * areas[ids]
         np.testing.assert_allclose(got[v], np.average(values[ids], axis=0, weights=weights), rtol=1e-10, atol=1e-12)
 
 
@@ -105,10 +112,23 @@ def test_unit_and_workers(plates):
 
 def test_smooth(plates):
     _, F, _, index, values = plates
-    radius = 2.0 / np.sqrt(8 * np.log(2)) / 0.4
-    np.testing.assert_allclose(index.smooth(values, 2.0), index.aggregate(values, radius, kernel="biweight"))
+    radius = 2.0 * np.sqrt(np.log2(1000)) / 2
+    np.testing.assert_allclose(index.smooth(values, 2.0), index.aggregate(values, radius, kernel="gaussian"))
     constant = np.full(len(index), 3.5)
     np.testing.assert_allclose(index.smooth(constant, 2.0, weights="area", F=F), constant)
+
+
+@pytest.mark.parametrize("metric", ("straight", "path"))
+def test_smooth_is_a_gaussian_of_the_width(plates, metric):
+    _, _, _, index, values = plates
+    kept = np.arange(len(index)) % 5 > 0
+    ids, distances = index.query_ball(20, 3 * 2.0, metric=metric, ignored=~kept, return_distance=True)
+    deviation = 2.0 / np.sqrt(8 * np.log(2))
+    weights = np.exp(-((distances / deviation) ** 2) / 2)
+    weights[weights < 1 / 1000] = 0  # where the ball is larger, it has the same part of this plate
+    want = np.average(values[ids], axis=0, weights=weights)
+    got = index.smooth(values, 2.0, metric=metric, ignored=~kept, vertices=20)
+    np.testing.assert_allclose(got, want, rtol=1e-12, atol=1e-14)
 
 
 def test_of_a_loaded_index(plates, tmp_path):

@@ -46,6 +46,10 @@ def graph(index, r=None, **words):
     return dense(found.indptr, found.indices, found.data, words)
 
 
+def gaussian(distances, fwhm):
+    return np.exp(-4 * np.log(2) * (distances / fwhm) ** 2)
+
+
 def smoothing_matrix(index, r=None, **words):
     rows = index.smoothing_matrix(r, **words).toarray()
     return rows if words.get("scales") is None else rows.reshape(len(words["scales"]), -1, COUNT)
@@ -129,7 +133,7 @@ def test_ignored(name):
     if name in ("smooth", "smoothing_matrix"):
         r = meshhood.smoothing_radius(R)
         near = listed(INDEX, r)
-        weights = np.where((near > 0) & ~IGNORED, (1 - ((near - 1) / r) ** 2) ** 2, 0)
+        weights = np.where((near > 0) & ~IGNORED, gaussian(near - 1, R), 0)
         weights /= weights.sum(axis=1, keepdims=True)
         return close(found, weights if name == "smoothing_matrix" else weights @ VALUES)
     # Where the same vertices are left, it does not matter whether the others are passed.
@@ -151,7 +155,7 @@ def test_metric_path(name):
     for v in range(COUNT):
         ids, lengths = INDEX.query_region(v, r, return_distance=True, **words)
         lists[v, ids] = 1 + lengths
-    weights = np.where(lists > 0, (1 - ((lists - 1) / r) ** 2) ** 2, 0)
+    weights = np.where(lists > 0, gaussian(lists - 1, R), 0)
     with np.errstate(invalid="ignore"):
         mean = weights / weights.sum(axis=1, keepdims=True)
     wanted = {

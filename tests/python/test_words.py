@@ -229,7 +229,7 @@ def test_the_smoothing_matrix_smooths(metric, weights):
     matrix = INDEX.smoothing_matrix(2.0, **words)
     smooth = INDEX.smooth(VALUES, 2.0, **words)
     alone = np.diff(matrix.indptr) == 0
-    np.testing.assert_allclose((matrix @ VALUES)[~alone], smooth[~alone], rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose((matrix @ VALUES)[~alone], smooth[~alone], rtol=1e-11, atol=1e-13)
     assert np.isnan(smooth[alone]).all() and alone.any()
     np.testing.assert_allclose(matrix.sum(axis=1)[~alone], 1)
     with pytest.raises(TypeError, match="nan: no argument"):
@@ -258,7 +258,7 @@ def test_two_banks_are_not_mixed_along_paths():
     top = (points[:, 0] == 1) & (points[:, 2] == 5)
     straight, path = (index.smooth(signal, 6.0, metric=metric)[top].max() for metric in ("straight", "path"))
     assert straight > 0.4
-    assert path < 0.01
+    assert path < 0.02
 
 
 def test_progress_ascends_over_all_scales():
@@ -392,7 +392,7 @@ def test_the_representation_has_the_mean_edge_length():
 
 
 def test_the_radius_of_smoothing():
-    assert meshhood.smoothing_radius(2.0) == pytest.approx(2 / (0.4 * 2 * np.sqrt(2 * np.log(2))), rel=1e-15)
+    assert meshhood.smoothing_radius(2.0) == pytest.approx(np.sqrt(np.log2(1000)), rel=1e-15)
 
 
 def test_free_memory_is_what_a_control_group_leaves(tmp_path, monkeypatch):

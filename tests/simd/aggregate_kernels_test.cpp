@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The kernels of aggregates give the results of their definitions, with the same bits on every processor.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "simd/aggregate.h"
+#include "simd/gaussian.h"
 #include "support/exact_answer.h"
 #include "support/random.h"
 #include "support/scale.h"
@@ -128,6 +130,31 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfTheFirstInstructionSetForWeightsByDista
     tried.add_moments(moments, offsets, radii, squared, words[0], sums);
     plain.add_moments(moments, offsets, radii, squared, words[0], other);
     ASSERT_EQ(bits_of(sums), bits_of(other));
+  }
+}
+
+TEST_P(EveryAggregatePath, GivesTheBitsOfOneNumberForGaussians) {
+  for (std::size_t round = 0; round < scaled(3000, 200); ++round) {
+    draw();
+    std::vector<Point> points(random.below(kLeafCapacity + 1));
+    const auto place = [&] { return Point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
+    std::ranges::generate(points, place);
+    for (std::size_t row = 0; row < kPacketCapacity; ++row) {
+      centers.set(row, place());
+      centers.unit[row] = random.below(8) == 0 ? 0 : random.uniform(0.2, 1);
+    }
+    RowWeights weights;
+    tried.set_gaussians(points, words.data(), centers, weights);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      for (std::size_t row = 0; row < kPacketCapacity; ++row) {
+        if ((words[k] >> row & 1U) == 0) continue;
+        const double unit = centers.unit[row];
+        const double x = (points[k].x - centers.x[row]) * unit;
+        const double y = (points[k].y - centers.y[row]) * unit;
+        const double z = (points[k].z - centers.z[row]) * unit;
+        ASSERT_EQ(weights[k][row], gaussian(std::min(1.0, (x * x + y * y) + z * z)));
+      }
+    }
   }
 }
 

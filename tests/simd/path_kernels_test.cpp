@@ -80,17 +80,16 @@ TEST_P(EveryPathKernel, FindsWhatIsWithinLimits) {
 TEST_P(EveryPathKernel, WeighsLengths) {
   for (std::size_t round = 0; round < scaled(20000, 2000); ++round) {
     draw();
-    for (const bool squared : {false, true}) {
+    for (const SmoothingKernel kernel :
+         {SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight, SmoothingKernel::Gaussian}) {
       PerLane<double> weights;
-      aggregate_kernels(GetParam()).set_path_weights((*all)[0], (*all)[1], squared, weights);
+      aggregate_kernels(GetParam()).set_path_weights((*all)[0], (*all)[1], kernel, weights);
       for (std::size_t lane = 0; lane < kPacketCapacity; ++lane) {
         const double length = (*all)[0][lane];
         const double radius = (*all)[1][lane];
         if (!(length <= radius) || radius == 0 || length == std::numeric_limits<double>::infinity()) continue;
-        const double t = length / radius;
-        const double weight = (1 - t) * (1 + t);
-        ASSERT_EQ(weights[lane], squared ? weight * weight : weight);
-        if (length == radius) {
+        ASSERT_EQ(weights[lane], smoothing_weight(kernel, length, radius));
+        if (length == radius && kernel != SmoothingKernel::Gaussian) {
           ASSERT_EQ(weights[lane], 0);
         }
       }

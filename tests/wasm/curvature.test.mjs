@@ -47,7 +47,7 @@ for (const [name, mesh] of Object.entries(meshes)) {
     for (const reduce of ['sum', 'mean', 'min', 'max', 'var', 'std', 'count']) {
       assert.deepEqual(index.aggregate(signal, 3, { reduce }), aggregate('-r', '3', '--reduce', reduce), reduce);
     }
-    for (const kernel of ['epanechnikov', 'biweight']) {
+    for (const kernel of ['epanechnikov', 'biweight', 'gaussian']) {
       const expected = aggregate('-r', '2,4', '--kernel', kernel, '--nesting', 'patch', '--weights', 'area');
       const options = { kernel, nesting: 'patch', weights: 'area', faces: mesh };
       assert.deepEqual(index.aggregate(signal, null, { scales: Float64Array.of(2, 4), ...options }), expected, kernel);
@@ -81,13 +81,17 @@ test('missing values are left out or spread', () => {
   assert.deepEqual(index.aggregate(signal, 2, { vertices, nan: 'omit', reduce: 'count' }), Float64Array.of(count - 1));
 });
 
-test('smoothing is a biweight mean within 1.06 of the width', () => {
+test('smoothing is the mean by a Gaussian of the width', () => {
   const index = build(hills);
   const signal = values(hills);
   const smooth = index.smooth(signal, 4);
   assert.equal(smooth.length, signal.length);
-  const radii = [4 * 1.06, 4 * 1.07].map((r) => index.aggregate(signal, r, { kernel: 'biweight' })[700]);
-  assert.ok(smooth[700] > Math.min(...radii) - 0.01 && smooth[700] < Math.max(...radii) + 0.01);
+  assert.deepEqual(smooth, index.aggregate(signal, 4 * 1.5784315224822145, { kernel: 'gaussian' }));
+  const weight = (d) => Math.exp((-4 * Math.LN2 * d * d) / 16);
+  const { ids, distances } = index.queryBall(700, 4 * 1.5784315224822145, { distances: true });
+  let [sum, weights] = [0, 0];
+  ids.forEach((id, i) => { sum += weight(distances[i]) * signal[id]; weights += weight(distances[i]); });
+  assert.ok(Math.abs(smooth[700] - sum / weights) < 1e-12);
   assert.deepEqual(index.smooth(Float32Array.from(signal, () => 2), 4), new Float64Array(signal.length).fill(2));
   assert.throws(() => index.smooth(signal, NaN), { code: 'InvalidRadius' });
 });

@@ -355,12 +355,15 @@ TEST_P(Allocation, FailsInABatchOnTwoThreads) {
 TEST_P(Allocation, FailsInAnAggregate) {
   const std::vector<double> values(mesh.size(), 1.0);
   const double radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4;
-  for (const Reduce reduce : {Reduce::Mean, Reduce::Maximum, Reduce::Variance}) {
-    const bool smooths = reduce == Reduce::Mean;
+  for (const auto& [reduce, kernel] :
+       std::initializer_list<std::pair<Reduce, SmoothingKernel>>{{Reduce::Mean, SmoothingKernel::Biweight},
+                                                                 {Reduce::Mean, SmoothingKernel::Gaussian},
+                                                                 {Reduce::Maximum, SmoothingKernel::Box},
+                                                                 {Reduce::Variance, SmoothingKernel::Box}}) {
     const AggregateQuery query{.radius = BatchRadius::scales({radius, radius / 2}),
                                .reduce = reduce,
-                               .kernel = smooths ? SmoothingKernel::Biweight : SmoothingKernel::Box,
-                               .nesting = smooths ? Nesting::Own : Nesting::Patch};
+                               .kernel = kernel,
+                               .nesting = reduce == Reduce::Mean ? Nesting::Own : Nesting::Patch};
     const std::vector<double> expected = aggregate(index, {values}, query);
     shortages.fail_each([] { return std::vector<double>(); },
                         [&](std::vector<double>& result) { result = aggregate(index, {values}, query); },

@@ -29,7 +29,8 @@ namespace {
 constexpr std::array kReductions{Reduce::Sum,     Reduce::Mean,     Reduce::Minimum,
                                  Reduce::Maximum, Reduce::Variance, Reduce::StandardDeviation,
                                  Reduce::Count};
-constexpr std::array kKernels{SmoothingKernel::Box, SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight};
+constexpr std::array kKernels{SmoothingKernel::Box, SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight,
+                              SmoothingKernel::Gaussian};
 
 using Bits = std::vector<std::uint64_t>;
 
@@ -220,14 +221,16 @@ std::vector<Call> nearest_calls(const Scene& scene, double radius, const Filter&
                      },
                      0, false});
   }
-  calls.push_back({"sums along edges",
-                   [&scene, radius, filter](const auto& rows, unsigned threads) {
-                     AggregateQuery query{.vertices = rows, .radius = radius, .filter = filter};
-                     query.metric = Metric::Path;
-                     query.kernel = SmoothingKernel::Biweight;
-                     return aggregate(scene.index, {scene.signal, 1, scene.areas}, query, {.threads = threads});
-                   },
-                   1, true});
+  for (const SmoothingKernel kernel : kKernels) {
+    calls.push_back({"sums along edges, kernel " + std::to_string(static_cast<int>(kernel)),
+                     [&scene, radius, filter, kernel](const auto& rows, unsigned threads) {
+                       AggregateQuery query{.vertices = rows, .radius = radius, .filter = filter};
+                       query.metric = Metric::Path;
+                       query.kernel = kernel;
+                       return aggregate(scene.index, {scene.signal, 1, scene.areas}, query, {.threads = threads});
+                     },
+                     1, true});
+  }
   return calls;
 }
 

@@ -21,8 +21,9 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 Reduce = Literal["sum", "mean", "min", "max", "var", "std", "count"]
-Kernel = Literal["epanechnikov", "biweight"]
+Kernel = Literal["epanechnikov", "biweight", "gaussian"]
 
+_KERNELS = ("epanechnikov", "biweight", "gaussian")
 _REDUCTIONS = ("sum", "mean", "min", "max", "var", "std", "count")
 _MISSING = ("propagate", "omit")
 
@@ -45,11 +46,11 @@ class AggregateWords(SmoothWords, total=False):
 
 
 def smoothing_radius(fwhm: Number) -> float:
-    """The radius of the biweight kernel whose nearest Gaussian, in the plane and the L2 norm, has this full width at
-    half maximum: fwhm / (0.4 * 2 sqrt(2 ln 2)), which is 1.06165 fwhm.
+    """The radius of the kernel "gaussian" of this full width at half maximum, in the same unit, at which its weight is
+    1/1000: fwhm * sqrt(log2(1000)) / 2, which is 1.57843 fwhm.
 
     >>> round(meshhood.smoothing_radius(6.0), 4)
-    6.3699
+    9.4706
     """
     return float(_core.smoothing_radius(_convert.finite(fwhm, "fwhm", or_zero=True)))
 
@@ -104,7 +105,8 @@ class Aggregates(Held):
         weights : (#V,) finite and >= 0, for sum, mean, var and std, which leave out a vertex of weight 0; "area" for
             `vertex_areas`. The others ignore them.
         kernel : for sum and mean, how the weight falls with the distance d. None: not at all; "epanechnikov":
-            1 - (d/r)^2; "biweight": (1 - (d/r)^2)^2, which is close to a Gaussian of the standard deviation 0.4 r.
+            1 - (d/r)^2; "biweight": (1 - (d/r)^2)^2; "gaussian": 1000^-(d/r)^2, of the full width at half maximum whose
+            `smoothing_radius` is r.
         nan : "propagate", a neighborhood with a NaN gives NaN, but its count is that of all vertices; "omit", NaN marks a
             missing value, which is left out.
         nesting : what scales mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the largest,
@@ -187,16 +189,17 @@ class Aggregates(Held):
     ) -> Floats: ...  # fmt: skip
 
     def smooth(self, values: Any, fwhm: Any = None, *, vertices: Any = None, **words: Any) -> Any:
-        """The values smoothed by a biweight that is close to a Gaussian of this full width at half maximum.
+        """The values smoothed by a Gaussian of this full width at half maximum: the mean with the weights
+        exp(-4 ln 2 (d / fwhm)^2) by the distance d, cut where they are below 1/1000.
 
         fwhm : > 0, or one for each row; or several as `scales`. A distance in `unit`: straight, or with metric="path"
-            along edges. Vertices farther away than `smoothing_radius(fwhm)`, or not connected within that distance,
-            have no influence. With the straight metric, two banks are not mixed as long as the path over the bottom
-            between them leaves the ball; once it fits, the other bank counts by its straight distance
-            (docs/aggregate.md). With metric="path" it counts by the length of the path.
+            along edges. Vertices farther away than `smoothing_radius(fwhm)`, 1.578 fwhm, or not connected within that
+            distance, have no influence; one at exactly that distance has the weight 1/1000. With the straight metric,
+            two banks are not mixed as long as the path over the bottom between them leaves the ball; once it fits, the
+            other bank counts by its straight distance (docs/aggregate.md). With metric="path" it counts by the length of the path.
         weights : None counts each vertex once; "area" weighs it by its area, and makes the result independent of how
             densely the surface is sampled.
-        The other words are those of `aggregate`, which this calls with reduce="mean" and kernel="biweight". Vertices
+        The other words are those of `aggregate`, which this calls with reduce="mean" and kernel="gaussian". Vertices
         that are walls get NaN.
 
         >>> index = meshhood.MeshIndex(V, F)
@@ -204,7 +207,7 @@ class Aggregates(Held):
         """
         check_words(words, SmoothWords)
         r, words["scales"] = _smoothing_radii(fwhm, words.get("scales"))
-        return self.aggregate(values, r, "mean", kernel="biweight", vertices=vertices, **words)
+        return self.aggregate(values, r, "mean", kernel="gaussian", vertices=vertices, **words)
 
     def smoothing_matrix(
         self, fwhm: Optional[Radii] = None, *, vertices: Vertices = None, **words: Unpack[SmoothWords]
@@ -232,8 +235,8 @@ class Aggregates(Held):
         graph = self.radius_neighbors_graph(r, vertices=vertices, mode="distance", **listed)
         sizes = np.diff(graph.indptr)
         radii = np.atleast_1d(self._scale(words.get("unit", "mesh")) * (r if listed["scales"] is None else listed["scales"]))
-        share = graph.data / np.repeat(np.repeat(radii, len(sizes) // max(len(radii), 1)), sizes)
-        data = ((1 - share) * (1 + share)) ** 2  # not 1 - share^2, whose rounding would give a vertex at the rim a weight
+        radii = np.repeat(np.repeat(radii, len(sizes) // max(len(radii), 1)), sizes)
+        data = _core.smoothing_weights(_core.SmoothingKernel.gaussian, graph.data, radii)
         if weights is not None:
             data *= weights[graph.indices]
         sums = csr_array((data, graph.indices, graph.indptr), shape=graph.shape).sum(axis=1)
@@ -297,7 +300,7 @@ def area_weights(index: Held, weights: Any, F: Any) -> Any:
 def _kernel(kernel):
     if kernel is None:
         return "box"
-    return _convert.choice(kernel, "kernel", ("epanechnikov", "biweight"))
+    return _convert.choice(kernel, "kernel", _KERNELS)
 
 
 def _numbers(values, name, kinds):
