@@ -66,7 +66,6 @@ void refuse_compressed(InputBuffer& input) {
 
 // The first word outside comments; empty if there is none.
 std::string_view first_word(std::string_view head) {
-  constexpr std::string_view kBlanks = " \t\v\f\r\n";
   for (;;) {
     head.remove_prefix(std::min(head.find_first_not_of(kBlanks), head.size()));
     if (!head.starts_with('#')) return head.substr(0, head.find_first_of(kBlanks));

@@ -5,13 +5,13 @@
 #include <optional>
 
 #include "io/number.h"
+#include "io/text.h"
 
 namespace meshhood::io {
 namespace {
 
 using std::uint64_t;
 
-constexpr std::string_view kBlanks = " \t\v\f\r\n";
 constexpr std::string_view kLineEnds = kBlanks.substr(4);
 constexpr std::string_view kBlanksInLine = kBlanks.substr(0, 4);
 

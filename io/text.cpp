@@ -8,8 +8,6 @@ namespace {
 
 constexpr std::size_t kLongestLine = std::size_t{64} << 20;
 
-constexpr std::string_view kBlanks = " \t\v\f\r\n";
-
 bool is_blank(char c) { return c == ' ' || ('\t' <= c && c <= '\r'); }
 
 }  // namespace

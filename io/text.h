@@ -20,6 +20,9 @@ namespace meshhood::io {
 /// With a to z in place of A to Z, whatever the locale.
 [[nodiscard]] std::string lower_case(std::string text);
 
+/// What separates tokens: blanks in a line, and line ends.
+inline constexpr std::string_view kBlanks = " \t\v\f\r\n";
+
 inline constexpr char kAnyLineEnd = 0;
 
 /// The lexical rules of a text format.

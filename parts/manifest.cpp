@@ -177,10 +177,13 @@ PartFile describe_file(const std::filesystem::path& folder, std::string_view nam
   return {std::string(name), mapped.bytes().size(), checksum({mapped.bytes()})};
 }
 
+void verify_size(const std::filesystem::path& file, std::uint64_t bytes, const PartFile& expected) {
+  if (bytes == expected.bytes) return;
+  refuse(file, fmt::format("has {} bytes, but the manifest says {}", bytes, expected.bytes));
+}
+
 void verify_file(const std::filesystem::path& file, std::span<const std::byte> content, const PartFile& expected) {
-  if (content.size() != expected.bytes) {
-    refuse(file, fmt::format("has {} bytes, but the manifest says {}", content.size(), expected.bytes));
-  }
+  verify_size(file, content.size(), expected);
   const std::uint64_t found = checksum({content});
   if (found != expected.checksum) {
     refuse(file, fmt::format("has the checksum {}, but the manifest says {}: it has been changed, or is of another "

@@ -76,6 +76,9 @@ void write_part(const std::filesystem::path& part_folder, const Plan& plan, std:
 [[nodiscard]] std::optional<Part> read_part(const std::filesystem::path& part_folder, const Plan& plan,
                                             std::size_t number);
 
+/// Throws Error{MalformedIndex}, naming the file, unless it has the size.
+void verify_size(const std::filesystem::path& file, std::uint64_t bytes, const PartFile& expected);
+
 /// Throws Error{MalformedIndex}, naming the file, unless its content has the size and checksum.
 void verify_file(const std::filesystem::path& file, std::span<const std::byte> content, const PartFile& expected);
 

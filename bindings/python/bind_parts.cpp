@@ -31,6 +31,7 @@
 #include "methods.h"
 #include "parts/manifest.h"
 #include "parts/partition.h"
+#include "parts/random_file.h"
 
 namespace nb = nanobind;
 
@@ -110,8 +111,19 @@ PartFiles part_files(const Path& folder, std::size_t number, std::uint64_t check
   return {folder / parts::part_name(number), std::move(manifest.parts[number])};
 }
 
-void verify_content(const PartFiles& files, const std::string& name, const Bytes& content) {
-  parts::verify_file(files.folder / name, std::as_bytes(std::span(content.data(), content.size())), files.file(name));
+/// The content of a file, verified. Only a plain file of the size in the manifest is read.
+nb::bytes content_of(const PartFiles& files, const std::string& name) {
+  const Path path = files.folder / name;
+  const parts::PartFile& expected = files.file(name);
+  const std::string content = without_lock([&] {
+    const parts::RandomFile file(path);
+    parts::verify_size(path, file.size(), expected);
+    std::string bytes(static_cast<std::size_t>(file.size()), '\0');
+    file.read(0, bytes);
+    parts::verify_file(path, std::as_bytes(std::span(bytes)), expected);
+    return bytes;
+  });
+  return {content.data(), content.size()};
 }
 
 /// The index is mapped. What is verified is the mapping, which stays as it is when the file is replaced.
@@ -136,7 +148,7 @@ void bind_parts(nb::module_& module) {
       .def_prop_ro("vertices", [](const PartFiles& files) { return files.part.vertices; })
       .def_prop_ro("owned", [](const PartFiles& files) { return files.part.owned; })
       .def("index", &index_of)
-      .def("verify", &verify_content, nb::arg("name"), nb::arg("content"));
+      .def("read", &content_of, nb::arg("name"));
   module.def("part_files", &part_files, nb::arg("folder"), nb::arg("number"), nb::arg("checksum"));
 }
 

@@ -113,6 +113,14 @@ export class MeshIndex extends Owner {
     return this.instance.call('mean_edge_length');
   }
 
+  get faces() {
+    if (!this.instance.call('held_faces')) return null;
+    const corners = this.instance.takeIds();
+    const offsets = this.instance.takeCounts();
+    this.instance.releaseAnswer();
+    return { corners, offsets: offsets.length === 0 ? null : offsets };
+  }
+
   get positions() {
     const Reals = this.instance.call('graph_is_double') ? Float64Array : Float32Array;
     return this.instance.take(Reals, this.instance.call('graph_positions'), 3 * this.vertexCount);

@@ -377,6 +377,9 @@ export class MeshIndex {
   /** The mean length of the edges, each counted once, in the unit of the positions; 0 if there are none. */
   readonly meanEdgeLength: number;
 
+  /** A copy of the faces, if the index was loaded from a file that was saved with them; else null. */
+  readonly faces: { corners: Uint32Array; offsets: Uint32Array | null } | null;
+
   /** A copy of the positions, #V by 3, in the numbering and precision of the mesh. */
   readonly positions: Float32Array | Float64Array;
 

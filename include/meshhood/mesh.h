@@ -334,6 +334,9 @@ void validate(const PositionsView& positions);
 /// The distance between two vertices, as every search computes it: in double, `sqrt((dx*dx + dy*dy) + dz*dz)`.
 /// Vertex `w` lies in the ball around `v` whose radius is exactly `distance(positions, v, w)`.
 ///
+/// Squares of distances below 2^-511 lose digits, and below 2^-538 they are 0. There a search compares these squares,
+/// while smoothing weights divide distances: a vertex at nearly the radius may count and have the weight 0.
+///
 /// Throws Error{VertexOutOfRange}.
 [[nodiscard]] double distance(const PositionsView& positions, VertexId v, VertexId w);
 

@@ -518,10 +518,23 @@ def test_a_part_that_owns_other_vertices_than_the_manifest_says_is_refused(folde
 
     class Lying:
         folder, vertices, owned = files.folder, files.vertices, files.owned + 1
-        index, verify = files.index, files.verify
+        index, read = files.index, files.read
 
     with pytest.raises(ValueError, match=f"part-00001: owns {files.owned} of {files.vertices} vertices, but the manifest"):
         distributed.OpenPart(Lying(), 1)
+
+
+def test_a_pipe_or_a_larger_file_in_place_of_an_array_is_refused_before_it_is_read(folder, tmp_path):
+    for name in ("vertices.npy", "owned.npy", "face_corners.npy", "face_offsets.npy"):
+        forged = copy_of(folder, tmp_path / name)
+        file = forged / "part-00001" / name
+        os.truncate(file, 6 << 30)  # takes no room on the disk
+        with pytest.raises(ValueError, match=f"part-00001/{name}: has {6 << 30} bytes, but the manifest says"):
+            meshhood.open_parts(forged).open(1)
+        file.unlink()
+        os.mkfifo(file)
+        with pytest.raises(OSError, match="is not a regular file"):
+            meshhood.open_parts(forged).open(1)
 
 
 def test_a_part_that_is_emptied_while_it_is_opened_is_refused(folder, tmp_path, monkeypatch):

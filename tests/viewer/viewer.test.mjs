@@ -320,7 +320,16 @@ test('a computation that is given up leaves neither colors nor a bar', async () 
   await page.close();
 });
 
-test('an index file has no faces, and so no curvature', async () => {
+test('an index file that holds faces opens as a surface', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
+  meshhood('build', 'scroll.ply', '--faces', '-o', 'faces.mhi');
+  await drop(page, 'faces.mhi', readFileSync(file('faces.mhi')));
+  await waitForMesh(page, 'faces.mhi');
+  assert.ok(await page.locator('#color option[value=mean]').isEnabled());
+  await page.close();
+});
+
+test('an index file without faces has no curvature', async () => {
   const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
   meshhood('build', 'scroll.ply', '-o', 'points.mhi');
   await drop(page, 'points.mhi', readFileSync(file('points.mhi')));

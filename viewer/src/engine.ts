@@ -92,7 +92,9 @@ export class Engine {
       case 'opened': return this.#handlers.opened(reply.opened);
       case 'failed':
         this.#busy = false;
-        return this.#handlers.failed(reply.during, reply.message);
+        this.#handlers.failed(reply.during, reply.message);
+        if (this.#waiting !== null) this.#start(this.#waiting);
+        return;
       case 'answer': return this.#receiveAnswer(reply.id, reply.method, reply.ids);
       case 'times':
         if (reply.id === this.#id) this.#handlers.times(reply.times);

@@ -77,6 +77,10 @@ function read(bytes: Uint8Array<ArrayBuffer>, { name, weld: eps, precision }: Ex
   return arrays;
 }
 
+function facesOf(held: MeshIndex): { corners: Uint32Array; offsets: Uint32Array | null } {
+  return held.faces ?? { corners: new Uint32Array(), offsets: null };
+}
+
 function build(arrays: Arrays | MeshIndex): MeshIndex {
   if (arrays instanceof MeshIndex) return arrays;
   const { positions, corners, offsets } = arrays;
@@ -108,7 +112,7 @@ async function open(source: Source): Promise<void> {
   const opened = building.result;
   reply({ kind: 'progress', stage: 'Preparing the picture', fraction: null });
   const drawing = await timed(() => {
-    const mesh = arrays instanceof MeshIndex ? { positions: arrays.positions, corners: new Uint32Array(), offsets: null } : arrays;
+    const mesh = arrays instanceof MeshIndex ? { positions: arrays.positions, ...facesOf(arrays) } : arrays;
     const surface = makeSurface(mesh.positions, mesh.corners, mesh.offsets);
     return { surface, tree: makeTree(surface.positions, surface.triangles), mesh };
   });

@@ -69,8 +69,7 @@ class OpenPart:
 
     def _array(self, name: str, dtype: DTypeLike) -> NDArray[Any]:
         path = Path(self._files.folder, f"{name}.npy")
-        content = path.read_bytes()  # once: the file may be replaced between two reads
-        self._files.verify(path.name, np.frombuffer(content, np.uint8))
+        content = self._files.read(path.name)  # once: the file may be replaced between two reads
         try:
             array = np.load(io.BytesIO(content), allow_pickle=False)
         except (ValueError, EOFError) as error:

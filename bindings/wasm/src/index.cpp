@@ -70,6 +70,20 @@ extern "C" {
   return std::visit([](const auto& xyz) { return static_cast<const void*>(xyz.data()); }, workspace.graph().positions);
 }
 
+/// The answer is the faces that the index holds: their corners in `ids`, their offsets in `counts`, none if all are
+/// triangles. Returns whether it holds any.
+[[clang::export_name("held_faces")]] bool held_faces() {
+  const std::optional<FacesView> faces = workspace.index().faces();
+  if (!faces) return false;
+  const auto copy = [](const IndicesView& from, std::vector<std::uint32_t>& to) {
+    to.resize(from.size());
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] = static_cast<std::uint32_t>(from[i]);
+  };
+  copy(faces->corners(), answer.ids);
+  copy(faces->offsets(), answer.counts);
+  return true;
+}
+
 /// Three reals: see `Quality`.
 [[clang::export_name("quality")]] void quality() {
   const Quality found = meshhood::quality(workspace.index());
