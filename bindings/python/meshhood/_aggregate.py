@@ -196,7 +196,8 @@ class Aggregates(Held):
             along edges. Vertices farther away than `smoothing_radius(fwhm)`, 1.578 fwhm, or not connected within that
             distance, have no influence; one at exactly that distance has the weight 1/1000. With the straight metric,
             two banks are not mixed as long as the path over the bottom between them leaves the ball; once it fits, the
-            other bank counts by its straight distance (docs/aggregate.md). With metric="path" it counts by the length of the path.
+            other bank counts by its straight distance (docs/aggregate.md). With metric="path" it counts by the length
+            of the path.
         weights : None counts each vertex once; "area" weighs it by its area, and makes the result independent of how
             densely the surface is sampled.
         The other words are those of `aggregate`, which this calls with reduce="mean" and kernel="gaussian". Vertices
