@@ -130,8 +130,9 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
 }
 
 void aggregate_command(const AggregateCommand& options) {
-  if (options.kernel != "box" && options.reduce != "mean" && options.reduce != "sum") {
-    raise(ErrorCode::InvalidOption, fmt::format("--kernel {}: expected --reduce mean or sum", options.kernel));
+  if ((options.fwhm || options.kernel != "box") && options.reduce != "mean" && options.reduce != "sum") {
+    const std::string option = options.fwhm ? "--fwhm" : "--kernel " + options.kernel;
+    raise(ErrorCode::InvalidOption, option + ": expected --reduce mean or sum");
   }
   check_value_files(options.files);
   Input input(options.file, options.reading, options.rows.threads);

@@ -208,7 +208,8 @@ def aggregate(ids, distances, values, reduce, kernel="box", weights=None, missin
     if reduce == "count":
         return float(len(x))
     if reduce in ("sum", "mean"):
-        w = w * {"box": np.ones(len(w)), "epanechnikov": share, "biweight": share**2}[kernel]
+        falls = {"box": np.ones(len(w)), "epanechnikov": share, "biweight": share**2, "gaussian": 1000 ** (share - 1)}
+        w = w * falls[kernel]
     with np.errstate(all="ignore"):
         if reduce == "sum":
             return float(np.sum(w * x))

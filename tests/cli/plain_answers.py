@@ -34,6 +34,8 @@ class Question:
         self.metric, self.method = asked.get("--metric", "straight"), asked.get("--method", "exact")
         self.walls, self.ignored = (name if f"--{name}" in asked else "" for name in ("walls", "ignored"))
         self.unit = float(self.mesh.mean_edge) if asked.get("--unit") == "edge" else 1
+        if "--fwhm" in asked:
+            self.unit *= math.sqrt(math.log(1000) / (4 * math.log(2)))  # of the width, where a Gaussian is 1/1000
         self.radii = [float(r) * self.unit for r in asked.get("--radius", "").split(",") if r]
         self.point = tuple(self.files.point.tolist()) if "--point" in asked else None
         self.seeds = None
@@ -312,7 +314,8 @@ def aggregate(run, wrong):
     weights = None
     if "--weights" in asked:
         weights = files.weights if asked["--weights"] == "weights" else areas(question.mesh)
-    how = (asked.get("--reduce", "mean"), asked.get("--kernel", "box"), weights, asked.get("--nan", "propagate"))
+    kernel = "gaussian" if "--fwhm" in asked else asked.get("--kernel", "box")
+    how = (asked.get("--reduce", "mean"), kernel, weights, asked.get("--nan", "propagate"))
     for row in sample(len(rows)):
         v, radii = int(question.mesh.kept[rows[row]]), question.radii_of(row)
         for scale, r in enumerate(radii):
