@@ -29,8 +29,8 @@ struct LinkOptions {
 /// link    >= 0 and finite, in the unit of the points.
 ///
 /// By the cells of a grid, in one pass to count the neighbors and one to list them: O(#V log #V) and the number of
-/// pairs of points in neighboring cells. Outliers do not make the cells larger, unless they are 2^50 times `link` away.
-/// Memory: the result, and 48 bytes a point.
+/// pairs of points in neighboring cells. Outliers do not make the cells larger: where some are 2^50 times `link` away,
+/// the points are cut at gaps first, and each part has a grid of its own. Memory: the result, and 52 bytes a point.
 ///
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}; TooLarge, with the limit, if there are more than
 /// `max_edges`, as soon as so many are counted.

@@ -7,8 +7,10 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,14 +42,23 @@ constexpr double kSmallestWidth = 0x1p-500;
 /// more points are compared than needed.
 class PointGrid {
  public:
-  PointGrid(const PositionsView& points, double link, TaskContext& task) : squared_link_(squared_radius(link)) {
+  PointGrid(const PositionsView& points, std::span<const VertexId> ids, double link, TaskContext& task)
+      : squared_link_(squared_radius(link)) {
     points.visit([&](const auto& xyz) {
-      measure(xyz, link);
-      sort(xyz, task);
+      measure(xyz, ids, link);
+      sort(xyz, ids, task);
     });
+    is_wide_ = width_ > 2 * link;
   }
 
   [[nodiscard]] std::size_t cell_count() const { return keys_.size(); }
+
+  /// Whether many points share a cell because another point is so far away that the cells are wider than the link.
+  [[nodiscard]] bool is_crowded() const {
+    constexpr std::size_t kMany = 64;
+    const auto is_large = [](std::size_t begin, std::size_t end) { return end - begin > kMany; };
+    return is_wide_ && std::adjacent_find(begin_.begin(), begin_.end(), is_large) != begin_.end();
+  }
 
   /// A point of a cell, and the runs of points that may be near it.
   struct Near {
@@ -111,13 +122,13 @@ class PointGrid {
 
  private:
   template <class Real>
-  void measure(const StridedPositions<Real>& xyz, double link) {
+  void measure(const StridedPositions<Real>& xyz, std::span<const VertexId> ids, double link) {
     std::array<double, 3> high{};
-    for (std::size_t v = 0; v < xyz.size(); ++v) {
+    for (std::size_t i = 0; i < ids.size(); ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto value = static_cast<double>(xyz(v, axis));
-        low_[axis] = v == 0 ? value : std::min(low_[axis], value);
-        high[axis] = v == 0 ? value : std::max(high[axis], value);
+        const auto value = static_cast<double>(xyz(ids[i], axis));
+        low_[axis] = i == 0 ? value : std::min(low_[axis], value);
+        high[axis] = i == 0 ? value : std::max(high[axis], value);
       }
     }
     double extent = 0;
@@ -133,20 +144,20 @@ class PointGrid {
   }
 
   template <class Real>
-  void sort(const StridedPositions<Real>& xyz, TaskContext& task) {
-    order_.resize(xyz.size());
-    task.parallel_for(xyz.size(), kPointsAtOnce, [&](unsigned, std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
+  void sort(const StridedPositions<Real>& xyz, std::span<const VertexId> ids, TaskContext& task) {
+    order_.resize(ids.size());
+    task.parallel_for(ids.size(), kPointsAtOnce, [&](unsigned, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
         std::uint64_t key = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          key += (cell(static_cast<double>(xyz(v, axis)), axis) + 1) * strides_[axis];
+          key += (cell(static_cast<double>(xyz(ids[i], axis)), axis) + 1) * strides_[axis];
         }
-        order_[v] = {key, static_cast<VertexId>(v)};
+        order_[i] = {key, ids[i]};
       }
     });
     sort_order(task);
-    for (std::vector<double>& axis : xyz_) axis.resize(xyz.size());
-    task.parallel_for(xyz.size(), kPointsAtOnce, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::vector<double>& axis : xyz_) axis.resize(ids.size());
+    task.parallel_for(ids.size(), kPointsAtOnce, [&](unsigned, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         for (std::size_t axis = 0; axis < 3; ++axis) xyz_[axis][i] = static_cast<double>(xyz(order_[i].second, axis));
       }
@@ -183,6 +194,7 @@ class PointGrid {
 
   double squared_link_;
   double width_ = 0;
+  bool is_wide_ = false;
   std::array<double, 3> low_{};
   std::array<std::uint64_t, 3> strides_{};
   std::vector<std::pair<std::uint64_t, VertexId>> order_;  // the points by key
@@ -191,15 +203,62 @@ class PointGrid {
   std::vector<std::size_t> begin_;                         // of each cell, and one more: its first point
 };
 
+/// Cuts points where two that follow each other along an axis are farther apart than the link, so that no point of one
+/// part is near one of another. Points without such a gap extend over less than their number times the link.
+std::vector<std::vector<VertexId>> split_at_gaps(const PositionsView& points, std::vector<VertexId> ids, double link) {
+  const double gap = link * (1 + kLinkSlack) + kSmallestWidth;
+  std::vector<std::vector<VertexId>> parts;
+  parts.push_back(std::move(ids));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto at = [&](VertexId v) {
+      return points.visit([&](const auto& xyz) { return static_cast<double>(xyz(v, axis)); });
+    };
+    std::vector<std::vector<VertexId>> smaller;
+    for (std::vector<VertexId>& part : parts) {
+      std::ranges::sort(part, {}, at);
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        if (i == 0 || at(part[i]) - at(part[i - 1]) > gap) smaller.emplace_back();
+        smaller.back().push_back(part[i]);
+      }
+    }
+    parts = std::move(smaller);
+  }
+  return parts;
+}
+
+/// Grids of points whose cells hold few more than near ones: one, unless some points are very far from others.
+std::vector<PointGrid> make_grids(const PositionsView& points, double link, TaskContext& task) {
+  std::vector<VertexId> all(points.size());
+  std::iota(all.begin(), all.end(), VertexId{0});
+  std::vector<std::vector<VertexId>> left;
+  left.push_back(std::move(all));
+  std::vector<PointGrid> grids;
+  while (!left.empty()) {
+    const std::vector<VertexId> ids = std::move(left.back());
+    left.pop_back();
+    PointGrid grid(points, ids, link, task);
+    std::vector<std::vector<VertexId>> parts;
+    if (grid.is_crowded()) parts = split_at_gaps(points, ids, link);
+    if (parts.size() > 1) {
+      std::ranges::move(parts, std::back_inserter(left));
+    } else {
+      grids.push_back(std::move(grid));
+    }
+  }
+  return grids;
+}
+
 /// Calls `f(near, scratch)` for all points, on any thread, with scratch memory of the thread.
 template <class F>
-void for_each_point(const PointGrid& grid, TaskContext& task, F&& f) {
-  task.parallel_for(grid.cell_count(), kGridCellsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    std::vector<VertexId> scratch;
-    for (std::size_t cell = begin; cell < end && task.should_continue(thread); ++cell) {
-      grid.for_each_point(cell, [&](const PointGrid::Near& near) { f(near, scratch); });
-    }
-  });
+void for_each_point(std::span<const PointGrid> grids, TaskContext& task, F&& f) {
+  for (const PointGrid& grid : grids) {
+    task.parallel_for(grid.cell_count(), kGridCellsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
+      std::vector<VertexId> scratch;
+      for (std::size_t cell = begin; cell < end && task.should_continue(thread); ++cell) {
+        grid.for_each_point(cell, [&](const PointGrid::Near& near) { f(near, scratch); });
+      }
+    });
+  }
 }
 
 constexpr std::size_t kLinkSteps = 3;
@@ -210,13 +269,13 @@ Adjacency linked(const PositionsView& points, double link, std::size_t max_edges
   if (!(link >= 0 && std::isfinite(link))) {
     raise(ErrorCode::InvalidOption, "link: " + to_text(link) + ", expected a finite number >= 0");
   }
-  const PointGrid grid(points, link, task);
+  const std::vector<PointGrid> grids = make_grids(points, link, task);
   task.step();
   const std::size_t most = std::min(max_edges, kMaxNeighbors / 2);
   Adjacency graph;
   graph.offsets.assign(points.size() + 1, 0);
   std::atomic<std::size_t> neighbors{0};
-  for_each_point(grid, task, [&](const PointGrid::Near& near, std::vector<VertexId>&) {
+  for_each_point(grids, task, [&](const PointGrid::Near& near, std::vector<VertexId>&) {
     const std::size_t count = near.count() - 1;  // without itself
     if (neighbors.fetch_add(count, std::memory_order_relaxed) + count > 2 * most) {
       raise(ErrorCode::TooLarge, "link: " + to_text(link) + " joins the " + std::to_string(points.size()) +
@@ -228,7 +287,7 @@ Adjacency linked(const PositionsView& points, double link, std::size_t max_edges
   task.step();
   std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
   graph.neighbors.resize(graph.offsets.back());
-  for_each_point(grid, task, [&](const PointGrid::Near& near, std::vector<VertexId>& scratch) {
+  for_each_point(grids, task, [&](const PointGrid::Near& near, std::vector<VertexId>& scratch) {
     const std::size_t begin = graph.offsets[near.id()];
     near.write(std::span(graph.neighbors).subspan(begin, graph.offsets[near.id() + std::size_t{1}] - begin), scratch);
   });
