@@ -2,7 +2,7 @@
 #include "io/ply_layout.h"
 
 #include <algorithm>
-#include <optional>
+#include <utility>
 
 #include "io/number.h"
 #include "io/text.h"
@@ -23,7 +23,8 @@ class RowWalk {
   // The rows from `row` on. Those before have no further numbers.
   bool pass_rows(const PlyElement& element, uint64_t row) {
     if (element.properties.empty()) return true;
-    further_ = row == 0 && element.count > 1 ? std::nullopt : std::optional<uint64_t>(0);
+    is_further_known_ = row != 0 || element.count <= 1;
+    further_ = 0;
     while (row != element.count && pass_row(element)) ++row;
     return row == element.count;
   }
@@ -52,8 +53,8 @@ class RowWalk {
     if (!are_lines_) return true;
     uint64_t further = 0;
     while (!token().empty()) ++further;
-    if (!further_) further_ = further;
-    return *further_ == further;
+    if (!std::exchange(is_further_known_, true)) further_ = further;
+    return further_ == further;
   }
 
   // Empty at the end: of the row, if rows are lines.
@@ -73,7 +74,8 @@ class RowWalk {
 
   std::string_view text_;
   bool are_lines_;
-  std::optional<uint64_t> further_;  // numbers after each row of the element
+  uint64_t further_ = 0;           // numbers after each row of the element
+  bool is_further_known_ = false;  // else the next row tells
 };
 
 }  // namespace
