@@ -67,6 +67,31 @@ TEST(LinkPoints, OfAClusterAndAnOutlierDoNotLookAtAllPairs) {
   EXPECT_EQ(graph.view()[100000].size(), 0U);
 }
 
+// Where cells must be wider than the link for the sake of one point, all others would share one.
+TEST(LinkPoints, OfClustersAndPointsVeryFarAwayAreThoseOfAScan) {
+  Random random(9);
+  TestMesh mesh;
+  for (int i = 0; i < 600; ++i) {
+    const double base = i % 3 == 0 ? 0 : i % 3 == 1 ? 40 : -1e6;
+    mesh.add_vertex(base + random.uniform(0, 12), random.uniform(0, 12), base + random.uniform(0, 3));
+  }
+  for (const double far : {0x1p60, -0x1p70, 0x1p300}) mesh.add_vertex(far, 3, far);
+  const Oracle oracle(mesh.finish(false));
+  for (const double link : {0.0, 1.0, 3.0}) {
+    const Adjacency found = link_points(mesh.positions_view(), link, {.threads = 2});
+    const Adjacency expected = scan(oracle, link);
+    EXPECT_EQ(found.offsets, expected.offsets);
+    EXPECT_EQ(found.neighbors, expected.neighbors);
+  }
+}
+
+TEST(LinkPoints, OfAClusterAndAPointVeryFarAwayDoNotLookAtAllPairs) {
+  std::vector<double> points;
+  for (int i = 0; i < 300000; ++i) points.insert(points.end(), {static_cast<double>(i), 0, 0});
+  points.insert(points.end(), {0x1p60, 0x1p60, 0x1p60});
+  EXPECT_EQ(link_points(points, 1.5).neighbors.size(), 2U * 299999U);
+}
+
 TEST(LinkPoints, AcrossMoreCellsThanKeys) {
   // 2^40 cells along each axis, whose keys are not distinct.
   Random random(7);
