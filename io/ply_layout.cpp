@@ -12,7 +12,7 @@ namespace {
 
 using std::uint64_t;
 
-constexpr std::string_view kLineEnds = kBlanks.substr(4);
+constexpr std::string_view kLineBreaks = kBlanks.substr(4);
 constexpr std::string_view kBlanksInLine = kBlanks.substr(0, 4);
 
 // Passes rows, without regard to their values.
@@ -67,7 +67,7 @@ class RowWalk {
 
   [[nodiscard]] bool is_at_line_end() const {
     const auto next = text_.find_first_not_of(kBlanksInLine);
-    return next == std::string_view::npos || kLineEnds.find(text_[next]) != std::string_view::npos;
+    return next == std::string_view::npos || kLineBreaks.find(text_[next]) != std::string_view::npos;
   }
 
   void skip(std::string_view blanks) { text_.remove_prefix(std::min(text_.find_first_not_of(blanks), text_.size())); }

@@ -45,7 +45,7 @@ TEST_P(RealMeshes, AnswersAreThoseOfTheReference) {
 
 TEST_P(RealMeshes, IndexIsSoundAndTakesAtMost34BytesAVertex) {
   MESHHOOD_NEED_SHARED_MESHES();
-  const io::Mesh mesh = shared_mesh(GetParam());
+  const io::Mesh mesh = shared_mesh(GetParam(), {.precision = io::Precision::Float});
   const Index index = build(mesh.view());
   const double per_vertex = static_cast<double>(index.bytes().total()) / static_cast<double>(index.vertex_count());
   std::printf("%s: %.2f bytes a vertex\n", GetParam(), per_vertex);

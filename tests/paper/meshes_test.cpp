@@ -28,7 +28,7 @@ TEST_P(PaperMeshes, AnswersLieBetweenExactAndBall) {
 
 TEST_P(PaperMeshes, IndexIsAtMostThreeFifthsOfTheMesh) {
   MESHHOOD_NEED_SHARED_MESHES();
-  const io::Mesh mesh = shared_mesh(GetParam());
+  const io::Mesh mesh = shared_mesh(GetParam(), {.precision = io::Precision::Float});
   const MeshView view = mesh.view();
   const double mesh_bytes = 12.0 * static_cast<double>(view.positions.size() + view.faces.size());
   const double ratio = static_cast<double>(paper::build(view).bytes().total()) / mesh_bytes;
