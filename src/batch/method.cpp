@@ -23,6 +23,7 @@
 #include "exact/query/arguments.h"
 #include "exact/query/filtered.h"
 #include "exact/query/space_search.h"
+#include "exact/search/vertex_bfs.h"
 #include "paper/hierarchy.h"
 
 namespace meshhood {
@@ -154,7 +155,9 @@ SearcherFactory ring_factory(const std::shared_ptr<const Index>& index) {
               [index](const Filter& filter, unsigned threads) {
                 return without_filters(ring_factory(std::make_shared<const Index>(filtered(*index, filter, threads))));
               },
-          .make_joint_search = [index] { return std::make_unique<RingRows>(*index); }};
+          .make_joint_search = is_unlike_a_surface(IndexAccess::view(*index))
+                                   ? std::function<std::unique_ptr<RowSearch>()>()
+                                   : [index] { return std::make_unique<RingRows>(*index); }};
 }
 
 /// `filter`: null if there is none.

@@ -7,6 +7,7 @@
 
 #include "base/ranges.h"
 #include "exact/index_access.h"
+#include "exact/search/vertex_bfs.h"
 #include "shared/distance.h"
 
 namespace meshhood {
@@ -20,24 +21,31 @@ std::uint32_t rings_of(double radius) {
 
 }  // namespace
 
-RingSearcher::RingSearcher(const Index& index) : index_(index), packet_(*index_, best_isa()) {}
+RingSearcher::RingSearcher(const Index& index)
+    : index_(index), graph_(IndexAccess::share_graph(index)), packet_(*index_, best_isa()) {
+  if (is_unlike_a_surface(*index_)) by_vertex_.emplace(*index_, *graph_);
+}
 
 std::span<const VertexId> RingSearcher::permutation() const {
   const std::span<const VertexId> padded = index_->permutation;
   return padded.empty() ? padded : padded.first(vertex_count());
 }
 
-void RingSearcher::run(VertexId v, double radius) {
+/// Returns how many vertices there are.
+std::size_t RingSearcher::run(VertexId v, double radius) {
   index_.check_current();
   check_query(v, vertex_count(), radius);
   const std::uint32_t slot = index_->slot[v];
+  if (by_vertex_) return by_vertex_->run(slot, rings_of(radius));
   packet_.run(leaf_of(slot), std::array{RingQuery{lane_of(slot), rings_of(radius)}});
+  return packet_.counts()[0];
 }
 
 /// Calls `f(vertex, edges)` for the vertices of the answer, by their numbers in index order, ascending.
 template <class F>
 void RingSearcher::search(VertexId v, double radius, F&& f) {
   run(v, radius);
+  if (by_vertex_) return by_vertex_->take(f);
   for (const auto& [leaves, queries, reached] : packet_.pieces()) {
     for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
       if (reached[lane] != 0) f(index_->leaf_begin[leaves.begin] + lane, packet_.edges_to(leaves.begin, lane));
@@ -68,10 +76,7 @@ void RingSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>
   distances = std::move(edges_to);
 }
 
-std::size_t RingSearcher::count(VertexId v, double radius) {
-  run(v, radius);
-  return packet_.counts()[0];
-}
+std::size_t RingSearcher::count(VertexId v, double radius) { return run(v, radius); }
 
 std::span<const VertexRange> RingSearcher::ranges(VertexId v, double radius) {
   ranges_.clear();

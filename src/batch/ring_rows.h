@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +15,8 @@
 #include "exact/bound_index.h"
 #include "exact/joint/ring_packet.h"
 #include "exact/joint/row_writer.h"
+#include "exact/query/vertex_rings.h"
+#include "exact/weighted_graph.h"
 
 namespace meshhood {
 
@@ -31,13 +35,15 @@ class RingSearcher {
   [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
 
  private:
-  void run(VertexId v, double radius);
+  std::size_t run(VertexId v, double radius);
   template <class F>
   void search(VertexId v, double radius, F&& f);
 
   BoundIndex index_;
+  std::shared_ptr<KeptGraph> graph_;
   RingPacket packet_;
-  std::vector<VertexRange> ranges_;  // of the last call of that name
+  std::optional<VertexRings> by_vertex_;  // for a graph unlike a surface, instead of the packet
+  std::vector<VertexRange> ranges_;       // of the last call of that name
 };
 
 /// The same for the rows of a batch: those of a leaf are answered together, with distances one by one.

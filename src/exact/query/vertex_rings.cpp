@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "exact/query/vertex_rings.h"
+
+namespace meshhood {
+
+std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
+  const Adjacency& edges = graph_->of(*index_).edges;
+  const auto slot_of = [this](std::size_t place) { return index_->slot[index_->id(place)]; };
+  const auto is_wall = [&](std::size_t place) {
+    return !index_->walls.empty() && index_->is_wall(leaf_of(slot_of(place)), lane_of(slot_of(place)));
+  };
+  const auto is_ignored = [&](std::size_t place) {
+    return !index_->ignored.empty() &&
+           (index_->ignored_lanes(leaf_of(slot_of(place))) >> lane_of(slot_of(place)) & 1U) != 0;
+  };
+  edges_to_.forget();
+  found_.clear();  // what was not taken
+  queue_.clear();
+  const auto reach = [&](std::uint32_t place, std::uint32_t count) {
+    if (edges_to_.is_known(place)) return;
+    edges_to_.set(place, count);
+    if (!is_wall(place)) queue_.push_back(place);
+  };
+  reach(index_->leaf_begin[leaf_of(slot)] + lane_of(slot), 0);
+  std::size_t count = 0;
+  for (std::size_t head = 0; head < queue_.size(); ++head) {
+    const std::uint32_t place = queue_[head];
+    if (!is_ignored(place)) {
+      found_.insert(place);
+      ++count;
+    }
+    const std::uint32_t next = edges_to_[place] + 1;
+    if (next > rings || next == 0) continue;  // all that follow are as far
+    for (std::size_t i = edges.offsets[place]; i < edges.offsets[place + std::size_t{1}]; ++i) {
+      reach(edges.neighbors[i], next);
+    }
+  }
+  return count;
+}
+
+}  // namespace meshhood
