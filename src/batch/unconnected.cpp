@@ -19,6 +19,7 @@
 #include "exact/query/any_center.h"
 #include "exact/query/lane_filter.h"
 #include "exact/query/nearest_first.h"
+#include "exact/search/vertex_bfs.h"
 #include "shared/distance.h"
 
 namespace meshhood {
@@ -31,7 +32,10 @@ class UnconnectedSearch : public VertexVisitor {
  public:
   /// Borrows both.
   UnconnectedSearch(const IndexView& index, const Filter& filter)
-      : index_(&index), walls_(index, filter.walls), ignored_(index, filter.ignored) {}
+      : index_(&index),
+        walls_(index, filter.walls),
+        ignored_(index, filter.ignored),
+        is_scanned_(is_unlike_a_surface(index)) {}
 
   void run(const PacketAnswer& packet) {
     pieces_ = packet.pieces;
@@ -46,6 +50,7 @@ class UnconnectedSearch : public VertexVisitor {
       queries_.push_back({Center(index_->frame, p), from_center, packet.radii[i], squared_radius(packet.radii[i])});
       if (walls_.has(packet.vertices[i])) queries_.back().close();
     }
+    if (is_scanned_) return scan();
     update_reach();
     NearestFirst(*index_, center, *this).run();
   }
@@ -96,6 +101,24 @@ class UnconnectedSearch : public VertexVisitor {
       squared_limit = -1;
     }
   };
+
+  /// Compares all vertices: where leaves are not near each other in space, a search through the tree takes longer.
+  void scan() {
+    const auto offer_all = [&](std::size_t begin, std::size_t end, const auto& reached) {
+      for (std::size_t v = begin; v < end; ++v) {
+        if (!walls_.has_at(v) && !ignored_.has_at(v)) offer(v, all_ & ~reached(v));
+      }
+    };
+    const auto by_none = [](std::size_t) { return QueryWord{0}; };
+    std::size_t next = 0;
+    for (const Piece& piece : pieces_) {
+      const std::size_t begin = index_->leaf_begin[piece.leaves.begin];
+      offer_all(next, begin, by_none);
+      next = index_->leaf_begin[piece.leaves.end];
+      offer_all(begin, next, [&](std::size_t v) { return piece.is_run() ? piece.queries : piece.reached[v - begin]; });
+    }
+    offer_all(next, index_->vertex_count(), by_none);
+  }
 
   /// The piece that holds a vertex, by its place in index order; null if no query has reached it.
   [[nodiscard]] const Piece* find_piece(std::size_t vertex) const {
@@ -153,6 +176,7 @@ class UnconnectedSearch : public VertexVisitor {
   LaneFilter ignored_;
   std::span<const Piece> pieces_;
   std::vector<Query> queries_;
+  bool is_scanned_;
   QueryWord all_ = 0;
   double reach_ = 0;
 };
