@@ -24,7 +24,7 @@ extern "C" {
   const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
   const BatchQuery query = rows.query();
   const SignalView signal{
-      .values = std::span(values, value_count), .channels = channels, .weights = {weights, weight_count}};
+      .values = std::span(values, value_count), .channels = channels, .weights = std::span(weights, weight_count)};
   answer.reals = meshhood::aggregate(workspace.index(), signal,
                                      {.vertices = query.vertices,
                                       .radius = query.radius,

@@ -70,9 +70,9 @@ extern "C" {
                                                  const Feature* kinds, std::size_t kind_count, const double* areas,
                                                  std::size_t area_count, bool filter) {
   const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
-  answer.reals =
-      meshhood::features(workspace.surface(), rows.query(),
-                         {.kinds = {kinds, kinds + kind_count}, .areas = {areas, area_count}, .filter = filter});
+  answer.reals = meshhood::features(
+      workspace.surface(), rows.query(),
+      {.kinds = {kinds, kinds + kind_count}, .areas = std::span(areas, area_count), .filter = filter});
 }
 
 [[clang::export_name("curvature_rows")]] std::size_t curvature_rows() { return last_curvatures.state.size(); }
