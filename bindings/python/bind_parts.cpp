@@ -123,7 +123,7 @@ nb::bytes content_of(const PartFiles& files, const std::string& name) {
     parts::verify_file(path, std::as_bytes(std::span(bytes)), expected);
     return bytes;
   });
-  return {content.data(), content.size()};
+  return nb::bytes(content.data(), content.size());
 }
 
 /// The index is mapped. What is verified is the mapping, which stays as it is when the file is replaced.
