@@ -118,7 +118,7 @@ class Run {
               .mean_edge_length = mean,
               .halo = options_.halo_in_edges ? options_.halo * mean : options_.halo,
               .parts = static_cast<std::size_t>(parts)};
-    if (!mesh_.is_double() && mean > 0) warn_if_coarse(found.sample);
+    if (!mesh_.is_double()) warn_if_coarse(found.sample);
   }
 
   void warn_if_coarse(std::span<const Site> sample) {

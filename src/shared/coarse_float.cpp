@@ -65,7 +65,7 @@ std::string CoarseFloat::text() const {
 
 std::optional<CoarseFloat> coarse_float(double mean_edge, double largest) {
   const double step = step_at(largest);
-  if (mean_edge >= kLeastSteps * step || largest == 0) return std::nullopt;
+  if (mean_edge >= kLeastSteps * step || mean_edge == 0) return std::nullopt;
   return CoarseFloat{mean_edge, step, largest};
 }
 

@@ -24,7 +24,8 @@ struct CoarseFloat {
 inline constexpr std::string_view kWriteOtherwise =
     "move the mesh to the origin before it is written as float, or write double";
 
-/// Whether float is coarse for a mesh with edges of this mean length, and this largest coordinate.
+/// Whether float is coarse for a mesh with edges of this mean length, and this largest coordinate. Not if the mean is
+/// 0: then there is no length to compare with.
 [[nodiscard]] std::optional<CoarseFloat> coarse_float(double mean_edge, double largest);
 
 /// The same of a valid mesh, whatever the type of its positions. An edge counts once for each of its faces. O(#V), and

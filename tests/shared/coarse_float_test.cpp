@@ -75,14 +75,16 @@ TEST(CoarseFloat, IsDecidedByTheMeanOfAllSides) {
   EXPECT_LT(coarse, kStrips - kStrips / 10);
 }
 
-TEST(CoarseFloat, NeedsEdgesAndExtent) {
-  const std::vector<float> far = {5e6F, 0, 0, 5e6F, 0, 0, 5e6F, 0, 0};
+TEST(CoarseFloat, NeedsAnEdgeThatHasALength) {
+  const std::vector<float> far = {5e6F, 0, 0, 5e6F, 0, 0, 5e6F, 0, 1};
+  const std::vector<float> equal = {5e6F, 0, 0, 5e6F, 0, 0, 5e6F, 0, 0};
   const std::vector<float> origin(9);
   const std::vector<std::uint32_t> triangle = {0, 1, 2};
   const std::vector<std::uint32_t> point = {1, 1, 1};
   EXPECT_TRUE(coarse_float({far, FacesView::triangles(triangle)}));
   EXPECT_FALSE(coarse_float({far, FacesView::triangles(point)}));
   EXPECT_FALSE(coarse_float({far, FacesView()}));
+  EXPECT_FALSE(coarse_float({equal, FacesView::triangles(triangle)}));
   EXPECT_FALSE(coarse_float({origin, FacesView::triangles(triangle)}));
   EXPECT_FALSE(coarse_float(MeshView()));
 }
