@@ -60,9 +60,9 @@ class FaceIndex {
   /// number; faces that meet at an edge or a vertex have the same distance there, bit for bit.
   ///
   /// The distance from a triangle is the least of those from its corners, its sides and the foot of the perpendicular,
-  /// each computed in double: it is off by a few units in the last place of itself and of the longest side. So beside
-  /// sides of 10^19 in a mesh, a face that is nearer by less than a thousand may be missed. A triangle without an area
-  /// has only sides. Points on a side or at a corner have weights that are exactly 0.
+  /// each computed in double: it is off by a few units in the last place of itself and of the longest side, whatever
+  /// the shape. So beside sides of 10^19 in a mesh, a face that is nearer by less than ten thousand may be missed. A
+  /// triangle without an area has only sides. Points on a side or at a corner have weights that are exactly 0.
   ///
   /// Throws Error{InvalidOption} if a coordinate is not finite or beyond 2^500, or after a refit in place.
   /// O(log #V) on most surfaces; more where faces are large beside the leaves. Allocates nothing.

@@ -335,7 +335,7 @@ void validate(const PositionsView& positions);
 /// Vertex `w` lies in the ball around `v` whose radius is exactly `distance(positions, v, w)`.
 ///
 /// Squares of distances below 2^-511 lose digits, and below 2^-538 they are 0. There a search compares these squares,
-/// while smoothing weights divide distances: a vertex at nearly the radius may count and have the weight 0.
+/// while smoothing weights divide distances: a vertex beyond the radius may count, with the weight at the radius.
 ///
 /// Throws Error{VertexOutOfRange}.
 [[nodiscard]] double distance(const PositionsView& positions, VertexId v, VertexId w);

@@ -33,7 +33,8 @@ struct Unconnected {
 /// options  of these, `threads` and `progress` are used. The result does not depend on them.
 ///
 /// The neighborhoods are found as by `counts`; what the tree of the index has in the balls besides them is searched,
-/// the nearest first. So far away from any gap, all leaves that the surface of a ball meets are compared with it.
+/// the nearest first. So far away from any gap, all leaves that the surface of a ball meets are compared with it. Where
+/// neighbors are not near in space, so that leaves are as large as the mesh, a row is compared with all vertices.
 /// Memory besides the result: as for `counts`.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.

@@ -19,13 +19,26 @@
 #include "exact/query/any_center.h"
 #include "exact/query/lane_filter.h"
 #include "exact/query/nearest_first.h"
-#include "exact/search/vertex_bfs.h"
 #include "shared/distance.h"
 
 namespace meshhood {
 namespace {
 
 constexpr double kNoGap = std::numeric_limits<double>::infinity();
+
+/// Whether many vertices lie in leaves so large in space that every ball meets them; then a search through the tree
+/// takes longer than a scan. From a sample.
+bool are_leaves_large(const IndexView& index) {
+  constexpr float kLarge = 0.5F;         // the frame reaches from -1 to 1
+  constexpr std::size_t kTimesScan = 8;  // what a vertex costs that is found through the tree
+  constexpr std::size_t kSample = 256;
+  const std::size_t stride = 1 + index.vertex_count() / kSample;
+  std::size_t large = 0;
+  for (std::size_t v = 0; v < index.vertex_count(); v += stride) {
+    large += static_cast<std::size_t>(index.leaves[leaf_of(index.slot[v])].bounds.radius > kLarge);
+  }
+  return kTimesScan * large * stride > index.vertex_count();
+}
 
 /// Searches around one packet at a time.
 class UnconnectedSearch : public VertexVisitor {
@@ -35,7 +48,7 @@ class UnconnectedSearch : public VertexVisitor {
       : index_(&index),
         walls_(index, filter.walls),
         ignored_(index, filter.ignored),
-        is_scanned_(is_unlike_a_surface(index)) {}
+        is_scanned_(are_leaves_large(index)) {}
 
   void run(const PacketAnswer& packet) {
     pieces_ = packet.pieces;
@@ -78,11 +91,13 @@ class UnconnectedSearch : public VertexVisitor {
     const std::size_t begin = index_->leaf_begin[leaf];
     const Piece* const piece = find_piece(begin);
     bool has_shrunk = false;
-    for (std::size_t v = begin; v < index_->leaf_begin[leaf + 1]; ++v) {
-      const QueryWord reached = piece == nullptr ? 0 : piece->is_run() ? piece->queries : piece->reached[v - begin];
-      if (walls_.has_at(v) || ignored_.has_at(v)) continue;
-      has_shrunk |= offer(v, near & ~reached);
-    }
+    std::visit(
+        [&](auto xyz) {
+          for (std::size_t v = begin; v < index_->leaf_begin[leaf + 1]; ++v) {
+            for_each_query(near & ~reached(piece, v), [&](std::size_t i) { has_shrunk |= offer(i, v, point(xyz, v)); });
+          }
+        },
+        index_->positions);
     if (has_shrunk) update_reach();
   }
 
@@ -95,6 +110,8 @@ class UnconnectedSearch : public VertexVisitor {
     VertexId vertex = kNoVertex;
     double gap = kNoGap;
 
+    [[nodiscard]] bool has(const Point& p) const { return squared_distance(center.exact, p) <= squared_limit; }
+
     /// The query of a wall finds nothing.
     void close() {
       limit = 0;
@@ -102,22 +119,34 @@ class UnconnectedSearch : public VertexVisitor {
     }
   };
 
-  /// Compares all vertices: where leaves are not near each other in space, a search through the tree takes longer.
+  /// Compares all vertices with all queries.
   void scan() {
-    const auto offer_all = [&](std::size_t begin, std::size_t end, const auto& reached) {
-      for (std::size_t v = begin; v < end; ++v) {
-        if (!walls_.has_at(v) && !ignored_.has_at(v)) offer(v, all_ & ~reached(v));
-      }
-    };
-    const auto by_none = [](std::size_t) { return QueryWord{0}; };
     std::size_t next = 0;
     for (const Piece& piece : pieces_) {
-      const std::size_t begin = index_->leaf_begin[piece.leaves.begin];
-      offer_all(next, begin, by_none);
+      scan(next, index_->leaf_begin[piece.leaves.begin], nullptr);
       next = index_->leaf_begin[piece.leaves.end];
-      offer_all(begin, next, [&](std::size_t v) { return piece.is_run() ? piece.queries : piece.reached[v - begin]; });
+      scan(index_->leaf_begin[piece.leaves.begin], next, &piece);
     }
-    offer_all(next, index_->vertex_count(), by_none);
+    scan(next, index_->vertex_count(), nullptr);
+  }
+
+  /// Compares vertices that are not in a piece, or all in the same.
+  void scan(std::size_t begin, std::size_t end, const Piece* piece) {
+    const auto offer_all = [&](std::size_t i, auto xyz) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const Point p = point(xyz, v);
+        if (queries_[i].has(p) && (reached(piece, v) >> i & 1U) == 0) offer(i, v, p);
+      }
+    };
+    const QueryWord queries = piece != nullptr && piece->is_run() ? all_ & ~piece->queries : all_;
+    for_each_query(queries,
+                   [&](std::size_t i) { std::visit([&](auto xyz) { offer_all(i, xyz); }, index_->positions); });
+  }
+
+  /// The queries that have reached a vertex of a piece; of none if it is null.
+  [[nodiscard]] QueryWord reached(const Piece* piece, std::size_t vertex) const {
+    if (piece == nullptr) return 0;
+    return piece->is_run() ? piece->queries : piece->reached[vertex - index_->leaf_begin[piece->leaves.begin]];
   }
 
   /// The piece that holds a vertex, by its place in index order; null if no query has reached it.
@@ -143,24 +172,17 @@ class UnconnectedSearch : public VertexVisitor {
     return near;
   }
 
-  /// Compares a vertex, in index order, with the queries that have not reached it. Returns whether the limit of one has
-  /// shrunk.
-  bool offer(std::size_t vertex, QueryWord queries) {
-    if (queries == 0) return false;
-    bool has_shrunk = false;
-    const Point p = std::visit([&](auto xyz) { return point(xyz, vertex); }, index_->positions);
-    for_each_query(queries, [&](std::size_t i) {
-      Query& query = queries_[i];
-      const double square = squared_distance(query.center.exact, p);
-      if (!(square <= query.squared_limit)) return;
-      const double distance = std::sqrt(square);
-      const VertexId id = index_->id(vertex);
-      if (distance == query.gap && query.vertex < id) return;
-      has_shrunk |= distance < query.limit;
-      query.vertex = id;
-      query.gap = query.limit = distance;
-      query.squared_limit = squared_radius(distance);
-    });
+  /// Compares a vertex, in index order, with a query that has not reached it. Returns whether its limit has shrunk.
+  bool offer(std::size_t i, std::size_t vertex, const Point& p) {
+    Query& query = queries_[i];
+    if (!query.has(p) || walls_.has_at(vertex) || ignored_.has_at(vertex)) return false;
+    const double distance = std::sqrt(squared_distance(query.center.exact, p));
+    const VertexId id = index_->id(vertex);
+    if (distance == query.gap && query.vertex < id) return false;
+    const bool has_shrunk = distance < query.limit;
+    query.vertex = id;
+    query.gap = query.limit = distance;
+    query.squared_limit = squared_radius(distance);
     return has_shrunk;
   }
 

@@ -60,16 +60,40 @@ class Candidates {
     offer(weights, (*corners_)[i] + side, from_q_[i] + side);
   }
 
-  /// The foot of the perpendicular, if it lies in the triangle.
+  /// The foot of the perpendicular, if it lies in the triangle: its share of the height over the longest side, then its
+  /// share of this side.
+  ///
+  /// Let L be the longest side, w the height over it, h the distance of `q` from the plane, and e = 2^-53. `height` is
+  /// a difference of vectors of length L: rounding tilts it out of the plane by eL/w. The second step makes it
+  /// orthogonal to the side. So the foot is off across by d = eL(1 + h/w), or else lies outside, d > w; along the side
+  /// it is right to eL. Where h < w, d < 2eL. Beyond, the distance is off by d^2/2h < eL. A normal would move it along
+  /// by eL^2/w.
   void offer_inside() {
-    const Point normal = cross(sides_[0], sides_[1]);
-    const double square = dot(normal, normal);
-    if (square == 0) return;
-    const double second = dot(normal, cross(scaled_[0], sides_[2])) / square;
-    const double third = dot(normal, cross(scaled_[0], sides_[0])) / square;
-    if (!(second > 0 && third > 0 && second + third < 1)) return;
-    const Point across = second * ((*corners_)[1] - (*corners_)[0]) + third * ((*corners_)[2] - (*corners_)[0]);
-    offer({std::max((1 - second) - third, 0.0), second, third}, (*corners_)[0] + across, from_q_[0] + across);
+    const std::size_t i = longest_side();
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    const Point side = sides_[i];
+    const double square = dot(side, side);
+    const auto without_side = [&](const Point& p) { return p - (dot(p, side) / square) * side; };
+    const auto across = [&](const Point& p) { return without_side(without_side(p)); };
+    const Point third = -1.0 * sides_[k];
+    const Point height = across(third);
+    const double square_of_height = dot(height, height);
+    if (square_of_height == 0) return;
+    const Point to_q = -1.0 * scaled_[i];
+    std::array<double, 3> weights{};
+    weights[k] = dot(height, across(to_q)) / square_of_height;
+    weights[j] = dot(side, to_q - weights[k] * third) / square;
+    if (!(weights[j] > 0 && weights[k] > 0 && weights[j] + weights[k] < 1)) return;
+    weights[i] = std::max((1 - weights[j]) - weights[k], 0.0);
+    const auto from_i = [&](std::size_t corner) { return weights[corner] * ((*corners_)[corner] - (*corners_)[i]); };
+    const Point offset = from_i(j) + from_i(k);
+    offer(weights, (*corners_)[i] + offset, from_q_[i] + offset);
+  }
+
+  [[nodiscard]] std::size_t longest_side() const {
+    const auto by_length = [](const Point& a, const Point& b) { return dot(a, a) < dot(b, b); };
+    return static_cast<std::size_t>(std::max_element(sides_.begin(), sides_.end(), by_length) - sides_.begin());
   }
 
   void offer(const std::array<double, 3>& weights, const Point& point, const Point& offset) {

@@ -42,6 +42,20 @@ TEST(SmoothingWeight, OfAGaussianIsTheExponentialFunction) {
   EXPECT_LE(most, 1e-14);
 }
 
+// As `distance` says: a search compares squares, which are 0 here.
+TEST(SmoothingWeight, OfAVertexThatCountsBeyondTheRadiusIsThatAtTheRadius) {
+  const std::vector<double> positions{0, 0, 0, 0x1p-540, 0, 0};
+  const std::vector<VertexId> face{0, 1, 1};
+  const std::vector<double> values{0, 1};
+  const Index index = build({PositionsView(positions), FacesView::triangles(face)});
+  const double radius = 0x1p-541;
+  EXPECT_EQ(Searcher(index).count(0, radius), 2U);
+  for (const SmoothingKernel kernel : {SmoothingKernel::Biweight, SmoothingKernel::Gaussian}) {
+    const double weight = smoothing_weight(kernel, radius, radius);
+    EXPECT_NEAR(aggregate(index, {values}, {.radius = radius, .kernel = kernel})[0], weight / (1 + weight), 1e-14);
+  }
+}
+
 TEST(SmoothingWeight, IsOneAtTheVertexAndEndsAtTheRadius) {
   using enum SmoothingKernel;
   constexpr double kInfinite = std::numeric_limits<double>::infinity();

@@ -18,6 +18,7 @@
 #include "meshhood/refit.h"
 #include "meshhood/region.h"
 
+#include "base/vector.h"
 #include "exact/index_access.h"
 #include "region/triangle_point.h"
 #include "support/draw_start.h"
@@ -175,6 +176,28 @@ TEST(TrianglePoint, OfTrianglesWithASideInCommonHasTheSameDistanceThere) {
     at_side += static_cast<std::size_t>(found.weights[0] != 0 && found.weights[1] != 0);
   }
   EXPECT_GT(at_side, 100U);
+}
+
+// The normal of a sliver has few digits, so a foot that is found by it lies far away in the triangle.
+TEST(TrianglePoint, OfASliverIsOffByAFewUnitsOfItsLongestSide) {
+  Random random(7);
+  double most = 0;
+  for (const double width : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}) {
+    for (const double height : {0.0, 1e-12, 1e-8, 1e-4}) {
+      for (std::size_t i = 0; i < scaled(10000, 500); ++i) {
+        const auto draw = [&] { return Point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
+        const Point a = draw();
+        const Point b = draw();
+        const Point c = a + random.uniform() * (b - a) + width * draw();
+        const double share = random.uniform();
+        const Point on_it = a + share * (b - a) + ((1 - share) * random.uniform()) * (c - a);
+        const Point q = on_it + height * draw();
+        most = std::max(most, nearest_in_triangle(q, {a, b, c}, 1).distance - std::sqrt(squared_distance(q, on_it)));
+      }
+    }
+  }
+  std::printf("at most %.2g units of 2^-53\n", most * 0x1p53);
+  EXPECT_LE(most, 16 * 0x1p-53) << "sides and coordinates are about 1";
 }
 
 TEST(TrianglePoint, WithoutAnAreaIsItsSides) {
