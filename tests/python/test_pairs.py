@@ -85,7 +85,7 @@ OPTIONS = {
     "chunk": {"odd": 4999},
     "order": {"index": "index"},
     "reduce": {name: name for name in ("sum", "min", "max", "var", "std", "count")},
-    "kernel": {"epanechnikov": "epanechnikov", "biweight": "biweight"},
+    "kernel": {name: name for name in ("epanechnikov", "biweight", "gaussian")},
     "nan": {"omit": "omit"},
     "nesting": {"patch": "patch"},
     "ddof": {"1": 1},
@@ -255,8 +255,9 @@ def weights_of(words):
 
 
 def kernel_of(kernel, distances, radius):
-    share = 1 - (distances / radius) ** 2
-    return {None: np.ones(len(distances)), "epanechnikov": share, "biweight": share**2}[kernel]
+    square = (distances / radius) ** 2
+    weights = {"epanechnikov": 1 - square, "biweight": (1 - square) ** 2, "gaussian": 1000.0**-square}
+    return np.ones(len(distances)) if kernel is None else weights[kernel]
 
 
 def reduced(words, ids, distances, radius):
@@ -309,8 +310,8 @@ def by_hand(call, words, v, radius):
         radius = meshhood.smoothing_radius(radius)
         ids, distances = near(words, v, radius)
         if call.name == "smooth":
-            return (reduced({**words, "kernel": "biweight"}, ids, distances, radius),)
-        w = weights_of(words)[ids] * kernel_of("biweight", distances, radius)
+            return (reduced({**words, "kernel": "gaussian"}, ids, distances, radius),)
+        w = weights_of(words)[ids] * kernel_of("gaussian", distances, radius)
         return ids, w / w.sum()
     w, offsets = weights_of(words)[ids], V[ids].astype(float) - V[v]
     if call.name == "moments":
@@ -624,7 +625,7 @@ OPTIONS_ELSE = {
     "useKring": {"yes": True},
     "reduce": {"max": "max", "var": "var"},
     "weights": {"area": "area", "numbers": AREAS + 0.25},
-    "kernel": {"biweight": "biweight"},
+    "kernel": {"gaussian": "gaussian"},
     "nan": {"omit": "omit"},
     "ddof": {"1": 1},
     "order": {"parts": "parts"},

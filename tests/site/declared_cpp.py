@@ -69,8 +69,10 @@ def members(node):
 
 def names(node, scope):
     """The qualified names that a declaration introduces; a name is repeated for each of its overloads."""
-    name, kind = f"{scope}::{node.get('name')}", node["kind"]
-    inner = node.get("inner", [])
+    kind, inner, own = node["kind"], node.get("inner", []), node.get("name", "")
+    of_class = scope.rpartition("::")[2]
+    # A constructor that is a template of a class that is one is called Name<T>.
+    name = f"{scope}::{of_class if own.startswith(f'{of_class}<') else own}"
     if kind == "NamespaceDecl":
         if node["name"] != "detail":
             yield from (found for child in inner for found in names(child, name))
