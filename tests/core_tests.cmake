@@ -25,7 +25,7 @@ foreach(part
     region/region_mesher region/clip region/face_index
     curvature/bits curvature/corrected curvature/curvatures curvature/features curvature/filter curvature/moments curvature/packet_moments curvature/quadric curvature/sure_leaves
     simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels simd/path_kernels
-    whole/arguments whole/outlives whole/robustness whole/same_bits whole/differential whole/metamorphic)
+    whole/arguments whole/metrics whole/outlives whole/robustness whole/same_bits whole/differential whole/metamorphic)
   meshhood_test(${part} meshhood_families)
 endforeach()
 add_subdirectory(golden)

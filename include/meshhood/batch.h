@@ -16,6 +16,7 @@
 #include "meshhood/filter.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/metric.h"
 #include "meshhood/paper.h"
 #include "meshhood/progress.h"
 #include "meshhood/search.h"
@@ -163,6 +164,10 @@ struct BatchQuery {
   /// anew: the search itself takes about as long as without walls, but each call reads the masks, O(#V). Calls for few
   /// vertices each share that by `SearchMethod::restricted`.
   Filter filter = {};
+
+  /// By what an `Index` finds the neighborhoods; radii are meant by it. Other methods have their own, and take
+  /// `Straight` alone.
+  Metric metric = Metric::Straight;
 };
 
 /// How a batch runs. A row depends on the index, its vertex and its radius alone, not on the other rows or on

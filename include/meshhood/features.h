@@ -50,7 +50,8 @@ struct FeatureOptions {
 
 /// #radii by #rows by #kinds: the features of the neighborhood of each row at each of the scales of the query; one
 /// radius if it has a radius for all rows, or one for each. NaN where a fit has no result (see `CurvatureState`), where
-/// a row has no normal, or where the neighborhood has no area.
+/// a row has no normal, or where the neighborhood has no area. By rings, a radius of r edges counts as r times the mean
+/// length of an edge.
 ///
 /// Each radius has a neighborhood of its own. Time of `curvatures`, of `principal_components`, or of both, for each
 /// radius, as the kinds require. A row depends on surface, areas, vertex and radius alone, bit for bit: not on the

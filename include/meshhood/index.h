@@ -137,9 +137,12 @@ template <class Positions, class Faces>
 }
 
 /// The positions and the graph of the mesh that `index` was built from, in the caller's order: the input of
-/// `ReferenceSearcher`, `paper::build` and `mean_edge_length` for callers that kept only the index.
+/// `ReferenceSearcher` and `paper::build` for callers that kept only the index.
 /// O(#V + #E log(valence)).
 [[nodiscard]] GraphData extract_graph(const Index& index);
+
+/// The mean length of the edges of the mesh that the index was built from. Cost as for `extract_graph`.
+[[nodiscard]] double mean_edge_length(const Index& index);
 
 /// The fingerprint of the mesh that the index was built from. O(#V + #E log(valence)); needs as much memory as
 /// `extract_graph(index)`.

@@ -19,10 +19,11 @@ namespace meshhood {
 
 struct NearestOptions {
   /// By what vertices are near. Straight: the connecting radius, as for `RegionSearcher::nearest_connected`; then the
-  /// distance, then the id. Path: the path distance, as for `EdgeSearcher`; then the place in index order.
+  /// distance, then the id. Path: the path distance, as for `EdgeSearcher`; rings: the number of edges; each then by
+  /// the place in index order.
   Metric metric = Metric::Straight;
 
-  /// Only vertices of this connecting radius or path distance, or less. >= 0 or infinite.
+  /// Only vertices of this connecting radius, path distance or number of edges, or less. >= 0 or infinite.
   double radius = std::numeric_limits<double>::infinity();
 
   /// The same for all rows. A row whose vertex is a wall is empty.
@@ -37,13 +38,13 @@ struct NearestOptions {
 /// #rows by k.
 struct KNearest {
   std::vector<VertexId> ids;      ///< `kNoVertex` where a row has fewer than k vertices
-  std::vector<double> distances;  ///< connecting radii or path distances; infinite there
+  std::vector<double> distances;  ///< by the metric; infinite there
 };
 
 /// The `k` nearest connected vertices of each of `vertices`, itself included; fewer where no more are connected.
 ///
 /// A row depends on the index, its vertex, `k` and the options alone, and begins with the row for any smaller `k`. Each
-/// thread owns a `RegionSearcher`, or a search of an `EdgeSearcher`. O(k log k) a row on most surfaces.
+/// thread owns a search of the metric. O(k log k) a row on most surfaces.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming the row; TooLarge if the
 /// result exceeds `options.max_bytes`, or rows times k is more than 2^40; on a machine of 32 bits, more than 2^28.

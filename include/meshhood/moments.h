@@ -42,8 +42,9 @@ struct MomentOptions {
   Progress progress = {};
 };
 
-/// M_ijk = sum of w x^i y^j z^k over the exact neighborhood of each row, where x, y, z are the coordinates relative to
-/// the query vertex and w the weights. #rows by `moment_count(degree)`, in the order of `moment_column`.
+/// M_ijk = sum of w x^i y^j z^k over the neighborhood of each row, by the metric of the query, where x, y, z are the
+/// coordinates relative to the query vertex and w the weights. #rows by `moment_count(degree)`, in the order of
+/// `moment_column`.
 ///
 /// Sums are computed about a point near the query vertex, in a unit in which the size of the neighborhood is about 1,
 /// and then shifted to the query vertex. Where too many digits would be lost by that, as in a small detail beside large

@@ -28,7 +28,9 @@ struct Unconnected {
 /// So the edge of a sheet that bends back into the ball counts as well as another component, and a larger radius may
 /// connect what was not. With an infinite radius, only other components count.
 ///
-/// query    as for a batch: one radius for all rows, or one for each row. Walls and ignored vertices are never the
+/// query    as for a batch: one radius for all rows, or one for each row. By paths, the neighborhood has the vertices
+///          within `r` along the edges, and the ball is that of radius `r` in space. A number of edges is no radius in
+///          space: by rings, the nearest of all other vertices is found. Walls and ignored vertices are never the
 ///          nearest, and for a wall there is none.
 /// options  of these, `threads` and `progress` are used. The result does not depend on them.
 ///

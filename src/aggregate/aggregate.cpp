@@ -16,19 +16,17 @@
 
 #include "aggregate/gaussian_sums.h"
 #include "aggregate/kernel_sums.h"
+#include "aggregate/length_sums.h"
 #include "aggregate/listed_sums.h"
 #include "aggregate/maximal_nodes.h"
 #include "aggregate/minima.h"
 #include "aggregate/node_tree.h"
 #include "aggregate/patch.h"
-#include "aggregate/path_reducer.h"
 #include "aggregate/signal_block.h"
 #include "aggregate/sums.h"
 #include "aggregate/variances.h"
-#include "batch/batch.h"
 #include "batch/filter_copy.h"
 #include "batch/packets.h"
-#include "batch/path_rows.h"
 #include "batch/rows.h"
 #include "exact/index_access.h"
 #include "exact/query/filtered.h"
@@ -141,6 +139,9 @@ std::unique_ptr<Reduction> make_reduction(const IndexView& index, const NodeTree
     case Reduce::Count: break;
   }
   SumColumns columns(std::move(block), query.reduce);
+  if (query.metric != Metric::Straight && query.kernel != SmoothingKernel::Box) {
+    return std::make_unique<LengthReduction>(index, kernels, std::move(columns), query.kernel);
+  }
   switch (query.kernel) {
     case SmoothingKernel::Box: return std::make_unique<SumReduction>(tree, kernels, std::move(columns));
     case SmoothingKernel::Gaussian: return std::make_unique<GaussianReduction>(index, kernels, std::move(columns));
@@ -202,17 +203,10 @@ class Aggregation {
     if (passes_.empty()) return;
     for (std::size_t first = 0; first < signal_.channels; first += together_) {
       const std::size_t count = std::min(together_, signal_.channels - first);
-      SignalBlock block = make_block(view_, signal_, first, count, query_);
-      if (query_.metric == Metric::Path && query_.kernel != SmoothingKernel::Box) {
-        const SumColumns columns(std::move(block), query_.reduce);
-        reduce_paths([&] { return std::make_unique<PathKernelReducer>(columns, query_.kernel); }, first, count);
-        continue;
-      }
-      const std::unique_ptr<Reduction> reduction = make_reduction(view_, tree_, std::move(block), query_);
-      if (query_.metric == Metric::Path) {
-        reduce_paths([&] { return std::make_unique<PathSetReducer>(tree_, reduction->make_reducer()); }, first, count);
-      } else if (has_patches_) {
-        reduce_patches(*reduction, first, count);
+      const std::unique_ptr<Reduction> reduction =
+          make_reduction(view_, tree_, make_block(view_, signal_, first, count, query_), query_);
+      if (shares_search()) {
+        reduce_scales(*reduction, first, count);
       } else {
         for (const std::size_t i : passes_) reduce_radius(*reduction, i, first, count);
       }
@@ -234,7 +228,7 @@ class Aggregation {
 
   void reduce_radius(const Reduction& reduction, std::size_t radius, std::size_t first, std::size_t count) {
     for_each_packet(
-        index_, {query_.vertices, radii_[radius]},
+        index_, query_of(radii_[radius]),
         [&](unsigned /*thread*/) -> PacketVisitor {
           const std::shared_ptr<PacketReducer> reducer = reduction.make_reducer();
           const auto nodes = std::make_shared<MaximalNodes>(tree_);
@@ -246,17 +240,18 @@ class Aggregation {
         next_pass());
   }
 
-  void reduce_patches(const Reduction& reduction, std::size_t first, std::size_t count) {
+  /// One search for all scales: what belongs to a smaller one is cut from what was found at the largest.
+  void reduce_scales(const Reduction& reduction, std::size_t first, std::size_t count) {
     struct Cut {
       PatchCutter cutter;
       std::unique_ptr<PacketReducer> reducer;
       Destination to;
     };
     for_each_packet(
-        index_, {query_.vertices, largest_radius()},
+        index_, query_of(*std::ranges::max_element(radii_, {}, &BatchRadius::common)),
         [&](unsigned /*thread*/) -> PacketVisitor {
           const auto cuts = std::make_shared<std::vector<Cut>>();
-          for (std::size_t i = 0; i < radii_.size(); ++i) {
+          for (const std::size_t i : passes_) {
             cuts->push_back({PatchCutter(view_, tree_, radii_[i].common()), reduction.make_reducer(),
                              destination(i, first, count)});
           }
@@ -271,57 +266,32 @@ class Aggregation {
         next_pass());
   }
 
-  /// One search for each packet, at the largest radius: the vertices within a smaller one are among those found.
-  void reduce_paths(const std::function<std::unique_ptr<PathReducer>()>& make_reducer, std::size_t first,
-                    std::size_t count) {
-    struct PerThread {
-      PathRows* paths;
-      BatchWorker worker;
-      std::unique_ptr<PathReducer> reducer;
-      std::vector<double> radii{};
-    };
-    const PacketOptions pass = next_pass();
-    const BatchOptions options{.threads = pass.threads, .progress = pass.progress};
-    Batch batch(SearchMethod::along_edges(index_), {query_.vertices, largest_radius()}, options, 1);
-    std::vector<std::unique_ptr<PerThread>> threads(batch.task().threads());
-    batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
-      if (!threads[thread]) {
-        auto search = std::make_unique<PathRows>(index_, filter_);
-        PathRows* const paths = search.get();
-        threads[thread].reset(new PerThread{paths, BatchWorker(std::move(search)), make_reducer()});
-      }
-      auto& [paths, worker, reducer, radii] = *threads[thread];
-      worker.for_each_answer(chunk.items, [&](std::span<const BatchItem> rows) {
-        for (const std::size_t i : passes_) {
-          radii.clear();
-          for (const BatchItem& item : rows) radii.push_back(radii_[i].list() ? item.radius : radii_[i].common());
-          reducer->reduce(paths->packet(), radii);
-          const Destination to = destination(i, first, count);
-          for (std::size_t k = 0; k < rows.size(); ++k) {
-            to.write(rows[k].row, [&](std::span<double> channels) { reducer->write(k, channels); });
-          }
-        }
-        batch.task().advance(thread, rows.size());
-        return batch.task().should_continue(thread);
-      });
-    });
-    batch.task().finish();
+  [[nodiscard]] BatchQuery query_of(const BatchRadius& radius) const {
+    return {.vertices = query_.vertices,
+            .radius = radius,
+            .filter = query_.metric == Metric::Path ? query_.filter : Filter(),
+            .metric = query_.metric};
   }
 
-  /// Of each row.
-  [[nodiscard]] BatchRadius largest_radius() const {
-    return *std::ranges::max_element(radii_, {}, [](const BatchRadius& radius) { return radius.common(); });
+  /// Whether one search serves all scales. By rings, each has its own: their rows have lengths only one by one.
+  [[nodiscard]] bool shares_search() const {
+    return query_.metric == Metric::Path ? passes_.size() > 1
+                                         : query_.metric == Metric::Straight && has_patches_ && !passes_.empty();
   }
 
   [[nodiscard]] Destination destination(std::size_t radius, std::size_t first, std::size_t count) const {
     return {result_.data() + radius * rows_ * signal_.channels + first, signal_.channels, count};
   }
 
+  /// For weights, and to cut scales.
+  [[nodiscard]] bool needs_lengths() const {
+    return query_.metric != Metric::Straight && (query_.kernel != SmoothingKernel::Box || shares_search());
+  }
+
   /// `blocks`: how many blocks of channels it reduces.
   PacketOptions next_pass(std::size_t blocks = 1) {
-    PacketOptions pass{.threads = options_.threads, .progress = {}};
-    const bool shares_search = passes_.size() > 1 && (has_patches_ || query_.metric == Metric::Path);
-    const std::size_t passes = blocks_ * (shares_search ? radii_.size() - passes_.size() + 1 : radii_.size());
+    PacketOptions pass{.threads = options_.threads, .progress = {}, .lengths = needs_lengths()};
+    const std::size_t passes = blocks_ * (shares_search() ? radii_.size() - passes_.size() + 1 : radii_.size());
     if (options_.progress) {
       pass.progress = [this, passes, blocks, before = passes_begun_ * rows_](std::size_t done, std::size_t /*total*/) {
         return options_.progress(before + blocks * done, passes * rows_);

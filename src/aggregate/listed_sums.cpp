@@ -41,10 +41,6 @@ bool is_moderate(const SignalView& signal) {
   return std::all_of(signal.weights.begin(), signal.weights.end(), is_fine_weight);
 }
 
-SearchMethod method_of(const Index& index, Metric metric) {
-  return metric == Metric::Path ? SearchMethod::along_edges(index) : SearchMethod(index);
-}
-
 /// The mean size of the neighborhoods of some vertices, which depend on the index alone.
 double mean_count(const Index& index, Metric metric, double radius) {
   constexpr std::size_t kSample = 64;
@@ -53,7 +49,7 @@ double mean_count(const Index& index, Metric metric, double radius) {
   for (std::size_t i = 0; i < std::min(kSample, vertices); ++i) {
     sample.push_back(IndexAccess::view(index).id(i * vertices / std::min(kSample, vertices)));
   }
-  const std::vector<std::uint64_t> sizes = counts(method_of(index, metric), {.vertices = sample, .radius = radius});
+  const std::vector<std::uint64_t> sizes = counts(index, {.vertices = sample, .radius = radius, .metric = metric});
   return static_cast<double>(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})) /
          static_cast<double>(std::max<std::size_t>(sizes.size(), 1));
 }
@@ -164,7 +160,6 @@ void sum_listed(const Index& index, const SignalView& signal, const AggregateQue
   std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
     return std::pair(view.slot[query.vertices[a]], a) < std::pair(view.slot[query.vertices[b]], b);
   });
-  const SearchMethod method = method_of(index, query.metric);
   const Filter filter = query.metric == Metric::Path ? query.filter : Filter();
   TaskContext task(options.threads, options.progress, rows.size());
   ListedRows listed(signal, query, radius);
@@ -178,7 +173,7 @@ void sum_listed(const Index& index, const SignalView& signal, const AggregateQue
     }
     vertices.clear();
     for (const std::size_t row : some) vertices.push_back(query.vertices[row]);
-    listed.set(neighborhoods(method, {.vertices = vertices, .radius = radius, .filter = filter},
+    listed.set(neighborhoods(index, {.vertices = vertices, .radius = radius, .filter = filter, .metric = query.metric},
                              {.threads = options.threads, .distances = true, .progress = still_wanted}));
     constexpr std::size_t kGrain = 16;
     task.parallel_for(some.size(), kGrain, [&](unsigned thread, std::size_t first, std::size_t end) {

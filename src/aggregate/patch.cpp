@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "aggregate/patch.h"
 
+#include <algorithm>
 #include <variant>
 
 #include "base/frame.h"
@@ -13,13 +14,12 @@ PatchCutter::PatchCutter(const IndexView& index, const NodeTree& tree, double ra
       tree_(&tree),
       bounds_(index.frame, radius),
       squared_radius_(squared_radius(radius)),
+      kernels_(&path_kernels(best_isa())),
       ball_({0, 0, 0}, bounds_) {
   radii_.fill(radius);
 }
 
 void PatchCutter::begin(const PacketAnswer& packet) {
-  pieces_.clear();
-  words_.clear();
   const std::uint32_t first = index_->slot[packet.vertices.front()];
   const FrameSphere& leaf = index_->leaves[leaf_of(first)].bounds;
   const auto radius = static_cast<double>(leaf.radius);
@@ -34,9 +34,13 @@ void PatchCutter::begin(const PacketAnswer& packet) {
 }
 
 const PacketAnswer& PatchCutter::cut(const PacketAnswer& packet) {
-  begin(packet);
+  pieces_.clear();
+  words_.clear();
+  if (packet.lengths == nullptr) begin(packet);
   for (const Piece& piece : packet.pieces) {
-    if (piece.is_run()) {
+    if (packet.lengths != nullptr) {
+      cut_by_length(piece, *packet.lengths);
+    } else if (piece.is_run()) {
       cut_run(piece.leaves, piece.queries);
     } else {
       cut_leaf(piece.leaves.begin, piece.reached);
@@ -50,6 +54,24 @@ const PacketAnswer& PatchCutter::cut(const PacketAnswer& packet) {
   rest_.radii = std::span(radii_).first(packet.radii.size());
   rest_.pieces = pieces_;
   return rest_;
+}
+
+/// A piece with lengths has words.
+void PatchCutter::cut_by_length(const Piece& piece, PacketLengths& lengths) {
+  PerLane<QueryWord> words{};
+  lengths.select(piece.leaves.begin);
+  for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+    if (piece.reached[lane] == 0) continue;
+    words[lane] = piece.reached[lane] & kernels_->within_limits(lengths.at(lane), radii_);
+  }
+  add_leaf(piece.leaves.begin, words);
+}
+
+/// Unless no query has a vertex of it.
+void PatchCutter::add_leaf(LeafId leaf, const PerLane<QueryWord>& words) {
+  if (std::ranges::all_of(words, [](QueryWord word) { return word == 0; })) return;
+  pieces_.push_back({{leaf, leaf + 1}, 0, nullptr});
+  words_.push_back(words);
 }
 
 void PatchCutter::cut_run(const LeafRun& run, QueryWord queries) {
@@ -74,14 +96,8 @@ void PatchCutter::cut_node(NodeTree::Node node, QueryWord queries) {
 void PatchCutter::cut_leaf(NodeTree::Node leaf, const QueryWord* queries) {
   const VertexRange vertices = tree_->vertices(leaf);
   PerLane<QueryWord> words{};
-  QueryWord any = 0;
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    words[k] = inside(vertices.begin + k, queries[k]);
-    any |= words[k];
-  }
-  if (any == 0) return;
-  pieces_.push_back({{leaf, leaf + 1}, 0, nullptr});
-  words_.push_back(words);
+  for (std::size_t k = 0; k < vertices.size(); ++k) words[k] = inside(vertices.begin + k, queries[k]);
+  add_leaf(leaf, words);
 }
 
 /// The queries whose ball holds a vertex: the predicate.

@@ -12,7 +12,8 @@
 
 namespace meshhood {
 
-/// Cuts the neighborhoods of a packet by smaller balls around their vertices: `Nesting::Patch`.
+/// Cuts the neighborhoods of a packet by a smaller radius: by balls around their vertices (`Nesting::Patch`), or by the
+/// lengths of the packet, which leaves the neighborhoods of that radius.
 class PatchCutter {
  public:
   PatchCutter(const IndexView& index, const NodeTree& tree, double radius);
@@ -23,6 +24,8 @@ class PatchCutter {
 
  private:
   void begin(const PacketAnswer& packet);
+  void cut_by_length(const Piece& piece, PacketLengths& lengths);
+  void add_leaf(LeafId leaf, const PerLane<QueryWord>& words);
   void cut_run(const LeafRun& run, QueryWord queries);
   void cut_node(NodeTree::Node node, QueryWord queries);
   void cut_leaf(NodeTree::Node leaf, const QueryWord* queries);
@@ -32,6 +35,7 @@ class PatchCutter {
   const NodeTree* tree_;
   TreeBounds bounds_;
   double squared_radius_;
+  const PathKernels* kernels_;
   PerLane<double> radii_;  // the radius, for each row
   TreeBall ball_;          // around the leaf of the packet: `outer` around all balls, `inner` within each
   std::array<Point, kPacketCapacity> centers_{};

@@ -26,8 +26,8 @@ void sort_answer(std::span<VertexId> ids, std::span<double> distances) {
   }
 }
 
-Batch::Batch(SearchMethod method, const BatchQuery& query, const BatchOptions& options, std::size_t passes)
-    : method_(std::move(method)),
+Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, std::size_t passes)
+    : method_(by_metric(method, query.metric)),
       filtered_(query.filter.empty() ? nullptr : method_.searchers().restricted(query.filter, options.threads)),
       factory_(filtered_ ? *filtered_ : method_.searchers()),
       options_(options),

@@ -37,7 +37,7 @@ class Batch {
 
   /// Shares `method`, borrows `options`, and copies the rest. `passes`: the number of passes over all rows.
   /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
-  Batch(SearchMethod method, const BatchQuery& query, const BatchOptions& options, std::size_t passes);
+  Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, std::size_t passes);
 
   [[nodiscard]] const Rows& rows() const { return rows_; }
   [[nodiscard]] const BatchOptions& options() const { return options_; }

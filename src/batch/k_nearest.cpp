@@ -3,6 +3,7 @@
 #include "meshhood/k_nearest.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -21,6 +22,7 @@
 #include "exact/query/lane_filter.h"
 #include "exact/query/path_search.h"
 #include "exact/query/region_state.h"
+#include "exact/query/ring_search.h"
 #include "shared/parallel.h"
 #include "shared/text.h"
 
@@ -144,12 +146,49 @@ class PathRowSearch {
   LaneFilter ignored_;
 };
 
+/// The same by numbers of edges.
+class RingRowSearch {
+ public:
+  RingRowSearch(const Index& index, const NearestOptions& options)
+      : index_(index),
+        rings_(*index_, kernels(best_isa())),
+        radius_(options.radius),
+        walls_(*index_, options.filter.walls),
+        ignored_(*index_, options.filter.ignored) {}
+
+  template <class Take>
+  void run(VertexId v, std::size_t /*enough*/, double /*enough_area*/, std::span<const double> /*areas*/, Take&& take) {
+    double edges = 0;
+    for (rings_.start(index_->slot[v], walls_); edges <= radius_ && !rings_.ring().empty(); rings_.advance()) {
+      ring_.assign(rings_.ring().begin(), rings_.ring().end());
+      std::ranges::sort(ring_, {}, &LeafSubset::leaf);
+      for (const auto& [leaf, lanes] : ring_) {
+        for (LaneMask left = lanes & ~ignored_.of(leaf); left != 0; left &= left - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+          if (!take(index_->id(index_->leaf_begin[leaf] + lane), edges)) return;
+        }
+      }
+      ++edges;
+    }
+  }
+
+ private:
+  BoundIndex index_;
+  RingSearch rings_;
+  double radius_;
+  LaneFilter walls_;
+  LaneFilter ignored_;
+  std::vector<LeafSubset> ring_;
+};
+
 /// Calls `f(search, row)` for all rows with a search of the metric.
 template <class F>
 void for_each_row(const Index& index, NearestRows& rows, F&& f) {
   const NearestOptions& options = rows.options();
   if (options.metric == Metric::Straight) {
     rows.for_each([&] { return std::make_unique<StraightSearch>(index, options); }, f);
+  } else if (options.metric == Metric::Rings) {
+    rows.for_each([&] { return std::make_unique<RingRowSearch>(index, options); }, f);
   } else {
     // Before the threads begin: each of them would make it.
     static_cast<void>(IndexAccess::share_graph(index)->of(IndexAccess::view(index)));

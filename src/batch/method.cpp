@@ -155,9 +155,7 @@ SearcherFactory ring_factory(const std::shared_ptr<const Index>& index) {
               [index](const Filter& filter, unsigned threads) {
                 return without_filters(ring_factory(std::make_shared<const Index>(filtered(*index, filter, threads))));
               },
-          .make_joint_search = is_unlike_a_surface(IndexAccess::view(*index))
-                                   ? std::function<std::unique_ptr<RowSearch>()>()
-                                   : [index] { return std::make_unique<RingRows>(*index); }};
+          .make_joint_search = [index] { return std::make_unique<RingRows>(*index); }};
 }
 
 /// `filter`: null if there is none.
@@ -242,5 +240,12 @@ SearchMethod SearchMethod::restricted(const Filter& filter, unsigned threads) co
 std::size_t SearchMethod::vertex_count() const { return searchers_->vertex_count; }
 
 AnySearcher SearchMethod::make_searcher() const { return searchers_->make_searcher(); }
+
+SearchMethod by_metric(const SearchMethod& method, Metric metric) {
+  if (metric == Metric::Straight) return method;
+  const Index* const index = method.searchers().of_slots;
+  if (index == nullptr) raise(ErrorCode::InvalidOption, "metric: expected Straight, because the method is of no Index");
+  return metric == Metric::Path ? SearchMethod::along_edges(*index) : SearchMethod::rings(*index);
+}
 
 }  // namespace meshhood

@@ -20,7 +20,7 @@ void for_each_packet(const Index& index, const BatchQuery& query, const PacketVi
     PacketVisitor& visitor = visitors[thread];
     if (!visitor) visitor = make_visitor(thread);
     if (!visitor) raise(ErrorCode::InvalidOption, "make_visitor returned an empty function");
-    batch.worker(thread).visit(chunk.items, [&](const PacketAnswer& answer) {
+    batch.worker(thread).visit(chunk.items, options.lengths, [&](const PacketAnswer& answer) {
       visitor(answer);
       batch.task().advance(thread, answer.rows.size());
       return batch.task().should_continue(thread);

@@ -25,15 +25,18 @@ struct PacketOptions {
 
   /// Receives the number of rows that were visited.
   Progress progress = {};
+
+  /// Whether packets have lengths, by paths and by rings. Rings are then searched row by row.
+  bool lengths = false;
 };
 
-/// Visits the exact neighborhoods of all rows of `query`, each row in one packet, packets in no stated order.
+/// Visits the neighborhoods of all rows of `query` by its metric, each row in one packet, packets in no stated order.
 ///
 /// The visitors run on the worker threads, one for each thread, so that each may have scratch memory of its own. They
 /// must not write to the same memory, except that each row belongs to one packet: `result[rows[i]] = ...` is safe.
 /// Packets depend on the query alone, so floating-point sums have the same bits for any number of threads.
 ///
-/// A leaf with few queries is searched row by row: packets then have one row and no cores. If a vertex is queried more
+/// A leaf with few queries is searched row by row: packets then have one row. If a vertex is queried more
 /// than once, its rows may be in different packets. Time is that of `counts`. Memory: a copy of the query;
 /// 8 bytes a row, of at most 2^22 rows at a time, and 16 where these are not in index order; and for each thread a
 /// searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).

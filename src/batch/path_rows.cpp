@@ -23,10 +23,8 @@ bool PathRows::pays(std::span<const BatchItem> items, bool /*distances*/) const 
 bool PathRows::run(std::span<const RowRun> runs) {
   const auto& [items, is_joint] = runs.front();
   queries_.clear();
-  radii_.clear();
   for (const auto& [row, vertex, position, radius] : items) {
     queries_.push_back({view_.leaf_begin[leaf_of(position)] + lane_of(position), radius});
-    radii_.push_back(radius);
   }
   if (is_joint) return packet_.run(queries_);
   packet_.run_single(queries_.front());

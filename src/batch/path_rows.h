@@ -23,14 +23,12 @@ class PathRows final : public RowSearch {
   [[nodiscard]] bool pays(std::span<const BatchItem> items, bool distances) const override;
   [[nodiscard]] bool run(std::span<const RowRun> runs) override;
   [[nodiscard]] const PerLane<std::uint64_t>& counts() override { return counts_ = packet_.counts(); }
-  [[nodiscard]] QueryWord queries() const override { return first_lanes(static_cast<unsigned>(radii_.size())); }
-  [[nodiscard]] std::span<const Piece> pieces() override { return packet_.pieces(radii_); }
+  [[nodiscard]] QueryWord queries() const override { return first_lanes(static_cast<unsigned>(queries_.size())); }
+  [[nodiscard]] std::span<const Piece> pieces() override { return packet_.pieces(); }
+  [[nodiscard]] PacketLengths* lengths() override { return &packet_; }
   [[nodiscard]] bool writes_pieces(bool /*distances*/) const override { return false; }  // rows ascend by length
   bool write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
              RowReceiver& receiver) override;
-
-  /// The paths of the last run.
-  [[nodiscard]] PathPacket& packet() { return packet_; }
 
  private:
   const IndexView& view_;
@@ -41,7 +39,6 @@ class PathRows final : public RowSearch {
   PathPacket packet_;
   // Of the last run:
   std::vector<PathQuery> queries_;
-  std::vector<double> radii_;
   PerLane<std::uint64_t> counts_{};
 };
 

@@ -19,11 +19,33 @@ std::uint32_t rings_of(double radius) {
   return static_cast<std::uint32_t>(std::min(radius, kMost));
 }
 
+/// Calls `f(leaf, lane, length)` for the vertices of an answer to one query, ascending.
+template <class F>
+void for_each_length(std::span<const Piece> pieces, PacketLengths& lengths, F&& f) {
+  for (const auto& [leaves, queries, reached] : pieces) {
+    lengths.select(leaves.begin);
+    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+      if (reached[lane] != 0) f(leaves.begin, lane, lengths.at(lane)[0]);
+    }
+  }
+}
+
 }  // namespace
 
-RingSearcher::RingSearcher(const Index& index)
-    : index_(index), graph_(IndexAccess::share_graph(index)), packet_(*index_, best_isa()) {
-  if (is_unlike_a_surface(*index_)) by_vertex_.emplace(*index_, *graph_);
+LeafRings::LeafRings(const Index& index)
+    : graph_(IndexAccess::share_graph(index)), packet_(IndexAccess::view(index), best_isa()) {
+  if (is_unlike_a_surface(IndexAccess::view(index))) by_vertex_.emplace(IndexAccess::view(index), *graph_);
+}
+
+void LeafRings::run(std::span<const BatchItem> items) {
+  if (by_vertex_) {
+    counts_[0] = by_vertex_->run(items.front().position, rings_of(items.front().radius));
+    return;
+  }
+  queries_.clear();
+  for (const BatchItem& item : items) queries_.push_back({lane_of(item.position), rings_of(item.radius)});
+  packet_.run(leaf_of(items.front().position), queries_);
+  counts_ = packet_.counts();
 }
 
 std::span<const VertexId> RingSearcher::permutation() const {
@@ -31,26 +53,18 @@ std::span<const VertexId> RingSearcher::permutation() const {
   return padded.empty() ? padded : padded.first(vertex_count());
 }
 
-/// Returns how many vertices there are.
-std::size_t RingSearcher::run(VertexId v, double radius) {
+void RingSearcher::run(VertexId v, double radius) {
   index_.check_current();
   check_query(v, vertex_count(), radius);
-  const std::uint32_t slot = index_->slot[v];
-  if (by_vertex_) return by_vertex_->run(slot, rings_of(radius));
-  packet_.run(leaf_of(slot), std::array{RingQuery{lane_of(slot), rings_of(radius)}});
-  return packet_.counts()[0];
+  rings_.run(std::array{BatchItem{0, v, index_->slot[v], radius}});
 }
 
 /// Calls `f(vertex, edges)` for the vertices of the answer, by their numbers in index order, ascending.
 template <class F>
 void RingSearcher::search(VertexId v, double radius, F&& f) {
   run(v, radius);
-  if (by_vertex_) return by_vertex_->take(f);
-  for (const auto& [leaves, queries, reached] : packet_.pieces()) {
-    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
-      if (reached[lane] != 0) f(index_->leaf_begin[leaves.begin] + lane, packet_.edges_to(leaves.begin, lane));
-    }
-  }
+  for_each_length(rings_.pieces(), rings_.lengths(),
+                  [&](LeafId leaf, unsigned lane, double edges) { f(index_->leaf_begin[leaf] + lane, edges); });
 }
 
 std::vector<VertexId> RingSearcher::neighborhood(VertexId v, double radius) {
@@ -61,14 +75,14 @@ std::vector<VertexId> RingSearcher::neighborhood(VertexId v, double radius) {
 
 void RingSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
   std::vector<VertexId> ids;
-  search(v, radius, [&](std::size_t vertex, std::uint32_t) { ids.push_back(index_->id(vertex)); });
+  search(v, radius, [&](std::size_t vertex, double) { ids.push_back(index_->id(vertex)); });
   out = std::move(ids);
 }
 
 void RingSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
   std::vector<VertexId> ids;
   std::vector<double> edges_to;
-  search(v, radius, [&](std::size_t vertex, std::uint32_t edges) {
+  search(v, radius, [&](std::size_t vertex, double edges) {
     ids.push_back(index_->id(vertex));
     edges_to.push_back(edges);
   });
@@ -76,29 +90,26 @@ void RingSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>
   distances = std::move(edges_to);
 }
 
-std::size_t RingSearcher::count(VertexId v, double radius) { return run(v, radius); }
+std::size_t RingSearcher::count(VertexId v, double radius) {
+  run(v, radius);
+  return rings_.counts()[0];
+}
 
 std::span<const VertexRange> RingSearcher::ranges(VertexId v, double radius) {
   ranges_.clear();
-  search(v, radius, [&](std::size_t vertex, std::uint32_t) { append_to(ranges_, static_cast<VertexId>(vertex)); });
+  search(v, radius, [&](std::size_t vertex, double) { append_to(ranges_, static_cast<VertexId>(vertex)); });
   return ranges_;
 }
 
-RingRows::RingRows(const Index& index)
-    : packet_(IndexAccess::view(index), best_isa()), writer_(IndexAccess::view(index), best_isa()) {}
-
 bool RingRows::run(std::span<const RowRun> runs) {
-  const std::span<const BatchItem> items = runs.front().items;
-  queries_.clear();
-  for (const BatchItem& item : items) queries_.push_back({lane_of(item.position), rings_of(item.radius)});
-  packet_.run(leaf_of(items.front().position), queries_);
-  counts_ = packet_.counts();
+  rows_ = static_cast<unsigned>(runs.front().items.size());
+  rings_.run(runs.front().items);
   return true;
 }
 
 bool RingRows::write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
                      RowReceiver& receiver) {
-  const RowAnswers own{packet_.pieces(), counts_};
+  const RowAnswers own{rings_.pieces(), rings_.counts()};
   const auto& [pieces, counts] = distances ? own : answers;
   writer_.begin(pieces);
   for (unsigned i = 0; i < items.size(); ++i) {
@@ -113,11 +124,7 @@ bool RingRows::write(std::span<const BatchItem> items, const RowAnswers& answers
 /// Of a run with one row.
 void RingRows::write_distances(std::span<double> distances) {
   double* next = distances.data();
-  for (const auto& [leaves, queries, reached] : packet_.pieces()) {
-    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
-      if (reached[lane] != 0) *next++ = packet_.edges_to(leaves.begin, lane);
-    }
-  }
+  for_each_length(rings_.pieces(), rings_.lengths(), [&](LeafId, unsigned, double edges) { *next++ = edges; });
 }
 
 }  // namespace meshhood

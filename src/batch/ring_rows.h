@@ -13,6 +13,7 @@
 
 #include "batch/row_search.h"
 #include "exact/bound_index.h"
+#include "exact/index_access.h"
 #include "exact/joint/ring_packet.h"
 #include "exact/joint/row_writer.h"
 #include "exact/query/vertex_rings.h"
@@ -20,11 +21,40 @@
 
 namespace meshhood {
 
-/// The vertices that at most `radius` edges, rounded down, separate from one; distances are numbers of edges. A
-/// `NeighborhoodSearcher` whose ids are in index order. The index may be filtered.
+/// The rings of vertices of a leaf: together, or on a graph unlike a surface vertex by vertex.
+class LeafRings {
+ public:
+  explicit LeafRings(const Index& index);
+
+  /// Whether there is one query a run.
+  [[nodiscard]] bool is_by_vertex() const { return by_vertex_.has_value(); }
+
+  /// Finds the vertices that at most `radius` edges, rounded down, separate from each.
+  void run(std::span<const BatchItem> items);
+
+  // Of the last run, valid until the next:
+
+  [[nodiscard]] const PerLane<std::uint64_t>& counts() const { return counts_; }
+  [[nodiscard]] std::span<const Piece> pieces() { return by_vertex_ ? by_vertex_->pieces() : packet_.pieces(); }
+
+  /// Of one query.
+  [[nodiscard]] PacketLengths& lengths() {
+    return by_vertex_ ? static_cast<PacketLengths&>(*by_vertex_) : static_cast<PacketLengths&>(packet_);
+  }
+
+ private:
+  std::shared_ptr<KeptGraph> graph_;
+  RingPacket packet_;
+  std::optional<VertexRings> by_vertex_;
+  std::vector<RingQuery> queries_;
+  PerLane<std::uint64_t> counts_{};
+};
+
+/// The rings of one vertex, in index order; distances are numbers of edges. A `NeighborhoodSearcher`. The index may be
+/// filtered.
 class RingSearcher {
  public:
-  explicit RingSearcher(const Index& index);
+  explicit RingSearcher(const Index& index) : index_(index), rings_(index) {}
 
   [[nodiscard]] std::size_t vertex_count() const { return index_->vertex_count(); }
   [[nodiscard]] std::span<const VertexId> permutation() const;
@@ -35,27 +65,28 @@ class RingSearcher {
   [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
 
  private:
-  std::size_t run(VertexId v, double radius);
+  void run(VertexId v, double radius);
   template <class F>
   void search(VertexId v, double radius, F&& f);
 
   BoundIndex index_;
-  std::shared_ptr<KeptGraph> graph_;
-  RingPacket packet_;
-  std::optional<VertexRings> by_vertex_;  // for a graph unlike a surface, instead of the packet
-  std::vector<VertexRange> ranges_;       // of the last call of that name
+  LeafRings rings_;
+  std::vector<VertexRange> ranges_;  // of the last call of that name
 };
 
 /// The same for the rows of a batch: those of a leaf are answered together, with distances one by one.
 class RingRows final : public RowSearch {
  public:
-  explicit RingRows(const Index& index);
+  explicit RingRows(const Index& index) : rings_(index), writer_(IndexAccess::view(index), best_isa()) {}
 
-  [[nodiscard]] bool pays(std::span<const BatchItem> /*items*/, bool distances) const override { return !distances; }
+  [[nodiscard]] bool pays(std::span<const BatchItem> /*items*/, bool distances) const override {
+    return !distances && !rings_.is_by_vertex();
+  }
   [[nodiscard]] bool run(std::span<const RowRun> runs) override;
-  [[nodiscard]] const PerLane<std::uint64_t>& counts() override { return counts_; }
-  [[nodiscard]] QueryWord queries() const override { return first_lanes(static_cast<unsigned>(queries_.size())); }
-  [[nodiscard]] std::span<const Piece> pieces() override { return packet_.pieces(); }
+  [[nodiscard]] const PerLane<std::uint64_t>& counts() override { return rings_.counts(); }
+  [[nodiscard]] QueryWord queries() const override { return first_lanes(rows_); }
+  [[nodiscard]] std::span<const Piece> pieces() override { return rings_.pieces(); }
+  [[nodiscard]] PacketLengths* lengths() override { return &rings_.lengths(); }
   [[nodiscard]] bool writes_pieces(bool distances) const override { return !distances; }
   bool write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
              RowReceiver& receiver) override;
@@ -63,10 +94,9 @@ class RingRows final : public RowSearch {
  private:
   void write_distances(std::span<double> distances);
 
-  RingPacket packet_;
+  LeafRings rings_;
   RowWriter writer_;
-  std::vector<RingQuery> queries_;  // of the last run
-  PerLane<std::uint64_t> counts_{};
+  unsigned rows_ = 0;  // of the last run
 };
 
 }  // namespace meshhood

@@ -9,6 +9,7 @@
 #include "meshhood/batch.h"
 #include "meshhood/mesh.h"
 
+#include "exact/joint/packet_answer.h"
 #include "simd/joint.h"
 
 namespace meshhood {
@@ -77,6 +78,9 @@ class RowSearch {
 
   /// The answers as pieces, which ascend in index order, without overlap. Not for a search of another order.
   [[nodiscard]] virtual std::span<const Piece> pieces() = 0;
+
+  /// The lengths of what `pieces` has returned, of rows with distances; null by straight lines.
+  [[nodiscard]] virtual PacketLengths* lengths() { return nullptr; }
 
   /// Whether rows can be written from their pieces and counts alone.
   [[nodiscard]] virtual bool writes_pieces(bool distances) const = 0;

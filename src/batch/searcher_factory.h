@@ -47,4 +47,7 @@ struct SearcherFactory {
   [[nodiscard]] std::shared_ptr<const SearcherFactory> restricted(const Filter& filter, unsigned threads) const;
 };
 
+/// The method of the same index by another metric. Throws Error{InvalidOption} if there is none.
+[[nodiscard]] SearchMethod by_metric(const SearchMethod& method, Metric metric);
+
 }  // namespace meshhood

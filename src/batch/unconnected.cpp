@@ -44,8 +44,9 @@ bool are_leaves_large(const IndexView& index) {
 class UnconnectedSearch : public VertexVisitor {
  public:
   /// Borrows both.
-  UnconnectedSearch(const IndexView& index, const Filter& filter)
+  UnconnectedSearch(const IndexView& index, Metric metric, const Filter& filter)
       : index_(&index),
+        metric_(metric),
         walls_(index, filter.walls),
         ignored_(index, filter.ignored),
         is_scanned_(are_leaves_large(index)) {}
@@ -60,7 +61,8 @@ class UnconnectedSearch : public VertexVisitor {
       const std::uint32_t slot = index_->slot[packet.vertices[i]];
       const Point p = index_->position(leaf_of(slot), lane_of(slot));
       const double from_center = std::sqrt(squared_distance(center.exact, p));
-      queries_.push_back({Center(index_->frame, p), from_center, packet.radii[i], squared_radius(packet.radii[i])});
+      const double radius = metric_ == Metric::Rings ? kNoGap : packet.radii[i];
+      queries_.push_back({Center(index_->frame, p), from_center, radius, squared_radius(radius)});
       if (walls_.has(packet.vertices[i])) queries_.back().close();
     }
     if (is_scanned_) return scan();
@@ -194,6 +196,7 @@ class UnconnectedSearch : public VertexVisitor {
   }
 
   const IndexView* index_;
+  Metric metric_;
   LaneFilter walls_;
   LaneFilter ignored_;
   std::span<const Piece> pieces_;
@@ -211,16 +214,17 @@ Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, con
   const IndexView& view = IndexAccess::view(index);
   const FilterCopy filter(query.filter);
   const auto make_visitor = [&](unsigned /*thread*/) -> PacketVisitor {
-    return [search = UnconnectedSearch(view, filter.view()), &result](const PacketAnswer& packet) mutable {
-      search.run(packet);
-      for (std::size_t i = 0; i < packet.rows.size(); ++i) {
-        const auto [vertex, gap] = search.found(i);
-        result.vertices[packet.rows[i]] = vertex;
-        result.gaps[packet.rows[i]] = gap;
-      }
-    };
+    return
+        [search = UnconnectedSearch(view, query.metric, filter.view()), &result](const PacketAnswer& packet) mutable {
+          search.run(packet);
+          for (std::size_t i = 0; i < packet.rows.size(); ++i) {
+            const auto [vertex, gap] = search.found(i);
+            result.vertices[packet.rows[i]] = vertex;
+            result.gaps[packet.rows[i]] = gap;
+          }
+        };
   };
-  for_each_packet(index, {.vertices = query.vertices, .radius = query.radius, .filter = filter.view()}, make_visitor,
+  for_each_packet(index, {query.vertices, query.radius, filter.view(), query.metric}, make_visitor,
                   {.threads = options.threads, .progress = options.progress});
   return result;
 }

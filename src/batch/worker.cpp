@@ -8,7 +8,7 @@
 namespace meshhood {
 
 void BatchWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) {
-  for_each_answer(chunk, [&](std::span<const BatchItem> items) {
+  for_each_answer(chunk, false, [&](std::span<const BatchItem> items) {
     const auto counts = std::span(search_->counts()).first(items.size());
     if (kept != nullptr && search_->writes_pieces(false)) kept->add(search_->pieces(), counts);
     return sink(items, counts);
@@ -34,8 +34,9 @@ void BatchWorker::find(std::span<const BatchItem> chunk, bool distances, RowRece
   }
 }
 
-void BatchWorker::visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink) {
-  for_each_answer(chunk, [&](std::span<const BatchItem> items) {
+void BatchWorker::visit(std::span<const BatchItem> chunk, bool lengths,
+                        const std::function<bool(const PacketAnswer&)>& sink) {
+  for_each_answer(chunk, lengths, [&](std::span<const BatchItem> items) {
     rows_.clear();
     vertices_.clear();
     radii_.clear();
@@ -44,7 +45,8 @@ void BatchWorker::visit(std::span<const BatchItem> chunk, const std::function<bo
       vertices_.push_back(item.vertex);
       radii_.push_back(item.radius);
     }
-    return sink({rows_, vertices_, radii_, search_->queries(), search_->pieces()});
+    return sink(
+        {rows_, vertices_, radii_, search_->queries(), search_->pieces(), lengths ? search_->lengths() : nullptr});
   });
 }
 

@@ -27,19 +27,20 @@ class BatchWorker {
   /// `kept` is null, or reads what `count` kept of the same chunk, none of whose rows was dropped.
   void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver, KeptPackets::Reader* kept);
 
-  /// Passes on the packets of a chunk. `sink` returns false to drop the rest.
-  void visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink);
+  /// Passes on the packets of a chunk, with the lengths of the metric if they are wanted. `sink` returns false to drop
+  /// the rest.
+  void visit(std::span<const BatchItem> chunk, bool lengths, const std::function<bool(const PacketAnswer&)>& sink);
 
+ private:
   /// Answers a chunk run by run, and calls `f(items)` after each until it returns false.
   template <class F>
-  void for_each_answer(std::span<const BatchItem> chunk, F&& f) {
-    split(chunk, false);
+  void for_each_answer(std::span<const BatchItem> chunk, bool distances, F&& f) {
+    split(chunk, distances);
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       if (!answer(i, f)) return;
     }
   }
 
- private:
   /// Cuts a chunk into `runs_`.
   void split(std::span<const BatchItem> chunk, bool distances);
 

@@ -35,9 +35,9 @@ TangentFrame frame_at(const SurfaceState& surface, std::uint32_t place, ShapeOpe
 /// Fits the rows of packets. One object a thread.
 class CurvatureFitter {
  public:
-  CurvatureFitter(const SurfaceState& surface, const Index& searched, const CurvatureOptions& options,
+  CurvatureFitter(const SurfaceState& surface, const Index& searched, Metric metric, const CurvatureOptions& options,
                   const CurvatureMemory& out)
-      : surface_(&surface), options_(&options), out_(out), direct_(surface, searched, options) {}
+      : surface_(&surface), options_(&options), out_(out), direct_(surface, searched, metric, options) {}
 
   void fit(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments);
 
@@ -157,10 +157,11 @@ void curvatures(const CurvatureIndex& surface, const BatchQuery& query, const Cu
   const SurfaceState& state = CurvatureAccess::state(surface);
   check_sizes(out, query.vertices.count(surface.vertex_count()));
   const Index searched = filtered(state.searched, query.filter, options.threads);
-  const MomentSource source{.index = &IndexAccess::view(searched), .filter = options.filter ? &state : nullptr};
-  visit_moments(searched, {.vertices = query.vertices, .radius = query.radius}, options.open_ball, source,
-                {.threads = options.threads, .progress = options.progress}, [&] {
-                  auto fitter = std::make_shared<CurvatureFitter>(state, searched, options, out);
+  const MomentSource source{
+      .index = &IndexAccess::view(searched), .filter = options.filter ? &state : nullptr, .metric = query.metric};
+  visit_moments(searched, {.vertices = query.vertices, .radius = query.radius, .metric = query.metric},
+                options.open_ball, source, {.threads = options.threads, .progress = options.progress}, [&] {
+                  auto fitter = std::make_shared<CurvatureFitter>(state, searched, query.metric, options, out);
                   return [fitter](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
                     fitter->fit(packet, sums, moments);
                   };

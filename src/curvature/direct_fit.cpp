@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/vector.h"
+#include "batch/searcher_factory.h"
 #include "curvature/jet.h"
 #include "curvature/packet_moments.h"
 #include "curvature/surface.h"
@@ -64,7 +65,7 @@ double DirectFit::set_points(std::uint32_t place) {
 }
 
 DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const TangentFrame& frame) {
-  if (!searcher_) searcher_.emplace(*searched_);
+  if (!searcher_) searcher_ = by_metric(*searched_, metric_).make_searcher();
   find_places(*searcher_, *surface_->index, place, radius, found_);
   const std::size_t inside = found_.size();
   const bool is_extended = inside < kFewestPoints;

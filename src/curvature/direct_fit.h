@@ -17,8 +17,8 @@ namespace meshhood {
 class DirectFit {
  public:
   /// Borrows its arguments. `searched` is the index of the surface, which may be filtered.
-  DirectFit(const SurfaceState& surface, const Index& searched, const CurvatureOptions& options)
-      : surface_(&surface), searched_(&searched), options_(&options) {}
+  DirectFit(const SurfaceState& surface, const Index& searched, Metric metric, const CurvatureOptions& options)
+      : surface_(&surface), searched_(&searched), metric_(metric), options_(&options) {}
 
   struct Result {
     CurvatureState state;
@@ -37,8 +37,9 @@ class DirectFit {
 
   const SurfaceState* surface_;
   const Index* searched_;
+  Metric metric_;
   const CurvatureOptions* options_;
-  std::optional<Searcher> searcher_;
+  std::optional<AnySearcher> searcher_;
   std::vector<std::uint32_t> found_;  // places in index order
   std::vector<std::uint32_t> facing_;
   std::vector<Point> points_;  // relative to the query vertex

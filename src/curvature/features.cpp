@@ -67,6 +67,7 @@ class FeatureExtraction {
       : surface_(surface),
         state_(CurvatureAccess::state(surface)),
         radii_(radius_of_passes(query.radius)),
+        metric_(query.metric),
         filter_(query.filter),
         options_(std::move(options)),
         rows_(surface.vertex_count()) {
@@ -80,6 +81,7 @@ class FeatureExtraction {
       radii_ = {BatchRadius(radius_of_row_)};
     }
     check();
+    if (metric_ == Metric::Rings) unit_ = mean_edge_length(state_.searched);
   }
 
   std::vector<double> run() {
@@ -94,8 +96,9 @@ class FeatureExtraction {
   }
 
  private:
+  /// In the unit of the positions. A ring is as wide as an edge is long.
   [[nodiscard]] double radius_at(const BatchRadius& radius, std::size_t row) const {
-    return radius.list() ? radius_of_row_[row] : radius.common();
+    return unit_ * (radius.list() ? radius_of_row_[row] : radius.common());
   }
 
   static void check(double radius, const std::string& where) {
@@ -120,7 +123,7 @@ class FeatureExtraction {
   }
 
   [[nodiscard]] BatchQuery query_of(const BatchRadius& radius) const {
-    return {.vertices = vertices_, .radius = radius, .filter = filter_.view()};
+    return {.vertices = vertices_, .radius = radius, .filter = filter_.view(), .metric = metric_};
   }
 
   void write_curvatures(const BatchRadius& radius_of_rows, std::span<double> values) {
@@ -164,6 +167,8 @@ class FeatureExtraction {
   const CurvatureIndex& surface_;
   const SurfaceState& state_;
   std::vector<BatchRadius> radii_;  // of the passes
+  Metric metric_;
+  double unit_ = 1;  // of the radii
   FilterCopy filter_;
   FeatureOptions options_;
   std::vector<VertexId> listed_;

@@ -73,8 +73,8 @@ void for_each_row(const Index& index, const BatchQuery& query, const MomentOptio
   const IndexView& view = IndexAccess::view(index);
   const MomentWeights weights(view, options.weights);
   const Index searched = filtered(index, query.filter, options.threads);
-  const MomentSource source{.index = &IndexAccess::view(searched), .weights = weights.values};
-  visit_moments(searched, {.vertices = query.vertices, .radius = query.radius}, false, source,
+  const MomentSource source{.index = &IndexAccess::view(searched), .weights = weights.values, .metric = query.metric};
+  visit_moments(searched, {.vertices = query.vertices, .radius = query.radius, .metric = query.metric}, false, source,
                 {.threads = options.threads, .progress = options.progress}, [&] {
                   const auto direct = std::make_shared<DirectMoments>(searched, source);
                   return [&, direct](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {

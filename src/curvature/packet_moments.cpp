@@ -51,6 +51,13 @@ QueryWord PacketMoments::begin(LeafId leaf, std::span<const std::uint32_t> place
   return queries;
 }
 
+/// How far a neighborhood reaches, in the frame, for the size of its unit. The mesh is not larger than 4. The leaf of
+/// the query has a few vertices side by side, so a ring adds less than its extent.
+double PacketMoments::reach_of(double radius, double extent) const {
+  const double reach = source_.metric == Metric::Rings ? radius * extent : radius * source_.index->frame.scale;
+  return std::min(reach, 4.0);
+}
+
 /// The center is that of the box around the leaf. The unit follows from the size of that box and the radius.
 QueryWord PacketMoments::set_unit(LeafId leaf, std::span<const double> radii, QueryWord queries) {
   const IndexView& index = *source_.index;
@@ -72,8 +79,7 @@ QueryWord PacketMoments::set_unit(LeafId leaf, std::span<const double> radii, Qu
       },
       index.positions);
   const auto unit = [&](std::size_t query) {
-    const double reach = std::min(radii[query] * index.frame.scale, 4.0);  // the mesh has no larger one
-    return unit_factor(std::max(extent, reach), index.frame);
+    return unit_factor(std::max(extent, reach_of(radii[query], extent)), index.frame);
   };
   const auto first = static_cast<std::size_t>(std::countr_zero(queries));
   scale_ = unit(first);
@@ -132,13 +138,14 @@ void PacketMoments::add_sure_leaves(LeafId leaf, std::span<const double> radii) 
     by_radius[place] = q;
   });
   sure_.begin(leaf);
+  const bool has_sure_leaves = source_.metric == Metric::Straight;
   PaddedMoments sum{};
   QueryWord larger = active_;  // the queries of at least this radius
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t q = by_radius[k];
     if (k == 0 || radii[q] != radii[by_radius[k - 1]]) {
       const TreeBounds radius(source_.index->frame, radii[q]);
-      while (const std::optional<LeafId> next = sure_.next(radius)) {
+      while (const std::optional<LeafId> next = has_sure_leaves ? sure_.next(radius) : std::nullopt) {
         const Leaf& of = source_.index->leaves[*next];
         if (source_.filter != nullptr && !faces_all(of)) continue;
         sure_.set_queries(*next, larger);

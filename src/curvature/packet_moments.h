@@ -28,6 +28,7 @@ struct MomentSource {
   const IndexView* index;                // which is searched, with its walls
   const SurfaceState* filter = nullptr;  // only vertices whose normal faces that of the query vertex, if set
   std::span<const double> weights = {};  // by vertex; 1 if empty
+  Metric metric = Metric::Straight;      // of the neighborhoods, and of their radii
 };
 
 /// The mean of the points of a query and the axes of their covariance about it, in the unit of the moments.
@@ -46,6 +47,7 @@ struct MomentSizes {
 /// The moments of the neighborhoods of up to 32 vertices of a leaf. What is added is the powers of vertices, and sums
 /// of these over leaves: first the sure leaves for the radius of a query (see `SureLeaves`), which are summed once for
 /// all queries; then, in index order, each leaf that the query has as a whole, and each vertex of the other leaves.
+/// By paths and rings, no leaves are sure.
 /// The coordinates are relative to the center of the leaf, and the sums are moved to each query vertex at the end. All
 /// of this depends on index, leaf, vertex and radius alone, not on the other queries. Owns 45 kB of memory, and 8 bytes
 /// for each leaf of the mesh.
@@ -89,6 +91,7 @@ class PacketMoments {
  private:
   friend struct ScratchAccess;  // defined by tests
 
+  [[nodiscard]] double reach_of(double radius, double extent) const;
   QueryWord set_unit(LeafId leaf, std::span<const double> radii, QueryWord queries);
   void set_offsets(std::span<const std::uint32_t> places);
   void set_normals(LeafId leaf, std::span<const std::uint32_t> places);

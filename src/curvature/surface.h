@@ -59,9 +59,8 @@ struct CurvatureAccess {
 
 using SurfaceState = CurvatureAccess::State;
 
-/// The places in index order of the vertices that lie within `radius` of the one at `place` and are connected with it.
-/// They ascend.
-inline void find_places(Searcher& searcher, const IndexView& index, std::uint32_t place, double radius,
+/// The places in index order of the vertices of the neighborhood of the one at `place`. They ascend.
+inline void find_places(AnySearcher& searcher, const IndexView& index, std::uint32_t place, double radius,
                         std::vector<std::uint32_t>& found) {
   found.clear();
   for (const VertexRange& range : searcher.ranges(index.id(place), radius)) {

@@ -63,6 +63,11 @@ GraphData extract_graph(const Index& index) {
   return extract_graph(IndexAccess::view(index), task);
 }
 
+double mean_edge_length(const Index& index) {
+  const GraphData graph = extract_graph(index);
+  return mean_edge_length(graph.view());
+}
+
 Fingerprint fingerprint(const Index& index, TaskContext& task) {
   const GraphData graph = extract_graph(IndexAccess::view(index), task);
   return fingerprint(graph.view());

@@ -187,14 +187,10 @@ class AggregateCase {
                                                   : query.radius.common();
       const VertexId v = query.vertices[row];
       const double searched = scales && query.nesting == Nesting::Patch ? largest : radius;
-      if (query.metric == Metric::Path) {
-        if (i == 0 || v != paths_from_) find_paths(v, graph);
-      } else {
-        if (query.metric == Metric::Path) {
-          if (i == 0 || v != paths_from_) find_paths(v, graph);
-        } else {
-          reference.neighborhood(v, searched, ids_, distances_);
-        }
+      if (query.metric == Metric::Straight) {
+        reference.neighborhood(v, searched, ids_, distances_);
+      } else if (i == 0 || v != paths_from_) {
+        find_paths(v, graph, query.metric);
       }
       const Expected expected = reduce_items(items(signal, i % signal.channels, v, query, radius), query, radius);
       const bool right = std::isnan(expected.value) ? std::isnan(result[i]) || std::isinf(expected.tolerance)
@@ -211,8 +207,8 @@ class AggregateCase {
   [[nodiscard]] std::size_t compared() const { return compared_; }
 
  private:
-  /// All vertices and the lengths of the paths to them, by the algorithm of Dijkstra.
-  void find_paths(VertexId v, const Adjacency& graph) {
+  /// All vertices and the lengths of the paths to them, by the algorithm of Dijkstra. By rings, an edge has length 1.
+  void find_paths(VertexId v, const Adjacency& graph, Metric metric) {
     paths_from_ = v;
     ids_.clear();
     distances_.clear();
@@ -225,7 +221,8 @@ class AggregateCase {
       ids_.push_back(nearest);
       distances_.push_back(length);
       for (const VertexId w : graph.view()[nearest]) {
-        const double through = length + distance(mesh_.positions_view(), nearest, w);
+        const double edge = metric == Metric::Rings ? 1 : distance(mesh_.positions_view(), nearest, w);
+        const double through = length + edge;
         if (!(through < lengths[w])) continue;
         queue.erase({lengths[w], w});
         lengths[w] = through;
@@ -245,7 +242,7 @@ class AggregateCase {
       if (filter.ignored.size() != 0 && filter.ignored[ids_[i]]) continue;
       result.push_back({signal.values[ids_[i] * signal.channels + channel],
                         signal.weights.empty() ? 1 : signal.weights[ids_[i]],
-                        query.metric == Metric::Path ? distances_[i] : exact_distance(v, ids_[i])});
+                        query.metric == Metric::Straight ? exact_distance(v, ids_[i]) : distances_[i]});
     }
     return result;
   }
@@ -288,7 +285,7 @@ TEST_P(AggregateOfFamily, EqualsTheDefinition) {
         const auto walls = draw_mask(random, scene.size(), random.below(2) * 8);
         const auto ignored = draw_mask(random, scene.size(), random.below(2) * 5);
         query.filter = {walls, ignored};
-        if (random.below(3) == 0) query.metric = Metric::Path;
+        query.metric = std::array{Metric::Straight, Metric::Path, Metric::Rings}[random.below(3)];
         const bool weighted = random.below(2) == 0;
         if (!weighted) query.ddof = static_cast<unsigned>(random.below(2));
         std::vector<VertexId> list;
@@ -378,7 +375,7 @@ TEST_F(Aggregate, WithARadiusForEachRowEqualsThatOfEachRadiusToTheBit) {
   const std::vector<double> choices{0, 1.5, 4, 9.5};
   std::vector<double> radii;
   for (std::size_t v = 0; v < scene.size(); ++v) radii.push_back(choices[random.below(choices.size())]);
-  for (const Metric metric : {Metric::Straight, Metric::Path}) {
+  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
     for (const Reduce reduce : {Reduce::Mean, Reduce::Maximum, Reduce::StandardDeviation}) {
       for (const SmoothingKernel kernel : kKernels) {
         if (kernel != SmoothingKernel::Box && !may_have_kernel(reduce)) continue;

@@ -46,6 +46,15 @@ NearestRow along_edges(EdgeSearcher& searcher, VertexId v, double radius, const 
   return row;
 }
 
+NearestRow by_rings(EdgeSearcher& searcher, VertexId v, double radius, const Filter& filter) {
+  NearestRow row;
+  std::vector<std::size_t> counts;
+  searcher.rings(v, static_cast<std::size_t>(std::min(radius, 1e9)), row.ids, counts, filter);
+  for (std::size_t ring = 0; ring < counts.size(); ++ring)
+    row.distances.resize(counts[ring], static_cast<double>(ring));
+  return row;
+}
+
 NearestRow k_of(const KNearest& found, std::size_t row, std::size_t k) {
   NearestRow result;
   for (std::size_t i = row * k; i < (row + 1) * k; ++i) {
@@ -87,8 +96,8 @@ TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
     std::vector<VertexId> some;
     for (std::size_t i = 0; i < scaled(40, 10); ++i) some.push_back(static_cast<VertexId>(random.below(mesh.size())));
     const double edge = oracle.graph().mean_edge();
-    for (const Metric metric : {Metric::Straight, Metric::Path}) {
-      for (const double radius : {kInfinity, 3 * edge, 0.0}) {
+    for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
+      for (const double radius : {kInfinity, metric == Metric::Rings ? 3.5 : 3 * edge, 0.0}) {
         NearestOptions options{.metric = metric, .radius = radius, .threads = 2};
         if (radius != 0)
           options.filter = {VertexMask(std::span<const std::uint8_t>(walls)),
@@ -107,7 +116,8 @@ TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
           start.walls = radius != 0 ? walls : std::vector<std::uint8_t>(mesh.size());
           start.ignored = radius != 0 ? ignored : std::vector<std::uint8_t>(mesh.size());
           NearestRow all = metric == Metric::Straight ? nearest_of(oracle, start, radius)
-                                                      : along_edges(edges, some[i], radius, options.filter);
+                           : metric == Metric::Path   ? along_edges(edges, some[i], radius, options.filter)
+                                                      : by_rings(edges, some[i], radius, options.filter);
           std::size_t size = 0;
           for (double sum = 0; size < all.ids.size() && sum < area; ++size) sum += areas[all.ids[size]];
           const std::span<const VertexId> ids =
@@ -181,7 +191,7 @@ TEST(KNearest, RefusesAResultBeyondTheLimit) {
   const Index index = build(mesh.view());
   const std::vector<double> areas(mesh.size(), 1.0);
   const std::uint64_t bytes = 12 * 20 * mesh.size();
-  for (const Metric metric : {Metric::Straight, Metric::Path}) {
+  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
     NearestOptions options{.metric = metric, .threads = 2, .max_bytes = bytes};
     EXPECT_EQ(k_nearest(index, {}, 20, options).ids.size(), bytes / 12);
     EXPECT_EQ(discs(index, {}, 20, areas, options).ids.size(), bytes / 12);

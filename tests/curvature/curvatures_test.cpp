@@ -159,7 +159,7 @@ void expect_like_points(const Family& family, const CurvatureOptions& options, s
     for (const double edges : {1.5, 3.0, 8.0}) {
       const double radius = edges * edge;
       const Curvatures k = curvatures(one.surface, {.radius = radius}, options);
-      DirectFit direct(state, state.searched, options);
+      DirectFit direct(state, state.searched, Metric::Straight, options);
       for (std::size_t i = 0; i < one.mesh.size(); ++i) {
         const VertexId v = state.index->id(i);
         const auto place = static_cast<std::uint32_t>(i);
@@ -204,7 +204,7 @@ TEST(Curvatures, OfJetsAreThoseOfTheFitToThePoints) {
     const GraphData edges = extract_graph(one.index);
     const double radius = 4 * mean_edge_length(edges.view());
     const Curvatures k = curvatures(one.surface, {.radius = radius}, options);
-    DirectFit direct(state, state.searched, options);
+    DirectFit direct(state, state.searched, Metric::Straight, options);
     for (std::size_t i = 0; i < mesh.size(); i += 5) {
       const VertexId v = state.index->id(i);
       const auto expected = direct.fit(static_cast<std::uint32_t>(i), radius, frame_of(state.normal(i)));

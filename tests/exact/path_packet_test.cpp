@@ -85,30 +85,29 @@ class PacketTrial {
         ASSERT_EQ(found[k].length, expected[k].length);
       }
     }
-    for (const double share : {1.0, 0.5}) compare_leaves(queries, share);
+    compare_leaves(queries);
   }
 
-  /// With radii that are a part of those of the search.
-  void compare_leaves(const std::vector<PathQuery>& queries, double share) {
-    std::vector<double> radii;
-    for (const PathQuery& query : queries) radii.push_back(share * query.radius);
+  void compare_leaves(const std::vector<PathQuery>& queries) {
     std::vector<std::map<std::uint32_t, double>> found(queries.size());
     std::uint32_t end = 0;
-    packet_.for_each_leaf(radii, [&](const PathLeaf& leaf) {
-      EXPECT_GE(leaf.vertices.begin, end);
-      EXPECT_EQ(leaf.vertices.begin, view_.leaf_begin[leaf.leaf]);
-      end = leaf.vertices.end;
+    for (const auto& [leaves, all, reached] : packet_.pieces()) {
+      EXPECT_GE(leaves.begin, end);
+      EXPECT_EQ(leaves.end, leaves.begin + 1);
+      end = leaves.end;
+      packet_.select(leaves.begin);
       QueryWord any = 0;
       for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
-        any |= leaf.queries[lane];
-        for_each_query(leaf.queries[lane],
-                       [&](std::size_t i) { found[i][leaf.vertices.begin + lane] = leaf.lengths[lane][i]; });
+        any |= reached[lane];
+        for_each_query(reached[lane], [&, first = view_.leaf_begin[leaves.begin]](std::size_t i) {
+          found[i][first + lane] = packet_.at(lane)[i];
+        });
       }
       EXPECT_NE(any, 0U);
-    });
+    }
     for (std::size_t i = 0; i < queries.size(); ++i) {
       std::map<std::uint32_t, double> expected;
-      for (const Path& path : paths({queries[i].vertex, radii[i]})) expected[path.end] = path.length;
+      for (const Path& path : paths(queries[i])) expected[path.end] = path.length;
       ASSERT_EQ(found[i], expected);
     }
   }

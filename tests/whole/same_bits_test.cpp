@@ -143,24 +143,24 @@ std::vector<Call> aggregates(const Scene& scene, double radius, const Filter& fi
   return calls;
 }
 
-std::vector<Call> curvature_calls(const Scene& scene, double radius, const Filter& filter) {
+std::vector<Call> curvature_calls(const Scene& scene, double radius, const Filter& filter, Metric metric) {
   std::vector<Call> calls;
   calls.push_back({"corrected curvature",
-                   [&scene, radius, filter](const auto& rows, unsigned threads) {
-                     return corrected_curvatures(scene.surface, scene.mesh.view().faces, {rows, radius, filter},
+                   [&scene, radius, filter, metric](const auto& rows, unsigned threads) {
+                     return corrected_curvatures(scene.surface, scene.mesh.view().faces, {rows, radius, filter, metric},
                                                  {.threads = threads})
                          .measures;
                    },
                    CorrectedCurvatures::kMeasures, true});
   calls.push_back({"moments",
-                   [&scene, radius, filter](const auto& rows, unsigned threads) {
-                     return moments(scene.index, {rows, radius, filter},
+                   [&scene, radius, filter, metric](const auto& rows, unsigned threads) {
+                     return moments(scene.index, {rows, radius, filter, metric},
                                     {.degree = 4, .weights = scene.areas, .threads = threads});
                    },
                    35, false});
   calls.push_back({"features",
-                   [&scene, radius, filter](const auto& rows, unsigned threads) {
-                     return features(scene.surface, {rows, radius, filter},
+                   [&scene, radius, filter, metric](const auto& rows, unsigned threads) {
+                     return features(scene.surface, {rows, radius, filter, metric},
                                      {.kinds = {Feature::Crease, Feature::Height, Feature::Variation, Feature::Area},
                                       .areas = scene.areas,
                                       .threads = threads});
@@ -168,11 +168,11 @@ std::vector<Call> curvature_calls(const Scene& scene, double radius, const Filte
                    4, false});
   for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
     calls.push_back({"curvature of fit " + std::to_string(static_cast<int>(fit)),
-                     [&scene, radius, filter, fit](const auto& rows, unsigned threads) {
+                     [&scene, radius, filter, metric, fit](const auto& rows, unsigned threads) {
                        CurvatureOptions options;
                        options.fit = fit;
                        options.threads = threads;
-                       const Curvatures found = curvatures(scene.surface, {rows, radius, filter}, options);
+                       const Curvatures found = curvatures(scene.surface, {rows, radius, filter, metric}, options);
                        std::vector<double> numbers;
                        for (std::size_t i = 0; i < rows.size(); ++i) {
                          numbers.insert(numbers.end(), {found.k1[i], found.k2[i], static_cast<double>(found.state[i])});
@@ -195,15 +195,15 @@ std::vector<double> interleaved(const std::vector<VertexId>& ids, const std::vec
 std::vector<Call> nearest_calls(const Scene& scene, double radius, const Filter& filter) {
   constexpr std::size_t kNearest = 9;
   std::vector<Call> calls;
-  calls.push_back({"nearest unconnected",
-                   [&scene, radius, filter](const auto& rows, unsigned threads) {
-                     const Unconnected found =
-                         nearest_unconnected(scene.index, {rows, radius, filter}, {.threads = threads});
-                     return interleaved(found.vertices, found.gaps);
-                   },
-                   2, true});
-  for (const Metric metric : {Metric::Straight, Metric::Path}) {
+  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
     const std::string name = " of metric " + std::to_string(static_cast<int>(metric));
+    calls.push_back({"nearest unconnected" + name,
+                     [&scene, radius, filter, metric](const auto& rows, unsigned threads) {
+                       const Unconnected found =
+                           nearest_unconnected(scene.index, {rows, radius, filter, metric}, {.threads = threads});
+                       return interleaved(found.vertices, found.gaps);
+                     },
+                     2, true});
     const auto options = [filter, metric](unsigned threads) {
       return NearestOptions{.metric = metric, .filter = filter, .threads = threads};
     };
@@ -221,15 +221,18 @@ std::vector<Call> nearest_calls(const Scene& scene, double radius, const Filter&
                      },
                      0, false});
   }
-  for (const SmoothingKernel kernel : kKernels) {
-    calls.push_back({"sums along edges, kernel " + std::to_string(static_cast<int>(kernel)),
-                     [&scene, radius, filter, kernel](const auto& rows, unsigned threads) {
-                       AggregateQuery query{.vertices = rows, .radius = radius, .filter = filter};
-                       query.metric = Metric::Path;
-                       query.kernel = kernel;
-                       return aggregate(scene.index, {scene.signal, 1, scene.areas}, query, {.threads = threads});
-                     },
-                     1, true});
+  for (const Metric metric : {Metric::Path, Metric::Rings}) {
+    for (const SmoothingKernel kernel : kKernels) {
+      calls.push_back({"sums of metric " + std::to_string(static_cast<int>(metric)) + ", kernel " +
+                           std::to_string(static_cast<int>(kernel)),
+                       [&scene, radius, filter, metric, kernel](const auto& rows, unsigned threads) {
+                         AggregateQuery query{.vertices = rows, .radius = radius, .filter = filter};
+                         query.metric = metric;
+                         query.kernel = kernel;
+                         return aggregate(scene.index, {scene.signal, 1, scene.areas}, query, {.threads = threads});
+                       },
+                       1, true});
+    }
   }
   return calls;
 }
@@ -237,7 +240,9 @@ std::vector<Call> nearest_calls(const Scene& scene, double radius, const Filter&
 std::vector<Call> all_calls(const Scene& scene, double radius, bool has_masks) {
   const Filter filter = scene.filter(has_masks);
   std::vector<Call> calls = aggregates(scene, radius, filter);
-  for (Call& call : curvature_calls(scene, radius, filter)) calls.push_back(std::move(call));
+  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
+    for (Call& call : curvature_calls(scene, radius, filter, metric)) calls.push_back(std::move(call));
+  }
   for (Call& call : nearest_calls(scene, radius, filter)) calls.push_back(std::move(call));
   return calls;
 }

@@ -6,7 +6,8 @@
 
 #include "meshhood/mesh.h"
 
-#include "simd/joint.h"
+#include "exact/layout.h"
+#include "simd/paths.h"
 
 /// The neighborhoods of many vertices without a list of ids for each.
 ///
@@ -14,6 +15,22 @@
 /// are found together (docs/joint.md). They have most of their vertices in common. The answer of a packet names each
 /// vertex once, with the set of rows that have it, so that a sum reads each value once for up to 32 rows.
 namespace meshhood {
+
+/// How far the vertices of an answer are along the edges. One object a thread.
+class PacketLengths {
+ public:
+  PacketLengths() = default;
+  PacketLengths(const PacketLengths&) = default;
+  PacketLengths& operator=(const PacketLengths&) = default;
+  virtual ~PacketLengths() = default;
+
+  /// Goes on to a leaf of which a query has vertices.
+  virtual void select(LeafId leaf) = 0;
+
+  /// The lengths at a vertex of that leaf, by query; only those of queries that have it are meant. Valid until the next
+  /// call.
+  [[nodiscard]] virtual const PathLengths& at(unsigned lane) = 0;
+};
 
 /// The neighborhoods of the queries of a packet. Depends on these alone, not on threads or the processor. Valid during
 /// the call of the visitor.
@@ -23,6 +40,7 @@ struct PacketAnswer {
   std::span<const double> radii;       ///< of each row
   QueryWord queries = 0;               ///< all
   std::span<const Piece> pieces;       ///< in index order, without overlap
+  PacketLengths* lengths = nullptr;    ///< none of straight lines, nor unless `PacketOptions::lengths`
 };
 
 }  // namespace meshhood

@@ -46,7 +46,8 @@ PathPacket::PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const 
       limits_(limits),
       search_(index, graph),
       numbers_(index.vertex_count(), kNoNumber),
-      place_of_(index.leaf_count()) {}
+      place_of_(index.leaf_count()),
+      single_(kReachedByNone) {}
 
 bool PathPacket::run(std::span<const PathQuery> queries) {
   begin(queries);
@@ -81,10 +82,10 @@ void PathPacket::begin(std::span<const PathQuery> queries) {
 }
 
 /// No length is within that of a query that does not exist.
-PathLengths PathPacket::limits_of(std::span<const double> radii) const {
+PathLengths PathPacket::limits() const {
   PathLengths limits{};
   limits.fill(-1);
-  for (std::size_t i = 0; i < radii.size(); ++i) limits[i] = std::min(radii[i], kLongest);
+  for (std::size_t i = 0; i < queries_.size(); ++i) limits[i] = std::min(queries_[i].radius, kLongest);
   return limits;
 }
 
@@ -151,9 +152,7 @@ PerLane<std::uint64_t> PathPacket::counts() {
     for (const Path& path : search_.found()) counts[0] += ignored_->has_at(path.end) ? 0 : 1;
     return counts;
   }
-  std::array<double, kPacketCapacity> radii{};
-  std::ranges::transform(queries_, radii.begin(), &PathQuery::radius);
-  const PathLengths limits = limits_of(std::span(radii).first(queries_.size()));
+  const PathLengths limits = this->limits();
   words_.resize(lengths_.size() / kLeafCapacity + 1);
   list_of_words_.clear();
   for (std::uint32_t i = 0; i < words_.size(); ++i) {
@@ -186,15 +185,34 @@ std::span<const Path> PathPacket::paths_in_order(std::size_t query) {
   return paths.subspan(ignored_->has_at(source) ? 1 : 0);
 }
 
-std::span<const Piece> PathPacket::pieces(std::span<const double> radii) {
+std::span<const Piece> PathPacket::pieces() {
+  list_leaves();
   pieces_.clear();
-  reached_.clear();
-  for_each_leaf(radii, [&](const PathLeaf& leaf) {
-    reached_.push_back(leaf.queries);
-    pieces_.push_back({{leaf.leaf, leaf.leaf + 1}, 0, nullptr});
-  });
-  for (std::size_t i = 0; i < pieces_.size(); ++i) pieces_[i].reached = reached_[i].data();
+  reached_.resize(leaves_.size());
+  const PathLengths limits = this->limits();
+  for (const LeafPlaces& places : leaves_) {
+    PerLane<QueryWord>& reached = reached_[pieces_.size()];
+    reached = {};
+    QueryWord any = 0;
+    for_each_lane(places.lanes, [&](unsigned lane) {
+      any |= reached[lane] = kernels_->within_limits(lengths_of(places.number[lane]), limits);
+    });
+    if (any != 0) pieces_.push_back({{places.leaf, places.leaf + 1}, 0, reached.data()});
+  }
   return pieces_;
+}
+
+void PathPacket::select(LeafId leaf) {
+  selected_ = &*std::ranges::lower_bound(leaves_, leaf, {}, &LeafPlaces::leaf);
+  assert(selected_->leaf == leaf);
+}
+
+const PathLengths& PathPacket::at(unsigned lane) { return lengths_of(selected_->number[lane]); }
+
+const PathLengths& PathPacket::lengths_of(std::uint32_t number) {
+  if (!is_single_) return lengths_[number];
+  single_[0] = search_.found()[number].length;
+  return single_;
 }
 
 void PathPacket::list_leaves() {
@@ -214,26 +232,6 @@ void PathPacket::list_leaves() {
     places.number[lane_of(slot)] = number;
   }
   std::ranges::sort(leaves_, {}, &LeafPlaces::leaf);
-}
-
-/// Reads a leaf into `leaf_`. Returns whether a query reaches a vertex of it.
-bool PathPacket::read(const LeafPlaces& places, const PathLengths& limits) {
-  leaf_.leaf = places.leaf;
-  leaf_.vertices = {index_->leaf_begin[places.leaf], index_->leaf_begin[places.leaf + 1]};
-  leaf_.queries = {};
-  QueryWord any = 0;
-  for_each_lane(places.lanes, [&](unsigned lane) {
-    const std::uint32_t number = places.number[lane];
-    if (is_single_) {
-      leaf_.lengths[lane][0] = search_.found()[number].length;
-      leaf_.queries[lane] = leaf_.lengths[lane][0] <= limits[0] ? 1 : 0;
-    } else {
-      leaf_.lengths[lane] = lengths_[number];
-      leaf_.queries[lane] = kernels_->within_limits(lengths_[number], limits);
-    }
-    any |= leaf_.queries[lane];
-  });
-  return any != 0;
 }
 
 }  // namespace meshhood

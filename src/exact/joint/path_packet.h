@@ -14,6 +14,7 @@
 #include "meshhood/search.h"
 
 #include "base/epoch_array.h"
+#include "exact/joint/packet_answer.h"
 #include "exact/joint/path_front.h"
 #include "exact/layout.h"
 #include "exact/query/lane_filter.h"
@@ -35,14 +36,6 @@ struct PathLimits {
   std::size_t steps = 16;                       ///< how many times it takes each vertex, in the mean
 };
 
-/// A leaf of which some queries of a packet reach vertices.
-struct PathLeaf {
-  LeafId leaf;
-  VertexRange vertices;                            // in index order
-  PerLane<QueryWord> queries;                      // by vertex of the leaf: those with a path within the radius; then 0
-  std::array<PathLengths, kLeafCapacity> lengths;  // by vertex of the leaf, for these queries
-};
-
 /// The shortest paths along the edges from up to 32 vertices at once, with a length for each of them at each vertex.
 /// See docs/joint.md. Best for vertices of one leaf, whose paths have most vertices in common.
 ///
@@ -60,7 +53,7 @@ struct PathLeaf {
 ///
 /// One object a thread. Owns, besides its `PathSearch`, 4 bytes for each vertex and 8 for each leaf of the mesh, and
 /// 0.4 kB for each vertex that it reaches, up to its limit. What is found does not depend on earlier calls.
-class PathPacket {
+class PathPacket final : public PacketLengths {
  public:
   /// The filters must outlive the packet.
   PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const LaneFilter& walls, const LaneFilter& ignored,
@@ -82,20 +75,11 @@ class PathPacket {
   /// Valid until the next call.
   [[nodiscard]] std::span<const Path> paths_in_order(std::size_t query);
 
-  /// Calls `f(const PathLeaf&)` for the leaves, ascending, of which a query reaches a vertex within a radius. There is
-  /// one for each query, at most that of its search.
-  template <class F>
-  void for_each_leaf(std::span<const double> radii, F&& f) {
-    list_leaves();
-    const PathLengths limits = limits_of(radii);
-    for (const LeafPlaces& places : leaves_) {
-      if (read(places, limits)) f(std::as_const(leaf_));
-    }
-  }
+  /// The leaves of which a query reaches vertices, ascending. Valid until the next run.
+  [[nodiscard]] std::span<const Piece> pieces();
 
-  /// The leaves of which a query reaches vertices within the radii, one for each query and at most that of its search;
-  /// ascending. Valid until the next call.
-  [[nodiscard]] std::span<const Piece> pieces(std::span<const double> radii);
+  void select(LeafId leaf) override;
+  [[nodiscard]] const PathLengths& at(unsigned lane) override;
 
   /// How many times the last `run` took a vertex.
   [[nodiscard]] std::size_t steps() const { return steps_; }
@@ -109,12 +93,12 @@ class PathPacket {
   };
 
   void begin(std::span<const PathQuery> queries);
-  [[nodiscard]] PathLengths limits_of(std::span<const double> radii) const;
+  [[nodiscard]] PathLengths limits() const;
   void list_edges();
   [[nodiscard]] bool pass_on_lengths();
   void leave_out_ignored();
   void list_leaves();
-  [[nodiscard]] bool read(const LeafPlaces& places, const PathLengths& limits);
+  [[nodiscard]] const PathLengths& lengths_of(std::uint32_t number);
   [[nodiscard]] std::uint32_t vertex(std::size_t number) const { return search_.found()[number].end; }
 
   const IndexView* index_;
@@ -142,7 +126,8 @@ class PathPacket {
   PathOrder order_;
   EpochArray<std::uint32_t> place_of_;  // by leaf: in `leaves_`
   std::vector<LeafPlaces> leaves_;
-  PathLeaf leaf_{};  // the one that is passed on
+  const LeafPlaces* selected_ = nullptr;
+  PathLengths single_{};  // of the one query: infinite for others
   std::vector<Piece> pieces_;
   std::vector<PerLane<QueryWord>> reached_;  // by piece
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/epoch_array.h"
+#include "exact/joint/packet_answer.h"
 #include "exact/layout.h"
 #include "simd/joint.h"
 
@@ -26,7 +27,7 @@ struct RingQuery {
 ///
 /// One object a thread. Owns 8 bytes a leaf of the mesh, and half a kilobyte for each leaf of an answer. What is found
 /// does not depend on earlier calls.
-class RingPacket {
+class RingPacket final : public PacketLengths {
  public:
   RingPacket(const IndexView& index, Isa isa)
       : index_(&index), kernels_(&joint_kernels(isa)), entries_(index.leaf_count()) {}
@@ -42,8 +43,12 @@ class RingPacket {
   /// The answers, leaf by leaf in index order. Valid until the next `run`.
   [[nodiscard]] std::span<const Piece> pieces();
 
-  /// Of a run with one query: the number of edges to a vertex of its answer.
-  [[nodiscard]] std::uint32_t edges_to(LeafId leaf, unsigned lane) const { return edges_[entries_[leaf]][lane]; }
+  /// Of a run with one query: numbers of edges as lengths.
+  void select(LeafId leaf) override { selected_ = entries_[leaf]; }
+  [[nodiscard]] const PathLengths& at(unsigned lane) override {
+    length_[0] = edges_[selected_][lane];
+    return length_;
+  }
 
  private:
   using Entry = std::uint32_t;
@@ -75,6 +80,8 @@ class RingPacket {
   std::vector<Entry> pending_;                 // those that the next step looks at
   std::vector<LeafOfWords> found_;
   std::vector<Piece> pieces_;
+  Entry selected_ = 0;
+  PathLengths length_{};
 };
 
 }  // namespace meshhood

@@ -14,7 +14,8 @@ std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
            (index_->ignored_lanes(leaf_of(slot_of(place))) >> lane_of(slot_of(place)) & 1U) != 0;
   };
   edges_to_.forget();
-  found_.clear();  // what was not taken
+  found_.clear();
+  pieces_.clear();
   queue_.clear();
   const auto reach = [&](std::uint32_t place, std::uint32_t count) {
     if (edges_to_.is_known(place)) return;
@@ -36,6 +37,22 @@ std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
     }
   }
   return count;
+}
+
+std::span<const Piece> VertexRings::pieces() {
+  if (!pieces_.empty()) return pieces_;
+  words_.clear();
+  found_.take_all([&](std::size_t vertex) {
+    const std::uint32_t slot = index_->slot[index_->id(vertex)];
+    const LeafId leaf = leaf_of(slot);
+    if (pieces_.empty() || pieces_.back().leaves.begin != leaf) {
+      pieces_.push_back({{leaf, leaf + 1}, 0, nullptr});
+      words_.push_back({});
+    }
+    words_.back()[lane_of(slot)] = 1;
+  });
+  for (std::size_t i = 0; i < pieces_.size(); ++i) pieces_[i].reached = words_[i].data();
+  return pieces_;
 }
 
 }  // namespace meshhood

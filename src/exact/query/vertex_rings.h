@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/epoch_array.h"
 #include "base/number_set.h"
+#include "exact/joint/packet_answer.h"
 #include "exact/layout.h"
 #include "exact/weighted_graph.h"
 
@@ -15,7 +17,7 @@ namespace meshhood {
 /// The rings of one vertex, vertex by vertex, for graphs unlike a surface: their leaves have so few vertices in common
 /// with a ring that words for each leaf take longer. O(edges of the answer). One object a thread; owns 8 bytes a
 /// vertex.
-class VertexRings {
+class VertexRings final : public PacketLengths {
  public:
   VertexRings(const IndexView& index, KeptGraph& graph)
       : index_(&index), graph_(&graph), edges_to_(index.vertex_count()), found_(index.vertex_count()) {}
@@ -24,10 +26,14 @@ class VertexRings {
   /// there are, without the ignored ones.
   std::size_t run(std::uint32_t slot, std::uint32_t rings);
 
-  /// Calls `f(vertex, edges)` once for each of them, by its place in index order, ascending.
-  template <class F>
-  void take(F&& f) {
-    found_.take_all([&](std::size_t vertex) { f(vertex, edges_to_[vertex]); });
+  /// These vertices, leaf by leaf in index order. Valid until the next `run`.
+  [[nodiscard]] std::span<const Piece> pieces();
+
+  /// Numbers of edges as lengths.
+  void select(LeafId leaf) override { first_ = index_->leaf_begin[leaf]; }
+  [[nodiscard]] const PathLengths& at(unsigned lane) override {
+    length_[0] = edges_to_[first_ + lane];
+    return length_;
   }
 
  private:
@@ -36,6 +42,10 @@ class VertexRings {
   EpochArray<std::uint32_t> edges_to_;  // by place
   NumberSet found_;
   std::vector<std::uint32_t> queue_;
+  std::vector<Piece> pieces_;  // made from `found_` when they are asked for
+  std::vector<PerLane<QueryWord>> words_;
+  std::size_t first_ = 0;  // of the selected leaf
+  PathLengths length_{};
 };
 
 }  // namespace meshhood
