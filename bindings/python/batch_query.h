@@ -41,8 +41,11 @@ using Radius = std::optional<std::variant<double, Radii>>;
 
 /// The query of a batch. Borrows the arrays.
 [[nodiscard]] inline BatchQuery query_of(const std::optional<Rows>& vertices, const Radius& radius, const Mask& walls,
-                                         const Mask& ignored) {
-  return {.vertices = vertices_of(vertices), .radius = radius_of(radius), .filter = filter_of(walls, ignored)};
+                                         const Mask& ignored, Metric metric = Metric::Straight) {
+  return {.vertices = vertices_of(vertices),
+          .radius = radius_of(radius),
+          .filter = filter_of(walls, ignored),
+          .metric = metric};
 }
 
 /// A result beyond the limit of bytes: a MemoryError in Python.

@@ -94,7 +94,10 @@ void bind_aggregates(nb::module_& module) {
   nb::enum_<MissingValues>(module, "MissingValues")
       .value("propagate", MissingValues::Propagate)
       .value("omit", MissingValues::Omit);
-  nb::enum_<Metric>(module, "Metric").value("straight", Metric::Straight).value("path", Metric::Path);
+  nb::enum_<Metric>(module, "Metric")
+      .value("straight", Metric::Straight)
+      .value("path", Metric::Path)
+      .value("rings", Metric::Rings);
   nb::enum_<Nesting>(module, "Nesting").value("own", Nesting::Own).value("patch", Nesting::Patch);
   module.def("aggregate", &aggregates, nb::arg(), nb::arg("values"), nb::arg("weights").none(),
              nb::arg("vertices").none(), nb::arg("radii"), nb::arg("reduce"), nb::arg("kernel"), nb::arg("missing"),

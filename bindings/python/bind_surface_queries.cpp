@@ -35,8 +35,8 @@ namespace {
 using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
 auto unconnected(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
-                 nb::handle progress, const Mask& walls, const Mask& ignored) {
-  const BatchQuery query = query_of(vertices, radius, walls, ignored);
+                 nb::handle progress, Metric metric, const Mask& walls, const Mask& ignored) {
+  const BatchQuery query = query_of(vertices, radius, walls, ignored, metric);
   const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
   Unconnected found = without_lock([&] { return nearest_unconnected(method.index(), query, options); });
   static_assert(static_cast<std::int32_t>(kNoVertex) == -1);
@@ -118,7 +118,7 @@ void bind_surface_queries(nb::module_& module) {
   const auto walls = nb::arg("walls").none();
   const auto ignored = nb::arg("ignored").none();
   module.def("nearest_unconnected", &unconnected, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("threads"),
-             nb::arg("progress").none(), walls, ignored);
+             nb::arg("progress").none(), nb::arg("metric"), walls, ignored);
   nb::class_<FaceIndex>(module, "FaceIndex")
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none());
   module.def("face_index", &make_face_index, nb::arg(), nb::arg(), nb::arg("offsets").none());

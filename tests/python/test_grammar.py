@@ -143,18 +143,24 @@ def test_ignored(name):
     return close(found[same], CALLS[name](INDEX, R, walls=IGNORED)[same])
 
 
-@EACH
-def test_metric_path(name):
-    words = {"metric": "path", "walls": WALLS, "ignored": IGNORED}
-    if name in SHAPE:
-        with pytest.raises(ValueError, match="metric: 'path', expected 'straight'"):
-            CALLS[name](INDEX, R, **words)
-        return
-    found, r = CALLS[name](INDEX, R, **words), meshhood.smoothing_radius(R) if "smooth" in name else R
+def lists_by(metric, r):
+    """1 + the distance of each vertex of each neighborhood, one vertex at a time."""
     lists = np.zeros((COUNT, COUNT))
     for v in range(COUNT):
-        ids, lengths = INDEX.query_region(v, r, return_distance=True, **words)
+        if metric == "path":
+            ids, lengths = INDEX.query_region(v, r, return_distance=True, metric="path", walls=WALLS, ignored=IGNORED)
+        else:
+            counts, ids = INDEX.query_rings(v, int(r), walls=WALLS, ignored=IGNORED)
+            lengths = np.repeat(np.arange(len(counts)), np.diff(counts, prepend=0))
         lists[v, ids] = 1 + lengths
+    return lists
+
+
+@pytest.mark.parametrize("metric", ("path", "rings"))
+@pytest.mark.parametrize("name", [name for name in CALLS if name not in SHAPE])
+def test_metric(name, metric):
+    found = CALLS[name](INDEX, R, metric=metric, walls=WALLS, ignored=IGNORED)
+    lists = lists_by(metric, meshhood.smoothing_radius(R) if "smooth" in name else R)
     weights = np.where(lists > 0, gaussian(lists - 1, R), 0)
     with np.errstate(invalid="ignore"):
         mean = weights / weights.sum(axis=1, keepdims=True)
@@ -167,18 +173,32 @@ def test_metric_path(name):
     close(found, wanted)
 
 
+# The columns that do not depend on signs or equal variances.
+OF_SHAPE = {"curvature": 2, "corrected_curvature": 3, "moments": 10, "principal_components": 7, "features": 2}
+
+
+@pytest.mark.parametrize("metric", ("path", "rings"))
+@pytest.mark.parametrize("name", SHAPE)
+def test_metric_of_the_shape(name, metric):
+    """As by a ball with all vertices, of which those of no neighborhood are ignored."""
+    found = CALLS[name](INDEX, R, metric=metric, walls=WALLS, ignored=IGNORED)
+    lists, compared, large = lists_by(metric, R), 0, 1e3
+    for v in range(0, COUNT, 3):
+        if (lists[v] > 0).sum() < 6:  # a fit would be extended
+            continue
+        wanted = CALLS[name](INDEX, large, vertices=[v], ignored=lists[v] == 0)[0]
+        if name == "features":
+            r = R * INDEX.mean_edge_length if metric == "rings" else R
+            wanted = wanted * [r / large, (large / r) ** 2]
+        np.testing.assert_allclose(found[v][: OF_SHAPE[name]], wanted[: OF_SHAPE[name]], rtol=1e-7, atol=1e-9)
+        compared += 1
+    assert compared > 20
+
+
 @EACH
-def test_metric_rings(name):
-    if name in VALUES_OVER or name in SHAPE:
-        with pytest.raises(ValueError, match="metric: 'rings', expected 'straight'"):
-            CALLS[name](INDEX, 2, metric="rings")
-        return
-    lists = np.zeros((COUNT, COUNT))
-    for v in range(COUNT):
-        counts, ids = INDEX.query_rings(v, 2, walls=WALLS)
-        lists[v, ids] = 1 + np.repeat(np.arange(len(counts)), np.diff(counts, prepend=0))
-    found = CALLS[name](INDEX, 2, metric="rings", walls=WALLS)
-    np.testing.assert_array_equal(found, (lists > 0).sum(axis=1) if name == "count" else lists)
+def test_rings_have_no_unit(name):
+    with pytest.raises(ValueError, match="unit: expected 'mesh' with metric='rings'"):
+        CALLS[name](INDEX, 2, metric="rings", unit="edge")
 
 
 @EACH
@@ -229,7 +249,7 @@ def test_sort(name, sort):
 
 
 def test_nearest_vertices_take_the_words_too():
-    """`query_knn` and `nearest_unconnected` have rows, masks, units and workers, and each says which metrics it knows."""
+    """`query_knn` and `nearest_unconnected` have rows, metrics, masks, units and workers."""
     for call in (
         lambda **words: INDEX.query_knn(words.pop("vertices", None), 9, **words)[1],
         lambda **words: INDEX.nearest_unconnected(words.pop("vertices", None), words.pop("r", 0.5), **words)[1],
@@ -239,7 +259,7 @@ def test_nearest_vertices_take_the_words_too():
         assert np.isinf(whole[WALLS]).all()
         edge = INDEX.mean_edge_length
         np.testing.assert_array_equal(call(r=0.5, unit="edge"), call(r=0.5 * edge))
-        with pytest.raises(ValueError, match="metric: 'rings', expected 'straight'"):
-            call(metric="rings")
+        with pytest.raises(ValueError, match="metric: 'ring', expected 'straight'"):
+            call(metric="ring")
         with pytest.raises(TypeError, match="wall: no argument of this call"):
             call(wall=WALLS)

@@ -110,7 +110,7 @@ class Aggregates(Held):
         nan : "propagate", a neighborhood with a NaN gives NaN, but its count is that of all vertices; "omit", NaN marks a
             missing value, which is left out.
         nesting : what scales mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the largest,
-            and of them the vertices within each smaller radius. With metric="path" both are the same.
+            and of them the vertices within each smaller radius. With metric="path" or "rings" both are the same.
         ddof : "var" and "std" divide by the number of values minus this, 0 or 1.
         F : other faces than those that the index keeps, for weights="area".
         dtype : of the result, float32 or float64. Without it, that of `values` if float32, else float64. All sums are
@@ -132,7 +132,6 @@ class Aggregates(Held):
         (2, 2)
         """
         rows = read_rows(self, vertices, r, words.get("scales"), words, AggregateWords)
-        _refuse_rings(rows.metric)
         given = _values(values, self._count)
         dtype = result_dtype(words, np.float32 if given.dtype == np.float32 else np.float64)
         shape = rows.shape + given.shape[1:]
@@ -165,7 +164,7 @@ class Aggregates(Held):
                 progress=report,
                 **options,
                 **rows.filter,
-                metric=getattr(_core.Metric, rows.metric),
+                metric=rows.core_metric,
             )
         result = result.reshape(shape).astype(dtype, copy=False)
         return result if result.ndim else float(result)
@@ -229,7 +228,6 @@ class Aggregates(Held):
         check_words(words, SmoothWords)
         if "nan" in words:
             raise TypeError("nan: no argument of this call, because a matrix does not depend on the values")
-        _refuse_rings(words.get("metric"))
         weights = area_weights(self, words.get("weights"), words.get("F"))
         listed: Any = {word: value for word, value in words.items() if word not in ("weights", "F", "dtype")}
         r, listed["scales"] = _smoothing_radii(fwhm, words.get("scales"))
@@ -262,11 +260,6 @@ def _kernel_radii(fwhm: Any, name: str) -> Any:
         at = tuple(wrong[0])
         raise ValueError(f"{name}: row {at[0]}: {widths[at]}, expected a finite number > 0")
     return np.array([_core.smoothing_radius(width) for width in widths.flat]).reshape(widths.shape)
-
-
-def _refuse_rings(metric: Any) -> None:
-    if metric == "rings":
-        raise ValueError("metric: 'rings', expected 'straight' or 'path'")
 
 
 def _values(values, count):

@@ -47,8 +47,6 @@ class Held:
         if metric != "straight":
             if method != "exact":
                 raise ValueError(f"method: {method!r}, expected 'exact' with metric={metric!r}")
-            if metric == "rings" and words.get("unit", "mesh") != "mesh":
-                raise ValueError("unit: expected 'mesh' with metric='rings', whose radii are numbers of edges")
             return self._methods.along_edges if metric == "path" else self._methods.rings
         for mask in ("walls", "ignored"):
             if method != "exact" and words.get(mask) is not None:

@@ -99,7 +99,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
     metric : "straight", the neighborhood in the ball of radius `r`; "path", the vertices whose shortest path along
         edges is at most `r` long. Distances, and the weights that follow from them, are then the lengths of these
         paths. "rings", the vertices that at most `r` edges separate from the vertex; distances are then numbers of
-        edges. Calls that combine values know no "rings", and those that measure the surface "straight" alone.
+        edges.
     unit : of `r` and `scales`: "mesh" is that of V, "edge" is `mean_edge_length`.
     workers, progress : as above. Progress is over all scales. The result does not depend on `workers`.
 

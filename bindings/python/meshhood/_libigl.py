@@ -19,13 +19,12 @@ def principal_curvature(
 ) -> tuple[
     NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]
 ]:
-    """As `igl.principal_curvature(V, F, radius, False)` of libigl, with the same results: PD1, PD2 (#V, 3), PV1, PV2
-    (#V,), and the vertices without a result. This is not libigl's default: with useKring=True it takes the vertices
-    within `radius` edges instead of those in a ball.
+    """As `igl.principal_curvature` of libigl, with the same results: PD1, PD2 (#V, 3), PV1, PV2 (#V,), and the vertices
+    without a result. libigl's default is useKring=True.
 
     V : (#V, 3); F : (#F, 3).
     radius : of the neighborhood, in mean lengths of the sides of all faces; an integer of at least 2.
-    useKring : must be False.
+    useKring : take the vertices within `radius` edges instead of those in a ball.
     workers : number of threads, -1 for one per processor.
 
     Differences from libigl: the list includes vertices without a normal; directions have the sign that makes the
@@ -34,14 +33,16 @@ def principal_curvature(
 
     >>> PD1, PD2, PV1, PV2, bad = meshhood.principal_curvature(V, F, radius=3)
     """
-    if useKring:
-        raise ValueError("useKring: True, expected False: rings of edges are not searched")
     radius = _convert.positive(radius, "radius")
     if radius < 2:
         warnings.warn("radius: 1, which libigl raises to 2", stacklevel=2)
         radius = 2
     index = MeshIndex(V, F, workers=workers)
-    length = _core.libigl_radius(index.positions, *index._face_arrays(None), edges=float(radius))
-    found = index.curvature(length, like="libigl", workers=workers)
+    if useKring:
+        # Half an edge more, because libigl's balls are open.
+        found = index.curvature(radius + 0.5, metric="rings", like="libigl", workers=workers)
+    else:
+        length = _core.libigl_radius(index.positions, *index._face_arrays(None), edges=float(radius))
+        found = index.curvature(length, like="libigl", workers=workers)
     bad = np.flatnonzero(np.isin(found.state, (TOO_FEW, NO_NORMAL))).astype(np.int32)
     return found.d1, found.d2, found.k1, found.k2, bad

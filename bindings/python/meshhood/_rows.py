@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Optional, TypedDict, Union
 
 import numpy as np
 
-from . import _convert
+from . import _convert, _core
 from ._methods import Method
 from ._progress import Progress, Report, check_progress, in_parts, reporter
 from ._types import METRICS, Ids, Mask, Metric, Reals, Sort, Unit
@@ -77,6 +77,10 @@ class Rows:
     def filter(self) -> dict[str, Any]:
         return {"walls": self.walls, "ignored": self.ignored}
 
+    @property
+    def core_metric(self) -> Any:
+        return getattr(_core.Metric, self.metric)
+
     def restrict(self, method: Any) -> tuple[Any, Rows]:
         """The method with answers that the masks restrict, for several calls, and the rows without masks."""
         if self.walls is None and self.ignored is None:
@@ -108,6 +112,9 @@ def read_rows(index: Held, vertices: Any, r: Any, scales: Any, words: Mapping[st
         one = np.array([_convert.vertex(vertices, index._count)], np.int32) if is_one else None
         ids = _convert.vertices(vertices, index._count) if one is None else one
         count = len(ids)
+    metric = _convert.choice(words.get("metric", "straight"), "metric", METRICS)
+    if metric == "rings" and words.get("unit", "mesh") != "mesh":
+        raise ValueError("unit: expected 'mesh' with metric='rings', whose radii are numbers of edges")
     radii = _radii(r, scales, None if is_one else count, index._scale(words.get("unit", "mesh")))
     shape = () if scales is None else (len(radii),)
     # Copies: the scales of a call, and the chunks of an iterator, are calls of the library of their own.
@@ -120,7 +127,7 @@ def read_rows(index: Held, vertices: Any, r: Any, scales: Any, words: Mapping[st
         shape if is_one else (*shape, count),
         walls,
         ignored,
-        _convert.choice(words.get("metric", "straight"), "metric", METRICS),
+        metric,
         _convert.threads(words.get("workers", -1)),
         words.get("progress"),
     )

@@ -69,7 +69,7 @@ class Shape(Held):
     ) -> Curvature:
         """Principal curvatures of `vertices` by a quadric that is fitted to their neighborhoods.
 
-        r, vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`.
+        r, vertices, scales, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
         dtype : of the numbers of the result, float64 unless given. All is computed in float64.
         F : other faces than those that the index keeps, or a mesh. The normals are kept for the next call with the same
             faces.
@@ -98,9 +98,9 @@ class Shape(Held):
             _convert.choice(like, "like", ("libigl",))
         if like is not None and fit == "jet":
             raise ValueError(f"like: {like!r}, expected None with fit='jet'")
-        rows = self._surface_rows(vertices, r, words, CurvatureWords)
+        rows = read_rows(self, vertices, r, words.get("scales"), words, CurvatureWords)
         options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
-        options |= {"filter": bool(words.get("filter", True)), "threads": rows.threads, **rows.filter}
+        options |= {"filter": bool(words.get("filter", True)), "threads": rows.threads, "metric": rows.core_metric, **rows.filter}
         surface = self._surface(words.get("F"), words.get("normals"), rows.threads)
         found = rows.for_each_scale(
             "curvature", lambda radius, report: surface.curvatures(rows.vertices, radius, progress=report, **options)
@@ -121,7 +121,7 @@ class Shape(Held):
         >>> index.corrected_curvature(scales=[0.3, 0.5]).mean.shape
         (2, 642)
         """
-        rows = self._surface_rows(vertices, r, words, CorrectedWords)
+        rows = read_rows(self, vertices, r, words.get("scales"), words, CorrectedWords)
         F, normals = words.get("F"), words.get("normals")
         corners, offsets = self._face_arrays(F)
         surface = self._surface(F if normals is None else None, normals, rows.threads)
@@ -134,6 +134,7 @@ class Shape(Held):
                 radius=radius,
                 threads=rows.threads,
                 progress=report,
+                metric=rows.core_metric,
                 **rows.filter,
             ),
         )
@@ -145,7 +146,7 @@ class Shape(Held):
         """Sums of w x^i y^j z^k over each neighborhood for i + j + k <= degree, where x, y, z are the coordinates
         relative to the query vertex, and w the weights.
 
-        r, vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`.
+        r, vertices, scales, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
         degree : 0 to 4. weights, F : as for `aggregate`. dtype : as for `curvature`.
         Returns (#rows, 1, 4, 10, 20 or 35), with a leading axis if there are scales: 1, x, y, z, x^2, xy, xz,
         y^2, yz, z^2, x^3, ..., the order of scikit-learn's PolynomialFeatures. They are accurate to 1e-13 of the sum of
@@ -155,14 +156,13 @@ class Shape(Held):
         >>> meshhood.MeshIndex(V, F).moments(0.3).shape
         (642, 10)
         """
-        rows = self._surface_rows(vertices, r, words, MomentWords)
+        rows = read_rows(self, vertices, r, words.get("scales"), words, MomentWords)
         weights = area_weights(self, words.get("weights"), words.get("F"))
         options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": weights, "threads": rows.threads}
+        options |= {"metric": rows.core_metric, **rows.filter}
         found = rows.for_each_scale(
             "moments",
-            lambda radius, report: _core.moments(
-                self._exact, rows.vertices, radius, progress=report, **options, **rows.filter
-            ),
+            lambda radius, report: _core.moments(self._exact, rows.vertices, radius, progress=report, **options),
         )
         return _of_type(rows.shaped(found), words)
 
@@ -177,9 +177,9 @@ class Shape(Held):
         >>> found.normal.shape, found.surface_variation.shape
         ((642, 3), (642,))
         """
-        rows = self._surface_rows(vertices, r, words, MomentWords)
+        rows = read_rows(self, vertices, r, words.get("scales"), words, MomentWords)
         weights = area_weights(self, words.get("weights"), words.get("F"))
-        options = {"weights": weights, "threads": rows.threads, **rows.filter}
+        options = {"weights": weights, "threads": rows.threads, "metric": rows.core_metric, **rows.filter}
         found = rows.for_each_scale(
             "principal_components",
             lambda radius, report: _core.principal_components(
@@ -198,8 +198,9 @@ class Shape(Held):
     ) -> Floats:
         """Feature vectors without unit, so that scales can be compared.
 
-        r, vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`; scales are for example
-            `geometric_radii(a, b, count)`. Radii are > 0.
+        r, vertices, scales, walls, ignored, metric, unit, workers, progress : see `MeshIndex`; scales are for example
+            `geometric_radii(a, b, count)`. Radii are > 0. With metric="rings", `r` edges count as `r` times the mean
+            length of an edge.
         kinds : one name or several of crease, mean, gaussian, k1, k2, curvedness, shape_index, area, height, variation.
             See docs/curvature.md for what they mean.
         F, filter, dtype : as for `curvature`.
@@ -212,7 +213,7 @@ class Shape(Held):
         >>> index.features(scales=meshhood.geometric_radii(0.2, 0.8, 3), kinds=("crease", "area")).shape
         (3, 642, 2)
         """
-        rows = self._surface_rows(vertices, r, words, FeatureWords)
+        rows = read_rows(self, vertices, r, words.get("scales"), words, FeatureWords)
         if not isinstance(kinds, Iterable):
             raise TypeError(f"kinds: expected a name or several, not {type(kinds).__name__}")
         names = (kinds,) if isinstance(kinds, str) else tuple(kinds)
@@ -224,6 +225,7 @@ class Shape(Held):
             "areas": area_weights(self, "area", F) if {"area", "height", "variation"} & set(names) else None,
             "filter": bool(words.get("filter", True)),
             "threads": rows.threads,
+            "metric": rows.core_metric,
             **rows.filter,
         }
         surface = self._surface(F, None, rows.threads)
@@ -232,12 +234,6 @@ class Shape(Held):
             found = surface.features(rows.vertices, radii=np.array(radii), radius=radius, progress=report, **options)
         found = _of_type(found.reshape(rows.shape + found.shape[2:]), words)
         return found[..., 0] if isinstance(kinds, str) else found
-
-    def _surface_rows(self, vertices: Any, r: Any, words: Any, accepted: Any) -> Rows:
-        rows = read_rows(self, vertices, r, words.get("scales"), words, accepted)
-        if rows.metric != "straight":
-            raise ValueError(f"metric: {rows.metric!r}, expected 'straight': the surface is measured in balls")
-        return rows
 
 
 def _of_type(array: Any, words: Any) -> Any:

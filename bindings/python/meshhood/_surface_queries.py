@@ -89,7 +89,9 @@ class SurfaceQueries(Held):
         vertices : a sequence of vertices, a bool mask (#V,), or None for all.
         r : one radius, or one for each row. A vertex at exactly `r` counts.
         walls, ignored, unit, workers, progress : see `MeshIndex`. Walls and ignored vertices are never the nearest, and
-            for a wall there is none. metric : "straight".
+            for a wall there is none.
+        metric : see `MeshIndex`: what is connected. With "path", the ball is that of radius `r` in space, too; with
+            "rings", all of space.
 
         It is the thickness of a wall, the gap between two folds or sheets that nearly touch. *Not connected* is meant at
         the scale of `r`: a vertex to which only a way outside the ball leads is not connected, so a surface that bends
@@ -100,10 +102,15 @@ class SurfaceQueries(Held):
         >>> thin = gap < 0.1
         """
         rows = read_rows(self, vertices, r, None, words, Words)
-        _one_of(rows.metric, "straight")
         with rows.reporter("nearest unconnected") as report:
             return _core.nearest_unconnected(
-                self._exact, rows.vertices, rows.radii[0], threads=rows.threads, progress=report, **rows.filter
+                self._exact,
+                rows.vertices,
+                rows.radii[0],
+                threads=rows.threads,
+                progress=report,
+                metric=rows.core_metric,
+                **rows.filter,
             )
 
     def closest_point(
@@ -159,10 +166,11 @@ class SurfaceQueries(Held):
 
         vertices : a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
         k : how many, at least 1. A row for a smaller `k` is the beginning of that for a larger one.
-        r : only vertices within this connecting radius or path length.
+        r : only vertices within this connecting radius, path length or number of edges.
         metric : "straight": the nearest by connecting radius, the smallest radius whose neighborhood has the vertex,
             then by distance, then by id, as for `nearest_connected`; the distances are the connecting radii. "path": by
-            the length of the shortest path along edges, then by place in index order.
+            the length of the shortest path along edges, "rings": by the number of edges; each then by place in index
+            order.
         fill : the id where a row has fewer than `k` vertices; the distance there is inf.
         until : instead of `k`, an area. Each row is then a disc of fixed area: the first vertices, in the same order,
             whose weights add up to at least `until`; all where they do not. Returns `indptr, ids, distances`.
@@ -185,7 +193,7 @@ class SurfaceQueries(Held):
         if not isinstance(rows.radii[0], float):
             raise ValueError("r: expected one radius for all rows")
         options = {
-            "metric": getattr(_core.Metric, _one_of(rows.metric, "straight", "path")),
+            "metric": rows.core_metric,
             "radius": rows.radii[0],
             "threads": rows.threads,
             "max_bytes": _convert.max_bytes(words.get("max_bytes"), copies=1 if until is None else 2),
@@ -202,10 +210,6 @@ class SurfaceQueries(Held):
             options["fill"] = _convert.integer(fill, "fill", -(2**31), 2**31 - 1)
             ids, distances = _core.k_nearest(self._exact, rows.vertices, **options, progress=report)
         return (ids[0], distances[0]) if rows.shape == () else (ids, distances)
-
-
-def _one_of(metric: str, *known: str) -> str:
-    return str(_convert.choice(metric, "metric", known))
 
 
 def _of_polygons(second: Any, weights: Any, corners: int) -> Reals:
