@@ -41,7 +41,6 @@ constexpr Names<Reduce, 7> kReductions{{{"mean", Reduce::Mean},
                                         {"var", Reduce::Variance},
                                         {"std", Reduce::StandardDeviation},
                                         {"count", Reduce::Count}}};
-constexpr Names<Metric, 2> kMetrics{{{"straight", Metric::Straight}, {"path", Metric::Path}}};
 constexpr Names<SmoothingKernel, 4> kKernels{{{"box", SmoothingKernel::Box},
                                               {"epanechnikov", SmoothingKernel::Epanechnikov},
                                               {"biweight", SmoothingKernel::Biweight},
@@ -54,7 +53,6 @@ struct AggregateCommand {
   Reading reading;
   std::string values;
   RowOptions rows;
-  std::string metric = "straight";
   std::string reduce = "mean";
   std::string kernel = "box";
   bool fwhm = false;
@@ -145,7 +143,7 @@ void aggregate_command(const AggregateCommand& options) {
   const AggregateQuery query{.vertices = batch.vertices,
                              .radius = are_scales ? BatchRadius::scales(radii) : BatchRadius(radii),
                              .filter = batch.filter,
-                             .metric = value_of(kMetrics, options.metric),
+                             .metric = batch.metric,
                              .reduce = value_of(kReductions, options.reduce),
                              .kernel = options.fwhm ? SmoothingKernel::Gaussian : value_of(kKernels, options.kernel),
                              .missing = value_of(kMissing, options.missing),
@@ -171,7 +169,7 @@ void add_aggregate(CLI::App& program) {
                   options->values)
       ->required();
   add_rows(*command, options->rows);
-  add_metric(*command, options->metric);
+  add_metric(*command, options->rows.metric);
   add_choice(*command, "--reduce", "what to compute: mean, sum, min, max, var, std or count", names_of(kReductions),
              options->reduce);
   CLI::Option* const kernel = add_choice(

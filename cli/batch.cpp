@@ -267,6 +267,7 @@ void batch(const BatchCommand& options) {
   Input input(options.file, options.reading, threads);
   const RowQuery rows(options.rows, input);
   BatchQuery query = options.count ? rows.query() : rows.query_of_scale(0);
+  query.metric = value_of(kMetrics, options.search.metric);
   const SearchMethod method = method_of(options.search, input, {}, threads);
   VertexSorter sorter(options.sort, input);
   std::vector<VertexId> in_index_order;

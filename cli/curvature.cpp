@@ -20,6 +20,7 @@
 #include "commands.h"
 #include "input.h"
 #include "io/npz_writer.h"
+#include "methods.h"
 #include "options.h"
 #include "output.h"
 #include "row_query.h"
@@ -148,6 +149,7 @@ void add_curvature(CLI::App& program) {
   add_surface(*command, options->file);
   add_reading(*command, options->reading);
   add_rows(*command, options->rows);
+  add_metric(*command, options->rows.metric);
   command->add_flag("--like-libigl", options->like_libigl,
                     "the values of igl::principal_curvature, with the error of its shape operator");
   command->add_flag("--no-filter", options->no_filter,

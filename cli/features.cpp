@@ -26,6 +26,7 @@
 #include "commands.h"
 #include "input.h"
 #include "io/npz_writer.h"
+#include "methods.h"
 #include "names.h"
 #include "options.h"
 #include "output.h"
@@ -219,6 +220,7 @@ void features_command(const FeaturesCommand& options) {
 
 void add_radii(CLI::App& command, FeaturesCommand& options) {
   add_rows(command, options.rows)->required(false);
+  add_metric(command, options.rows.metric);
   command
       .add_option("--largest", options.largest,
                   "the largest of --count radii, in equal steps, or with --smallest in equal ratios")

@@ -9,9 +9,13 @@
 #include "meshhood/paper.h"
 
 #include "input.h"
+#include "names.h"
 
 /// How a search finds vertices and measures their distances, by names.
 namespace meshhood::cli {
+
+inline constexpr Names<Metric, 3> kMetrics{
+    {{"straight", Metric::Straight}, {"path", Metric::Path}, {"rings", Metric::Rings}}};
 
 struct MethodOptions {
   std::string method = "exact";
@@ -23,14 +27,17 @@ struct MethodOptions {
 /// --method and --metric.
 void add_method(CLI::App& command, MethodOptions& options);
 
-/// --metric alone, of a command that does not count edges.
+/// --metric alone, of a command that always searches by the index.
 void add_metric(CLI::App& command, std::string& metric);
+
+/// Throws Error{InvalidOption} if it has no radii of this unit.
+[[nodiscard]] Metric checked_metric(const std::string& name, const std::string& unit);
 
 /// Throws Error{InvalidOption} if the options contradict each other, a filter, or the unit of the radius.
 void check_method(const MethodOptions& options, bool has_filter, const std::string& unit);
 
-/// Borrows `input`. `settings` are those of the method paper; `threads` build the index. Throws Error{InvalidOption} if
-/// the method needs edges and the input has none.
+/// Of the straight metric: a query of the exact index has its own. Borrows `input`. `settings` are those of the method
+/// paper; `threads` build the index. Throws Error{InvalidOption} if the method needs edges and the input has none.
 [[nodiscard]] SearchMethod method_of(const MethodOptions& options, Input& input,
                                      const paper::QueryOptions& settings = {}, unsigned threads = kAllThreads);
 

@@ -12,6 +12,7 @@
 #include "meshhood/error.h"
 
 #include "io/messages.h"
+#include "methods.h"
 
 namespace meshhood::cli {
 namespace {
@@ -62,12 +63,13 @@ RowQuery::RowQuery(const RowOptions& options, Input& input)
     : list_(list_of(options.vertices, input)),
       rows_(rows_of(list_, input)),
       masks_(options.filter, input),
+      metric_(checked_metric(options.metric, options.radii.unit)),
       size_(rows_.count(input.vertex_count())),
       are_of_rows_(!options.row_radii.empty()),
       radii_(radii_of(options, size_, input)) {}
 
 BatchQuery RowQuery::query(BatchRadius radius) const {
-  return {.vertices = rows_, .radius = std::move(radius), .filter = masks_.filter()};
+  return {.vertices = rows_, .radius = std::move(radius), .filter = masks_.filter(), .metric = metric_};
 }
 
 void write_vertices(io::NpzWriter& npz, const BatchVertices& rows) {

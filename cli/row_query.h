@@ -24,6 +24,7 @@ struct RowOptions {
   Radii radii;
   std::string row_radii;  ///< a file with a radius for each row, instead
   FilterFiles filter;
+  std::string metric = "straight";
   unsigned threads = kAllThreads;
 
   /// The length of the first axis of the result.
@@ -31,8 +32,7 @@ struct RowOptions {
 };
 
 /// --radius, --radii, --unit, --vertices, --walls, --ignored and --threads. Returns the first, which is required
-/// without
-/// --radii unless made optional.
+/// without --radii unless made optional. See `add_metric` for the metric.
 CLI::Option* add_rows(CLI::App& command, RowOptions& options);
 
 /// What these options mean for an input.
@@ -70,6 +70,7 @@ class RowQuery {
   std::optional<std::vector<VertexId>> list_;
   BatchVertices rows_;
   FilterMasks masks_;
+  Metric metric_;
   std::size_t size_;
   bool are_of_rows_;
   std::vector<double> radii_;

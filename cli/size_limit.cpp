@@ -79,7 +79,7 @@ std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQue
       vertices[i] = query.vertices[row];
       if (query.radius.list()) radii[i] = (*query.radius.list())[row];
     }
-    for (const std::uint64_t size : counts(sampled, {.vertices = vertices, .radius = radius})) {
+    for (const std::uint64_t size : counts(sampled, {.vertices = vertices, .radius = radius, .metric = query.metric})) {
       sample.add(static_cast<double>(size));
     }
   }

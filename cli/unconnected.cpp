@@ -17,6 +17,7 @@
 #include "commands.h"
 #include "input.h"
 #include "io/npz_writer.h"
+#include "methods.h"
 #include "options.h"
 #include "output.h"
 #include "row_query.h"
@@ -101,6 +102,7 @@ void add_unconnected(CLI::App& program) {
   add_file(*command, options->file);
   add_reading(*command, options->reading);
   add_rows(*command, options->rows);
+  add_metric(*command, options->rows.metric);
   add_value_files(*command, options->files, "the gap at the last radius");
   add_json(*command, options->json);
   command->callback([options] { unconnected(*options); });
