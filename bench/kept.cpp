@@ -56,7 +56,7 @@ int run(std::span<char*> arguments) {
   for (const char* argument : arguments.subspan(2)) radii.push_back(std::stod(argument));
   std::printf("%-6s %6s %9s %8s %8s %8s %6s\n", "", "edges", "vertices", "counts", "once", "twice", "ratio");
   for (const double edges : radii) compare(index, "exact", edges, edges * mean_edge);
-  for (const double edges : radii) compare(SearchMethod::rings(index), "rings", edges, edges);
+  for (const double edges : radii) compare(SearchMethod(index).by(Metric::Rings), "rings", edges, edges);
   return 0;
 }
 

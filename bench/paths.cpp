@@ -32,7 +32,7 @@ class Paths {
         graph_(extract_graph(index_)),
         mean_edge_(mean_edge_length(graph_.view())),
         edges_(index_),
-        method_(SearchMethod::along_edges(index_)),
+        method_(SearchMethod(index_).by(Metric::Path)),
         map_(index_.vertex_count()) {
     for (std::size_t v = 0; v < map_.size(); ++v) map_[v] = static_cast<double>(v % 97);
   }

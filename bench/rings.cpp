@@ -59,7 +59,7 @@ class Rings {
         graph_(extract_graph(index_)),
         plain_(graph_.adjacency.view()),
         edges_(index_),
-        method_(SearchMethod::rings(index_)) {}
+        method_(SearchMethod(index_).by(Metric::Rings)) {}
 
   void run(std::size_t k) {
     const auto size = static_cast<VertexId>(index_.vertex_count());

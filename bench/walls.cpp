@@ -74,16 +74,16 @@ class Walls {
     return mask;
   }
 
-  void compare(double edges, const char* name, const char* kind, const Filter& filter) {
-    const BatchQuery plain{.radius = edges * mean_edge_};
-    const BatchQuery restricted{.radius = edges * mean_edge_, .filter = filter};
+  void compare(double edges, const char* name, const char* kind, const Masks& masks) {
+    const BatchQuery query{.radius = edges * mean_edge_};
+    const Index searched = masked(index_, masks);
     std::size_t found = 0;
-    const auto count = [&](const BatchQuery& query) { return [&] { found = counts(index_, query).size(); }; };
-    const auto list = [&](const BatchQuery& query) {
-      return [&] { for_each_neighborhood(index_, query, [&](const BatchRow& row) { found += row.ids.size(); }); };
+    const auto count = [&](const Index& index) { return [&] { found = counts(index, query).size(); }; };
+    const auto list = [&](const Index& index) {
+      return [&] { for_each_neighborhood(index, query, [&](const BatchRow& row) { found += row.ids.size(); }); };
     };
     const auto [count_plain, count_with, list_plain, list_with] =
-        fastest<4>({count(plain), count(restricted), list(plain), list(restricted)});
+        fastest<4>({count(index_), count(searched), list(index_), list(searched)});
     const double to_us = 1e6 / static_cast<double>(size_);
     std::printf("%6.4g %-10s %-8s %10.3f %8.2f %10.3f %8.2f\n", edges, name, kind, to_us * count_plain,
                 count_with / count_plain, to_us * list_plain, list_with / list_plain);

@@ -142,7 +142,6 @@ void aggregate_command(const AggregateCommand& options) {
   const bool are_scales = batch.radius.scales().has_value();
   const AggregateQuery query{.vertices = batch.vertices,
                              .radius = are_scales ? BatchRadius::scales(radii) : BatchRadius(radii),
-                             .filter = batch.filter,
                              .metric = batch.metric,
                              .reduce = value_of(kReductions, options.reduce),
                              .kernel = options.fwhm ? SmoothingKernel::Gaussian : value_of(kKernels, options.kernel),

@@ -196,8 +196,8 @@ std::string describe(const BatchCommand& options, const Shard& shard, std::size_
               {"method", options.search.method},
               {"metric", options.search.metric},
               {"radius", query.radii().front()},
-              {"walls", std::count(query.masks().walls.begin(), query.masks().walls.end(), 1)},
-              {"ignored", std::count(query.masks().ignored.begin(), query.masks().ignored.end(), 1)},
+              {"walls", std::count(input.masks().walls.begin(), input.masks().walls.end(), 1)},
+              {"ignored", std::count(input.masks().ignored.begin(), input.masks().ignored.end(), 1)},
               {"sort", options.sort},
               {"count", options.count},
               {"distances", options.distances}}
@@ -245,7 +245,7 @@ std::vector<VertexId> all_in_index_order(const Index& index, const Welding& weld
 
 void check_options(const BatchCommand& options) {
   check_weld(options.reading.weld, options.search.method);
-  check_method(options.search, !options.rows.filter.empty(), options.rows.radii.unit);
+  check_method(options.search, !options.rows.masks.empty(), options.rows.radii.unit);
   check_sort(options.sort, options.search.method);
   if (!options.shard.empty() && !options.rows.row_radii.empty()) {
     raise(ErrorCode::InvalidOption, "--shard: a radius for each row, expected one for all");

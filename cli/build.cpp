@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include "meshhood/error.h"
-#include "meshhood/filter.h"
 
 #include "commands.h"
 #include "input.h"

@@ -40,18 +40,17 @@ struct Connections {
 Connections connections_of(const ConnectCommand& options, Input& input) {
   const StartQuery query(options.start, input);
   const Start start = query.starts.front().view();
-  const Filter filter = query.masks.filter();
   RegionSearcher searcher(input.exact_index());
   Connections found;
   if (options.nearest) {
     const std::size_t k = std::min<std::size_t>(*options.nearest, input.vertex_count());
-    searcher.nearest_connected(start, k, found.vertices, found.radii, filter);
+    searcher.nearest_connected(start, k, found.vertices, found.radii);
     return found;
   }
   for (const std::uint64_t target : options.targets) {
     const VertexId w = resolve_vertex(target, input);
     found.vertices.push_back(w);
-    found.radii.push_back(searcher.connecting_radius(start, w, filter));
+    found.radii.push_back(searcher.connecting_radius(start, w));
   }
   return found;
 }

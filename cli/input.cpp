@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "meshhood/error.h"
+#include "meshhood/masks.h"
 
 #include "output.h"
 #include "parts/manifest.h"
@@ -151,10 +152,21 @@ MeshView Input::surface() {
   return {positions(), FacesView{}};
 }
 
+void Input::ignore_welded() {
+  if (welding_.count() == 0) return;
+  masks_.ignored.resize(vertex_count());
+  for (VertexId v = 0; v < masks_.ignored.size(); ++v) {
+    masks_.ignored[v] |= static_cast<std::uint8_t>(welding_.kept(v) != v);
+  }
+}
+
 const Index& Input::exact_index(unsigned threads) {
-  if (exact_) return *exact_;
-  exact_ = mesh_ && !adjacency_ ? build_exact_index(mesh_->view(), threads) : build_exact_index(graph(), threads);
-  return *exact_;
+  if (!exact_) {
+    exact_ = mesh_ && !adjacency_ ? build_exact_index(mesh_->view(), threads) : build_exact_index(graph(), threads);
+  }
+  if (masks_.walls.empty() && masks_.ignored.empty()) return *exact_;
+  if (!masked_) masked_ = meshhood::masked(*exact_, {.walls = masks_.walls, .ignored = masks_.ignored}, threads);
+  return *masked_;
 }
 
 const paper::Index& Input::paper_index() {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meshhood/adjacency.h"
@@ -24,6 +25,12 @@ inline constexpr unsigned kAllThreads = 0;
 struct Reading {
   std::string weld;
   std::string precision;
+};
+
+/// The masks of --walls and --ignored: each empty, or #V.
+struct OwnedMasks {
+  std::vector<std::uint8_t> walls;
+  std::vector<std::uint8_t> ignored;
 };
 
 /// FILE: a mesh, or an index, which represents the mesh it was built from.
@@ -70,7 +77,15 @@ class Input {
   /// The mesh; of an index without faces only the vertices, with a warning that a picture has only these.
   [[nodiscard]] MeshView surface();
 
-  /// The file must have edges.
+  /// What all searches leave out. Before the first use of the index.
+  void set_masks(OwnedMasks masks) { masks_ = std::move(masks); }
+  [[nodiscard]] const OwnedMasks& masks() const { return masks_; }
+
+  /// Ignores the vertices that have become others by welding, too, which are still at their places. For what finds
+  /// vertices by their places, connected or not.
+  void ignore_welded();
+
+  /// With the masks. The file must have edges.
   [[nodiscard]] const Index& exact_index(unsigned threads = kAllThreads);
 
   /// The file must have edges or be an index of the paper.
@@ -83,6 +98,8 @@ class Input {
   std::optional<Adjacency> adjacency_;  // of the mesh
   std::optional<IndexHeader> header_;
   std::optional<Index> exact_;
+  OwnedMasks masks_;
+  std::optional<Index> masked_;
   std::optional<GraphData> graph_;  // of the exact index in the file
   std::optional<paper::Index> paper_;
   std::optional<PositionsData> positions_;  // of the paper's index in the file

@@ -211,7 +211,7 @@ std::vector<Answer> answers_of_starts(const QueryCommand& options, const StartQu
   VertexSorter sorter(options.sort, input);
   std::vector<Answer> answers;
   for (const QueryStart& start : query.starts) {
-    StartAnswer found = regions_of(start, query.masks.filter(), options.search.metric, radii, input);
+    StartAnswer found = regions_of(start, options.search.metric, radii, input);
     std::size_t begin = 0;
     for (const std::size_t end : found.counts) {
       sorter.sort(std::span(found.vertices).subspan(begin, end - begin),
@@ -243,7 +243,7 @@ void check_options(const QueryCommand& options) {
   if (options.factor && method != "paper") raise(ErrorCode::InvalidOption, "--factor requires --method paper");
   const bool has_point = !options.start.point.empty();
   if (has_point && method != "exact") raise(ErrorCode::InvalidOption, "--point requires --method exact");
-  check_method(options.search, !options.start.filter.empty(), options.radii.unit);
+  check_method(options.search, !options.start.masks.empty(), options.radii.unit);
   const std::size_t radii = options.radii.values.size();
   if (radii > 1 && method != "exact") {
     raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one with --method {}", radii, method));

@@ -86,8 +86,7 @@ void region(const RegionCommand& options) {
   const StartQuery query(options.start, input);
   const QueryStart& start = query.starts.front();
   const double radius = resolve(options.radius, input);
-  const std::vector<VertexId> ids =
-      regions_of(start, query.masks.filter(), "straight", std::span(&radius, 1), input).vertices;
+  const std::vector<VertexId> ids = regions_of(start, "straight", std::span(&radius, 1), input).vertices;
   RegionMesher mesher(input.surface());
   const Submesh part = mesher.submesh(ids, options.faces == "all" ? Corners::All : Corners::Any);
   const Rim rim = mesher.rim(ids, center_of(start.view(), input.positions()), radius);

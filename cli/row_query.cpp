@@ -54,7 +54,7 @@ CLI::Option* add_rows(CLI::App& command, RowOptions& options) {
       ->each([radius](const std::string&) { radius->required(false); });
   add_file_option(command, "--vertices", "text file with the query vertices, one per line (default: all)",
                   options.vertices);
-  add_filter(command, options.filter);
+  add_masks(command, options.masks);
   add_threads(command, options.threads);
   return radius;
 }
@@ -62,14 +62,15 @@ CLI::Option* add_rows(CLI::App& command, RowOptions& options) {
 RowQuery::RowQuery(const RowOptions& options, Input& input)
     : list_(list_of(options.vertices, input)),
       rows_(rows_of(list_, input)),
-      masks_(options.filter, input),
       metric_(checked_metric(options.metric, options.radii.unit)),
       size_(rows_.count(input.vertex_count())),
       are_of_rows_(!options.row_radii.empty()),
-      radii_(radii_of(options, size_, input)) {}
+      radii_(radii_of(options, size_, input)) {
+  input.set_masks(read_masks(options.masks, input));
+}
 
 BatchQuery RowQuery::query(BatchRadius radius) const {
-  return {.vertices = rows_, .radius = std::move(radius), .filter = masks_.filter(), .metric = metric_};
+  return {.vertices = rows_, .radius = std::move(radius), .metric = metric_};
 }
 
 void write_vertices(io::NpzWriter& npz, const BatchVertices& rows) {

@@ -23,7 +23,7 @@ struct RowOptions {
   std::string vertices;  ///< a file with a list; empty for all
   Radii radii;
   std::string row_radii;  ///< a file with a radius for each row, instead
-  FilterFiles filter;
+  MaskFiles masks;
   std::string metric = "straight";
   unsigned threads = kAllThreads;
 
@@ -38,7 +38,7 @@ CLI::Option* add_rows(CLI::App& command, RowOptions& options);
 /// What these options mean for an input.
 class RowQuery {
  public:
-  /// Borrows from `input`. Throws as `resolve`, `read_vertex_list` and `read_channel`.
+  /// Borrows from `input`, whose masks it sets. Throws as `resolve`, `read_vertex_list` and `read_channel`.
   RowQuery(const RowOptions& options, Input& input);
   RowQuery(const RowQuery&) = delete;  // `rows_` may borrow from `list_`
   RowQuery& operator=(const RowQuery&) = delete;
@@ -46,11 +46,6 @@ class RowQuery {
   /// In the unit of the positions: those of all rows, or one for each row. Empty if --radius is optional and was not
   /// given.
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
-
-  [[nodiscard]] const FilterMasks& masks() const { return masks_; }
-
-  /// See `FilterMasks`. For what finds vertices by their places, connected or not.
-  void ignore_welded(const Input& input) { masks_.ignore_welded(input.welding()); }
 
   /// The number of rows. A row of a vertex that was welded is that of the one that it has become.
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -69,7 +64,6 @@ class RowQuery {
 
   std::optional<std::vector<VertexId>> list_;
   BatchVertices rows_;
-  FilterMasks masks_;
   Metric metric_;
   std::size_t size_;
   bool are_of_rows_;

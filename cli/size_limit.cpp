@@ -68,7 +68,6 @@ std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQue
   std::vector<VertexId> vertices(kSamplesPerStep);
   std::vector<double> radii(kSamplesPerStep);
   const BatchRadius radius = query.radius.list() ? BatchRadius(radii) : query.radius;
-  const SearchMethod sampled = query.filter.empty() ? method : method.restricted(query.filter);
   Sample sample;
   // A call of a scan, or of a search that copies the positions, also takes a time that grows with the mesh.
   const auto work_of_call = static_cast<double>(method.vertex_count());
@@ -79,7 +78,7 @@ std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQue
       vertices[i] = query.vertices[row];
       if (query.radius.list()) radii[i] = (*query.radius.list())[row];
     }
-    for (const std::uint64_t size : counts(sampled, {.vertices = vertices, .radius = radius, .metric = query.metric})) {
+    for (const std::uint64_t size : counts(method, {.vertices = vertices, .radius = radius, .metric = query.metric})) {
       sample.add(static_cast<double>(size));
     }
   }

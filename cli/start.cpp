@@ -43,19 +43,19 @@ std::vector<std::size_t> counts_within(std::span<const double> radii, const std:
   return counts;
 }
 
-StartAnswer paths_of(VertexId v, std::span<const double> radii, const Filter& filter, Input& input) {
+StartAnswer paths_of(VertexId v, std::span<const double> radii, Input& input) {
   StartAnswer answer;
-  EdgeSearcher(input.exact_index()).neighborhood(v, radii.back(), answer.vertices, answer.distances, filter);
+  EdgeSearcher(input.exact_index()).neighborhood(v, radii.back(), answer.vertices, answer.distances);
   answer.counts = counts_within(radii, answer.distances);
   return answer;
 }
 
-StartAnswer rings_of(VertexId v, std::span<const double> radii, const Filter& filter, Input& input) {
+StartAnswer rings_of(VertexId v, std::span<const double> radii, Input& input) {
   const auto most = static_cast<double>(input.vertex_count());
   StartAnswer answer;
   std::vector<std::size_t> sizes;
   EdgeSearcher(input.exact_index())
-      .rings(v, static_cast<std::size_t>(std::min(radii.back(), most)), answer.vertices, sizes, filter);
+      .rings(v, static_cast<std::size_t>(std::min(radii.back(), most)), answer.vertices, sizes);
   for (std::size_t ring = 0; ring < sizes.size(); ++ring)
     answer.distances.resize(sizes[ring], static_cast<double>(ring));
   answer.counts = counts_within(radii, answer.distances);
@@ -89,7 +89,7 @@ void add_start(CLI::App& command, const std::string& vertex, StartOptions& optio
               "vertex nearest to the point",
               options.seeds)
       ->needs(point);
-  add_filter(command, options.filter);
+  add_masks(command, options.masks);
 }
 
 void check_start_options(const StartOptions& options, bool takes_many) {
@@ -104,22 +104,23 @@ QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(optio
   if (seeds_.empty()) seeds_.push_back(input.welding().kept(nearest(input.exact_index(), point_).vertex));
 }
 
-StartQuery::StartQuery(const StartOptions& options, Input& input) : masks(options.filter, input) {
+StartQuery::StartQuery(const StartOptions& options, Input& input) {
+  input.set_masks(read_masks(options.masks, input));
   if (!options.point.empty()) starts.emplace_back(options, input);
   for (const std::uint64_t v : options.vertices) starts.emplace_back(resolve_vertex(v, input));
 }
 
-StartAnswer regions_of(const QueryStart& start, const Filter& filter, const std::string& metric,
-                       std::span<const double> radii, Input& input) {
-  if (metric == "path") return paths_of(*start.vertex(), radii, filter, input);
-  if (metric == "rings") return rings_of(*start.vertex(), radii, filter, input);
+StartAnswer regions_of(const QueryStart& start, const std::string& metric, std::span<const double> radii,
+                       Input& input) {
+  if (metric == "path") return paths_of(*start.vertex(), radii, input);
+  if (metric == "rings") return rings_of(*start.vertex(), radii, input);
   StartAnswer answer;
   RegionSearcher searcher(input.exact_index());
-  const bool is_near = searcher.region(start.view(), radii.back(), answer.vertices, answer.distances, filter);
+  const bool is_near = searcher.region(start.view(), radii.back(), answer.vertices, answer.distances);
   if (!is_near) note_far_point(searcher, start.view(), radii.back());
   std::vector<double> distance_of(input.vertex_count());  // `nested` returns no distances
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) distance_of[answer.vertices[i]] = answer.distances[i];
-  searcher.nested(start.view(), radii, answer.vertices, answer.counts, filter);
+  searcher.nested(start.view(), radii, answer.vertices, answer.counts);
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) answer.distances[i] = distance_of[answer.vertices[i]];
   return answer;
 }

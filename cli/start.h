@@ -10,7 +10,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "meshhood/filter.h"
 #include "meshhood/start.h"
 
 #include "input.h"
@@ -29,13 +28,13 @@ struct StartOptions {
   std::vector<std::uint64_t> vertices;
   std::vector<std::string> point;
   std::vector<std::uint64_t> seeds;
-  FilterFiles filter;
+  MaskFiles masks;
 
   /// --point. Throws Error{InvalidOption}.
   [[nodiscard]] SpacePoint center() const { return parse_point(point); }
 
   /// Whether the query has none of these options.
-  [[nodiscard]] bool is_plain() const { return point.empty() && filter.empty(); }
+  [[nodiscard]] bool is_plain() const { return point.empty() && masks.empty(); }
 };
 
 /// --vertex, with its description, --point, --seed, --walls and --ignored.
@@ -67,11 +66,10 @@ class QueryStart {
 
 /// What these options mean for an input.
 struct StartQuery {
-  /// Reads the files. Throws as `QueryStart` and `FilterMasks`.
+  /// Reads the files, and sets the masks of the input. Throws as `QueryStart` and `read_masks`.
   StartQuery(const StartOptions& options, Input& input);
 
   std::vector<QueryStart> starts;  ///< that of --point, or those of the vertices
-  FilterMasks masks;
 };
 
 /// The answer to one query, ring by ring. With one radius there is one ring.
@@ -84,7 +82,7 @@ struct StartAnswer {
 /// The regions of a start for ascending `radii`, at least one, as the rings of `RegionSearcher::nested`. With the
 /// metric "path" or "rings", the vertices whose path distance or number of edges is at most each radius; the start must
 /// then be a vertex.
-[[nodiscard]] StartAnswer regions_of(const QueryStart& start, const Filter& filter, const std::string& metric,
-                                     std::span<const double> radii, Input& input);
+[[nodiscard]] StartAnswer regions_of(const QueryStart& start, const std::string& metric, std::span<const double> radii,
+                                     Input& input);
 
 }  // namespace meshhood::cli

@@ -71,8 +71,8 @@ void unconnected(const UnconnectedCommand& options) {
   check_value_files(options.files);
   Input input(options.file, options.reading, options.rows.threads);
   input.need_edges("unconnected");
-  RowQuery rows(options.rows, input);
-  rows.ignore_welded(input);
+  const RowQuery rows(options.rows, input);
+  input.ignore_welded();
   const std::size_t scales = options.rows.scale_count();
   const Index& index = input.exact_index(options.rows.threads);
   Gaps found;

@@ -194,18 +194,13 @@ std::vector<double> read_channel(const std::string& file, std::size_t vertices, 
         fmt::format("{}: {} {} for each vertex, expected one", io::printable_name(file), read.channels, values));
 }
 
-void add_filter(CLI::App& command, FilterFiles& files) {
+void add_masks(CLI::App& command, MaskFiles& files) {
   add_file_option(command, "--walls", "a list of vertices that no search passes, one in each line", files.walls);
   add_file_option(command, "--ignored", "a list of vertices that a search passes but does not count", files.ignored);
 }
 
-FilterMasks::FilterMasks(const FilterFiles& files, const Input& input)
-    : walls(read_mask(files.walls, input)), ignored(read_mask(files.ignored, input)) {}
-
-void FilterMasks::ignore_welded(const Welding& welding) {
-  if (welding.count() == 0) return;
-  ignored.resize(welding.kept().size());
-  for (VertexId v = 0; v < ignored.size(); ++v) ignored[v] |= static_cast<std::uint8_t>(welding.kept(v) != v);
+OwnedMasks read_masks(const MaskFiles& files, const Input& input) {
+  return {read_mask(files.walls, input), read_mask(files.ignored, input)};
 }
 
 }  // namespace meshhood::cli

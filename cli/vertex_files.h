@@ -10,7 +10,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "meshhood/filter.h"
 #include "meshhood/mesh.h"
 #include "meshhood/start.h"
 
@@ -42,7 +41,7 @@ struct Channels {
 [[nodiscard]] std::vector<double> read_channel(const std::string& file, std::size_t vertices, std::string_view values);
 
 /// The names of the files of --walls and --ignored; "" without.
-struct FilterFiles {
+struct MaskFiles {
   std::string walls;
   std::string ignored;
 
@@ -50,21 +49,9 @@ struct FilterFiles {
 };
 
 /// --walls and --ignored.
-void add_filter(CLI::App& command, FilterFiles& files);
+void add_masks(CLI::App& command, MaskFiles& files);
 
-/// The masks that these files describe. Empty, or #V.
-struct FilterMasks {
-  std::vector<std::uint8_t> walls;
-  std::vector<std::uint8_t> ignored;
-
-  /// Throws as `read_vertex_list`.
-  FilterMasks(const FilterFiles& files, const Input& input);
-
-  /// Ignores the vertices that have become others, which are still at their places.
-  void ignore_welded(const Welding& welding);
-
-  /// Borrows from this object.
-  [[nodiscard]] Filter filter() const { return {.walls = walls, .ignored = ignored}; }
-};
+/// The masks that these files describe. Throws as `read_vertex_list`.
+[[nodiscard]] OwnedMasks read_masks(const MaskFiles& files, const Input& input);
 
 }  // namespace meshhood::cli

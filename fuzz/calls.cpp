@@ -328,12 +328,11 @@ class Session {
     for (std::size_t i = below(8); i > 0; --i) start.walls[below(vertices)] = 1;
     const double radius = oracle.distance(start, below(vertices));
     const auto w = static_cast<VertexId>(below(vertices));
-    const Filter filter{.walls = start.walls};
-    RegionSearcher searcher(*place.index);
-    searcher.region({start.center, start.seeds}, radius, ids_, filter);
+    RegionSearcher searcher(masked(*place.index, {.walls = start.walls}));
+    searcher.region({start.center, start.seeds}, radius, ids_);
     std::sort(ids_.begin(), ids_.end());
     if (ids_ != oracle.region(start, radius)) fail("the region differs");
-    const double connecting = searcher.connecting_radius({start.center, start.seeds}, w, filter);
+    const double connecting = searcher.connecting_radius({start.center, start.seeds}, w);
     if (connecting != oracle.connecting_radii(start)[w]) fail("the connecting radius differs");
   }
 

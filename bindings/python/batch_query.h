@@ -15,8 +15,6 @@
 #include "meshhood/batch.h"
 #include "meshhood/error.h"
 
-#include "masks.h"
-
 namespace meshhood::python {
 
 using Rows = nanobind::ndarray<const std::int32_t, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>;
@@ -40,12 +38,9 @@ using Radius = std::optional<std::variant<double, Radii>>;
 }
 
 /// The query of a batch. Borrows the arrays.
-[[nodiscard]] inline BatchQuery query_of(const std::optional<Rows>& vertices, const Radius& radius, const Mask& walls,
-                                         const Mask& ignored, Metric metric = Metric::Straight) {
-  return {.vertices = vertices_of(vertices),
-          .radius = radius_of(radius),
-          .filter = filter_of(walls, ignored),
-          .metric = metric};
+[[nodiscard]] inline BatchQuery query_of(const std::optional<Rows>& vertices, const Radius& radius,
+                                         Metric metric = Metric::Straight) {
+  return {.vertices = vertices_of(vertices), .radius = radius_of(radius), .metric = metric};
 }
 
 /// A result beyond the limit of bytes: a MemoryError in Python.

@@ -38,12 +38,10 @@ SignalView signal_of(const Values& values, const std::optional<Weights>& weights
 nb::object aggregates(const ExactMethod& method, const Values& values, const std::optional<Weights>& weights,
                       const std::optional<Rows>& vertices, std::vector<double> radii, Reduce reduce,
                       SmoothingKernel kernel, MissingValues missing, Nesting nesting, unsigned ddof, unsigned threads,
-                      std::uint64_t max_bytes, nb::handle progress, const Mask& walls, const Mask& ignored,
-                      const Radius& radius, Metric metric) {
+                      std::uint64_t max_bytes, nb::handle progress, const Radius& radius, Metric metric) {
   const SignalView signal = signal_of(values, weights);
   const AggregateQuery query{.vertices = vertices_of(vertices),
                              .radius = radius ? radius_of(radius) : BatchRadius::scales(std::move(radii)),
-                             .filter = filter_of(walls, ignored),
                              .metric = metric,
                              .reduce = reduce,
                              .kernel = kernel,
@@ -102,8 +100,7 @@ void bind_aggregates(nb::module_& module) {
   module.def("aggregate", &aggregates, nb::arg(), nb::arg("values"), nb::arg("weights").none(),
              nb::arg("vertices").none(), nb::arg("radii"), nb::arg("reduce"), nb::arg("kernel"), nb::arg("missing"),
              nb::arg("nesting"), nb::arg("ddof"), nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none(),
-             nb::arg("walls") = nb::none(), nb::arg("ignored") = nb::none(), nb::arg("radius") = nb::none(),
-             nb::arg("metric") = Metric::Straight);
+             nb::arg("radius") = nb::none(), nb::arg("metric") = Metric::Straight);
   module.def("vertex_areas", &areas, nb::arg("V"), nb::arg("F"), nb::arg("offsets").none());
   module.def("smoothing_radius", &smoothing_radius, nb::arg());
   module.def("smoothing_weights", &smoothing_weights, nb::arg("kernel"), nb::arg("distances"), nb::arg("radii"));

@@ -43,14 +43,13 @@ CurvatureIndex of_normals(const ExactMethod& method, const Radii& normals) {
 }
 
 auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& vertices, const Radius& radius,
-                   bool libigl, bool jet, bool filter, unsigned threads, nb::handle progress, Metric metric,
-                   const Mask& walls, const Mask& ignored) {
+                   bool libigl, bool jet, bool filter, unsigned threads, nb::handle progress, Metric metric) {
   CurvatureOptions options = libigl ? like_libigl() : CurvatureOptions{};
   options.fit = jet ? CurvatureFit::Jet : CurvatureFit::Quadric;
   options.filter = filter;
   options.threads = threads;
   options.progress = progress_to(progress);
-  const BatchQuery query = query_of(vertices, radius, walls, ignored, metric);
+  const BatchQuery query = query_of(vertices, radius, metric);
   const std::size_t rows = query.vertices.count(surface.vertex_count());
   const nb::object k1 = unset(rows, "float64");
   const nb::object k2 = unset(rows, "float64");
@@ -72,9 +71,9 @@ auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& ver
 
 auto corrected_curvatures_of(const CurvatureIndex& surface, const Input& corners, const std::optional<Input>& offsets,
                              const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
-                             nb::handle progress, Metric metric, const Mask& walls, const Mask& ignored) {
+                             nb::handle progress, Metric metric) {
   const FacesView faces = faces_of(corners, offsets);
-  const BatchQuery query = query_of(vertices, radius, walls, ignored, metric);
+  const BatchQuery query = query_of(vertices, radius, metric);
   const CorrectedCurvatureOptions options{.threads = threads, .progress = progress_to(progress)};
   CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, faces, query, options); });
   const std::size_t rows = found.area.size();
@@ -96,8 +95,8 @@ MomentOptions moment_options(unsigned degree, const std::optional<Radii>& weight
 
 Output<double> moments_of(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius,
                           unsigned degree, const std::optional<Radii>& weights, unsigned threads, nb::handle progress,
-                          Metric metric, const Mask& walls, const Mask& ignored) {
-  const BatchQuery query = query_of(vertices, radius, walls, ignored, metric);
+                          Metric metric) {
+  const BatchQuery query = query_of(vertices, radius, metric);
   const MomentOptions options = moment_options(degree, weights, threads, progress);
   std::vector<double> found = without_lock([&] { return moments(method.index(), query, options); });
   const std::size_t columns = moment_count(degree);
@@ -106,9 +105,8 @@ Output<double> moments_of(const ExactMethod& method, const std::optional<Rows>& 
 }
 
 auto components_of(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius,
-                   const std::optional<Radii>& weights, unsigned threads, nb::handle progress, Metric metric,
-                   const Mask& walls, const Mask& ignored) {
-  const BatchQuery query = query_of(vertices, radius, walls, ignored, metric);
+                   const std::optional<Radii>& weights, unsigned threads, nb::handle progress, Metric metric) {
+  const BatchQuery query = query_of(vertices, radius, metric);
   const MomentOptions options = moment_options(0, weights, threads, progress);
   PrincipalComponents found = without_lock([&] { return principal_components(method.index(), query, options); });
   const std::size_t rows = found.weight.size();
@@ -120,9 +118,8 @@ auto components_of(const ExactMethod& method, const std::optional<Rows>& vertice
 /// Either `radii`, the scales, or `radius`.
 Output<double> features_of(const CurvatureIndex& surface, const std::optional<Rows>& vertices, const Radii& radii,
                            std::vector<Feature> kinds, const std::optional<Radii>& areas, bool filter, unsigned threads,
-                           nb::handle progress, Metric metric, const Mask& walls, const Mask& ignored,
-                           const Radius& radius) {
-  BatchQuery query = query_of(vertices, radius, walls, ignored, metric);
+                           nb::handle progress, Metric metric, const Radius& radius) {
+  BatchQuery query = query_of(vertices, radius, metric);
   if (!radius) query.radius = BatchRadius::scales({numbers_of(radii).begin(), numbers_of(radii).end()});
   FeatureOptions options{
       .kinds = std::move(kinds), .areas = {}, .filter = filter, .threads = threads, .progress = progress_to(progress)};
@@ -148,8 +145,6 @@ double radius_of_libigl(const Input& positions, const Input& corners, const std:
 }  // namespace
 
 void bind_curvature(nb::module_& module) {
-  const auto walls = nb::arg("walls") = nb::none();
-  const auto ignored = nb::arg("ignored") = nb::none();
   nb::enum_<Feature>(module, "Feature")
       .value("crease", Feature::Crease)
       .value("mean", Feature::Mean)
@@ -162,17 +157,18 @@ void bind_curvature(nb::module_& module) {
       .value("height", Feature::Height)
       .value("variation", Feature::Variation);
   nb::class_<CurvatureIndex>(module, "Surface")
+      .def("on", [](const CurvatureIndex& surface, const ExactMethod& method) { return surface.on(method.index()); })
       .def("curvatures", &curvatures_of, nb::arg().none(), nb::arg(), nb::arg("libigl"), nb::arg("jet"),
-           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"), walls, ignored)
+           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"))
       .def("corrected", &corrected_curvatures_of, nb::arg(), nb::arg("offsets").none(), nb::arg("vertices").none(),
-           nb::arg("radius").none(), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"), walls, ignored)
+           nb::arg("radius").none(), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"))
       .def("features", &features_of, nb::arg().none(), nb::arg("radii"), nb::arg("kinds"), nb::arg("areas").none(),
-           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"), walls, ignored,
+           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"),
            nb::arg("radius") = nb::none());
   module.def("moments", &moments_of, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("degree"),
-             nb::arg("weights").none(), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"), walls, ignored);
+             nb::arg("weights").none(), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"));
   module.def("principal_components", &components_of, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("weights").none(),
-             nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"), walls, ignored);
+             nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"));
   module.def("persistence", &persistence_of, nb::arg("values"), nb::arg("radii"), nb::arg("threshold"));
   module.def(
       "geometric_radii",

@@ -23,6 +23,7 @@
 #include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
+#include "masks.h"
 #include "methods.h"
 
 namespace nb = nanobind;
@@ -41,8 +42,8 @@ auto one_with_distances(Method& method, VertexId v, double radius) {
 }
 
 auto many(Method& method, const std::optional<Rows>& vertices, const Radius& radius, bool distances, bool sorted,
-          unsigned threads, std::uint64_t max_bytes, nb::handle progress, const Mask& walls, const Mask& ignored) {
-  const BatchQuery query = query_of(vertices, radius, walls, ignored);
+          unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
+  const BatchQuery query = query_of(vertices, radius);
   const BatchOptions options{.threads = threads,
                              .distances = distances,
                              .sorted = sorted,
@@ -63,9 +64,13 @@ auto many(Method& method, const std::optional<Rows>& vertices, const Radius& rad
 }
 
 Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vertices, const Radius& radius,
-                                 unsigned threads, nb::handle progress, const Mask& walls, const Mask& ignored) {
+                                 unsigned threads, nb::handle progress) {
   const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
-  return owned<std::int64_t>(method.counts(query_of(vertices, radius, walls, ignored), options));
+  return owned<std::int64_t>(method.counts(query_of(vertices, radius), options));
+}
+
+std::shared_ptr<ExactMethod> masked_method(const ExactMethod& method, const Mask& walls, const Mask& ignored) {
+  return exact_method(without_lock([&] { return masked(method.index(), masks_of(walls, ignored), 0); }));
 }
 
 /// Not a copy: the array keeps the index alive, and may not be written to.
@@ -102,21 +107,14 @@ auto stored_faces(const nb::object& self) {
 
 void bind_methods(nb::module_& module) {
   nb::class_<Method>(module, "Method")
-      .def(
-          "restricted",
-          [](const Method& method, const Mask& walls, const Mask& ignored, unsigned threads) {
-            return method.restricted(filter_of(walls, ignored), threads);
-          },
-          nb::arg("walls").none(), nb::arg("ignored").none(), nb::arg("threads"))
       .def("neighborhood", &one, nb::arg(), nb::arg())
       .def("neighborhood_and_distances", &one_with_distances, nb::arg(), nb::arg())
       .def("count", &Method::count, nb::arg(), nb::arg())
       .def("neighborhoods", &many, nb::arg().none(), nb::arg(), nb::arg("distances"), nb::arg("sorted"),
-           nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none(), nb::arg("walls") = nb::none(),
-           nb::arg("ignored") = nb::none())
-      .def("counts", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none(),
-           nb::arg("walls") = nb::none(), nb::arg("ignored") = nb::none());
+           nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none())
+      .def("counts", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none());
   nb::class_<ExactMethod, Method>(module, "ExactMethod")
+      .def("masked", &masked_method, nb::arg("walls").none(), nb::arg("ignored").none())
       .def("quality",
            [](const ExactMethod& method) {
              const Quality found = without_lock([&] { return quality(method.index()); });

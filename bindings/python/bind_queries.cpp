@@ -16,14 +16,12 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
 
-#include "meshhood/filter.h"
 #include "meshhood/start.h"
 
 #include "arrays.h"
 #include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
-#include "masks.h"
 #include "queries.h"
 
 namespace nb = nanobind;
@@ -53,29 +51,26 @@ SpacePoint point_of(const Points& points, std::size_t i) {
 }
 
 /// Also returns whether a seed lies in the ball, as `stroke` and `nested` do.
-auto region(Queries& queries, const Center& center, const Seeds& seeds, double radius, const Mask& walls,
-            const Mask& ignored) {
+auto region(Queries& queries, const Center& center, const Seeds& seeds, double radius) {
   std::vector<VertexId> ids;
   std::vector<double> distances;
-  const bool has_seed = queries.with_regions([&](RegionSearcher& searcher) {
-    return searcher.region(start_of(center, seeds), radius, ids, distances, filter_of(walls, ignored));
-  });
+  const bool has_seed = queries.with_regions(
+      [&](RegionSearcher& searcher) { return searcher.region(start_of(center, seeds), radius, ids, distances); });
   return std::tuple(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)), has_seed);
 }
 
-auto path_region(Queries& queries, VertexId v, double radius, const Mask& walls, const Mask& ignored) {
+auto path_region(Queries& queries, VertexId v, double radius) {
   std::vector<VertexId> ids;
   std::vector<double> lengths;
   queries.with_edges([&](EdgeSearcher& searcher) {
-    searcher.neighborhood(v, radius, ids, lengths, filter_of(walls, ignored));
+    searcher.neighborhood(v, radius, ids, lengths);
     return true;
   });
   return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(lengths)));
 }
 
 /// Seeds that do not exist are -1.
-auto stroke(Queries& queries, const Points& centers, const SeedRows& seeds, const Reals& radii, const Mask& walls,
-            const Mask& ignored) {
+auto stroke(Queries& queries, const Points& centers, const SeedRows& seeds, const Reals& radii) {
   std::vector<VertexId> ids;
   const bool has_seeds = queries.with_regions([&](RegionSearcher& searcher) {
     std::vector<Dab> dabs;
@@ -85,52 +80,45 @@ auto stroke(Queries& queries, const Points& centers, const SeedRows& seeds, cons
       while (count < seeds.shape(1) && row[count] >= 0) ++count;
       dabs.push_back({{point_of(centers, i), ids_of(row, count)}, radii.data()[i]});
     }
-    return searcher.stroke(dabs, ids, filter_of(walls, ignored));
+    return searcher.stroke(dabs, ids);
   });
   return std::pair(owned<std::int32_t>(std::move(ids)), has_seeds);
 }
 
-auto nested(Queries& queries, const Center& center, const Seeds& seeds, const Reals& radii, const Mask& walls,
-            const Mask& ignored) {
+auto nested(Queries& queries, const Center& center, const Seeds& seeds, const Reals& radii) {
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
   const bool has_seed = queries.with_regions([&](RegionSearcher& searcher) {
-    return searcher.nested(start_of(center, seeds), std::span(radii.data(), radii.size()), ids, counts,
-                           filter_of(walls, ignored));
+    return searcher.nested(start_of(center, seeds), std::span(radii.data(), radii.size()), ids, counts);
   });
   return std::tuple(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)), has_seed);
 }
 
-bool contains(Queries& queries, const Center& center, const Seeds& seeds, VertexId w, double radius, const Mask& walls,
-              const Mask& ignored) {
-  return queries.with_regions([&](RegionSearcher& searcher) {
-    return searcher.contains(start_of(center, seeds), w, radius, filter_of(walls, ignored));
-  });
+bool contains(Queries& queries, const Center& center, const Seeds& seeds, VertexId w, double radius) {
+  return queries.with_regions(
+      [&](RegionSearcher& searcher) { return searcher.contains(start_of(center, seeds), w, radius); });
 }
 
-double connecting_radius(Queries& queries, const Center& center, const Seeds& seeds, VertexId w, const Mask& walls,
-                         const Mask& ignored) {
-  return queries.with_regions([&](RegionSearcher& searcher) {
-    return searcher.connecting_radius(start_of(center, seeds), w, filter_of(walls, ignored));
-  });
+double connecting_radius(Queries& queries, const Center& center, const Seeds& seeds, VertexId w) {
+  return queries.with_regions(
+      [&](RegionSearcher& searcher) { return searcher.connecting_radius(start_of(center, seeds), w); });
 }
 
-auto nearest_connected(Queries& queries, const Center& center, const Seeds& seeds, std::size_t k, const Mask& walls,
-                       const Mask& ignored) {
+auto nearest_connected(Queries& queries, const Center& center, const Seeds& seeds, std::size_t k) {
   std::vector<VertexId> ids;
   std::vector<double> radii;
   queries.with_regions([&](RegionSearcher& searcher) {
-    searcher.nearest_connected(start_of(center, seeds), k, ids, radii, filter_of(walls, ignored));
+    searcher.nearest_connected(start_of(center, seeds), k, ids, radii);
     return true;
   });
   return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(radii)));
 }
 
-auto rings(Queries& queries, VertexId v, std::size_t k, const Mask& walls, const Mask& ignored) {
+auto rings(Queries& queries, VertexId v, std::size_t k) {
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
   queries.with_edges([&](EdgeSearcher& searcher) {
-    searcher.rings(v, k, ids, counts, filter_of(walls, ignored));
+    searcher.rings(v, k, ids, counts);
     return true;
   });
   return std::pair(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)));
@@ -152,18 +140,16 @@ auto nearest_vertices(Queries& queries, const Points& points) {
 }  // namespace
 
 void bind_queries(nb::module_& module) {
-  const auto walls = nb::arg("walls").none();
-  const auto ignored = nb::arg("ignored").none();
   const auto center = nb::arg("center").none();
   nb::class_<Queries>(module, "Queries")
-      .def("region", &region, center, nb::arg(), nb::arg(), walls, ignored)
-      .def("path_region", &path_region, nb::arg(), nb::arg(), walls, ignored)
-      .def("stroke", &stroke, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
-      .def("nested", &nested, center, nb::arg(), nb::arg(), walls, ignored)
-      .def("contains", &contains, center, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
-      .def("connecting_radius", &connecting_radius, center, nb::arg(), nb::arg(), walls, ignored)
-      .def("nearest_connected", &nearest_connected, center, nb::arg(), nb::arg(), walls, ignored)
-      .def("rings", &rings, nb::arg(), nb::arg(), walls, ignored)
+      .def("region", &region, center, nb::arg(), nb::arg())
+      .def("path_region", &path_region, nb::arg(), nb::arg())
+      .def("stroke", &stroke, nb::arg(), nb::arg(), nb::arg())
+      .def("nested", &nested, center, nb::arg(), nb::arg())
+      .def("contains", &contains, center, nb::arg(), nb::arg(), nb::arg())
+      .def("connecting_radius", &connecting_radius, center, nb::arg(), nb::arg())
+      .def("nearest_connected", &nearest_connected, center, nb::arg(), nb::arg())
+      .def("rings", &rings, nb::arg(), nb::arg())
       .def("nearest", &nearest_vertices, nb::arg());
   module.def("queries", [](std::shared_ptr<ExactMethod> exact) { return std::make_shared<Queries>(std::move(exact)); });
 }

@@ -24,7 +24,6 @@
 #include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
-#include "masks.h"
 #include "methods.h"
 
 namespace nb = nanobind;
@@ -35,8 +34,8 @@ namespace {
 using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
 auto unconnected(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
-                 nb::handle progress, Metric metric, const Mask& walls, const Mask& ignored) {
-  const BatchQuery query = query_of(vertices, radius, walls, ignored, metric);
+                 nb::handle progress, Metric metric) {
+  const BatchQuery query = query_of(vertices, radius, metric);
   const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
   Unconnected found = without_lock([&] { return nearest_unconnected(method.index(), query, options); });
   static_assert(static_cast<std::int32_t>(kNoVertex) == -1);
@@ -70,11 +69,10 @@ auto closest_points(const FaceIndex& surface, const Points& points, unsigned thr
                     owned<double>(std::move(weights), {rows, 3}), owned<double>(std::move(found), {rows, 3}));
 }
 
-NearestOptions nearest_options(Metric metric, double radius, const Mask& walls, const Mask& ignored, unsigned threads,
-                               std::uint64_t max_bytes, nb::handle progress) {
+NearestOptions nearest_options(Metric metric, double radius, unsigned threads, std::uint64_t max_bytes,
+                               nb::handle progress) {
   return {.metric = metric,
           .radius = radius,
-          .filter = filter_of(walls, ignored),
           .threads = threads,
           .max_bytes = max_bytes,
           .progress = progress_to(progress)};
@@ -83,10 +81,9 @@ NearestOptions nearest_options(Metric metric, double radius, const Mask& walls, 
 constexpr const char* kFewer = "take fewer vertices at a time";
 
 auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices, std::size_t k, std::int32_t fill,
-                  Metric metric, double radius, const Mask& walls, const Mask& ignored, unsigned threads,
-                  std::uint64_t max_bytes, nb::handle progress) {
+                  Metric metric, double radius, unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
-  const NearestOptions options = nearest_options(metric, radius, walls, ignored, threads, max_bytes, progress);
+  const NearestOptions options = nearest_options(metric, radius, threads, max_bytes, progress);
   KNearest found = limited(kFewer, [&] {
     return without_lock([&] {
       KNearest result = k_nearest(method.index(), asked, k, options);
@@ -100,10 +97,9 @@ auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices
 }
 
 auto discs_of(const ExactMethod& method, const std::optional<Rows>& vertices, double area, const Radii& areas,
-              Metric metric, double radius, const Mask& walls, const Mask& ignored, unsigned threads,
-              std::uint64_t max_bytes, nb::handle progress) {
+              Metric metric, double radius, unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
-  const NearestOptions options = nearest_options(metric, radius, walls, ignored, threads, max_bytes, progress);
+  const NearestOptions options = nearest_options(metric, radius, threads, max_bytes, progress);
   Neighborhoods found = limited(kFewer, [&] {
     return without_lock(
         [&] { return discs(method.index(), asked, area, std::span(areas.data(), areas.size()), options); });
@@ -115,17 +111,15 @@ auto discs_of(const ExactMethod& method, const std::optional<Rows>& vertices, do
 }  // namespace
 
 void bind_surface_queries(nb::module_& module) {
-  const auto walls = nb::arg("walls").none();
-  const auto ignored = nb::arg("ignored").none();
   module.def("nearest_unconnected", &unconnected, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("threads"),
-             nb::arg("progress").none(), nb::arg("metric"), walls, ignored);
+             nb::arg("progress").none(), nb::arg("metric"));
   nb::class_<FaceIndex>(module, "FaceIndex")
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none());
   module.def("face_index", &make_face_index, nb::arg(), nb::arg(), nb::arg("offsets").none());
   module.def("k_nearest", &k_nearest_of, nb::arg(), nb::arg().none(), nb::arg("k"), nb::arg("fill"), nb::arg("metric"),
-             nb::arg("radius"), walls, ignored, nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none());
+             nb::arg("radius"), nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none());
   module.def("discs", &discs_of, nb::arg(), nb::arg().none(), nb::arg("area"), nb::arg("areas"), nb::arg("metric"),
-             nb::arg("radius"), walls, ignored, nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none());
+             nb::arg("radius"), nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none());
 }
 
 }  // namespace meshhood::python

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "meshhood/adjacency.h"
 #include "meshhood/error.h"
-#include "meshhood/filter.h"
 
 #include "about.h"
 

@@ -8,7 +8,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
-#include "meshhood/filter.h"
+#include "meshhood/masks.h"
 
 namespace meshhood::python {
 
@@ -21,7 +21,7 @@ using Mask = std::optional<
   return mask ? VertexMask(std::span(mask->data(), mask->size())) : VertexMask();
 }
 
-[[nodiscard]] inline Filter filter_of(const Mask& walls, const Mask& ignored) {
+[[nodiscard]] inline Masks masks_of(const Mask& walls, const Mask& ignored) {
   return {mask_of(walls), mask_of(ignored)};
 }
 

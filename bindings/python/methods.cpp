@@ -9,10 +9,6 @@
 
 namespace meshhood::python {
 
-std::shared_ptr<Method> Method::restricted(const Filter& filter, unsigned threads) const {
-  return std::make_shared<Method>(without_lock([&] { return method_.restricted(filter, threads); }), owner_);
-}
-
 Answer Method::neighborhood(VertexId v, double radius, bool distances) {
   return with_searcher([&](AnySearcher& searcher) {
     Answer answer;
@@ -50,12 +46,12 @@ std::shared_ptr<Method> paper_method(std::shared_ptr<const paper::Index> hierarc
 
 std::shared_ptr<Method> edge_method(std::shared_ptr<const ExactMethod> exact) {
   const Index& index = exact->index();
-  return std::make_shared<Method>(SearchMethod::along_edges(index), std::move(exact));
+  return std::make_shared<Method>(SearchMethod(index).by(Metric::Path), std::move(exact));
 }
 
 std::shared_ptr<Method> ring_method(std::shared_ptr<const ExactMethod> exact) {
   const Index& index = exact->index();
-  return std::make_shared<Method>(SearchMethod::rings(index), std::move(exact));
+  return std::make_shared<Method>(SearchMethod(index).by(Metric::Rings), std::move(exact));
 }
 
 std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph) {

@@ -34,9 +34,6 @@ class Method {
   Method(const Method&) = delete;
   Method& operator=(const Method&) = delete;
 
-  /// The same method with answers that a filter restricts, whose masks are copied. Borrows what this one does.
-  [[nodiscard]] std::shared_ptr<Method> restricted(const Filter& filter, unsigned threads) const;
-
   Answer neighborhood(VertexId v, double radius, bool distances);
   std::size_t count(VertexId v, double radius);
   std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,

@@ -5,12 +5,10 @@ import {
 } from './arguments.js';
 import { Curvature } from './curvature.js';
 import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
-import { MASKS, ROWS, withMasks, withRows } from './rows.js';
+import { MASKS, METRICS, ROWS, withMasks, withRows } from './rows.js';
 
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
-const METRICS = ['straight', 'path', 'rings'];
 const BY_METRIC = METHODS.length - 1; // and the place of another metric: as in bindings/wasm/src/workspace.h
-const LENGTHS = ['straight', 'path']; // the metrics that measure lengths
 const ORDERS = ['index', 'id', 'distance'];
 const UNITS = ['mesh', 'edge'];
 const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count'];
@@ -39,15 +37,12 @@ const CURVATURE = {
 const FEATURES = { vertices: null, ...ROWS, faces: null, kinds: 'crease', filter: true, unit: 'mesh' };
 const NEAREST = { r: Infinity, until: null, weights: 'area', faces: null, metric: 'straight', ...MASKS, unit: 'mesh' };
 
-function chooseMethod({ method, metric, unit }) {
+function chooseMethod({ method, metric }) {
   const place = choose(METHODS, method, 'method');
   const other = choose(METRICS, metric, 'metric');
   if (other === 0) return place;
   if (method !== 'exact') {
     throw new MeshhoodError('InvalidOption', `method: '${method}', expected 'exact' with metric '${metric}'`);
-  }
-  if (metric === 'rings' && unit === 'edge') {
-    throw new MeshhoodError('InvalidOption', "unit: 'edge', but with metric 'rings' the radius is a number of edges");
   }
   return BY_METRIC + other;
 }
@@ -161,10 +156,10 @@ export class MeshIndex extends Owner {
   queryBall(v, r, options = {}) {
     const given = withDefaults(options, { ...QUERY, ...ANSWER, ...MASKS });
     const place = chooseMethod(given);
-    const { sort, distances, walls, ignored } = given;
+    const { sort, distances } = given;
     if (sort !== null) choose(ORDERS, sort, 'sort');
-    if (!isMany(v) && walls === null && ignored === null) {
-      this.#query(place, v, r, this.#scale(given.unit), distances || sort === 'distance');
+    if (!isMany(v)) {
+      this.#query(place, v, r, given, distances || sort === 'distance');
       return this.#takeNeighborhood(sort, distances);
     }
     this.#queryMany(place, v, r, given, { distances: distances || sort === 'distance', byId: sort === 'id' });
@@ -172,24 +167,24 @@ export class MeshIndex extends Owner {
     const rows = { offsets: this.instance.takeCounts(), ids: this.instance.takeIds() };
     if (distances) rows.distances = this.instance.takeReals();
     this.instance.releaseAnswer();
-    if (isMany(v)) return rows;
-    return distances ? { ids: rows.ids, distances: rows.distances } : rows.ids;
+    return rows;
   }
 
   viewBall(v, r, options = {}) {
     const given = withDefaults(options, QUERY);
-    const count = this.#query(chooseMethod(given), v, r, this.#scale(given.unit), false);
+    const count = this.#query(chooseMethod(given), v, r, given, false);
     return this.instance.view(Uint32Array, this.instance.call('answer_ids'), count);
   }
 
   count(v, r, options = {}) {
     const given = withDefaults(options, { ...QUERY, ...ROWS });
     const place = chooseMethod(given);
-    const { scales, walls, ignored } = given;
-    if (!isMany(v) && scales === null && walls === null && ignored === null) {
+    const { scales } = given;
+    if (!isMany(v) && scales === null) {
       this.#expectVertex(v);
       expectRadius(r);
-      return this.instance.call('count', place, v, this.#scale(given.unit) * r) >>> 0;
+      return withMasks(this.instance, given, () =>
+        this.instance.call('count', place, v, this.#scale(given.unit) * r) >>> 0);
     }
     this.#queryMany(place, v, r, given, { countOnly: true });
     const counts = this.instance.takeCounts();
@@ -198,10 +193,11 @@ export class MeshIndex extends Owner {
   }
 
   /** Returns the number of ids. */
-  #query(method, v, r, scale, distances) {
+  #query(method, v, r, given, distances) {
     this.#expectVertex(v);
     expectRadius(r);
-    return this.instance.call('query', method, v, scale * r, distances);
+    return withMasks(this.instance, given, () =>
+      this.instance.call('query', method, v, this.#scale(given.unit) * r, distances));
   }
 
   /** Of one vertex or region. */
@@ -220,7 +216,7 @@ export class MeshIndex extends Owner {
   }
 
   nearestUnconnected(v, r, options = {}) {
-    const given = withDefaults(options, { ...MASKS, unit: 'mesh' });
+    const given = withDefaults(options, { metric: 'straight', ...MASKS, unit: 'mesh' });
     expectVertices(v, 'vertices');
     withRows(this.instance, v, r, given, this.#scale(given.unit), (...rows) =>
       this.instance.call('nearest_unconnected', ...rows));
@@ -240,7 +236,7 @@ export class MeshIndex extends Owner {
     expectRadius(r);
     const vertices = isMany(v) ? v : Uint32Array.of(v);
     const search = (use) => withMasks(this.instance, given, () => this.instance.with([vertices], (ids) =>
-      use(ids, vertices?.length ?? 0, choose(LENGTHS, metric, 'metric'), this.#scale(unit) * r)));
+      use(ids, vertices?.length ?? 0, choose(METRICS, metric, 'metric'), this.#scale(unit) * r)));
     const rows = {};
     if (until === null) {
       expectSize(k, 'k');
@@ -365,7 +361,7 @@ export class MeshIndex extends Owner {
     const signal = toReals(values, 'values');
     const channels = Math.max(1, Math.floor(signal.length / this.vertexCount) || 0);
     const choices = [
-      choose(LENGTHS, metric, 'metric'), choose(REDUCTIONS, reduce, 'reduce'), choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'),
+      choose(METRICS, metric, 'metric'), choose(REDUCTIONS, reduce, 'reduce'), choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'),
       choose(NESTINGS, nesting, 'nesting'),
     ];
     expectSize(ddof, 'ddof');

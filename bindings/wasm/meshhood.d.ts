@@ -178,7 +178,7 @@ export interface Scales {
  */
 export type Sort = 'index' | 'id' | 'distance' | null;
 
-/** Masks need method `exact`; with them, a call takes O(#V) besides its searches, also for one vertex. */
+/** Masks need method `exact`. The index of the last masks is kept: new ones take O(#V), the same are compared. */
 export interface AnswerOptions extends QueryOptions, Masks {
   sort?: Sort;
 }
@@ -210,7 +210,7 @@ export interface Rings {
 
 export interface AggregateOptions extends Masks, Scales {
   /** Of the radius and of the kernel. */
-  metric?: 'straight' | 'path';
+  metric?: Metric;
   reduce?: 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count';
   /**
    * #V numbers >= 0, for `sum`, `mean`, `var` and `std`; `area` is the area that each vertex represents, which needs
@@ -242,9 +242,9 @@ export interface KnnOptions extends Masks {
   r?: number;
   /**
    * `straight`: the nearest by connecting radius, as for `nearestConnected`. `path`: by the length of the shortest path
-   * along edges, then by place in index order.
+   * along edges, `rings`: by the number of edges; each then by place in index order.
    */
-  metric?: 'straight' | 'path';
+  metric?: Metric;
   unit?: Unit;
 }
 
@@ -292,6 +292,7 @@ export class Curvature {
 }
 
 export interface CurvatureOptions extends Masks, Scales {
+  metric?: Metric;
   /** The rows; null for all vertices. */
   vertices?: Uint32Array | null;
   /**
@@ -318,6 +319,7 @@ export type Kind =
   | 'crease' | 'mean' | 'gaussian' | 'k1' | 'k2' | 'curvedness' | 'shape_index' | 'area' | 'height' | 'variation';
 
 export interface FeatureOptions extends Masks, Scales {
+  metric?: Metric;
   /** The rows; null for all vertices. */
   vertices?: Uint32Array | null;
   /** The faces that the index was built from, as for `curvature`. */

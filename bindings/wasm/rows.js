@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The words of every call on many vertices: which rows, their radii, and what the searches may pass.
-import { expectType, expectVertices, toReals } from './arguments.js';
+import { choose, expectType, expectVertices, toReals } from './arguments.js';
+import { MeshhoodError } from './instance.js';
 
 // Options with their defaults.
 export const MASKS = { walls: null, ignored: null };
-export const ROWS = { scales: null, ...MASKS };
+export const ROWS = { scales: null, metric: 'straight', ...MASKS };
+
+// The places are those of meshhood::Metric.
+export const METRICS = ['straight', 'path', 'rings'];
 
 /** `r` is a radius, or one for each row; or null, with `scales` for all rows. `unit` is a factor. */
 function readRadius(r, scales, unit) {
@@ -16,21 +20,25 @@ function readRadius(r, scales, unit) {
   return { common: 0, list: list.map((radius) => unit * radius) };
 }
 
-/** Calls `use` while the masks are in the memory of the module, and restrict its searches. */
-export function withMasks(instance, { walls, ignored }, use) {
+/** Calls `use` when the module searches by the metric and with the masks. */
+export function withMasks(instance, { walls = null, ignored = null, metric = 'straight', unit = 'mesh' }, use) {
+  const place = choose(METRICS, metric, 'metric');
+  if (metric === 'rings' && unit === 'edge') {
+    throw new MeshhoodError('InvalidOption', "unit: 'edge', but with metric 'rings' the radius is a number of edges");
+  }
   for (const [mask, name] of [[walls, 'walls'], [ignored, 'ignored']]) {
     if (mask !== null) expectType(mask, [Uint8Array], name);
   }
   return instance.with([walls, ignored], (wallMask, ignoredMask) => {
-    instance.call('restrict_search', wallMask, walls?.length ?? 0, ignoredMask, ignored?.length ?? 0);
+    instance.call('search_by', place, wallMask, walls?.length ?? 0, ignoredMask, ignored?.length ?? 0);
     return use();
   });
 }
 
 /** The same for rows. `use` gets the six arguments that describe them; `vertices` is null for all. */
-export function withRows(instance, vertices, r, { scales = null, walls, ignored }, unit, use) {
+export function withRows(instance, vertices, r, { scales = null, ...words }, scale, use) {
   expectVertices(vertices, 'vertices');
-  const { common, list } = readRadius(r, scales, unit);
-  return withMasks(instance, { walls, ignored }, () => instance.with([vertices, list], (ids, radii) =>
+  const { common, list } = readRadius(r, scales, scale);
+  return withMasks(instance, words, () => instance.with([vertices, list], (ids, radii) =>
     use(ids, vertices?.length ?? 0, common, radii, list?.length ?? 0, scales !== null)));
 }

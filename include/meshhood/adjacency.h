@@ -84,4 +84,12 @@ void validate(const GraphView& graph);
 /// be valid. O(#V + #E).
 [[nodiscard]] double mean_edge_length(const GraphView& graph);
 
+/// The graph without some of its edges. `build` of its view gives an index whose searches do not cross them.
+///
+/// edges  #cut by 2: the two ends of each edge, in either order; repeats are allowed.
+///
+/// Throws Error{InvalidOption} if the number of ends is odd, Error{VertexOutOfRange}, and Error{InvalidOption} if two
+/// vertices are not joined by an edge; the message names the row of `edges`. O(#E + #cut log(valence)).
+[[nodiscard]] Adjacency cut_edges(const AdjacencyView& graph, const IndicesView& edges);
+
 }  // namespace meshhood

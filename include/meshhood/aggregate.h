@@ -97,16 +97,12 @@ struct SignalView {
   Borrowed<double> weights = {};
 };
 
-/// Which neighborhoods are aggregated, as a `BatchQuery` says, and how. The lists and masks are copied when the call
-/// begins.
+/// Which neighborhoods are aggregated, as a `BatchQuery` says, and how. The lists are copied when the call begins.
 struct AggregateQuery {
   BatchVertices vertices = {};
 
   /// Required: one for all rows, one for each row, or scales. A vertex at exactly the radius is inside.
   BatchRadius radius = {};
-
-  /// The neighborhood of a wall is empty: its sum and count are 0, all else is NaN.
-  Filter filter = {};
 
   Metric metric = Metric::Straight;
   Reduce reduce = Reduce::Mean;
@@ -140,7 +136,7 @@ struct AggregateOptions {
                                          const AggregateOptions& options = {});
 
 /// Aggregates the values over the neighborhood of each row by the metric, and writes all of `result`, which
-/// has `aggregate_size` numbers.
+/// has `aggregate_size` numbers. The neighborhood of a wall is empty: its sum and count are 0, all else is NaN.
 ///
 /// Sums are exact to 1e-14 of the sum of the absolute terms, whatever the size of the neighborhood; with a smoothing
 /// kernel to 1e-13 of the sum of |w x|, where w is the weight of the vertex itself (docs/aggregate.md). Each result

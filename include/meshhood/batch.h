@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
-#include "meshhood/filter.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/metric.h"
@@ -50,28 +49,19 @@ class SearchMethod {
   /// Throws Error{InvalidMesh, TooLarge} if the graph is invalid.
   [[nodiscard]] static SearchMethod breadth_first(const GraphView& graph);
 
-  /// The vertices within the radius along the edges (see `EdgeSearcher`); distances are path distances.
-  [[nodiscard]] static SearchMethod along_edges(const Index& index);
-  static SearchMethod along_edges(const Index&&) = delete;
-
-  /// The vertices that at most `radius` edges, rounded down, separate from `v`; distances are numbers of edges. Ids are
-  /// in index order. The rows of a leaf are answered together, except with distances.
-  [[nodiscard]] static SearchMethod rings(const Index& index);
-  static SearchMethod rings(const Index&&) = delete;
+  /// The method of the same `Index` by a metric: `make_searcher` then makes an `EdgeSearcher`, or a searcher of rings,
+  /// whose ids are in index order and whose distances are numbers of edges. In a batch, the metric of the query does
+  /// this. Throws Error{InvalidOption} if the method is of no `Index`, unless `metric` is `Straight`.
+  [[nodiscard]] SearchMethod by(Metric metric) const;
 
   /// The vertices within the radius in space, connected or not, by the tree of the index. Ids are in index order.
+  /// Throws Error{InvalidOption} if the index has masks.
   [[nodiscard]] static SearchMethod in_space(const Index& index);
   static SearchMethod in_space(const Index&&) = delete;
 
   /// The same without an index, by a scan of all vertices for each query (see `BallSearcher`). The coordinates must be
   /// valid.
   [[nodiscard]] static SearchMethod ball_scan(const PositionsView& positions);
-
-  /// The same method with answers that `filter` restricts, for several batches or searchers: its masks are read once,
-  /// here, and copied; O(#V). `threads` as in `BatchOptions`. It takes no further filter. Throws Error{InvalidOption}
-  /// unless the method is of an `Index`, along edges or by rings, and each mask is empty or has a value for each
-  /// vertex.
-  [[nodiscard]] SearchMethod restricted(const Filter& filter, unsigned threads = 1) const;
 
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
@@ -159,11 +149,6 @@ struct BatchQuery {
 
   /// Required. A vertex at exactly the radius is inside.
   BatchRadius radius = {};
-
-  /// With an `Index`, along its edges, and for its rings. The neighborhood of a wall is empty. An index is not built
-  /// anew: the search itself takes about as long as without walls, but each call reads the masks, O(#V). Calls for few
-  /// vertices each share that by `SearchMethod::restricted`.
-  Filter filter = {};
 
   /// By what an `Index` finds the neighborhoods; radii are meant by it. Other methods have their own, and take
   /// `Straight` alone.

@@ -44,6 +44,10 @@ class CurvatureIndex {
   /// Throws Error{InvalidMesh}, naming the vertex, if a normal is infinite.
   [[nodiscard]] static CurvatureIndex build(const Index& index, std::span<const double> normals);
 
+  /// The same normals for an index of the same mesh with other masks, or without: see `masked`. O(1). Throws
+  /// Error{InvalidOption} if the index is of another mesh.
+  [[nodiscard]] CurvatureIndex on(const Index& index) const;
+
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "meshhood/filter.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
@@ -22,9 +21,8 @@ namespace meshhood {
 ///
 /// v       in [0, #V).
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex whose path distance is exactly `radius` is inside.
-/// filter  see `Filter`: paths do not pass walls.
 ///
-/// An answer depends on the index, the vertex, the radius and the filter alone. Its ids ascend by path distance, those
+/// An answer depends on the index, the vertex and the radius alone. Its ids ascend by path distance, those
 /// of equal distance by their places in index order.
 ///
 /// O(n log n) for a result of n vertices. The first search of an index takes O(#V + #E): it computes the lengths of all
@@ -53,26 +51,25 @@ class EdgeSearcher {
   [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
-  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius, const Filter& filter = {}) {
+  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
     std::vector<VertexId> out;
-    neighborhood(v, radius, out, filter);
+    neighborhood(v, radius, out);
     return out;
   }
 
   /// out     replaced, its capacity reused: the vertices whose path distance is at most `radius`, ascending by path
   ///         distance, `v` first.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, const Filter& filter = {});
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
 
   /// Also returns the path distance of each vertex, in the order of the ids.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
-                    const Filter& filter = {});
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
   /// The number of these vertices.
-  [[nodiscard]] std::size_t count(VertexId v, double radius, const Filter& filter = {});
+  [[nodiscard]] std::size_t count(VertexId v, double radius);
 
   /// The same vertices as ranges of the index order. Ascending, with gaps between them, none empty; valid until the
   /// next call.
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius, const Filter& filter = {}) &;
+  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) &;
 
   /// The vertices that at most `k` edges separate from `v`, ring by ring: ring `i` has those whose shortest path has
   /// exactly `i` edges.
@@ -81,8 +78,7 @@ class EdgeSearcher {
   /// counts  replaced: the first `counts[i]` ids are at most `i` edges away. It ends with the last ring that is not
   ///         empty, or with ring `k`; it is empty if `v` is a wall.
   /// O(n) for a result of n vertices.
-  void rings(VertexId v, std::size_t k, std::vector<VertexId>& out, std::vector<std::size_t>& counts,
-             const Filter& filter = {});
+  void rings(VertexId v, std::size_t k, std::vector<VertexId>& out, std::vector<std::size_t>& counts);
 
  private:
   struct State;

@@ -73,8 +73,8 @@ class Index {
   /// changed in place, unless refit.h says otherwise.
   ///
   /// No thread may use the index or its searchers meanwhile. Afterwards a searcher throws Error{InvalidOption} until
-  /// `rebind` makes it one of the new state. A `CurvatureIndex`, a `FaceIndex` and a `SearchMethod` that a filter
-  /// restricts by straight distances or rings throw, too, and are to be made again.
+  /// `rebind` makes it one of the new state. A `CurvatureIndex`, a `FaceIndex` and a masked index (see masks.h)
+  /// throw, too, and are to be made again.
   ///
   /// Throws as `refit`; the index is then as it was.
   void refit_in_place(const PositionsView& positions, const BuildOptions& options = {});
@@ -96,7 +96,7 @@ class Index {
 
   explicit Index(std::shared_ptr<IndexView> view);
 
-  /// Throws if the index has been moved from, or is a copy with a filter whose index has been refitted in place.
+  /// Throws if the index has been moved from, or is masked and its index has been refitted in place.
   [[nodiscard]] IndexView& view() const;
 
   detail::Owner<IndexView> view_;     // searchers share it

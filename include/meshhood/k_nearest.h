@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "meshhood/batch.h"
-#include "meshhood/filter.h"
 #include "meshhood/index.h"
 #include "meshhood/metric.h"
 #include "meshhood/progress.h"
@@ -26,9 +25,6 @@ struct NearestOptions {
   /// Only vertices of this connecting radius, path distance or number of edges, or less. >= 0 or infinite.
   double radius = std::numeric_limits<double>::infinity();
 
-  /// The same for all rows. A row whose vertex is a wall is empty.
-  Filter filter = {};
-
   /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
   unsigned threads = 1;
   std::uint64_t max_bytes = BatchOptions::kUnlimited;
@@ -43,8 +39,8 @@ struct KNearest {
 
 /// The `k` nearest connected vertices of each of `vertices`, itself included; fewer where no more are connected.
 ///
-/// A row depends on the index, its vertex, `k` and the options alone, and begins with the row for any smaller `k`. Each
-/// thread owns a search of the metric. O(k log k) a row on most surfaces.
+/// The row of a wall is empty. A row depends on the index, its vertex, `k` and the options alone, and begins with the
+/// row for any smaller `k`. Each thread owns a search of the metric. O(k log k) a row on most surfaces.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming the row; TooLarge if the
 /// result exceeds `options.max_bytes`, or rows times k is more than 2^40; on a machine of 32 bits, more than 2^28.
@@ -57,7 +53,7 @@ struct KNearest {
 /// areas  of each vertex, such as `vertex_areas`: #V, >= 0 and finite.
 /// area   > 0 and finite, in the unit of `areas`.
 ///
-/// Ignored vertices do not count. The result is held twice while its rows are joined. Throws as `k_nearest`;
+/// The result is held twice while its rows are joined. Throws as `k_nearest`;
 /// InvalidOption also for `area` and `areas`, naming the vertex. A result above `options.max_bytes` is refused as that
 /// of `neighborhoods`.
 [[nodiscard]] Neighborhoods discs(const Index& index, const BatchVertices& vertices, double area,

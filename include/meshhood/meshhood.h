@@ -16,7 +16,7 @@
 ///     const auto ids = searcher.neighborhood(42, 1.5);  // the same set as breadth-first search
 ///
 /// `Searcher` and visitors are in search.h, batches over many vertices in batch.h, sums over neighborhoods in
-/// aggregate.h and moments.h, searches from any point with filters in region.h, along the edges in edge_search.h,
+/// aggregate.h and moments.h, searches from any point in region.h, walls in masks.h, along the edges in edge_search.h,
 /// meshes that deform in refit.h, files in io/mesh_io.h and io/index_io.h. Meshes of other libraries are in eigen.h,
 /// cgal.h, openmesh.h and geometry_central.h. `meshhood::paper` has the same calls with the approximate neighborhoods
 /// of the paper.
@@ -31,13 +31,13 @@
 #include "meshhood/face_graph.h"           // IWYU pragma: export
 #include "meshhood/face_index.h"           // IWYU pragma: export
 #include "meshhood/features.h"             // IWYU pragma: export
-#include "meshhood/filter.h"               // IWYU pragma: export
 #include "meshhood/fingerprint.h"          // IWYU pragma: export
 #include "meshhood/index.h"                // IWYU pragma: export
 #include "meshhood/k_nearest.h"            // IWYU pragma: export
 #include "meshhood/kernel_target.h"        // IWYU pragma: export
 #include "meshhood/level.h"                // IWYU pragma: export
 #include "meshhood/link_points.h"          // IWYU pragma: export
+#include "meshhood/masks.h"                // IWYU pragma: export
 #include "meshhood/mesh.h"                 // IWYU pragma: export
 #include "meshhood/mesh_data.h"            // IWYU pragma: export
 #include "meshhood/metric.h"               // IWYU pragma: export

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "meshhood/filter.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
@@ -22,20 +21,19 @@ struct Dab {
 
 /// Finds regions by an `Index`. The *region* of a start and a radius is the set of vertices that are connected to a
 /// seed by a path of edges whose vertices, both ends included, all lie within the radius of the center and are not
-/// walls. Ignored vertices are left out. If the start is a vertex and there is no filter, the region is the
-/// neighborhood (see `Searcher`).
+/// walls. Ignored vertices are left out. If the start is a vertex, the region is the neighborhood (see
+/// `Searcher`).
 ///
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` is inside.
-/// filter  see `Filter`.
 ///
-/// An answer depends on the index, the start, the radius and the filter alone. Its ids are in index order: ascending
+/// An answer depends on the index, the start and the radius alone. Its ids are in index order: ascending
 /// places of the permutation of the index. If the mesh was renumbered by `reorder`, they ascend.
 ///
-/// The cost grows with the number of leaves of the result; for a vertex without a filter, `region`, `count` and
+/// The cost grows with the number of leaves of the result; for a vertex, `region`, `count` and
 /// `nested` cost as much as queries of a `Searcher`. Nothing is allocated once the buffers have grown.
 ///
 /// Use one object per thread: it owns scratch memory, about 64 bytes per leaf, and that of a `Searcher` after the first
-/// such query for a vertex without a filter. It shares the memory of the index, which may be moved, refitted or
+/// such query for a vertex. It shares the memory of the index, which may be moved, refitted or
 /// destroyed meanwhile: answers are those of the index as it was.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed, the coordinate or the mask; arguments
@@ -51,9 +49,9 @@ class RegionSearcher {
   void rebind(const Index&&) = delete;
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
-  [[nodiscard]] std::vector<VertexId> region(const Start& start, double radius, const Filter& filter = {}) {
+  [[nodiscard]] std::vector<VertexId> region(const Start& start, double radius) {
     std::vector<VertexId> out;
-    region(start, radius, out, filter);
+    region(start, radius, out);
     return out;
   }
 
@@ -61,22 +59,21 @@ class RegionSearcher {
   /// empty: the center is too far from the mesh.
   ///
   /// out     replaced, its capacity reused: ids in index order, without duplicates.
-  bool region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter = {});
+  bool region(const Start& start, double radius, std::vector<VertexId>& out);
 
   /// Also returns the distance of each vertex from the center, in the order of the ids. See `distance`.
-  bool region(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
-              const Filter& filter = {});
+  bool region(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
   /// The number of vertices of the region.
-  [[nodiscard]] std::size_t count(const Start& start, double radius, const Filter& filter = {});
+  [[nodiscard]] std::size_t count(const Start& start, double radius);
 
   /// The union of the regions of `dabs`, such as those of a brush stroke. Returns whether each ball has a seed.
   ///
   /// out     replaced: ids in index order, without duplicates.
   /// An error names the dab. The cost is that of the single regions together.
-  bool stroke(std::span<const Dab> dabs, std::vector<VertexId>& out, const Filter& filter = {});
+  bool stroke(std::span<const Dab> dabs, std::vector<VertexId>& out);
 
-  /// The regions of one start for several radii, each vertex once. Around a vertex, without a filter, about as fast as
+  /// The regions of one start for several radii, each vertex once. Around a vertex, about as fast as
   /// the queries of a `Searcher`; else about as fast as the region of the largest radius. Returns whether a seed lies
   /// in the largest ball; true without radii.
   ///
@@ -86,16 +83,16 @@ class RegionSearcher {
   ///         only the wider ball connects it. Each ring is in index order.
   /// counts  replaced, one for each radius: the region of `radii[i]` is the first `counts[i]` ids of `out`.
   bool nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
-              std::vector<std::size_t>& counts, const Filter& filter = {});
+              std::vector<std::size_t>& counts);
 
   /// Whether the region has vertex `w`. Costs at most as much as the region, and less if the search reaches `w` early.
-  [[nodiscard]] bool contains(const Start& start, VertexId w, double radius, const Filter& filter = {});
+  [[nodiscard]] bool contains(const Start& start, VertexId w, double radius);
 
   /// The smallest radius whose region has vertex `w`; infinite if there is none. It is the minimum, over all paths from
   /// a seed to `w`, of the largest distance between a vertex of the path and the center (a bottleneck shortest path).
   ///
   /// Costs about as much as the region of the result.
-  [[nodiscard]] double connecting_radius(const Start& start, VertexId w, const Filter& filter = {});
+  [[nodiscard]] double connecting_radius(const Start& start, VertexId w);
 
   /// The `k` nearest connected vertices: the first `k`, ordered by connecting radius, then by distance from the center,
   /// then by id. So the answer for a smaller `k` is the beginning of that for a larger one. Fewer than `k` if no more
@@ -104,8 +101,7 @@ class RegionSearcher {
   /// out     replaced: ids in that order.
   /// radii   replaced: the connecting radius of each vertex.
   /// O(k log k) on most surfaces.
-  void nearest_connected(const Start& start, std::size_t k, std::vector<VertexId>& out, std::vector<double>& radii,
-                         const Filter& filter = {});
+  void nearest_connected(const Start& start, std::size_t k, std::vector<VertexId>& out, std::vector<double>& radii);
 
  private:
   friend struct RegionAccess;

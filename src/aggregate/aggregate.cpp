@@ -25,11 +25,9 @@
 #include "aggregate/signal_block.h"
 #include "aggregate/sums.h"
 #include "aggregate/variances.h"
-#include "batch/filter_copy.h"
 #include "batch/packets.h"
 #include "batch/rows.h"
 #include "exact/index_access.h"
-#include "exact/query/filtered.h"
 #include "shared/distance.h"
 #include "shared/text.h"
 
@@ -180,8 +178,7 @@ class Aggregation {
  public:
   Aggregation(const Index& index, const SignalView& signal, const CheckedQuery& checked, std::span<double> result,
               const AggregateOptions& options)
-      : filter_(std::make_shared<const FilterCopy>(checked.query().filter)),
-        index_(filtered(index, filter_->view(), options.threads)),
+      : index_(index),
         view_(IndexAccess::view(index_)),
         tree_(view_),
         signal_(signal),
@@ -192,9 +189,7 @@ class Aggregation {
         result_(result),
         options_(options),
         together_(query_.kernel == SmoothingKernel::Gaussian ? kChannelsOfAGaussian : kChannelsTogether),
-        blocks_((signal.channels + together_ - 1) / together_) {
-    query_.filter = filter_->view();
-  }
+        blocks_((signal.channels + together_ - 1) / together_) {}
 
   void run() {
     std::vector<std::size_t> listed;
@@ -267,10 +262,7 @@ class Aggregation {
   }
 
   [[nodiscard]] BatchQuery query_of(const BatchRadius& radius) const {
-    return {.vertices = query_.vertices,
-            .radius = radius,
-            .filter = query_.metric == Metric::Path ? query_.filter : Filter(),
-            .metric = query_.metric};
+    return {.vertices = query_.vertices, .radius = radius, .metric = query_.metric};
   }
 
   /// Whether one search serves all scales. By rings, each has its own: their rows have lengths only one by one.
@@ -301,12 +293,11 @@ class Aggregation {
     return pass;
   }
 
-  std::shared_ptr<const FilterCopy> filter_;
-  Index index_;
+  const Index& index_;
   const IndexView& view_;
   NodeTree tree_;
   const SignalView& signal_;
-  AggregateQuery query_;                // with the filter above
+  const AggregateQuery& query_;
   std::span<const BatchRadius> radii_;  // of the passes
   std::vector<std::size_t> passes_;     // those whose rows are not listed
   bool has_patches_;

@@ -160,7 +160,6 @@ void sum_listed(const Index& index, const SignalView& signal, const AggregateQue
   std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
     return std::pair(view.slot[query.vertices[a]], a) < std::pair(view.slot[query.vertices[b]], b);
   });
-  const Filter filter = query.metric == Metric::Path ? query.filter : Filter();
   TaskContext task(options.threads, options.progress, rows.size());
   ListedRows listed(signal, query, radius);
   std::vector<VertexId> vertices;
@@ -173,7 +172,7 @@ void sum_listed(const Index& index, const SignalView& signal, const AggregateQue
     }
     vertices.clear();
     for (const std::size_t row : some) vertices.push_back(query.vertices[row]);
-    listed.set(neighborhoods(index, {.vertices = vertices, .radius = radius, .filter = filter, .metric = query.metric},
+    listed.set(neighborhoods(index, {.vertices = vertices, .radius = radius, .metric = query.metric},
                              {.threads = options.threads, .distances = true, .progress = still_wanted}));
     constexpr std::size_t kGrain = 16;
     task.parallel_for(some.size(), kGrain, [&](unsigned thread, std::size_t first, std::size_t end) {

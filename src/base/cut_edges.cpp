@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "meshhood/adjacency.h"
 #include "meshhood/error.h"
-#include "meshhood/filter.h"
 
 #include "shared/text.h"
 

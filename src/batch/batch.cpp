@@ -27,9 +27,8 @@ void sort_answer(std::span<VertexId> ids, std::span<double> distances) {
 }
 
 Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, std::size_t passes)
-    : method_(by_metric(method, query.metric)),
-      filtered_(query.filter.empty() ? nullptr : method_.searchers().restricted(query.filter, options.threads)),
-      factory_(filtered_ ? *filtered_ : method_.searchers()),
+    : method_(method.by(query.metric)),
+      factory_(method_.searchers()),
       options_(options),
       rows_(query, factory_.vertex_count),
       task_(options.threads, options.progress, passes * rows_.size()),

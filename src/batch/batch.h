@@ -96,8 +96,7 @@ class Batch {
   void cut_into_chunks(std::span<const std::uint64_t> in_order);
 
   SearchMethod method_;
-  std::shared_ptr<const SearcherFactory> filtered_;  // null without a filter
-  const SearcherFactory& factory_;                   // that, or of `method_`
+  const SearcherFactory& factory_;  // of `method_`
   const BatchOptions& options_;
   Rows rows_;
   TaskContext task_;

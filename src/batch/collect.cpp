@@ -163,7 +163,7 @@ void write_rows(Batch& batch, KeptChunks& kept, std::span<const std::uint64_t> o
 
 std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options) {
   const std::vector<BatchRadius> passes = radius_of_passes(query.radius);
-  Batch batch(method, {query.vertices, passes.front(), query.filter, query.metric}, options, passes.size());
+  Batch batch(method, {query.vertices, passes.front(), query.metric}, options, passes.size());
   const std::size_t rows = batch.rows().size();
   std::vector<std::uint64_t> result(passes.size() * rows);
   for (std::size_t i = 0; i < passes.size(); ++i) {

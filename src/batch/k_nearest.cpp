@@ -14,12 +14,10 @@
 #include "meshhood/error.h"
 #include "meshhood/region.h"
 
-#include "batch/filter_copy.h"
 #include "batch/size_limit.h"
 #include "exact/bound_index.h"
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
-#include "exact/query/lane_filter.h"
 #include "exact/query/path_search.h"
 #include "exact/query/region_state.h"
 #include "exact/query/ring_search.h"
@@ -44,10 +42,8 @@ constexpr double kAreaSlack = 1e-6;
 class NearestRows {
  public:
   NearestRows(const Index& index, const BatchVertices& vertices, const NearestOptions& options)
-      : index_(index), filter_(options.filter), options_(options) {
+      : index_(index), options_(options) {
     check_radius(options.radius);
-    check_filter(options.filter, index.vertex_count());
-    options_.filter = filter_.view();
     const std::size_t count = vertices.count(index.vertex_count());
     vertices_.reserve(count);
     for (std::size_t row = 0; row < count; ++row) {
@@ -61,7 +57,6 @@ class NearestRows {
   NearestRows& operator=(const NearestRows&) = delete;
   ~NearestRows() = default;
 
-  /// With copies of the masks.
   [[nodiscard]] const NearestOptions& options() const { return options_; }
   [[nodiscard]] std::size_t size() const { return vertices_.size(); }
   [[nodiscard]] VertexId vertex(std::size_t row) const { return vertices_[row]; }
@@ -86,7 +81,6 @@ class NearestRows {
 
  private:
   BoundIndex index_;
-  FilterCopy filter_;
   NearestOptions options_;
   std::vector<VertexId> vertices_;
 };
@@ -99,7 +93,7 @@ class StraightSearch {
   /// Calls `take(vertex, distance)` for the nearest vertices in order until it returns false. `areas`: not used.
   template <class Take>
   void run(VertexId v, std::size_t /*enough*/, double /*enough_area*/, std::span<const double> /*areas*/, Take&& take) {
-    RegionAccess::state(searcher_).for_each_nearest(v, options_->radius, options_->filter, take);
+    RegionAccess::state(searcher_).for_each_nearest(v, options_->radius, take);
   }
 
  private:
@@ -111,12 +105,7 @@ class StraightSearch {
 class PathRowSearch {
  public:
   PathRowSearch(const Index& index, const NearestOptions& options)
-      : index_(index),
-        graph_(IndexAccess::share_graph(index)),
-        paths_(*index_, *graph_),
-        radius_(options.radius),
-        walls_(*index_, options.filter.walls),
-        ignored_(*index_, options.filter.ignored) {}
+      : index_(index), graph_(IndexAccess::share_graph(index)), paths_(*index_, *graph_), radius_(options.radius) {}
 
   /// The search ends when it has `enough` vertices, or more than `enough_area`.
   template <class Take>
@@ -124,16 +113,16 @@ class PathRowSearch {
     const std::uint32_t slot = index_->slot[v];
     std::size_t count = 0;
     double area = 0;
-    paths_.run(index_->leaf_begin[leaf_of(slot)] + lane_of(slot), radius_, walls_, [&](std::span<const Path> found) {
+    paths_.run(index_->leaf_begin[leaf_of(slot)] + lane_of(slot), radius_, [&](std::span<const Path> found) {
       for (const Path& path : found) {
-        if (ignored_.has_at(path.end)) continue;
+        if (index_->is_ignored_at(path.end)) continue;
         ++count;
         if (!areas.empty()) area += areas[index_->id(path.end)];
       }
       return count >= enough || area > enough_area * (1 + kAreaSlack);
     });
     for (const Path& path : paths_.found_in_order()) {
-      if (!ignored_.has_at(path.end) && !take(index_->id(path.end), path.length)) return;
+      if (!index_->is_ignored_at(path.end) && !take(index_->id(path.end), path.length)) return;
     }
   }
 
@@ -142,28 +131,22 @@ class PathRowSearch {
   std::shared_ptr<KeptGraph> graph_;
   PathSearch paths_;
   double radius_;
-  LaneFilter walls_;
-  LaneFilter ignored_;
 };
 
 /// The same by numbers of edges.
 class RingRowSearch {
  public:
   RingRowSearch(const Index& index, const NearestOptions& options)
-      : index_(index),
-        rings_(*index_, kernels(best_isa())),
-        radius_(options.radius),
-        walls_(*index_, options.filter.walls),
-        ignored_(*index_, options.filter.ignored) {}
+      : index_(index), rings_(*index_, kernels(best_isa())), radius_(options.radius) {}
 
   template <class Take>
   void run(VertexId v, std::size_t /*enough*/, double /*enough_area*/, std::span<const double> /*areas*/, Take&& take) {
     double edges = 0;
-    for (rings_.start(index_->slot[v], walls_); edges <= radius_ && !rings_.ring().empty(); rings_.advance()) {
+    for (rings_.start(index_->slot[v]); edges <= radius_ && !rings_.ring().empty(); rings_.advance()) {
       ring_.assign(rings_.ring().begin(), rings_.ring().end());
       std::ranges::sort(ring_, {}, &LeafSubset::leaf);
       for (const auto& [leaf, lanes] : ring_) {
-        for (LaneMask left = lanes & ~ignored_.of(leaf); left != 0; left &= left - 1) {
+        for (LaneMask left = lanes & ~index_->ignored_lanes(leaf); left != 0; left &= left - 1) {
           const auto lane = static_cast<std::size_t>(std::countr_zero(left));
           if (!take(index_->id(index_->leaf_begin[leaf] + lane), edges)) return;
         }
@@ -176,8 +159,6 @@ class RingRowSearch {
   BoundIndex index_;
   RingSearch rings_;
   double radius_;
-  LaneFilter walls_;
-  LaneFilter ignored_;
   std::vector<LeafSubset> ring_;
 };
 

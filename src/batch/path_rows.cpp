@@ -7,13 +7,8 @@
 
 namespace meshhood {
 
-PathRows::PathRows(const Index& index, std::shared_ptr<const FilterCopy> filter, Isa isa)
-    : view_(IndexAccess::view(index)),
-      filter_(std::move(filter)),
-      walls_(view_, filter_ ? filter_->view().walls : VertexMask()),
-      ignored_(view_, filter_ ? filter_->view().ignored : VertexMask()),
-      graph_(IndexAccess::share_graph(index)),
-      packet_(view_, *graph_, isa, walls_, ignored_) {}
+PathRows::PathRows(const Index& index, Isa isa)
+    : view_(IndexAccess::view(index)), graph_(IndexAccess::share_graph(index)), packet_(view_, *graph_, isa) {}
 
 bool PathRows::pays(std::span<const BatchItem> items, bool /*distances*/) const {
   constexpr std::size_t kFewestTogether = 4;  // fewer rows of a leaf are answered faster one by one

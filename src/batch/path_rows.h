@@ -5,11 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "batch/filter_copy.h"
 #include "batch/row_search.h"
 #include "exact/joint/path_packet.h"
 #include "exact/layout.h"
-#include "exact/query/lane_filter.h"
 #include "exact/weighted_graph.h"
 
 namespace meshhood {
@@ -17,8 +15,7 @@ namespace meshhood {
 /// The neighborhoods of a batch along the edges, as `EdgeSearcher` finds them one by one. The index must outlive it.
 class PathRows final : public RowSearch {
  public:
-  /// `filter`: null if there is none.
-  PathRows(const Index& index, std::shared_ptr<const FilterCopy> filter, Isa isa = best_isa());
+  explicit PathRows(const Index& index, Isa isa = best_isa());
 
   [[nodiscard]] bool pays(std::span<const BatchItem> items, bool distances) const override;
   [[nodiscard]] bool run(std::span<const RowRun> runs) override;
@@ -32,9 +29,6 @@ class PathRows final : public RowSearch {
 
  private:
   const IndexView& view_;
-  std::shared_ptr<const FilterCopy> filter_;
-  LaneFilter walls_;
-  LaneFilter ignored_;
   std::shared_ptr<KeptGraph> graph_;
   PathPacket packet_;
   // Of the last run:

@@ -50,8 +50,7 @@ class LeafRings {
   PerLane<std::uint64_t> counts_{};
 };
 
-/// The rings of one vertex, in index order; distances are numbers of edges. A `NeighborhoodSearcher`. The index may be
-/// filtered.
+/// The rings of one vertex, in index order; distances are numbers of edges. A `NeighborhoodSearcher`.
 class RingSearcher {
  public:
   explicit RingSearcher(const Index& index) : index_(index), rings_(index) {}

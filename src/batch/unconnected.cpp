@@ -13,11 +13,9 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "batch/filter_copy.h"
 #include "batch/packets.h"
 #include "exact/index_access.h"
 #include "exact/query/any_center.h"
-#include "exact/query/lane_filter.h"
 #include "exact/query/nearest_first.h"
 #include "shared/distance.h"
 
@@ -43,13 +41,9 @@ bool are_leaves_large(const IndexView& index) {
 /// Searches around one packet at a time.
 class UnconnectedSearch : public VertexVisitor {
  public:
-  /// Borrows both.
-  UnconnectedSearch(const IndexView& index, Metric metric, const Filter& filter)
-      : index_(&index),
-        metric_(metric),
-        walls_(index, filter.walls),
-        ignored_(index, filter.ignored),
-        is_scanned_(are_leaves_large(index)) {}
+  /// Borrows the index.
+  UnconnectedSearch(const IndexView& index, Metric metric)
+      : index_(&index), metric_(metric), is_scanned_(are_leaves_large(index)) {}
 
   void run(const PacketAnswer& packet) {
     pieces_ = packet.pieces;
@@ -63,7 +57,7 @@ class UnconnectedSearch : public VertexVisitor {
       const double from_center = std::sqrt(squared_distance(center.exact, p));
       const double radius = metric_ == Metric::Rings ? kNoGap : packet.radii[i];
       queries_.push_back({Center(index_->frame, p), from_center, radius, squared_radius(radius)});
-      if (walls_.has(packet.vertices[i])) queries_.back().close();
+      if (index_->is_wall(leaf_of(slot), lane_of(slot))) queries_.back().close();
     }
     if (is_scanned_) return scan();
     update_reach();
@@ -177,7 +171,7 @@ class UnconnectedSearch : public VertexVisitor {
   /// Compares a vertex, in index order, with a query that has not reached it. Returns whether its limit has shrunk.
   bool offer(std::size_t i, std::size_t vertex, const Point& p) {
     Query& query = queries_[i];
-    if (!query.has(p) || walls_.has_at(vertex) || ignored_.has_at(vertex)) return false;
+    if (!query.has(p) || index_->is_wall_at(vertex) || index_->is_ignored_at(vertex)) return false;
     const double distance = std::sqrt(squared_distance(query.center.exact, p));
     const VertexId id = index_->id(vertex);
     if (distance == query.gap && query.vertex < id) return false;
@@ -197,8 +191,6 @@ class UnconnectedSearch : public VertexVisitor {
 
   const IndexView* index_;
   Metric metric_;
-  LaneFilter walls_;
-  LaneFilter ignored_;
   std::span<const Piece> pieces_;
   std::vector<Query> queries_;
   bool is_scanned_;
@@ -212,20 +204,17 @@ Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, con
   const std::size_t rows = query.vertices.count(index.vertex_count());
   Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kNoGap)};
   const IndexView& view = IndexAccess::view(index);
-  const FilterCopy filter(query.filter);
   const auto make_visitor = [&](unsigned /*thread*/) -> PacketVisitor {
-    return
-        [search = UnconnectedSearch(view, query.metric, filter.view()), &result](const PacketAnswer& packet) mutable {
-          search.run(packet);
-          for (std::size_t i = 0; i < packet.rows.size(); ++i) {
-            const auto [vertex, gap] = search.found(i);
-            result.vertices[packet.rows[i]] = vertex;
-            result.gaps[packet.rows[i]] = gap;
-          }
-        };
+    return [search = UnconnectedSearch(view, query.metric), &result](const PacketAnswer& packet) mutable {
+      search.run(packet);
+      for (std::size_t i = 0; i < packet.rows.size(); ++i) {
+        const auto [vertex, gap] = search.found(i);
+        result.vertices[packet.rows[i]] = vertex;
+        result.gaps[packet.rows[i]] = gap;
+      }
+    };
   };
-  for_each_packet(index, {query.vertices, query.radius, filter.view(), query.metric}, make_visitor,
-                  {.threads = options.threads, .progress = options.progress});
+  for_each_packet(index, query, make_visitor, {.threads = options.threads, .progress = options.progress});
   return result;
 }
 

@@ -171,8 +171,7 @@ CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const Fa
   constexpr std::size_t kChannels = CorrectedCurvatures::kMeasures;
   const std::vector<double> held = measures_by_vertex(state, faces);
   std::vector<VertexId> listed;
-  AggregateQuery sum{
-      .vertices = {}, .radius = query.radius, .filter = query.filter, .metric = query.metric, .reduce = Reduce::Sum};
+  AggregateQuery sum{.vertices = {}, .radius = query.radius, .metric = query.metric, .reduce = Reduce::Sum};
   if (query.vertices.list()) {
     listed.assign(query.vertices.list()->begin(), query.vertices.list()->end());
     sum.vertices = listed;

@@ -21,7 +21,6 @@
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
 #include "exact/index_access.h"
-#include "exact/query/filtered.h"
 
 namespace meshhood {
 namespace {
@@ -35,9 +34,9 @@ TangentFrame frame_at(const SurfaceState& surface, std::uint32_t place, ShapeOpe
 /// Fits the rows of packets. One object a thread.
 class CurvatureFitter {
  public:
-  CurvatureFitter(const SurfaceState& surface, const Index& searched, Metric metric, const CurvatureOptions& options,
+  CurvatureFitter(const SurfaceState& surface, Metric metric, const CurvatureOptions& options,
                   const CurvatureMemory& out)
-      : surface_(&surface), options_(&options), out_(out), direct_(surface, searched, metric, options) {}
+      : surface_(&surface), options_(&options), out_(out), direct_(surface, metric, options) {}
 
   void fit(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments);
 
@@ -156,12 +155,11 @@ void curvatures(const CurvatureIndex& surface, const BatchQuery& query, const Cu
   }
   const SurfaceState& state = CurvatureAccess::state(surface);
   check_sizes(out, query.vertices.count(surface.vertex_count()));
-  const Index searched = filtered(state.searched, query.filter, options.threads);
   const MomentSource source{
-      .index = &IndexAccess::view(searched), .filter = options.filter ? &state : nullptr, .metric = query.metric};
-  visit_moments(searched, {.vertices = query.vertices, .radius = query.radius, .metric = query.metric},
-                options.open_ball, source, {.threads = options.threads, .progress = options.progress}, [&] {
-                  auto fitter = std::make_shared<CurvatureFitter>(state, searched, query.metric, options, out);
+      .index = &*state.index, .filter = options.filter ? &state : nullptr, .metric = query.metric};
+  visit_moments(state.searched, query, options.open_ball, source,
+                {.threads = options.threads, .progress = options.progress}, [&] {
+                  auto fitter = std::make_shared<CurvatureFitter>(state, query.metric, options, out);
                   return [fitter](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
                     fitter->fit(packet, sums, moments);
                   };

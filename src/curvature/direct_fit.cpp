@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/vector.h"
-#include "batch/searcher_factory.h"
 #include "curvature/jet.h"
 #include "curvature/packet_moments.h"
 #include "curvature/surface.h"
@@ -15,9 +14,9 @@
 namespace meshhood {
 
 /// Adds the vertices nearest to the query vertex among those that are linked to the set, one by one; of several the one
-/// with the lowest id. None that the filter of the query leaves out.
+/// with the lowest id. No walls and no ignored vertices.
 void DirectFit::extend(std::uint32_t place) {
-  const IndexView& index = IndexAccess::view(*searched_);
+  const IndexView& index = *surface_->index;
   const Point center = surface_->position(place);
   const auto is_barred = [&](std::uint32_t i) {
     const std::uint32_t slot = index.slot[index.id(i)];
@@ -65,7 +64,7 @@ double DirectFit::set_points(std::uint32_t place) {
 }
 
 DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const TangentFrame& frame) {
-  if (!searcher_) searcher_ = by_metric(*searched_, metric_).make_searcher();
+  if (!searcher_) searcher_ = SearchMethod(surface_->searched).by(metric_).make_searcher();
   find_places(*searcher_, *surface_->index, place, radius, found_);
   const std::size_t inside = found_.size();
   const bool is_extended = inside < kFewestPoints;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "meshhood/search.h"
+#include "meshhood/batch.h"
 
 #include "curvature/quadric.h"
 #include "curvature/surface.h"
@@ -16,9 +16,9 @@ namespace meshhood {
 /// equations are not: for few or badly placed vertices. One object a thread.
 class DirectFit {
  public:
-  /// Borrows its arguments. `searched` is the index of the surface, which may be filtered.
-  DirectFit(const SurfaceState& surface, const Index& searched, Metric metric, const CurvatureOptions& options)
-      : surface_(&surface), searched_(&searched), metric_(metric), options_(&options) {}
+  /// Borrows its arguments.
+  DirectFit(const SurfaceState& surface, Metric metric, const CurvatureOptions& options)
+      : surface_(&surface), metric_(metric), options_(&options) {}
 
   struct Result {
     CurvatureState state;
@@ -36,7 +36,6 @@ class DirectFit {
   [[nodiscard]] double scale_for(double extent) const;
 
   const SurfaceState* surface_;
-  const Index* searched_;
   Metric metric_;
   const CurvatureOptions* options_;
   std::optional<AnySearcher> searcher_;

@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "base/vector.h"
-#include "batch/searcher_factory.h"
 #include "curvature/packet_moments.h"
 #include "curvature/surface.h"
 #include "simd/kernels.h"
@@ -31,7 +30,7 @@ void DirectMoments::set_units(const Point& center) {
 }
 
 void DirectMoments::sum(std::uint32_t place, double radius) {
-  if (!searcher_) searcher_ = by_metric(*searched_, source_.metric).make_searcher();
+  if (!searcher_) searcher_ = SearchMethod(*searched_).by(source_.metric).make_searcher();
   find_places(*searcher_, *source_.index, place, radius, found_);
   const Point center = offset(place, {0, 0, 0});
   set_units(center);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "meshhood/search.h"
+#include "meshhood/batch.h"
 
 #include "curvature/packet_moments.h"
 #include "simd/moments.h"

@@ -13,7 +13,6 @@
 #include "meshhood/moments.h"
 
 #include "base/vector.h"
-#include "batch/filter_copy.h"
 #include "batch/rows.h"
 #include "curvature/surface.h"
 #include "shared/distance.h"
@@ -68,7 +67,6 @@ class FeatureExtraction {
         state_(CurvatureAccess::state(surface)),
         radii_(radius_of_passes(query.radius)),
         metric_(query.metric),
-        filter_(query.filter),
         options_(std::move(options)),
         rows_(surface.vertex_count()) {
     if (const auto& list = query.vertices.list()) {
@@ -123,7 +121,7 @@ class FeatureExtraction {
   }
 
   [[nodiscard]] BatchQuery query_of(const BatchRadius& radius) const {
-    return {.vertices = vertices_, .radius = radius, .filter = filter_.view(), .metric = metric_};
+    return {.vertices = vertices_, .radius = radius, .metric = metric_};
   }
 
   void write_curvatures(const BatchRadius& radius_of_rows, std::span<double> values) {
@@ -169,7 +167,6 @@ class FeatureExtraction {
   std::vector<BatchRadius> radii_;  // of the passes
   Metric metric_;
   double unit_ = 1;  // of the radii
-  FilterCopy filter_;
   FeatureOptions options_;
   std::vector<VertexId> listed_;
   BatchVertices vertices_;

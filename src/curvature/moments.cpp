@@ -17,7 +17,6 @@
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
 #include "exact/index_access.h"
-#include "exact/query/filtered.h"
 #include "shared/distance.h"
 #include "shared/text.h"
 
@@ -72,21 +71,17 @@ void for_each_row(const Index& index, const BatchQuery& query, const MomentOptio
                   const std::function<void(std::size_t row, const RowMoments&)>& take) {
   const IndexView& view = IndexAccess::view(index);
   const MomentWeights weights(view, options.weights);
-  const Index searched = filtered(index, query.filter, options.threads);
-  const MomentSource source{.index = &IndexAccess::view(searched), .weights = weights.values, .metric = query.metric};
-  visit_moments(searched, {.vertices = query.vertices, .radius = query.radius, .metric = query.metric}, false, source,
-                {.threads = options.threads, .progress = options.progress}, [&] {
-                  const auto direct = std::make_shared<DirectMoments>(searched, source);
-                  return [&, direct](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
-                    for_each_query(packet.queries, [&](std::size_t q) {
-                      if (sums.is_accurate(q))
-                        return take(packet.rows[q], {moments, q, sums.scale(), weights.exponent});
-                      direct->sum(packet.places[q], packet.radii[q]);
-                      take(packet.rows[q],
-                           {direct->moments(), 0, direct->scale(), weights.exponent + direct->weight_exponent()});
-                    });
-                  };
-                });
+  const MomentSource source{.index = &view, .weights = weights.values, .metric = query.metric};
+  visit_moments(index, query, false, source, {.threads = options.threads, .progress = options.progress}, [&] {
+    const auto direct = std::make_shared<DirectMoments>(index, source);
+    return [&, direct](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
+      for_each_query(packet.queries, [&](std::size_t q) {
+        if (sums.is_accurate(q)) return take(packet.rows[q], {moments, q, sums.scale(), weights.exponent});
+        direct->sum(packet.places[q], packet.radii[q]);
+        take(packet.rows[q], {direct->moments(), 0, direct->scale(), weights.exponent + direct->weight_exponent()});
+      });
+    };
+  });
 }
 
 void write_row(PrincipalComponents& out, std::size_t row, const RowMoments& m) {

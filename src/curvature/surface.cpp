@@ -66,9 +66,8 @@ template <class Real>
 void sum_areas(std::span<const Real> xyz, std::span<const std::uint32_t> places, const FacesView& faces,
                std::size_t first, std::size_t end, SurfaceState& state) {
   const double scale = state.index->frame.scale;
-  for (RawVector<double>* const axis : {&state.normal_x, &state.normal_y, &state.normal_z}) {
-    std::fill(axis->begin() + static_cast<std::ptrdiff_t>(first), axis->begin() + static_cast<std::ptrdiff_t>(end),
-              0.0);
+  for (const std::span<double> axis : {state.normal_x, state.normal_y, state.normal_z}) {
+    std::ranges::fill(axis.subspan(first, end - first), 0.0);
   }
   // Below `first`, the difference wraps around to a large number.
   const auto is_summed = [&](std::uint32_t place) { return place - first < end - first; };
@@ -124,9 +123,21 @@ CurvatureIndex of_faces(const Index& index, const FacesView& faces, TaskContext&
 CurvatureIndex::State::State(const Index& given)
     : searched(IndexAccess::alias(given)),
       index(searched),
-      normal_x(given.vertex_count()),
-      normal_y(given.vertex_count()),
-      normal_z(given.vertex_count()) {}
+      normals(std::make_shared<RawVector<double>>(3 * given.vertex_count())) {
+  set_spans();
+}
+
+CurvatureIndex::State::State(const Index& given, const State& other)
+    : searched(IndexAccess::alias(given)), index(searched), normals(other.normals) {
+  set_spans();
+}
+
+void CurvatureIndex::State::set_spans() {
+  const std::size_t vertices = index->vertex_count();
+  normal_x = std::span(*normals).first(vertices);
+  normal_y = std::span(*normals).subspan(vertices, vertices);
+  normal_z = std::span(*normals).last(vertices);
+}
 
 std::size_t CurvatureIndex::State::first_neighbor(std::size_t place) const {
   const std::uint32_t slot = index->slot[index->id(place)];
@@ -169,6 +180,14 @@ CurvatureIndex CurvatureIndex::build(const Index& index, std::span<const double>
     set_normal(*state, i, {n.x / largest, n.y / largest, n.z / largest});  // its square may overflow
   }
   return CurvatureIndex(std::move(state));
+}
+
+CurvatureIndex CurvatureIndex::on(const Index& index) const {
+  // Masked indices share the slots of their mesh.
+  if (IndexAccess::view(index).slot.data() != CurvatureAccess::state(*this).index->slot.data()) {
+    raise(ErrorCode::InvalidOption, "the index is of another mesh, expected one from `masked` of that of the surface");
+  }
+  return CurvatureIndex(std::make_unique<State>(index, *state_));
 }
 
 CurvatureIndex::CurvatureIndex(std::unique_ptr<const State> state) : state_(std::move(state)) {}

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -22,16 +23,22 @@ namespace meshhood {
 struct CurvatureIndex::State {
   explicit State(const Index& given);
 
+  /// With the normals of another, whose mesh is the same.
+  State(const Index& given, const State& other);
+
   Index searched;              // shares its memory with the caller's
   BoundIndex index;            // its arrays
-  RawVector<double> normal_x;  // unit vectors; NaN without one
-  RawVector<double> normal_y;
-  RawVector<double> normal_z;
+  std::shared_ptr<RawVector<double>> normals;
+  std::span<double> normal_x;  // unit vectors; NaN without one
+  std::span<double> normal_y;
+  std::span<double> normal_z;
 
   [[nodiscard]] Point position(std::size_t place) const {
     return std::visit([&](auto xyz) { return point(xyz, place); }, index->positions);
   }
   [[nodiscard]] Point normal(std::size_t place) const { return {normal_x[place], normal_y[place], normal_z[place]}; }
+
+  void set_spans();
 
   /// The neighbor with the lowest id; the vertex itself if it has none.
   [[nodiscard]] std::size_t first_neighbor(std::size_t place) const;

@@ -12,6 +12,7 @@
 #include "exact/build/links.h"
 #include "exact/build/node_links.h"
 #include "exact/build/tree.h"
+#include "exact/index_access.h"
 #include "exact/layout.h"
 #include "exact/node_search.h"
 #include "simd/kernels.h"
@@ -202,12 +203,12 @@ class Check {
 
 std::vector<std::string> Index::check(const MeshView& mesh) const {
   const Adjacency graph = adjacency(mesh);
-  return Check(view(), {mesh.positions, graph.view()}).run();
+  return Check(IndexAccess::whole(*this, "checked"), {mesh.positions, graph.view()}).run();
 }
 
 std::vector<std::string> Index::check(const GraphView& graph) const {
   validate(graph);
-  return Check(view(), graph).run();
+  return Check(IndexAccess::whole(*this, "checked"), graph).run();
 }
 
 }  // namespace meshhood

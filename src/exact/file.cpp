@@ -130,7 +130,7 @@ void verify_alignment(std::span<const std::byte> bytes) {
 }  // namespace
 
 void save(const Index& index, const Sink& sink, const SaveOptions& options) {
-  const IndexView& view = IndexAccess::view(index);
+  const IndexView& view = IndexAccess::whole(index, "saved");
   file::SectionWriter writer;
   writer.add("frame", std::span(&view.frame, 1));
   for_each_array([&](ArrayInfo info, const auto& array) { add(writer, info.section, array); }, view);

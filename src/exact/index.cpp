@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "meshhood/index.h"
 
+#include <string>
 #include <utility>
 
 #include "meshhood/error.h"
 
 #include "exact/bound_index.h"
+#include "exact/index_access.h"
 #include "exact/layout.h"
 #include "exact/weighted_graph.h"
 
@@ -34,7 +36,14 @@ IndexView& Index::view() const {
 void BoundIndex::raise_outdated() {
   raise(ErrorCode::InvalidOption,
         "the index was refitted in place, expected `rebind` of the searcher, or a new CurvatureIndex, FaceIndex or "
-        "restricted method, before the next call");
+        "masked index, before the next call");
+}
+
+const IndexView& IndexAccess::whole(const Index& index, const char* done) {
+  const IndexView& view = index.view();
+  if (!view.is_masked) return view;
+  raise(ErrorCode::InvalidOption,
+        std::string("an index with masks is not ") + done + ", expected the index from which `masked` made it");
 }
 
 std::size_t Index::vertex_count() const { return view().vertex_count(); }

@@ -34,6 +34,10 @@ struct IndexAccess {
   [[nodiscard]] static const IndexView& view(const Index& index) { return index.view(); }
   [[nodiscard]] static IndexView& changeable(Index& index) { return index.view(); }
 
+  /// The view of an index without masks. `done`: what cannot be done with one that has some. Throws
+  /// Error{InvalidOption}.
+  [[nodiscard]] static const IndexView& whole(const Index& index, const char* done);
+
   /// Keeps the view alive, for `BoundIndex`.
   [[nodiscard]] static std::shared_ptr<const IndexView> share(const Index& index) {
     static_cast<void>(index.view());

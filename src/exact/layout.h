@@ -72,7 +72,7 @@ struct alignas(64) GroupRecord {
   std::uint32_t end_link = 0;
   std::array<NodeSet, kFanOut> linked{};  // by node: the nodes of the group that it is linked with
   std::uint32_t nodes = 0;
-  NodeSet pierced = 0;                   // the nodes that have walls; 0 in files: see query/filtered.h
+  NodeSet pierced = 0;                   // the nodes that have walls; 0 in files: see masked.cpp
   std::array<std::uint8_t, 3> unused{};  // so that every byte has a defined value
 };
 
@@ -120,8 +120,9 @@ struct IndexView {
   std::span<const NodeId> parents;         // by group: the node that covers it, or kNoNode
   std::span<const NodeLink> node_links;    // by group
   std::span<const double> mean_radii;      // by level
-  std::span<const LaneMask> walls;         // by leaf; empty if there are none: see query/filtered.h
+  std::span<const LaneMask> walls;         // by leaf; empty if there are none: see masked.cpp
   std::span<const LaneMask> ignored;       // likewise
+  bool is_masked = false;                  // made by `masked`, perhaps without walls and ignored vertices
   Tree tree;                               // the levels, made from `levels`, `records` and `mean_radii`
   RootTree roots;                          // over the groups that no node covers
   std::vector<LeafGroupRange> leaf_groups;  // by node above the leaves, the first of which follows on the last leaf
@@ -130,7 +131,7 @@ struct IndexView {
   std::shared_ptr<GeometryData> geometry;   // of this view alone; none while all arrays are in a file
   std::uint64_t version = 0;                // the number of refits in place that are in these arrays
 
-  /// The number of all refits in place. A copy with a filter shares it, so that it knows when its index has moved on.
+  /// The number of all refits in place. A masked index shares it, so that it knows when its index has moved on.
   std::shared_ptr<std::uint64_t> newest = std::make_shared<std::uint64_t>(0);
 
   [[nodiscard]] bool is_current() const { return version == *newest; }
@@ -157,10 +158,17 @@ struct IndexView {
     return !walls.empty() && (walls[leaf] >> lane & 1U) != 0;
   }
 
+  /// The same of a vertex in index order.
+  [[nodiscard]] bool is_wall_at(std::size_t vertex) const { return has_at(walls, vertex); }
+  [[nodiscard]] bool is_ignored_at(std::size_t vertex) const { return has_at(ignored, vertex); }
+
   /// The caller's id of a vertex in index order.
   [[nodiscard]] VertexId id(std::size_t vertex) const {
     return permutation.empty() ? static_cast<VertexId>(vertex) : permutation[vertex];
   }
+
+  /// The slot of a vertex in index order.
+  [[nodiscard]] std::uint32_t slot_at(std::size_t vertex) const { return slot[id(vertex)]; }
 
   [[nodiscard]] Point position(LeafId leaf, unsigned lane) const {
     const std::size_t vertex = std::size_t{leaf_begin[leaf]} + lane;
@@ -188,6 +196,11 @@ struct IndexView {
     assert(&link >= links.data() && &link + 1 < links.data() + links.size());
     const Link& next = *(&link + 1);
     return cross_edges.subspan(link.first_cross_edge, next.first_cross_edge - link.first_cross_edge);
+  }
+
+ private:
+  [[nodiscard]] bool has_at(std::span<const LaneMask> lanes, std::size_t vertex) const {
+    return !lanes.empty() && (lanes[leaf_of(slot_at(vertex))] >> lane_of(slot_at(vertex)) & 1U) != 0;
   }
 };
 

@@ -110,14 +110,14 @@ void move_in_place(std::span<const Move> moves, IndexView& index, TaskContext& t
 
 Index refit(const Index& index, const PositionsView& positions, const BuildOptions& options) {
   TaskContext task(options.threads, options.progress, kGeometrySteps);
-  const IndexView& view = IndexAccess::view(index);
+  const IndexView& view = IndexAccess::whole(index, "refitted");
   return with_geometry(view, geometry_at(positions, view, task));
 }
 
 Index refit(const Index& index, const PositionsView& positions, const IndicesView& changed,
             const BuildOptions& options) {
   TaskContext task(options.threads, options.progress, kGeometrySteps);
-  const IndexView& view = IndexAccess::view(index);
+  const IndexView& view = IndexAccess::whole(index, "refitted");
   const std::vector<Move> moves = checked_moves(view, positions, changed);
   if (!stay_in_frame(moves, view.frame)) return with_geometry(view, geometry_beyond_frame(moves, view, task));
   Index moved = with_geometry(view, copy_geometry(view));
@@ -126,6 +126,7 @@ Index refit(const Index& index, const PositionsView& positions, const IndicesVie
 }
 
 void Index::refit_in_place(const PositionsView& positions, const BuildOptions& options) {
+  static_cast<void>(IndexAccess::whole(*this, "refitted"));
   TaskContext task(options.threads, options.progress, kGeometrySteps);
   auto graph = std::make_shared<KeptGraph>();
   set_geometry(view(), geometry_at(positions, view(), task));
@@ -134,6 +135,7 @@ void Index::refit_in_place(const PositionsView& positions, const BuildOptions& o
 }
 
 void Index::refit_in_place(const PositionsView& positions, const IndicesView& changed, const BuildOptions& options) {
+  static_cast<void>(IndexAccess::whole(*this, "refitted"));
   TaskContext task(options.threads, options.progress, kGeometrySteps);
   auto graph = std::make_shared<KeptGraph>();
   move_in_place(checked_moves(view(), positions, changed), view(), task);

@@ -172,12 +172,12 @@ class AggregateCase {
   }
 
   /// Compares all numbers of an aggregate with the definition.
-  void compare(const SignalView& signal, const AggregateQuery& query) {
-    const std::vector<double> result = aggregate(index_, signal, query);
+  void compare(const SignalView& signal, const AggregateQuery& query, const Masks& masks = {}) {
+    const std::vector<double> result = aggregate(masked(index_, masks), signal, query);
     const auto& scales = query.radius.scales();
     const std::size_t rows = query.vertices.count(size());
     ASSERT_EQ(result.size(), (scales ? scales->size() : 1) * rows * signal.channels);
-    const Adjacency graph = without_walls(mesh_, query.filter.walls);
+    const Adjacency graph = without_walls(mesh_, masks.walls);
     ReferenceSearcher reference(GraphView{mesh_.positions_view(), graph.view()});
     const double largest = scales ? *std::max_element(scales->begin(), scales->end()) : 0;
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -192,7 +192,8 @@ class AggregateCase {
       } else if (i == 0 || v != paths_from_) {
         find_paths(v, graph, query.metric);
       }
-      const Expected expected = reduce_items(items(signal, i % signal.channels, v, query, radius), query, radius);
+      const Expected expected =
+          reduce_items(items(signal, i % signal.channels, v, query.metric, masks, radius), query, radius);
       const bool right = std::isnan(expected.value) ? std::isnan(result[i]) || std::isinf(expected.tolerance)
                                                     : std::abs(result[i] - expected.value) <= expected.tolerance;
       EXPECT_TRUE(right) << "vertex " << v << ", radius " << radius << ", channel " << i % signal.channels
@@ -232,17 +233,16 @@ class AggregateCase {
   }
 
   /// Of the neighborhood that was found, those that the filter leaves.
-  std::vector<Item> items(const SignalView& signal, std::size_t channel, VertexId v, const AggregateQuery& query,
+  std::vector<Item> items(const SignalView& signal, std::size_t channel, VertexId v, Metric metric, const Masks& masks,
                           double radius) {
-    const Filter& filter = query.filter;
     std::vector<Item> result;
-    if (filter.walls.size() != 0 && filter.walls[v]) return result;
+    if (masks.walls.size() != 0 && masks.walls[v]) return result;
     for (std::size_t i = 0; i < ids_.size(); ++i) {
       if (distances_[i] > radius) continue;  // of a patch
-      if (filter.ignored.size() != 0 && filter.ignored[ids_[i]]) continue;
+      if (masks.ignored.size() != 0 && masks.ignored[ids_[i]]) continue;
       result.push_back({signal.values[ids_[i] * signal.channels + channel],
                         signal.weights.empty() ? 1 : signal.weights[ids_[i]],
-                        query.metric == Metric::Straight ? exact_distance(v, ids_[i]) : distances_[i]});
+                        metric == Metric::Straight ? exact_distance(v, ids_[i]) : distances_[i]});
     }
     return result;
   }
@@ -284,7 +284,6 @@ TEST_P(AggregateOfFamily, EqualsTheDefinition) {
         query.radius = BatchRadius::scales({scene.radius(random), scene.radius(random)});
         const auto walls = draw_mask(random, scene.size(), random.below(2) * 8);
         const auto ignored = draw_mask(random, scene.size(), random.below(2) * 5);
-        query.filter = {walls, ignored};
         query.metric = std::array{Metric::Straight, Metric::Path, Metric::Rings}[random.below(3)];
         const bool weighted = random.below(2) == 0;
         if (!weighted) query.ddof = static_cast<unsigned>(random.below(2));
@@ -299,7 +298,7 @@ TEST_P(AggregateOfFamily, EqualsTheDefinition) {
           for (double& radius : radii) radius = scene.radius(random);
           query.radius = radii;
         }
-        scene.compare(signal.view(weighted), query);
+        scene.compare(signal.view(weighted), query, {walls, ignored});
         if (HasFailure()) return;
       }
     }
@@ -643,8 +642,6 @@ TEST_F(Aggregate, RefusesWrongArguments) {
   refuse(ErrorCode::InvalidRadius, "radius 0: ", {values}, {.radius = BatchRadius::scales({kNan})});
   const std::vector<double> short_list(3, 1.0);
   refuse(ErrorCode::InvalidRadius, "3 radii for 3600 rows", {values}, {.radius = short_list});
-  const std::vector<std::uint8_t> short_mask(8);
-  refuse(ErrorCode::InvalidOption, "walls: 8 values", {values}, {.radius = 1, .filter = {.walls = short_mask}});
   refuse(ErrorCode::InvalidOption, "smoothing kernel", {values},
          {.radius = 1, .reduce = Reduce::Minimum, .kernel = SmoothingKernel::Biweight});
   refuse(ErrorCode::InvalidOption, "ddof is 2", {values}, {.radius = 1, .reduce = Reduce::Variance, .ddof = 2});

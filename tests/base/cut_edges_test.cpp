@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "meshhood/filter.h"
+#include "meshhood/adjacency.h"
 #include "meshhood/index.h"
 #include "meshhood/search.h"
 

@@ -404,14 +404,15 @@ TEST_F(Batches, AcceptAResultWithinTheLimitThatTheSampleDoesNotExclude) {
   EXPECT_EQ(neighborhoods(index, query, {.max_bytes = ids * sizeof(VertexId)}).ids.size(), ids);
 }
 
-TEST_F(Batches, AcceptAFilteredResultWithinTheLimitThatTheWholeOneExceeds) {
+TEST_F(Batches, AcceptAMaskedResultWithinTheLimitThatTheWholeOneExceeds) {
   const std::vector<VertexId> vertices(20'000, VertexId{7});
   std::vector<std::uint8_t> others(index.vertex_count(), 1);
   others[7] = 0;
   const BatchOptions options{.max_bytes = vertices.size() * sizeof(VertexId)};
-  for (const Filter& filter : {Filter{.walls = others}, Filter{.ignored = others}}) {
-    const BatchQuery query{.vertices = vertices, .radius = kInfinity, .filter = filter};
-    EXPECT_EQ(neighborhoods(index, query, options).ids, vertices);
+  for (const Masks& masks : {Masks{.walls = others}, Masks{.ignored = others}}) {
+    const BatchQuery query{.vertices = vertices, .radius = kInfinity};
+    const Index searched = masked(index, masks);
+    EXPECT_EQ(neighborhoods(searched, query, options).ids, vertices);
   }
 }
 

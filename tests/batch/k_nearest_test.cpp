@@ -14,6 +14,7 @@
 #include "meshhood/aggregate.h"
 #include "meshhood/edge_search.h"
 #include "meshhood/index.h"
+#include "meshhood/masks.h"
 #include "meshhood/region.h"
 
 #include "support/families.h"
@@ -40,16 +41,16 @@ NearestRow nearest_of(const RegionOracle& oracle, const PlainStart& start, doubl
   return row;
 }
 
-NearestRow along_edges(EdgeSearcher& searcher, VertexId v, double radius, const Filter& filter) {
+NearestRow along_edges(EdgeSearcher& searcher, VertexId v, double radius) {
   NearestRow row;
-  searcher.neighborhood(v, radius, row.ids, row.distances, filter);
+  searcher.neighborhood(v, radius, row.ids, row.distances);
   return row;
 }
 
-NearestRow by_rings(EdgeSearcher& searcher, VertexId v, double radius, const Filter& filter) {
+NearestRow by_rings(EdgeSearcher& searcher, VertexId v, double radius) {
   NearestRow row;
   std::vector<std::size_t> counts;
-  searcher.rings(v, static_cast<std::size_t>(std::min(radius, 1e9)), row.ids, counts, filter);
+  searcher.rings(v, static_cast<std::size_t>(std::min(radius, 1e9)), row.ids, counts);
   for (std::size_t ring = 0; ring < counts.size(); ++ring)
     row.distances.resize(counts[ring], static_cast<double>(ring));
   return row;
@@ -83,7 +84,6 @@ TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
     if (mesh.size() == 0) continue;
     const Index index = build(mesh.view());
     const RegionOracle oracle(mesh);
-    EdgeSearcher edges(index);
     Random random(vertices);
     std::vector<std::uint8_t> walls(mesh.size());
     std::vector<std::uint8_t> ignored(mesh.size());
@@ -98,14 +98,13 @@ TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
     const double edge = oracle.graph().mean_edge();
     for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
       for (const double radius : {kInfinity, metric == Metric::Rings ? 3.5 : 3 * edge, 0.0}) {
-        NearestOptions options{.metric = metric, .radius = radius, .threads = 2};
-        if (radius != 0)
-          options.filter = {VertexMask(std::span<const std::uint8_t>(walls)),
-                            VertexMask(std::span<const std::uint8_t>(ignored))};
+        const NearestOptions options{.metric = metric, .radius = radius, .threads = 2};
+        const Index searched = masked(index, radius != 0 ? Masks{walls, ignored} : Masks{});
+        EdgeSearcher edges(searched);
         const std::size_t k = 1 + random.below(30);
         const double area = random.uniform(0.5, 6);
-        const KNearest found = k_nearest(index, some, k, options);
-        const Neighborhoods disc = discs(index, some, area, areas, options);
+        const KNearest found = k_nearest(searched, some, k, options);
+        const Neighborhoods disc = discs(searched, some, area, areas, options);
         ASSERT_EQ(found.ids.size(), k * some.size());
         ASSERT_EQ(disc.offsets.size(), some.size() + 1);
         for (std::size_t i = 0; i < some.size(); ++i, ++rows) {
@@ -116,8 +115,8 @@ TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
           start.walls = radius != 0 ? walls : std::vector<std::uint8_t>(mesh.size());
           start.ignored = radius != 0 ? ignored : std::vector<std::uint8_t>(mesh.size());
           NearestRow all = metric == Metric::Straight ? nearest_of(oracle, start, radius)
-                           : metric == Metric::Path   ? along_edges(edges, some[i], radius, options.filter)
-                                                      : by_rings(edges, some[i], radius, options.filter);
+                           : metric == Metric::Path   ? along_edges(edges, some[i], radius)
+                                                      : by_rings(edges, some[i], radius);
           std::size_t size = 0;
           for (double sum = 0; size < all.ids.size() && sum < area; ++size) sum += areas[all.ids[size]];
           const std::span<const VertexId> ids =
@@ -180,10 +179,6 @@ TEST(KNearest, RefusesWrongArguments) {
                  [&] { static_cast<void>(discs(index, {}, 1, wrong)); });
   expect_refused(ErrorCode::InvalidOption, "areas: 2 values",
                  [&] { static_cast<void>(discs(index, {}, 1, std::span(areas).first(2))); });
-  const std::vector<std::uint8_t> mask(3);
-  expect_refused(ErrorCode::InvalidOption, "walls: 3 values", [&] {
-    static_cast<void>(k_nearest(index, {}, 3, {.filter = {.walls = VertexMask(std::span<const std::uint8_t>(mask))}}));
-  });
 }
 
 TEST(KNearest, RefusesAResultBeyondTheLimit) {
@@ -229,9 +224,8 @@ TEST(KNearest, ReturnsDiscsWithinTheLimitThatTheSampleDoesNotExclude) {
   std::vector<VertexId> vertices(10'000, VertexId{7});
   std::fill_n(vertices.begin(), vertices.size() / 2, VertexId{5});
   const std::uint64_t ids = (mesh.size() - 1) * (vertices.size() / 2);
-  const NearestOptions options{.filter = {.walls = VertexMask(std::span<const std::uint8_t>(walls))},
-                               .max_bytes = 12 * ids};
-  EXPECT_EQ(discs(index, vertices, 1e9, areas, options).ids.size(), ids);
+  const NearestOptions options{.max_bytes = 12 * ids};
+  EXPECT_EQ(discs(masked(index, {.walls = walls}), vertices, 1e9, areas, options).ids.size(), ids);
 }
 
 TEST(KNearest, StopsWhenItIsCancelled) {

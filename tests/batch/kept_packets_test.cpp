@@ -13,6 +13,7 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/index.h"
+#include "meshhood/masks.h"
 
 #include "batch/batch.h"
 #include "support/draw_start.h"
@@ -129,7 +130,7 @@ TEST(KeptChunks, OfMoreRowsThanAreSortedAtATime) {
   std::vector<VertexId> vertices(kFirst + 300, 1);
   std::fill(vertices.begin() + kFirst, vertices.end(), 4);
   const Neighborhoods found =
-      neighborhoods(SearchMethod::rings(index), {.vertices = vertices, .radius = 2}, {.threads = 2});
+      neighborhoods(index, {.vertices = vertices, .radius = 2, .metric = Metric::Rings}, {.threads = 2});
   ASSERT_EQ(found.ids.size(), 3 * kFirst + 4 * 300);
   for (std::size_t row = 0; row < vertices.size(); ++row) {
     const auto first = found.ids.begin() + static_cast<std::ptrdiff_t>(found.offsets[row]);
@@ -153,7 +154,8 @@ TEST_P(KeptRows, AreThoseThatWereSearchedForEach) {
     const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), random.below(2) * 4);
     const double scale = random.uniform(0.5, 6);
     for (const bool by_rings : {false, true}) {
-      const SearchMethod method = by_rings ? SearchMethod::rings(index) : SearchMethod(index);
+      const Index searched = masked(index, {walls, ignored});
+      const SearchMethod method = SearchMethod(searched).by(by_rings ? Metric::Rings : Metric::Straight);
       std::vector<VertexId> vertices;
       std::vector<double> radii;
       const std::size_t kept_of = 1 + random.below(4);  // all vertices, or few of each leaf
@@ -162,7 +164,7 @@ TEST_P(KeptRows, AreThoseThatWereSearchedForEach) {
         vertices.push_back(v);
         radii.push_back(random.below(20) == 0 ? kInfinity : scale * random.uniform(0, 1));
       }
-      const BatchQuery query{.vertices = vertices, .radius = radii, .filter = {walls, ignored}};
+      const BatchQuery query{.vertices = vertices, .radius = radii};
       const BatchOptions options{
           .threads = 1 + static_cast<unsigned>(seed % 2), .distances = seed % 3 == 0, .sorted = seed % 5 == 0};
       Neighborhoods expected{{0}, {}, {}};

@@ -11,6 +11,7 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/edge_search.h"
+#include "meshhood/masks.h"
 
 #include "support/draw_start.h"
 #include "support/exact_answer.h"
@@ -46,15 +47,17 @@ TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
       vertices.push_back(static_cast<VertexId>(random.below(mesh.size())));
       radii.push_back(random.below(10) == 0 ? kInfinity : longest * random.uniform(0, 0.6));
     }
-    const SearchMethod method = SearchMethod::along_edges(index);
-    const BatchQuery query{.vertices = vertices, .radius = radii, .filter = {walls, ignored}};
+    const Index searched = masked(index, {walls, ignored});
+    EdgeSearcher masked_searcher(searched);
+    const SearchMethod method = SearchMethod(searched).by(Metric::Path);
+    const BatchQuery query{.vertices = vertices, .radius = radii};
     const unsigned threads = 1 + static_cast<unsigned>(seed % 2);
     const std::vector<std::uint64_t> sizes = counts(method, query, {.threads = threads});
     const Neighborhoods found = neighborhoods(method, query, {.threads = threads});
     const Neighborhoods measured = neighborhoods(method, query, {.threads = threads, .distances = true});
     ASSERT_EQ(found.ids, measured.ids);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      searcher.neighborhood(vertices[i], radii[i], ids, lengths, {walls, ignored});
+      masked_searcher.neighborhood(vertices[i], radii[i], ids, lengths);
       const std::size_t begin = found.offsets[i];
       ASSERT_EQ(sizes[i], ids.size());
       ASSERT_THAT(std::span(found.ids).subspan(begin, ids.size()), testing::ElementsAreArray(ids));

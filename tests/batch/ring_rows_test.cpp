@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/batch.h"
+#include "meshhood/masks.h"
 
 #include "exact/index_access.h"
 #include "support/draw_start.h"
@@ -65,8 +66,9 @@ TEST_P(RingsOfFamily, AreThoseOfABreadthFirstSearch) {
       vertices.push_back(static_cast<VertexId>(random.below(mesh.size())));
       radii.push_back(random.below(10) == 0 ? kInfinity : random.uniform(0, 9));
     }
-    const SearchMethod method = SearchMethod::rings(index);
-    const BatchQuery query{.vertices = vertices, .radius = radii, .filter = {walls, ignored}};
+    const Index searched = masked(index, {walls, ignored});
+    const SearchMethod method = SearchMethod(searched).by(Metric::Rings);
+    const BatchQuery query{.vertices = vertices, .radius = radii};
     const unsigned threads = 1 + static_cast<unsigned>(seed % 2);
     const std::vector<std::uint64_t> sizes = counts(method, query, {.threads = threads});
     const Neighborhoods found = neighborhoods(method, query, {.threads = threads});
@@ -96,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Families, RingsOfFamily, testing::ValuesIn(families()),
 TEST(Rings, OfASearcherAreThoseOfABatch) {
   const TestMesh mesh = make_grid(7, 9, false).finish(true);
   const Index index = build(mesh.view());
-  const SearchMethod method = SearchMethod::rings(index);
+  const SearchMethod method = SearchMethod(index).by(Metric::Rings);
   AnySearcher searcher = method.make_searcher();
   const Neighborhoods found = neighborhoods(method, {.radius = 2.5}, {.distances = true});
   std::vector<VertexId> ids;
@@ -120,7 +122,7 @@ TEST(Rings, HaveScalesInCounts) {
   const TestMesh mesh = make_grid(5, 5, true).finish(false);
   const Index index = build(mesh.view());
   const std::vector<VertexId> middle{12};
-  EXPECT_THAT(counts(SearchMethod::rings(index), {middle, BatchRadius::scales({0, 1, 2, 100})}),
+  EXPECT_THAT(counts(SearchMethod(index).by(Metric::Rings), {middle, BatchRadius::scales({0, 1, 2, 100})}),
               ElementsAre(1, 5, 13, 25));
 }
 

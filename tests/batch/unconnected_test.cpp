@@ -14,6 +14,7 @@
 
 #include "meshhood/adjacency.h"
 #include "meshhood/index.h"
+#include "meshhood/masks.h"
 #include "meshhood/reference.h"
 #include "meshhood/start.h"
 
@@ -118,7 +119,7 @@ TEST(Unconnected, IsNeitherAWallNorIgnored) {
   const Adjacency graph = without_walls(mesh, walls);
   ReferenceSearcher reference(GraphView{mesh.positions_view(), graph.view()});
   const Oracle oracle(mesh);
-  const Unconnected result = nearest_unconnected(index, {.radius = 2.5, .filter = {walls, ignored}}, {.threads = 2});
+  const Unconnected result = nearest_unconnected(masked(index, {walls, ignored}), {.radius = 2.5}, {.threads = 2});
   std::size_t found = 0;
   for (VertexId v = 0; v < mesh.size(); ++v) {
     std::vector<bool> is_out(mesh.size());

@@ -50,7 +50,7 @@ std::vector<std::vector<double>> results(const Surface& s, const BatchQuery& que
   const auto sums = moments(s.index, query, {.degree = 4, .weights = s.areas, .threads = threads});
   const PrincipalComponents patch = principal_components(s.index, query, {.threads = threads});
   const auto feature = !s.has_features ? std::vector<double>(3 * rows)
-                                       : features(s.surface, {query.vertices, query.radius, query.filter},
+                                       : features(s.surface, query,
                                                   {.kinds = {Feature::Crease, Feature::Height, Feature::Variation},
                                                    .areas = s.areas,
                                                    .threads = threads});
@@ -137,15 +137,14 @@ TEST(Bits, OfARowDependOnIndexVertexAndRadiusAloneOnEveryFamily) {
   std::printf("%zu meshes\n", meshes);
 }
 
-/// Which vertices and radii are queried, and what is left out.
+/// Which vertices and radii are queried.
 struct Rows {
   std::vector<VertexId> vertices;
   std::vector<double> radii;
-  Filter filter;
 
-  [[nodiscard]] BatchQuery query() const { return {.vertices = vertices, .radius = radii, .filter = filter}; }
+  [[nodiscard]] BatchQuery query() const { return {.vertices = vertices, .radius = radii}; }
   [[nodiscard]] BatchQuery row(std::size_t i) const {
-    return {.vertices = std::span(vertices).subspan(i, 1), .radius = radii[i], .filter = filter};
+    return {.vertices = std::span(vertices).subspan(i, 1), .radius = radii[i]};
   }
 };
 
@@ -164,7 +163,7 @@ Rows random_rows(const Surface& s, std::span<const double> radii, Random& random
 void expect_equal_bits_of(const Surface& s, const Rows& rows, Random& random) {
   const auto all = results(s, rows.query(), 1);
   const auto by_threads = results(s, rows.query(), 3);
-  Rows some{{}, {}, rows.filter};
+  Rows some;
   std::vector<std::size_t> chosen;
   for (std::size_t i = all.size(); i > 0; --i) {
     if (random.below(3) != 0) continue;
@@ -182,7 +181,7 @@ void expect_equal_bits_of(const Surface& s, const Rows& rows, Random& random) {
     EXPECT_TRUE(same_bits(all[i], results(s, rows.row(i), 1).front())) << "alone, row " << i;
   }
   const double radius = rows.radii.front();
-  const auto common = results(s, {.radius = radius, .filter = rows.filter}, 1);
+  const auto common = results(s, {.radius = radius}, 1);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool is_common = rows.radii[i] == radius;
     EXPECT_TRUE(!is_common || same_bits(all[i], common[rows.vertices[i]])) << "one radius, row " << i;
@@ -203,16 +202,17 @@ TEST(Bits, OfARowDoNotDependOnTheRadiiOfOthers) {
 
 TEST(Bits, OfARowDoNotDependOnOthersWithWallsAndIgnoredVertices) {
   Random random(12);
-  const Surface bumps(bumpy_grid(30).finish(true));
+  Surface bumps(bumpy_grid(30).finish(true));
+  const Index whole = std::move(bumps.index);
   std::vector<std::uint8_t> walls(bumps.mesh.size());
   std::vector<std::uint8_t> ignored(bumps.mesh.size());
   for (std::uint8_t& value : walls) value = random.below(40) == 0 ? 1 : 0;
   for (std::uint8_t& value : ignored) value = random.below(40) == 0 ? 1 : 0;
   const std::vector<double> radii{1.2, 4.0, 9.0, 18.0};
-  for (const Filter& filter : {Filter{.walls = walls}, Filter{.ignored = ignored}, Filter{walls, ignored}}) {
-    Rows rows = random_rows(bumps, radii, random);
-    rows.filter = filter;
-    expect_equal_bits_of(bumps, rows, random);
+  for (const Masks& masks : {Masks{.walls = walls}, Masks{.ignored = ignored}, Masks{walls, ignored}}) {
+    bumps.index = masked(whole, masks);
+    bumps.surface = bumps.surface.on(bumps.index);
+    expect_equal_bits_of(bumps, random_rows(bumps, radii, random), random);
   }
 }
 

@@ -18,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/curvature.h"
+#include "meshhood/masks.h"
 #include "meshhood/refit.h"
 
 #include "base/vector.h"
@@ -159,7 +160,7 @@ void expect_like_points(const Family& family, const CurvatureOptions& options, s
     for (const double edges : {1.5, 3.0, 8.0}) {
       const double radius = edges * edge;
       const Curvatures k = curvatures(one.surface, {.radius = radius}, options);
-      DirectFit direct(state, state.searched, Metric::Straight, options);
+      DirectFit direct(state, Metric::Straight, options);
       for (std::size_t i = 0; i < one.mesh.size(); ++i) {
         const VertexId v = state.index->id(i);
         const auto place = static_cast<std::uint32_t>(i);
@@ -204,7 +205,7 @@ TEST(Curvatures, OfJetsAreThoseOfTheFitToThePoints) {
     const GraphData edges = extract_graph(one.index);
     const double radius = 4 * mean_edge_length(edges.view());
     const Curvatures k = curvatures(one.surface, {.radius = radius}, options);
-    DirectFit direct(state, state.searched, Metric::Straight, options);
+    DirectFit direct(state, Metric::Straight, options);
     for (std::size_t i = 0; i < mesh.size(); i += 5) {
       const VertexId v = state.index->id(i);
       const auto expected = direct.fit(static_cast<std::uint32_t>(i), radius, frame_of(state.normal(i)));
@@ -336,17 +337,17 @@ TEST(Curvatures, AreWrittenToAllOfTheMemoryOfTheCaller) {
   std::vector<std::uint8_t> ignored(one.surface.vertex_count());
   for (std::size_t v = 130; v < 180; ++v) ignored[v] = 1;
   const std::vector<VertexId> rows{17, 110, 899, 135, 450, 170, 110};
-  const Filter filter{.walls = walls, .ignored = ignored};
-  for (const BatchQuery& query : {BatchQuery{.radius = 3.0},
-                                  {.radius = 3.0, .filter = filter},
-                                  {.vertices = rows, .radius = 0.0, .filter = filter},
-                                  {.vertices = rows, .radius = 4.0}}) {
+  const CurvatureIndex with_masks = one.surface.on(masked(one.index, {walls, ignored}));
+  for (const auto& [surface, query] : {std::pair(&one.surface, BatchQuery{.radius = 3.0}),
+                                       {&with_masks, {.radius = 3.0}},
+                                       {&with_masks, {.vertices = rows, .radius = 0.0}},
+                                       {&one.surface, {.vertices = rows, .radius = 4.0}}}) {
     for (const CurvatureOptions& options :
          {CurvatureOptions{}, like_libigl(), CurvatureOptions{.fit = CurvatureFit::Jet},
           CurvatureOptions{.threads = 3}}) {
-      const Curvatures expected = curvatures(one.surface, query, options);
+      const Curvatures expected = curvatures(*surface, query, options);
       Poisoned found(expected.k1.size());
-      curvatures(one.surface, query, found.memory(), options);
+      curvatures(*surface, query, found.memory(), options);
       const auto same = [](const auto& a, const auto& b) {
         return a.size() == b.size() && std::memcmp(a.data(), b.data(), std::as_bytes(std::span(a)).size()) == 0;
       };

@@ -12,6 +12,7 @@
 #include "meshhood/corrected_curvature.h"
 #include "meshhood/curvature.h"
 #include "meshhood/features.h"
+#include "meshhood/masks.h"
 #include "meshhood/moments.h"
 
 #include "support/draw_start.h"
@@ -25,7 +26,7 @@ using testing::Each;
 using testing::IsNan;
 
 /// A wavy sheet with normals and walls, and the index that was built without the walls.
-class Filtered : public testing::Test {
+class WithWalls : public testing::Test {
  protected:
   static TestMesh wavy() {
     TestMesh mesh = make_grid(50, 50, false).finish(false);
@@ -80,42 +81,41 @@ class Filtered : public testing::Test {
   std::vector<double> normals = draw_normals();
   Index index = build(mesh.view());
   Index expected_index = build_without_walls();
-  Filter filter{.walls = walls};
+  Index with_walls = masked(index, {.walls = walls});
 };
 
-TEST_F(Filtered, MomentsAreThoseWithoutTheEdgesAtWalls) {
+TEST_F(WithWalls, MomentsAreThoseWithoutTheEdgesAtWalls) {
   const MomentOptions options{.degree = 4, .threads = 2};
-  const std::vector<double> found = moments(index, {.radius = 4, .filter = filter}, options);
+  const std::vector<double> found = moments(with_walls, {.radius = 4}, options);
   expect_same(found, moments(expected_index, {.radius = 4}, options), moment_count(4), 1e-11);
   for (std::size_t v = 0; v < mesh.size(); ++v) {
     if (walls[v] != 0) {
       ASSERT_THAT(std::span(found).subspan(moment_count(4) * v, moment_count(4)), Each(0));
     }
   }
-  const PrincipalComponents patches = principal_components(index, {.radius = 4, .filter = filter});
+  const PrincipalComponents patches = principal_components(with_walls, {.radius = 4});
   expect_same(patches.variances, principal_components(expected_index, {.radius = 4}).variances, 3, 1e-10);
 }
 
-TEST_F(Filtered, IgnoredVerticesHaveNoMoments) {
+TEST_F(WithWalls, IgnoredVerticesHaveNoMoments) {
   const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), 3);
   std::vector<double> weights(mesh.size(), 1.0);
   for (std::size_t v = 0; v < mesh.size(); ++v) {
     if (ignored[v] != 0) weights[v] = 0;
   }
   for (const double radius : {1.5, 6.0}) {
-    const std::vector<double> found = moments(index, {.radius = radius, .filter = {walls, ignored}});
-    expect_same(found, moments(index, {.radius = radius, .filter = filter}, {.weights = weights}), moment_count(2),
-                1e-11);
+    const std::vector<double> found = moments(masked(index, {walls, ignored}), {.radius = radius});
+    expect_same(found, moments(with_walls, {.radius = radius}, {.weights = weights}), moment_count(2), 1e-11);
   }
 }
 
-TEST_F(Filtered, CurvaturesAreThoseWithoutTheEdgesAtWalls) {
-  const CurvatureIndex surface = CurvatureIndex::build(index, normals);
+TEST_F(WithWalls, CurvaturesAreThoseWithoutTheEdgesAtWalls) {
+  const CurvatureIndex surface = CurvatureIndex::build(with_walls, normals);
   const CurvatureIndex expected_surface = CurvatureIndex::build(expected_index, normals);
   for (const double radius : {1.0, 4.0}) {  // at the smaller one, many neighborhoods are extended
     for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
       const CurvatureOptions options{.fit = fit, .threads = 2};
-      const Curvatures found = curvatures(surface, {.radius = radius, .filter = filter}, options);
+      const Curvatures found = curvatures(surface, {.radius = radius}, options);
       const Curvatures expected = curvatures(expected_surface, {.radius = radius}, options);
       expect_same(found.k1, expected.k1, 1, 1e-6);
       expect_same(found.k2, expected.k2, 1, 1e-6);
@@ -126,37 +126,37 @@ TEST_F(Filtered, CurvaturesAreThoseWithoutTheEdgesAtWalls) {
   }
 }
 
-TEST_F(Filtered, IgnoredVerticesAreFittedAsLittleAsWallsThatDivideNothing) {
+TEST_F(WithWalls, IgnoredVerticesAreFittedAsLittleAsWallsThatDivideNothing) {
   std::vector<std::uint8_t> scattered(mesh.size());
   for (std::size_t v = 0; v < mesh.size(); v += 13) scattered[v] = 1;  // no two are neighbors
   const CurvatureIndex surface = CurvatureIndex::build(index, normals);
-  const BatchQuery ignoring{.radius = 5, .filter = {.ignored = scattered}};
-  const BatchQuery walled{.radius = 5, .filter = {.walls = scattered}};
-  const Curvatures found = curvatures(surface, ignoring);
-  const Curvatures expected = curvatures(surface, walled);
-  const std::vector<std::uint64_t> with_ignored = counts(index, ignoring);
-  const std::vector<std::uint64_t> with_walls = counts(index, walled);
+  const Index ignoring = masked(index, {.ignored = scattered});
+  const Index walled = masked(index, {.walls = scattered});
+  const Curvatures found = curvatures(surface.on(ignoring), {.radius = 5});
+  const Curvatures expected = curvatures(surface.on(walled), {.radius = 5});
+  const std::vector<std::uint64_t> of_ignoring = counts(ignoring, {.radius = 5});
+  const std::vector<std::uint64_t> of_walled = counts(walled, {.radius = 5});
   std::size_t compared = 0;
   for (std::size_t v = 0; v < mesh.size(); ++v) {
     // At the rim of the ball a wall may be the only way to a vertex.
-    if (scattered[v] != 0 || with_ignored[v] != with_walls[v]) continue;
+    if (scattered[v] != 0 || of_ignoring[v] != of_walled[v]) continue;
     ASSERT_NEAR(found.k1[v], expected.k1[v], 1e-9) << "vertex " << v;
     ++compared;
   }
   EXPECT_GT(compared, mesh.size() / 4);
 }
 
-TEST_F(Filtered, FeaturesHaveScalesOrARadiusForEachRow) {
-  const CurvatureIndex surface = CurvatureIndex::build(index, normals);
+TEST_F(WithWalls, FeaturesHaveScalesOrARadiusForEachRow) {
+  const CurvatureIndex surface = CurvatureIndex::build(with_walls, normals);
   const CurvatureIndex expected_surface = CurvatureIndex::build(expected_index, normals);
   const std::vector<double> areas(mesh.size(), 0.5);
   const FeatureOptions options{.kinds = {Feature::Mean, Feature::Area}, .areas = areas};
   const BatchRadius scales = BatchRadius::scales({2, 4});
-  const std::vector<double> found = features(surface, {.radius = scales, .filter = filter}, options);
+  const std::vector<double> found = features(surface, {.radius = scales}, options);
   expect_same(found, features(expected_surface, {.radius = scales}, options), 2, 1e-6);
   std::vector<double> radii(mesh.size(), 2.0);
   for (std::size_t v = 0; v < mesh.size(); v += 3) radii[v] = 4;
-  const std::vector<double> by_row = features(surface, {.radius = radii, .filter = filter}, options);
+  const std::vector<double> by_row = features(surface, {.radius = radii}, options);
   ASSERT_EQ(by_row.size(), found.size() / 2);
   for (std::size_t i = 0; i < by_row.size(); ++i) {
     const double expected = found[(radii[i / 2] == 4 ? by_row.size() : 0) + i];
@@ -166,16 +166,15 @@ TEST_F(Filtered, FeaturesHaveScalesOrARadiusForEachRow) {
   }
 }
 
-TEST_F(Filtered, CorrectedCurvaturesHaveScalesOrARadiusForEachRow) {
-  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+TEST_F(WithWalls, CorrectedCurvaturesHaveScalesOrARadiusForEachRow) {
+  const CurvatureIndex surface = CurvatureIndex::build(with_walls, mesh.view());
   const FacesView faces = mesh.view().faces;
-  const CorrectedCurvatures scaled =
-      corrected_curvatures(surface, faces, {.radius = BatchRadius::scales({2, 4}), .filter = filter});
-  const CorrectedCurvatures small = corrected_curvatures(surface, faces, {.radius = 2, .filter = filter});
-  const CorrectedCurvatures large = corrected_curvatures(surface, faces, {.radius = 4, .filter = filter});
+  const CorrectedCurvatures scaled = corrected_curvatures(surface, faces, {.radius = BatchRadius::scales({2, 4})});
+  const CorrectedCurvatures small = corrected_curvatures(surface, faces, {.radius = 2});
+  const CorrectedCurvatures large = corrected_curvatures(surface, faces, {.radius = 4});
   std::vector<double> radii(mesh.size(), 2.0);
   for (std::size_t v = 0; v < mesh.size(); v += 3) radii[v] = 4;
-  const CorrectedCurvatures by_row = corrected_curvatures(surface, faces, {.radius = radii, .filter = filter});
+  const CorrectedCurvatures by_row = corrected_curvatures(surface, faces, {.radius = radii});
   ASSERT_EQ(scaled.area.size(), 2 * mesh.size());
   for (std::size_t v = 0; v < mesh.size(); ++v) {
     ASSERT_EQ(scaled.area[v], small.area[v]);

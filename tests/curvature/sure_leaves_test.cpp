@@ -14,7 +14,6 @@
 #include "meshhood/meshhood.h"
 
 #include "exact/index_access.h"
-#include "exact/query/filtered.h"
 #include "support/families.h"
 #include "support/random.h"
 
@@ -83,8 +82,8 @@ TEST(SureLeaves, AreWholeInTheAnswersOfAllVerticesOfALeaf) {
       count += check(index, edge);
       std::vector<std::uint8_t> mask(mesh.size());
       for (std::uint8_t& value : mask) value = random.below(20) == 0 ? 1 : 0;
-      check(filtered(index, {.walls = mask}, 1), edge);
-      check(filtered(index, {.ignored = mask}, 1), edge);
+      check(masked(index, {.walls = mask}), edge);
+      check(masked(index, {.ignored = mask}), edge);
     }
   }
   EXPECT_GT(count, 1000U);

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/index.h"
+#include "meshhood/masks.h"
 
 #include "exact/index_access.h"
 #include "support/draw_start.h"
@@ -26,17 +27,13 @@ namespace {
 class PacketTrial {
  public:
   PacketTrial(const TestMesh& mesh, Isa isa, Random& random, const PathLimits& limits)
-      : index_(build(mesh.view())),
+      : random_(random),
+        index_(with_masks(mesh, random)),
         view_(IndexAccess::view(index_)),
         graph_(IndexAccess::share_graph(index_)),
-        random_(random),
-        wall_mask_(draw_mask(random, mesh.size(), random.below(2) * 9)),
-        ignored_mask_(draw_mask(random, mesh.size(), random.below(2) * 4)),
-        walls_(view_, wall_mask_),
-        ignored_(view_, ignored_mask_),
         single_(view_, *graph_),
-        packet_(view_, *graph_, isa, walls_, ignored_, limits) {
-    if (view_.vertex_count() > 0) single_.run(0, kInfinity, LaneFilter());
+        packet_(view_, *graph_, isa, limits) {
+    if (view_.vertex_count() > 0) single_.run(0, kInfinity);
     for (const Path& path : single_.found()) some_lengths_.push_back(path.length);
   }
 
@@ -64,6 +61,12 @@ class PacketTrial {
   }
 
  private:
+  static Index with_masks(const TestMesh& mesh, Random& random) {
+    const std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), random.below(2) * 9);
+    const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), random.below(2) * 4);
+    return masked(build(mesh.view()), {walls, ignored});
+  }
+
   double radius() {
     switch (random_.below(8)) {
       case 0: return 0;
@@ -114,22 +117,18 @@ class PacketTrial {
 
   /// By a search of its own, without ignored vertices.
   std::vector<Path> paths(const PathQuery& query) {
-    single_.run(query.vertex, query.radius, walls_);
+    single_.run(query.vertex, query.radius);
     std::vector<Path> result;
     for (const Path& path : single_.found_in_order()) {
-      if (!ignored_.has_at(path.end)) result.push_back(path);
+      if (!view_.is_ignored_at(path.end)) result.push_back(path);
     }
     return result;
   }
 
+  Random& random_;
   Index index_;
   const IndexView& view_;
   std::shared_ptr<KeptGraph> graph_;
-  Random& random_;
-  std::vector<std::uint8_t> wall_mask_;
-  std::vector<std::uint8_t> ignored_mask_;
-  LaneFilter walls_;
-  LaneFilter ignored_;
   PathSearch single_;
   PathPacket packet_;
   std::vector<double> some_lengths_;
@@ -158,7 +157,6 @@ INSTANTIATE_TEST_SUITE_P(Families, PathsOfFamily, testing::ValuesIn(families()),
 struct GridPacket {
   Index index = build(make_grid(40, 40, false).finish(true).view());
   const IndexView& view = IndexAccess::view(index);
-  LaneFilter none;
 
   [[nodiscard]] std::vector<PathQuery> queries(double radius) const {
     std::vector<PathQuery> result;
@@ -167,7 +165,7 @@ struct GridPacket {
   }
 
   [[nodiscard]] PathPacket packet(const PathLimits& limits) const {
-    return {view, *IndexAccess::share_graph(index), best_isa(), none, none, limits};
+    return {view, *IndexAccess::share_graph(index), best_isa(), limits};
   }
 };
 

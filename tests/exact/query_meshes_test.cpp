@@ -13,6 +13,7 @@
 
 #include "meshhood/edge_search.h"
 #include "meshhood/index.h"
+#include "meshhood/masks.h"
 #include "meshhood/region.h"
 
 #include "support/draw_start.h"
@@ -27,9 +28,9 @@ namespace {
 /// A vertex, or a point on a face with its corners as seeds; without masks, or with some.
 DrawnStart draw_start_on_surface(Random& random, const TestMesh& mesh) {
   DrawnStart drawn;
-  drawn.has_filter = random.below(2) == 0;
-  drawn.plain.walls = draw_mask(random, mesh.size(), drawn.has_filter ? 12 : 0);
-  drawn.plain.ignored = draw_mask(random, mesh.size(), drawn.has_filter ? 3 : 0);
+  drawn.has_masks = random.below(2) == 0;
+  drawn.plain.walls = draw_mask(random, mesh.size(), drawn.has_masks ? 12 : 0);
+  drawn.plain.ignored = draw_mask(random, mesh.size(), drawn.has_masks ? 3 : 0);
   drawn.is_vertex = mesh.face_count() == 0 || random.below(2) == 0;
   if (drawn.is_vertex) {
     drawn.plain.seeds = {static_cast<VertexId>(random.below(mesh.size()))};
@@ -61,25 +62,21 @@ std::vector<VertexId> finite(const std::vector<double>& values, const std::vecto
 class Comparison {
  public:
   explicit Comparison(const TestMesh& mesh)
-      : mesh_(mesh),
-        index_(build(mesh.view())),
-        oracle_(mesh),
-        mean_edge_(oracle_.graph().mean_edge()),
-        regions_(index_),
-        edges_(index_) {}
+      : mesh_(mesh), index_(build(mesh.view())), oracle_(mesh), mean_edge_(oracle_.graph().mean_edge()) {}
 
   void expect_same_regions() {
     const DrawnStart drawn = draw_start_on_surface(random_, mesh_);
     const Start start = drawn.start();
-    const Filter filter = drawn.filter();
+    const Index searched = drawn.on(index_);
+    RegionSearcher regions(searched);
     const std::vector<double> radii = draw_radii(drawn.plain);
     std::vector<VertexId> ids;
     std::vector<VertexId> nested;
     std::vector<std::size_t> counts;
-    regions_.nested(start, radii, nested, counts, filter);
+    regions.nested(start, radii, nested, counts);
     for (std::size_t i = 0; i < radii.size(); ++i) {
       const std::vector<VertexId> expected = oracle_.region(drawn.plain, radii[i]);
-      regions_.region(start, radii[i], ids, filter);
+      regions.region(start, radii[i], ids);
       ASSERT_EQ(sorted(ids), expected) << "radius " << radii[i];
       ASSERT_LE(counts[i], nested.size());
       ASSERT_EQ(sorted({nested.begin(), nested.begin() + static_cast<std::ptrdiff_t>(counts[i])}), expected)
@@ -102,30 +99,32 @@ class Comparison {
     expected = sorted(expected);
     expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
     std::vector<VertexId> ids;
-    regions_.stroke(dabs, ids, {.walls = drawn.front().plain.walls, .ignored = drawn.front().plain.ignored});
+    const Index searched = masked(index_, {.walls = drawn.front().plain.walls, .ignored = drawn.front().plain.ignored});
+    RegionSearcher(searched).stroke(dabs, ids);
     ASSERT_EQ(sorted(ids), expected);
   }
 
   void expect_same_connections() {
     const DrawnStart drawn = draw_start_on_surface(random_, mesh_);
     const Start start = drawn.start();
-    const Filter filter = drawn.filter();
+    const Index searched = drawn.on(index_);
+    RegionSearcher regions(searched);
     const double limit = 9 * mean_edge_;
     const std::vector<double> radii = oracle_.connecting_radii(drawn.plain, limit);
     std::vector<VertexId> near = oracle_.in_order(drawn.plain, radii);
     for (int i = 0; i < 5 && !near.empty(); ++i) {
       const VertexId w = near[random_.below(near.size())];
-      ASSERT_EQ(regions_.connecting_radius(start, w, filter), radii[w]) << "vertex " << w;
-      ASSERT_TRUE(regions_.contains(start, w, radii[w], filter)) << "vertex " << w;
+      ASSERT_EQ(regions.connecting_radius(start, w), radii[w]) << "vertex " << w;
+      ASSERT_TRUE(regions.contains(start, w, radii[w])) << "vertex " << w;
       if (radii[w] == 0) continue;
-      ASSERT_FALSE(regions_.contains(start, w, std::nextafter(radii[w], 0), filter)) << "vertex " << w;
+      ASSERT_FALSE(regions.contains(start, w, std::nextafter(radii[w], 0))) << "vertex " << w;
     }
     const auto any = static_cast<VertexId>(random_.below(mesh_.size()));
-    ASSERT_EQ(regions_.contains(start, any, limit, filter), radii[any] < kInfinity) << "vertex " << any;
+    ASSERT_EQ(regions.contains(start, any, limit), radii[any] < kInfinity) << "vertex " << any;
     near.resize(random_.below(near.size() + 1));
     std::vector<VertexId> ids;
     std::vector<double> found;
-    regions_.nearest_connected(start, near.size(), ids, found, filter);
+    regions.nearest_connected(start, near.size(), ids, found);
     ASSERT_EQ(ids, near);
     for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(found[i], radii[ids[i]]) << "vertex " << ids[i];
   }
@@ -139,7 +138,9 @@ class Comparison {
         oracle_.path_lengths(drawn.plain, limit, [&](auto a, auto b) { return oracle_.graph().distance(a, b); });
     std::vector<VertexId> ids;
     std::vector<double> lengths;
-    edges_.neighborhood(v, limit, ids, lengths, drawn.filter());
+    const Index searched = drawn.on(index_);
+    EdgeSearcher edges(searched);
+    edges.neighborhood(v, limit, ids, lengths);
     ASSERT_EQ(sorted(ids), finite(least, drawn.plain.ignored));
     ASSERT_TRUE(std::is_sorted(lengths.begin(), lengths.end()));
     for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(lengths[i], least[ids[i]]) << "vertex " << ids[i];
@@ -147,7 +148,7 @@ class Comparison {
     constexpr std::size_t kRings = 8;
     const auto hops = oracle_.path_lengths(drawn.plain, kRings, [](auto, auto) { return 1.0; });
     std::vector<std::size_t> counts;
-    edges_.rings(v, kRings, ids, counts, drawn.filter());
+    edges.rings(v, kRings, ids, counts);
     ASSERT_EQ(sorted(ids), finite(hops, drawn.plain.ignored));
     for (std::size_t ring = 0; ring < counts.size(); ++ring) {
       for (std::size_t i = ring == 0 ? 0 : counts[ring - 1]; i < counts[ring]; ++i) {
@@ -188,12 +189,12 @@ class Comparison {
     const Adjacency kept = cut_edges(graph.view(), cut);
     const Index index = build(GraphView{mesh_.positions_view(), kept.view()});
     const RegionOracle oracle(rest);
-    RegionSearcher searcher(index);
     std::vector<VertexId> ids;
     for (int i = 0; i < 10; ++i) {
       const DrawnStart drawn = draw_start_on_surface(random_, mesh_);
       const double radius = 8 * mean_edge_;
-      searcher.region(drawn.start(), radius, ids, drawn.filter());
+      const Index searched = drawn.on(index);
+      RegionSearcher(searched).region(drawn.start(), radius, ids);
       ASSERT_EQ(sorted(ids), oracle.region(drawn.plain, radius));
     }
   }
@@ -216,8 +217,6 @@ class Comparison {
   Index index_;
   RegionOracle oracle_;
   double mean_edge_;
-  RegionSearcher regions_;
-  EdgeSearcher edges_;
   Random random_{17};
 };
 

@@ -3,6 +3,7 @@
 // count. The same queries are asked in many orders, after long histories, by several threads, one by one and in
 // batches.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <limits>
 #include <map>
@@ -13,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/batch.h"
+#include "meshhood/masks.h"
 #include "meshhood/region.h"
 #include "meshhood/reorder.h"
 #include "meshhood/serialize.h"
@@ -180,18 +182,19 @@ TEST_P(OneOrder, OfBatchesStreamsAndRegions) {
         ASSERT_EQ(found, questions.answers[i]) << "row " << i;
       }
     }
-    RegionSearcher regions(index);
     const std::vector<std::uint8_t> none(index.vertex_count());
+    const Index searched = masked(index, {.walls = none});
+    std::array regions{RegionSearcher(index), RegionSearcher(searched)};
     for (std::size_t i = 0; i < questions.asked.size(); ++i) {
       const auto& [v, radius] = questions.asked[i];
       Answer found;
-      regions.region(v, radius, found.ids, found.distances);
+      regions[0].region(v, radius, found.ids, found.distances);
       ASSERT_EQ(found, questions.answers[i]) << "region " << i;
       // A filter that excludes nothing, by the other search.
-      regions.region(v, radius, found.ids, found.distances, {.walls = none});
-      ASSERT_EQ(found, questions.answers[i]) << "filtered region " << i;
+      regions[1].region(v, radius, found.ids, found.distances);
+      ASSERT_EQ(found, questions.answers[i]) << "masked region " << i;
       const Dab dab{v, radius};
-      regions.stroke(std::span(&dab, 1), found.ids);
+      regions[0].stroke(std::span(&dab, 1), found.ids);
       ASSERT_EQ(found.ids, questions.answers[i].ids) << "stroke " << i;
     }
   });
@@ -202,8 +205,9 @@ TEST_P(OneOrder, OfNestedRadiiRingByRing) {
   for_each_mesh([&](const TestMesh& mesh, const Index& index, const Questions& questions) {
     const std::vector<std::size_t> places = places_of(index);
     const Oracle oracle(mesh);
-    RegionSearcher regions(index);
     const std::vector<std::uint8_t> none(index.vertex_count());
+    const Index searched = masked(index, {.walls = none});
+    std::array regions{RegionSearcher(index), RegionSearcher(searched)};
     std::vector<VertexId> ids;
     std::vector<std::size_t> counts;
     for (std::size_t i = 0; i < questions.asked.size(); i += 7) {
@@ -212,8 +216,8 @@ TEST_P(OneOrder, OfNestedRadiiRingByRing) {
       for (const Asked& asked : questions.asked) radii.push_back(asked.radius);
       std::ranges::sort(radii);
       radii.erase(std::ranges::unique(radii).begin(), radii.end());
-      for (const bool is_filtered : {false, true}) {
-        regions.nested(v, radii, ids, counts, is_filtered ? Filter{.walls = none} : Filter{});
+      for (RegionSearcher& searcher : regions) {
+        searcher.nested(v, radii, ids, counts);
         ASSERT_EQ(counts.size(), radii.size());
         std::vector<VertexId> before;
         for (std::size_t k = 0; k < radii.size(); ++k, ++rings) {

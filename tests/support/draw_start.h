@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "meshhood/filter.h"
+#include "meshhood/masks.h"
 #include "meshhood/start.h"
 
 #include "support/random.h"
@@ -19,11 +19,13 @@ namespace meshhood::test {
 struct DrawnStart {
   PlainStart plain;
   bool is_vertex = false;
-  bool has_filter = false;
+  bool has_masks = false;
 
   [[nodiscard]] Start start() const { return is_vertex ? Start(plain.seeds[0]) : Start(plain.center, plain.seeds); }
-  [[nodiscard]] Filter filter() const {
-    return has_filter ? Filter{.walls = plain.walls, .ignored = plain.ignored} : Filter{};
+
+  /// The index of these masks; without masks a copy of it.
+  [[nodiscard]] Index on(const Index& index) const {
+    return masked(index, has_masks ? Masks{.walls = plain.walls, .ignored = plain.ignored} : Masks{});
   }
 };
 
@@ -38,14 +40,14 @@ inline std::vector<std::uint8_t> draw_mask(Random& random, std::size_t vertices,
   return mask;
 }
 
-/// A vertex, a point on a face, or any point near the mesh with some seeds; without a filter, or with one. The mesh has
+/// A vertex, a point on a face, or any point near the mesh with some seeds; without masks, or with. The mesh has
 /// vertices.
 inline DrawnStart draw_start(Random& random, const TestMesh& mesh) {
   DrawnStart drawn;
   const auto any = [&] { return static_cast<std::uint32_t>(random.below(mesh.size())); };
-  drawn.has_filter = random.below(2) == 0;
-  drawn.plain.walls = draw_mask(random, mesh.size(), drawn.has_filter ? 4 + random.below(30) : 0);
-  drawn.plain.ignored = draw_mask(random, mesh.size(), drawn.has_filter ? 3 : 0);
+  drawn.has_masks = random.below(2) == 0;
+  drawn.plain.walls = draw_mask(random, mesh.size(), drawn.has_masks ? 4 + random.below(30) : 0);
+  drawn.plain.ignored = draw_mask(random, mesh.size(), drawn.has_masks ? 3 : 0);
   const std::uint32_t v = any();
   drawn.plain.center = position(mesh, v);
   drawn.plain.seeds = {v};

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "meshhood/adjacency.h"
-#include "meshhood/filter.h"
+#include "meshhood/masks.h"
 
 #include "support/test_mesh.h"
 

@@ -36,13 +36,16 @@ class MetricCase {
         surface_(CurvatureIndex::build(index_, mesh_.view())),
         areas_(vertex_areas(mesh_.view())),
         walls_(mesh_.size()),
-        ignored_(mesh_.size()) {}
+        ignored_(mesh_.size()),
+        asked_(masked(index_, {})) {}
 
+  /// Of the index that is asked; without masks at first.
   void draw_masks(Random& random) {
     for (std::size_t v = 0; v < mesh_.size(); ++v) {
       walls_[v] = random.below(20) == 0 ? 1 : 0;
       ignored_[v] = random.below(9) == 0 ? 1 : 0;
     }
+    asked_ = masked(index_, {walls_, ignored_});
   }
 
   /// Rows of whole leaves, and a radius for each.
@@ -57,8 +60,8 @@ class MetricCase {
   }
 
   void compare_moments() const {
-    const std::vector<double> found = moments(index_, query(), {.degree = 3, .weights = areas_, .threads = 2});
-    const PrincipalComponents patch = principal_components(index_, query(), {.weights = areas_});
+    const std::vector<double> found = moments(asked_, query(), {.degree = 3, .weights = areas_, .threads = 2});
+    const PrincipalComponents patch = principal_components(asked_, query(), {.weights = areas_});
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       const Ids ids = neighborhood(row);
       for (unsigned i = 0; i <= 3; ++i) {
@@ -77,10 +80,11 @@ class MetricCase {
   /// With the fit to a neighborhood that is given by its vertices. Returns how many were compared.
   [[nodiscard]] std::size_t compare_curvatures() const {
     std::size_t compared = 0;
-    const Curvatures found = curvatures(surface_, query(), {.threads = 2});
+    const CurvatureIndex surface = surface_.on(asked_);
+    const Curvatures found = curvatures(surface, query(), {.threads = 2});
     const std::vector<double> creases =
-        features(surface_, query(), {.kinds = {Feature::K1, Feature::Area}, .areas = areas_});
-    const PrincipalComponents patch = principal_components(index_, query(), {.weights = areas_});
+        features(surface, query(), {.kinds = {Feature::K1, Feature::Area}, .areas = areas_});
+    const PrincipalComponents patch = principal_components(asked_, query(), {.weights = areas_});
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       const Ids ids = neighborhood(row);
       if (found.state[row] != CurvatureState::Fitted) continue;
@@ -88,7 +92,7 @@ class MetricCase {
       for (const VertexId id : ids) others[id] = 0;
       const Ids vertex{rows_[row]};
       const Curvatures expected =
-          curvatures(surface_, {.vertices = vertex, .radius = kInfinity, .filter = {.ignored = others}});
+          curvatures(surface_.on(masked(index_, {.ignored = others})), {.vertices = vertex, .radius = kInfinity});
       EXPECT_EQ(expected.state[0], CurvatureState::Fitted);
       EXPECT_EQ(expected.count[0], found.count[row]);
       const double tolerance = 1e-6 * (std::abs(expected.k1[0]) + std::abs(expected.k2[0]) + 1e-3 / edge());
@@ -103,7 +107,7 @@ class MetricCase {
   }
 
   void compare_unconnected() const {
-    const Unconnected found = nearest_unconnected(index_, query(), {.threads = 2});
+    const Unconnected found = nearest_unconnected(asked_, query(), {.threads = 2});
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       const VertexId v = rows_[row];
       std::vector<bool> is_out(mesh_.size());
@@ -128,9 +132,7 @@ class MetricCase {
     double size;  // of the terms, and of those of the same degree
   };
 
-  [[nodiscard]] BatchQuery query() const {
-    return {.vertices = rows_, .radius = radii_, .filter = {walls_, ignored_}, .metric = metric_};
-  }
+  [[nodiscard]] BatchQuery query() const { return {.vertices = rows_, .radius = radii_, .metric = metric_}; }
 
   [[nodiscard]] double edge() const { return oracle_.graph().mean_edge(); }
 
@@ -175,6 +177,7 @@ class MetricCase {
   std::vector<double> areas_;
   std::vector<std::uint8_t> walls_;
   std::vector<std::uint8_t> ignored_;
+  Index asked_;
   Ids rows_;
   std::vector<double> radii_;
 };

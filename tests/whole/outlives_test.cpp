@@ -77,16 +77,25 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
   add_searcher("Searcher", Searcher(index));
   add_searcher("EdgeSearcher", EdgeSearcher(index));
   const std::vector<std::pair<std::string, SearchMethod>> methods{{"straight", SearchMethod(index)},
-                                                                  {"paths", SearchMethod::along_edges(index)},
-                                                                  {"rings", SearchMethod::rings(index)},
+                                                                  {"paths", SearchMethod(index).by(Metric::Path)},
+                                                                  {"rings", SearchMethod(index).by(Metric::Rings)},
                                                                   {"space", SearchMethod::in_space(index)}};
   for (const auto& [name, method] : methods) {
     add_method(name, method);
-    if (name != "space") add_method(name + " restricted", method.restricted({.walls = walls}));
+  }
+  const auto with_walls = kept(masked(index, {.walls = walls}));
+  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
+    const std::string name = "masked by metric " + std::to_string(static_cast<int>(metric));
+    all[name + ": counts"] = [=] { return numbers(counts(*with_walls, {.radius = kRadius, .metric = metric})); };
+    all[name + ": ids"] = [=] {
+      return numbers(neighborhoods(*with_walls, {.radius = kRadius, .metric = metric}).ids);
+    };
+    add_searcher(name + ": searcher", SearchMethod(*with_walls).by(metric).make_searcher());
   }
   const auto regions = kept(RegionSearcher(index));
   all["RegionSearcher: region"] = [=] { return numbers(regions->region(v, kRadius)); };
-  all["RegionSearcher: walls"] = [=, &walls] { return numbers(regions->region(v, kRadius, {.walls = walls})); };
+  const auto regions_with_walls = kept(RegionSearcher(*with_walls));
+  all["RegionSearcher: walls"] = [=] { return numbers(regions_with_walls->region(v, kRadius)); };
   all["RegionSearcher: connecting radius"] = [=] { return Answer{regions->connecting_radius(v, 0)}; };
   const auto faces = kept(FaceIndex::build(index, mesh.view().faces));
   all["FaceIndex"] = [=] { return Answer{faces->closest_point({3.2, 4.1, 7}).distance}; };

@@ -53,7 +53,8 @@ class LimitedIsa {
 /// A mesh with everything that a call may need.
 struct Scene {
   TestMesh mesh;
-  Index index;
+  Index whole;
+  Index index;  // `whole`, or with masks
   CurvatureIndex surface;
   std::vector<double> areas;
   std::vector<double> signal;
@@ -63,7 +64,8 @@ struct Scene {
 
   explicit Scene(TestMesh given)
       : mesh(std::move(given)),
-        index(build(mesh.view())),
+        whole(build(mesh.view())),
+        index(masked(whole, {})),
         surface(CurvatureIndex::build(index, mesh.view())),
         areas(vertex_areas(mesh.view())),
         edge(Oracle(mesh).mean_edge()) {
@@ -75,7 +77,10 @@ struct Scene {
     }
   }
 
-  [[nodiscard]] Filter filter(bool has_masks) const { return has_masks ? Filter{walls, ignored} : Filter{}; }
+  void set_masks(bool has_masks) {
+    index = masked(whole, has_masks ? Masks{walls, ignored} : Masks{});
+    surface = surface.on(index);
+  }
 
   /// In each leaf `least` to `most` of its vertices, in no order.
   [[nodiscard]] std::vector<VertexId> rows(std::size_t least, std::size_t most) const {
@@ -112,7 +117,7 @@ struct Call {
   bool by_row;  // each row depends on its vertex alone
 };
 
-std::vector<Call> aggregates(const Scene& scene, double radius, const Filter& filter) {
+std::vector<Call> aggregates(const Scene& scene, double radius) {
   std::vector<Call> calls;
   for (const Reduce reduce : kReductions) {
     for (const SmoothingKernel kernel : kKernels) {
@@ -121,9 +126,8 @@ std::vector<Call> aggregates(const Scene& scene, double radius, const Filter& fi
         calls.push_back({"reduction " + std::to_string(static_cast<int>(reduce)) + ", kernel " +
                              std::to_string(static_cast<int>(kernel)) + ", nesting " +
                              std::to_string(static_cast<int>(nesting)),
-                         [&scene, radius, filter, reduce, kernel, nesting](const auto& rows, unsigned threads) {
-                           AggregateQuery query{
-                               .vertices = rows, .radius = BatchRadius::scales({radius, radius / 2}), .filter = filter};
+                         [&scene, radius, reduce, kernel, nesting](const auto& rows, unsigned threads) {
+                           AggregateQuery query{.vertices = rows, .radius = BatchRadius::scales({radius, radius / 2})};
                            query.reduce = reduce;
                            query.kernel = kernel;
                            query.nesting = nesting;
@@ -143,24 +147,24 @@ std::vector<Call> aggregates(const Scene& scene, double radius, const Filter& fi
   return calls;
 }
 
-std::vector<Call> curvature_calls(const Scene& scene, double radius, const Filter& filter, Metric metric) {
+std::vector<Call> curvature_calls(const Scene& scene, double radius, Metric metric) {
   std::vector<Call> calls;
   calls.push_back({"corrected curvature",
-                   [&scene, radius, filter, metric](const auto& rows, unsigned threads) {
-                     return corrected_curvatures(scene.surface, scene.mesh.view().faces, {rows, radius, filter, metric},
+                   [&scene, radius, metric](const auto& rows, unsigned threads) {
+                     return corrected_curvatures(scene.surface, scene.mesh.view().faces, {rows, radius, metric},
                                                  {.threads = threads})
                          .measures;
                    },
                    CorrectedCurvatures::kMeasures, true});
   calls.push_back({"moments",
-                   [&scene, radius, filter, metric](const auto& rows, unsigned threads) {
-                     return moments(scene.index, {rows, radius, filter, metric},
+                   [&scene, radius, metric](const auto& rows, unsigned threads) {
+                     return moments(scene.index, {rows, radius, metric},
                                     {.degree = 4, .weights = scene.areas, .threads = threads});
                    },
                    35, false});
   calls.push_back({"features",
-                   [&scene, radius, filter, metric](const auto& rows, unsigned threads) {
-                     return features(scene.surface, {rows, radius, filter, metric},
+                   [&scene, radius, metric](const auto& rows, unsigned threads) {
+                     return features(scene.surface, {rows, radius, metric},
                                      {.kinds = {Feature::Crease, Feature::Height, Feature::Variation, Feature::Area},
                                       .areas = scene.areas,
                                       .threads = threads});
@@ -168,11 +172,11 @@ std::vector<Call> curvature_calls(const Scene& scene, double radius, const Filte
                    4, false});
   for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
     calls.push_back({"curvature of fit " + std::to_string(static_cast<int>(fit)),
-                     [&scene, radius, filter, metric, fit](const auto& rows, unsigned threads) {
+                     [&scene, radius, metric, fit](const auto& rows, unsigned threads) {
                        CurvatureOptions options;
                        options.fit = fit;
                        options.threads = threads;
-                       const Curvatures found = curvatures(scene.surface, {rows, radius, filter, metric}, options);
+                       const Curvatures found = curvatures(scene.surface, {rows, radius, metric}, options);
                        std::vector<double> numbers;
                        for (std::size_t i = 0; i < rows.size(); ++i) {
                          numbers.insert(numbers.end(), {found.k1[i], found.k2[i], static_cast<double>(found.state[i])});
@@ -192,21 +196,19 @@ std::vector<double> interleaved(const std::vector<VertexId>& ids, const std::vec
   return numbers;
 }
 
-std::vector<Call> nearest_calls(const Scene& scene, double radius, const Filter& filter) {
+std::vector<Call> nearest_calls(const Scene& scene, double radius) {
   constexpr std::size_t kNearest = 9;
   std::vector<Call> calls;
   for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
     const std::string name = " of metric " + std::to_string(static_cast<int>(metric));
     calls.push_back({"nearest unconnected" + name,
-                     [&scene, radius, filter, metric](const auto& rows, unsigned threads) {
+                     [&scene, radius, metric](const auto& rows, unsigned threads) {
                        const Unconnected found =
-                           nearest_unconnected(scene.index, {rows, radius, filter, metric}, {.threads = threads});
+                           nearest_unconnected(scene.index, {rows, radius, metric}, {.threads = threads});
                        return interleaved(found.vertices, found.gaps);
                      },
                      2, true});
-    const auto options = [filter, metric](unsigned threads) {
-      return NearestOptions{.metric = metric, .filter = filter, .threads = threads};
-    };
+    const auto options = [metric](unsigned threads) { return NearestOptions{.metric = metric, .threads = threads}; };
     calls.push_back({"k nearest" + name,
                      [&scene, options](const auto& rows, unsigned threads) {
                        const KNearest found = k_nearest(scene.index, rows, kNearest, options(threads));
@@ -225,8 +227,8 @@ std::vector<Call> nearest_calls(const Scene& scene, double radius, const Filter&
     for (const SmoothingKernel kernel : kKernels) {
       calls.push_back({"sums of metric " + std::to_string(static_cast<int>(metric)) + ", kernel " +
                            std::to_string(static_cast<int>(kernel)),
-                       [&scene, radius, filter, metric, kernel](const auto& rows, unsigned threads) {
-                         AggregateQuery query{.vertices = rows, .radius = radius, .filter = filter};
+                       [&scene, radius, metric, kernel](const auto& rows, unsigned threads) {
+                         AggregateQuery query{.vertices = rows, .radius = radius};
                          query.metric = metric;
                          query.kernel = kernel;
                          return aggregate(scene.index, {scene.signal, 1, scene.areas}, query, {.threads = threads});
@@ -237,13 +239,12 @@ std::vector<Call> nearest_calls(const Scene& scene, double radius, const Filter&
   return calls;
 }
 
-std::vector<Call> all_calls(const Scene& scene, double radius, bool has_masks) {
-  const Filter filter = scene.filter(has_masks);
-  std::vector<Call> calls = aggregates(scene, radius, filter);
+std::vector<Call> all_calls(const Scene& scene, double radius) {
+  std::vector<Call> calls = aggregates(scene, radius);
   for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
-    for (Call& call : curvature_calls(scene, radius, filter, metric)) calls.push_back(std::move(call));
+    for (Call& call : curvature_calls(scene, radius, metric)) calls.push_back(std::move(call));
   }
-  for (Call& call : nearest_calls(scene, radius, filter)) calls.push_back(std::move(call));
+  for (Call& call : nearest_calls(scene, radius)) calls.push_back(std::move(call));
   return calls;
 }
 
@@ -256,11 +257,13 @@ Bits bits_of(const Call& call, const std::vector<VertexId>& rows, unsigned threa
 /// Calls `f(scene, call)` for all calls without masks, and with masks at the last radius.
 template <class F>
 void for_each_call(const std::vector<double>& radii, F&& f) {
-  for (const Scene& scene : scenes()) {
+  std::vector<Scene> all = scenes();
+  for (Scene& scene : all) {
     for (const double edges : radii) {
       for (const bool has_masks : {false, true}) {
         if (has_masks && edges != radii.back()) continue;
-        for (const Call& call : all_calls(scene, edges * scene.edge, has_masks)) {
+        scene.set_masks(has_masks);
+        for (const Call& call : all_calls(scene, edges * scene.edge)) {
           SCOPED_TRACE(call.name + ", " + std::to_string(edges) + " edges" + (has_masks ? ", masks" : ""));
           f(scene, call);
           if (testing::Test::HasFatalFailure()) return;

@@ -153,7 +153,7 @@ class Aggregates(Held):
         radii, radius = rows.common_radii
         with rows.reporter("aggregate") as report:
             result = _core.aggregate(
-                self._exact,
+                rows.index._exact,
                 values=columns,
                 weights=weights,
                 vertices=rows.vertices,
@@ -163,7 +163,6 @@ class Aggregates(Held):
                 max_bytes=2**64 - 1,
                 progress=report,
                 **options,
-                **rows.filter,
                 metric=rows.core_metric,
             )
         result = result.reshape(shape).astype(dtype, copy=False)

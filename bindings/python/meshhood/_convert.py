@@ -162,13 +162,15 @@ def edges(values, name):
 
 
 def mask(values, name, count):
-    """`values`, a bool mask of `count` values, as bytes; None if there is none. It is not copied: the library reads
-    each byte by itself."""
+    """`values`, a bool mask of `count` values or a sequence of vertices, as bytes; None if there is none. A mask is not
+    copied: the library reads each byte by itself."""
     if values is None:
         return None
     array = as_array(values, name)
     if array.dtype != np.bool_:
-        raise TypeError(f"{name}: expected bool, not {array.dtype}")
+        chosen = np.zeros(count, np.uint8)
+        chosen[vertices(array, count, name)] = 1
+        return chosen
     if array.shape != (count,):
         raise ValueError(f"{name}: a bool mask of shape {array.shape}, expected ({count},)")
     return np.ascontiguousarray(array).view(np.uint8)

@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import hashlib
+import weakref
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from ._curvature import KeptOfFaces, Surfaces
 from ._mesh import face_arrays
 from ._methods import Methods
 from ._types import METRICS
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
 
 
 class Held:
@@ -28,15 +32,20 @@ class Held:
     _face_index: KeptOfFaces
     _queries: Any
     _count: int
+    _whole: Optional[Held]
+    _last_masked: Any  # walls, ignored, and the index of these masks
 
-    def _hold(self, exact: Any, faces: Any) -> None:
+    def _hold(self, exact: Any, faces: Any, whole: Optional[Held] = None) -> None:
+        """`whole`: of an index with masks, that without, which has what does not depend on them."""
         self._exact = exact
         self._faces = faces
         self._checked = b""
         self._mesher = None
-        self._methods = Methods(exact)
+        self._whole = whole
+        self._last_masked = (None, None)
+        self._methods = Methods(exact, None if whole is None else whole._methods)
         self._surfaces = Surfaces(exact)
-        self._face_index = KeptOfFaces(exact, _core.face_index)
+        self._face_index = KeptOfFaces(exact, _core.face_index) if whole is None else whole._face_index
         self._queries = _core.queries(exact)
         self._count = exact.vertex_count
 
@@ -48,9 +57,6 @@ class Held:
             if method != "exact":
                 raise ValueError(f"method: {method!r}, expected 'exact' with metric={metric!r}")
             return self._methods.along_edges if metric == "path" else self._methods.rings
-        for mask in ("walls", "ignored"):
-            if method != "exact" and words.get(mask) is not None:
-                raise ValueError(f"method: {method!r}, expected 'exact' with {mask}")
         try:
             return self._methods[method]
         except TypeError:
@@ -68,8 +74,22 @@ class Held:
             raise ValueError("unit: 'edge', but the mesh has no edges of positive length")
         return length
 
-    def _masks(self, walls: Any, ignored: Any) -> tuple[Any, Any]:
-        return _convert.mask(walls, "walls", self._count), _convert.mask(ignored, "ignored", self._count)
+    def _with_masks(self: Self, walls: Any, ignored: Any) -> Self:
+        """The index of these masks, the last of which is kept: a loop of calls with the same masks makes it once."""
+        if walls is None and ignored is None:
+            return self
+        masks = [_convert.mask(walls, "walls", self._count), _convert.mask(ignored, "ignored", self._count)]
+        kept, index = self._last_masked
+        if index is None or not all(map(_are_equal, kept, masks)):
+            masks = [None if mask is None else mask.copy() for mask in masks]  # what is kept does not change
+            index = self._masked(*masks, weakref.proxy(self))  # without a cycle
+            self._last_masked = (masks, index)  # replaced as a whole: no lock, which a fork could copy while it is held
+        return index
+
+    def _masked(self: Self, walls: Any, ignored: Any, whole: Any) -> Self:
+        index = type(self).__new__(type(self))
+        index._hold(self._exact.masked(walls, ignored), self._faces, whole)
+        return index
 
     def _places(self) -> Any:
         """The place of each vertex in index order."""
@@ -103,11 +123,17 @@ class Held:
 
     def _surface(self, F: Any, normals: Any, threads: int) -> Any:
         """The normals of the faces, or `normals`."""
+        if self._whole is not None:
+            return self._whole._surface(F, normals, threads).on(self._exact)
         if normals is None:
             return self._surfaces.of_faces(*self._keyed_faces(F), threads=threads)
         if F is not None:
             raise ValueError("F: expected None, because the normals are given")
         return self._surfaces.of_normals(normals)
+
+
+def _are_equal(kept: Any, mask: Any) -> bool:
+    return kept is mask if kept is None or mask is None else np.array_equal(kept, mask)
 
 
 def _digest(arrays: Any) -> bytes:

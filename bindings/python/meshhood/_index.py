@@ -28,6 +28,7 @@ from ._rows import (
     Rows,
     check_of_many,
     check_size,
+    check_unit,
     check_words,
     read_rows,
     result_dtype,
@@ -36,7 +37,7 @@ from ._rows import (
 )
 from ._shape import Shape
 from ._surface_queries import SurfaceQueries
-from ._types import Counts, Floats, Ids, Number, Offsets, Radii, Scales, Vertex, Vertices
+from ._types import Counts, Floats, Ids, Mask, Number, Offsets, Radii, Scales, Vertex, Vertices
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -94,8 +95,9 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
     r : the radius, >= 0 or inf, or one for each row. A vertex at exactly `r` is inside.
     scales : several radii for all rows, instead of `r`. The result has a leading axis of scales. Lists of neighborhoods
         have the rows of all scales, scale after scale.
-    walls, ignored : bool masks (#V,). A search does not pass walls, as if they were not in the mesh; it passes ignored
-        vertices. Neither belong to a neighborhood, and that of a wall is empty.
+    walls, ignored : bool masks (#V,), or sequences of vertices. A search does not pass walls, as if they were not in
+        the mesh; it passes ignored vertices. Neither belong to a neighborhood, and that of a wall is empty. The last
+        masks are kept as an index of their own, O(#V) once; a call with the same masks compares them. See `masked`.
     metric : "straight", the neighborhood in the ball of radius `r`; "path", the vertices whose shortest path along
         edges is at most `r` long. Distances, and the weights that follow from them, are then the lengths of these
         paths. "rings", the vertices that at most `r` edges separate from the vertex; distances are then numbers of
@@ -307,7 +309,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
         if scales is None and vertices is not None and _convert.is_single(vertices):
             return self._query_one(vertices, r, return_distance, words)
         rows = read_rows(self, vertices, r, scales, words, ListWords)
-        indptr, indices, distances = self._query_many(self._method(words), rows, return_distance, words, "query_ball")
+        indptr, indices, distances = self._query_many(rows.index._method(words), rows, return_distance, words, "query_ball")
         return (indptr, indices, distances) if return_distance else (indptr, indices)
 
     @overload
@@ -329,20 +331,18 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
         >>> index.count(None, scales=[0.2, 0.4]).shape
         (2, 642)
         """
-        searched = self._method(words)
-        has_masks = words.get("walls") is not None or words.get("ignored") is not None
-        if scales is None and vertices is not None and not has_masks and _convert.is_single(vertices):
+        if scales is None and vertices is not None and _convert.is_single(vertices):
             check_words(words, CountWords)
             check_of_many(words)
-            radius = self._scale(words.get("unit", "mesh")) * _convert.radius(r)
+            radius = self._one_radius(r, words)
+            searched = self._with_masks(words.get("walls"), words.get("ignored"))._method(words)
             return searched.count(_convert.vertex(vertices, self._count), radius)
         rows = read_rows(self, vertices, r, scales, words, CountWords)
+        searched = rows.index._method(words)
         counts = rows.shaped(
             rows.for_each_scale(
                 "count",
-                lambda radius, report: searched.counts(
-                    rows.vertices, radius, threads=rows.threads, progress=report, **rows.filter
-                ),
+                lambda radius, report: searched.counts(rows.vertices, radius, threads=rows.threads, progress=report),
             )
         )
         return counts if counts.ndim else int(counts)
@@ -375,7 +375,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
         if sort_of(words) not in (None, "id"):
             raise ValueError(f"sort: {words['sort']!r}, expected None or 'id', because the ids of a row ascend")
         by_id: Any = {**words, "sort": "id", "max_bytes": limit}
-        searched = self._method(words)
+        searched = rows.index._method(words)
         indptr, indices, distances = self._query_many(searched, rows, with_distances, by_id, "radius_neighbors_graph")
         if not with_distances:
             check_size(indices.shape, indices.itemsize + dtype.itemsize, limit)
@@ -414,7 +414,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
         rows = read_rows(self, vertices, r, scales, words, ListWords)
         check_of_many(words)
         sort_of(words)
-        searched, rows = rows.restrict(self._method(words))
+        searched = rows.index._method(words)
         all_rows = np.arange(self._count, dtype=np.int32) if rows.vertices is None else rows.vertices
         by_place = np.argsort(self._places()[all_rows], kind="stable") if in_index_order else slice(None)
 
@@ -438,27 +438,19 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
             return self._exact.neighborhood(_convert.vertex(vertex, self._count), _convert.radius(r))
         check_words(words, ListWords)
         check_of_many(words)
-        searched, sort, unit = self._method(words), sort_of(words), self._scale(words.get("unit", "mesh"))
-        v = _convert.vertex(vertex, self._count)
-        radius = unit * _convert.radius(r)
-        masks = self._masks(words.get("walls"), words.get("ignored"))
-        if any(mask is not None for mask in masks):
-            metric = words.get("metric", "straight")
-            if metric == "straight":
-                indices, distances, _ = self._queries.region(None, np.array([v], np.int32), radius, *masks)
-            elif metric == "path":
-                indices, distances = self._queries.path_region(v, radius, *masks)
-            else:
-                counts, indices = self._queries.rings(v, int(min(radius, 2.0**62)), *masks)
-                distances = np.repeat(np.arange(float(len(counts))), np.diff(counts, prepend=0))
-                sort = sort or "index"
-        elif return_distance or sort == "distance":
+        sort, v, radius = sort_of(words), _convert.vertex(vertex, self._count), self._one_radius(r, words)
+        searched = self._with_masks(words.get("walls"), words.get("ignored"))._method(words)
+        if return_distance or sort == "distance":
             indices, distances = searched.neighborhood_and_distances(v, radius)
         else:
             indices, distances = searched.neighborhood(v, radius), None
         if sort is not None:
             indices, distances = sorted_rows(self, sort, np.array([0, len(indices)]), indices, distances)
         return (indices, distances.astype(result_dtype(words), copy=False)) if return_distance else indices
+
+    def _one_radius(self, r: Any, words: Any) -> float:
+        check_unit(words)
+        return self._scale(words.get("unit", "mesh")) * _convert.radius(r)
 
     def _query_many(self, searched: Any, rows: Rows, return_distance: bool, words: Any, title: str) -> Any:
         """indptr, indices, and distances or None; the rows of all scales. `searched` is the method."""
@@ -476,7 +468,6 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
                 threads=rows.threads,
                 max_bytes=left,
                 progress=report,
-                **rows.filter,
             )
             left = max(0, left - indices.nbytes - distances.nbytes)
             return indptr, indices, distances if with_distances else None
@@ -487,6 +478,18 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
         if len(indices) <= np.iinfo(np.int32).max:
             indptr = indptr.astype(np.int32)  # or SciPy would widen the indices to the same type
         return indptr, indices, distances.astype(dtype, copy=False) if return_distance else None
+
+    def masked(self, *, walls: Mask = None, ignored: Mask = None) -> MeshIndex:
+        """The same index with masks: every call of it leaves out walls and ignored vertices (see `MeshIndex`), and takes
+        no such words. For loops of calls: the masks are read once, O(#V). Shares the memory of this index; an index
+        with masks is not saved, refitted, pickled or masked again.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> lower = index.masked(walls=V[:, 2] > 0)
+        >>> sizes = [lower.count(v, 0.3) for v in (42, 43)]
+        """
+        masks = _convert.mask(walls, "walls", self._count), _convert.mask(ignored, "ignored", self._count)
+        return self._masked(*masks, self)
 
     def refit(
         self,

@@ -52,8 +52,10 @@ Method = Union[Literal["exact", "paper", "bfs", "ball"], Paper]
 class Methods(dict):
     """The methods of an index, by name or `Paper`. Each is made at its first use and then kept."""
 
-    def __init__(self, exact):
+    def __init__(self, exact, whole=None):
+        """`whole`: of an index with masks, the methods of that without."""
         super().__init__(exact=exact)
+        self._whole = whole
         self._graph = None
         self._positions = None
         self._mean_edge_length = None
@@ -77,6 +79,8 @@ class Methods(dict):
             return _core.along_edges(self["exact"])
         if method is _RINGS:
             return _core.rings(self["exact"])
+        if self._whole is not None and (method in ("ball", "bfs", "paper") or isinstance(method, Paper)):
+            raise ValueError(f"method: {method!r}, expected 'exact' with walls or ignored vertices")
         if method == "ball":
             return _core.ball(self["exact"])
         if method == "bfs":
@@ -98,6 +102,8 @@ class Methods(dict):
     @property
     def positions(self):
         """The positions in the order of the mesh, extracted from the index at the first use."""
+        if self._whole is not None:
+            return self._whole.positions
         with self._making():
             if self._positions is None:
                 self._positions = _core.positions(self["exact"])
@@ -113,6 +119,8 @@ class Methods(dict):
 
     def graph(self):
         """The mesh as a graph, extracted from the index at the first use."""
+        if self._whole is not None:
+            return self._whole.graph()
         with self._making():
             if self._graph is None:
                 self._graph = _core.graph(self["exact"])
@@ -121,10 +129,12 @@ class Methods(dict):
     @property
     def known_mean_edge_length(self):
         """None if it has not been computed yet, which takes as long as a pass over all edges."""
-        return self._mean_edge_length
+        return self._mean_edge_length if self._whole is None else self._whole.known_mean_edge_length
 
     @property
     def mean_edge_length(self):
+        if self._whole is not None:
+            return self._whole.mean_edge_length
         with self._making():
             if self._mean_edge_length is None:
                 self._mean_edge_length = self.graph().mean_edge_length()

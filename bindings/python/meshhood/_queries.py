@@ -72,13 +72,13 @@ class Queries(Held):
         sort = sort_of(words)
         center, first = self._start(start, words.get("seeds"), words.get("face"), "query_ball(vertices, r)")
         radius = self._scale(words.get("unit", "mesh")) * _convert.radius(r)
-        masks = self._masks(words.get("walls"), words.get("ignored"))
+        queries = self._with_masks(words.get("walls"), words.get("ignored"))._queries
         if _convert.choice(words.get("metric", "straight"), "metric", ("straight", "path")) == "path":
             if center is not None:
                 raise ValueError("start: expected a vertex with metric='path', because a point has no edges")
-            indices, distances = self._queries.path_region(int(first[0]), radius, *masks)
+            indices, distances = queries.path_region(int(first[0]), radius)
         else:
-            indices, distances, has_seed = self._queries.region(center, first, radius, *masks)
+            indices, distances, has_seed = queries.region(center, first, radius)
             _warn_unless(has_seed or not len(first), "start: the")
         if sort is not None:
             indices, distances = sorted_rows(self, sort, np.array([0, len(indices)]), indices, distances)
@@ -117,7 +117,7 @@ class Queries(Held):
             if seeds is None:
                 seeds = self._queries.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
             rows = _convert.seed_rows(seeds, len(centers), self._count)
-        indices, has_seeds = self._queries.stroke(centers, rows, radii, *self._masks(walls, ignored))
+        indices, has_seeds = self._with_masks(walls, ignored)._queries.stroke(centers, rows, radii)
         _warn_unless(has_seeds, "points: a")
         if by_id:
             indices.sort()
@@ -151,7 +151,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "query_ball(vertices, scales=radii)")
         values = _convert.ascending(radii, "radii") * self._scale(unit)
-        counts, indices, has_seed = self._queries.nested(center, first, values, *self._masks(walls, ignored))
+        counts, indices, has_seed = self._with_masks(walls, ignored)._queries.nested(center, first, values)
         _warn_unless(has_seed or not len(first), "start: the")
         return counts, indices
 
@@ -164,7 +164,7 @@ class Queries(Held):
         >>> counts, ids = index.query_rings(42, 2)
         """
         v = _convert.vertex(v, self._count, "v")
-        counts, indices = self._queries.rings(v, _convert.integer(k, "k", 0, 2**63 - 1), *self._masks(walls, ignored))
+        counts, indices = self._with_masks(walls, ignored)._queries.rings(v, _convert.integer(k, "k", 0, 2**63 - 1))
         return counts, indices
 
     def contains(
@@ -186,7 +186,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "a call for each")
         w, r = _convert.vertex(w, self._count, "w"), self._scale(unit) * _convert.radius(r)
-        return bool(self._queries.contains(center, first, w, r, *self._masks(walls, ignored)))
+        return bool(self._with_masks(walls, ignored)._queries.contains(center, first, w, r))
 
     def connecting_radius(
         self,
@@ -208,7 +208,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "a call for each")
         w = _convert.vertex(w, self._count, "w")
-        return float(self._queries.connecting_radius(center, first, w, *self._masks(walls, ignored)))
+        return float(self._with_masks(walls, ignored)._queries.connecting_radius(center, first, w))
 
     def nearest_connected(
         self,
@@ -230,7 +230,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "query_knn(vertices, k), or seeds= around a point")
         k = _convert.integer(k, "k", 1, 2**63 - 1)
-        indices, radii = self._queries.nearest_connected(center, first, k, *self._masks(walls, ignored))
+        indices, radii = self._with_masks(walls, ignored)._queries.nearest_connected(center, first, k)
         return indices, radii
 
     @overload

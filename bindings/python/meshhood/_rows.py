@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Optional, TypedDict, Union
 
 import numpy as np
@@ -60,8 +60,7 @@ class Rows:
     vertices: Optional[Ids]  # None for all
     radii: list[Union[float, Reals]]  # of each scale, in the unit of the positions
     shape: tuple[int, ...]  # the leading axes of the result
-    walls: Any
-    ignored: Any
+    index: Any  # with the masks
     metric: str
     threads: int
     progress: Progress
@@ -74,18 +73,8 @@ class Rows:
         return (self.radii, None) if isinstance(first, float) else ([], first)
 
     @property
-    def filter(self) -> dict[str, Any]:
-        return {"walls": self.walls, "ignored": self.ignored}
-
-    @property
     def core_metric(self) -> Any:
         return getattr(_core.Metric, self.metric)
-
-    def restrict(self, method: Any) -> tuple[Any, Rows]:
-        """The method with answers that the masks restrict, for several calls, and the rows without masks."""
-        if self.walls is None and self.ignored is None:
-            return method, self
-        return method.restricted(**self.filter, threads=self.threads), replace(self, walls=None, ignored=None)
 
     def reporter(self, title: str) -> AbstractContextManager[Report]:
         return reporter(self.progress, title, "vertices", self.count * len(self.radii))
@@ -113,24 +102,24 @@ def read_rows(index: Held, vertices: Any, r: Any, scales: Any, words: Mapping[st
         ids = _convert.vertices(vertices, index._count) if one is None else one
         count = len(ids)
     metric = _convert.choice(words.get("metric", "straight"), "metric", METRICS)
-    if metric == "rings" and words.get("unit", "mesh") != "mesh":
-        raise ValueError("unit: expected 'mesh' with metric='rings', whose radii are numbers of edges")
+    check_unit(words)
     radii = _radii(r, scales, None if is_one else count, index._scale(words.get("unit", "mesh")))
     shape = () if scales is None else (len(radii),)
-    # Copies: the scales of a call, and the chunks of an iterator, are calls of the library of their own.
-    masks = index._masks(words.get("walls"), words.get("ignored"))
-    walls, ignored = (None if mask is None else mask.copy() for mask in masks)
     return Rows(
         count,
         ids,
         radii,
         shape if is_one else (*shape, count),
-        walls,
-        ignored,
+        index._with_masks(words.get("walls"), words.get("ignored")),
         metric,
         _convert.threads(words.get("workers", -1)),
         words.get("progress"),
     )
+
+
+def check_unit(words: Mapping[str, Any]) -> None:
+    if words.get("metric") == "rings" and words.get("unit", "mesh") != "mesh":
+        raise ValueError("unit: expected 'mesh' with metric='rings', whose radii are numbers of edges")
 
 
 def check_words(words: Mapping[str, Any], accepted: Any) -> None:

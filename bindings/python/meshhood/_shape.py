@@ -100,8 +100,8 @@ class Shape(Held):
             raise ValueError(f"like: {like!r}, expected None with fit='jet'")
         rows = read_rows(self, vertices, r, words.get("scales"), words, CurvatureWords)
         options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
-        options |= {"filter": bool(words.get("filter", True)), "threads": rows.threads, "metric": rows.core_metric, **rows.filter}
-        surface = self._surface(words.get("F"), words.get("normals"), rows.threads)
+        options |= {"filter": bool(words.get("filter", True)), "threads": rows.threads, "metric": rows.core_metric}
+        surface = rows.index._surface(words.get("F"), words.get("normals"), rows.threads)
         found = rows.for_each_scale(
             "curvature", lambda radius, report: surface.curvatures(rows.vertices, radius, progress=report, **options)
         )
@@ -124,7 +124,7 @@ class Shape(Held):
         rows = read_rows(self, vertices, r, words.get("scales"), words, CorrectedWords)
         F, normals = words.get("F"), words.get("normals")
         corners, offsets = self._face_arrays(F)
-        surface = self._surface(F if normals is None else None, normals, rows.threads)
+        surface = rows.index._surface(F if normals is None else None, normals, rows.threads)
         found = rows.for_each_scale(
             "corrected_curvature",
             lambda radius, report: surface.corrected(
@@ -135,7 +135,6 @@ class Shape(Held):
                 threads=rows.threads,
                 progress=report,
                 metric=rows.core_metric,
-                **rows.filter,
             ),
         )
         return CorrectedCurvature(*(_of_type(rows.shaped(list(arrays)), words) for arrays in zip(*found)))
@@ -159,10 +158,10 @@ class Shape(Held):
         rows = read_rows(self, vertices, r, words.get("scales"), words, MomentWords)
         weights = area_weights(self, words.get("weights"), words.get("F"))
         options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": weights, "threads": rows.threads}
-        options |= {"metric": rows.core_metric, **rows.filter}
+        options |= {"metric": rows.core_metric}
         found = rows.for_each_scale(
             "moments",
-            lambda radius, report: _core.moments(self._exact, rows.vertices, radius, progress=report, **options),
+            lambda radius, report: _core.moments(rows.index._exact, rows.vertices, radius, progress=report, **options),
         )
         return _of_type(rows.shaped(found), words)
 
@@ -179,11 +178,11 @@ class Shape(Held):
         """
         rows = read_rows(self, vertices, r, words.get("scales"), words, MomentWords)
         weights = area_weights(self, words.get("weights"), words.get("F"))
-        options = {"weights": weights, "threads": rows.threads, "metric": rows.core_metric, **rows.filter}
+        options = {"weights": weights, "threads": rows.threads, "metric": rows.core_metric}
         found = rows.for_each_scale(
             "principal_components",
             lambda radius, report: _core.principal_components(
-                self._exact, rows.vertices, radius, progress=report, **options
+                rows.index._exact, rows.vertices, radius, progress=report, **options
             ),
         )
         return PrincipalComponents(*(_of_type(rows.shaped(list(arrays)), words) for arrays in zip(*found)))
@@ -226,9 +225,8 @@ class Shape(Held):
             "filter": bool(words.get("filter", True)),
             "threads": rows.threads,
             "metric": rows.core_metric,
-            **rows.filter,
         }
-        surface = self._surface(F, None, rows.threads)
+        surface = rows.index._surface(F, None, rows.threads)
         radii, radius = rows.common_radii
         with rows.reporter("features") as report:
             found = surface.features(rows.vertices, radii=np.array(radii), radius=radius, progress=report, **options)

@@ -104,13 +104,12 @@ class SurfaceQueries(Held):
         rows = read_rows(self, vertices, r, None, words, Words)
         with rows.reporter("nearest unconnected") as report:
             return _core.nearest_unconnected(
-                self._exact,
+                rows.index._exact,
                 rows.vertices,
                 rows.radii[0],
                 threads=rows.threads,
                 progress=report,
                 metric=rows.core_metric,
-                **rows.filter,
             )
 
     def closest_point(
@@ -197,7 +196,6 @@ class SurfaceQueries(Held):
             "radius": rows.radii[0],
             "threads": rows.threads,
             "max_bytes": _convert.max_bytes(words.get("max_bytes"), copies=1 if until is None else 2),
-            **rows.filter,
         }
         with rows.reporter("nearest") as report:
             if until is not None:
@@ -205,10 +203,10 @@ class SurfaceQueries(Held):
                 if areas is None:
                     raise ValueError("weights: expected 'area' or (#V,) numbers")
                 area = _convert.finite(until, "until", or_zero=False)
-                return _core.discs(self._exact, rows.vertices, area=area, areas=areas, **options, progress=report)
+                return _core.discs(rows.index._exact, rows.vertices, area=area, areas=areas, **options, progress=report)
             options["k"] = _convert.integer(k, "k", 1, 2**63 - 1)
             options["fill"] = _convert.integer(fill, "fill", -(2**31), 2**31 - 1)
-            ids, distances = _core.k_nearest(self._exact, rows.vertices, **options, progress=report)
+            ids, distances = _core.k_nearest(rows.index._exact, rows.vertices, **options, progress=report)
         return (ids[0], distances[0]) if rows.shape == () else (ids, distances)
 
 

@@ -25,10 +25,9 @@ extern "C" {
   const BatchQuery query = rows.query();
   const SignalView signal{
       .values = std::span(values, value_count), .channels = channels, .weights = std::span(weights, weight_count)};
-  answer.reals = meshhood::aggregate(workspace.index(), signal,
+  answer.reals = meshhood::aggregate(workspace.searched(), signal,
                                      {.vertices = query.vertices,
                                       .radius = query.radius,
-                                      .filter = query.filter,
                                       .metric = metric,
                                       .reduce = reduce,
                                       .kernel = kernel,

@@ -60,7 +60,7 @@ void sort_rows(VertexOrder order, std::span<const std::uint32_t> offsets) {
 }
 
 NearestOptions nearest_options(Metric metric, double radius) {
-  return {.metric = metric, .radius = radius, .filter = restriction};
+  return {.metric = metric, .radius = radius};
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ extern "C" {
                                                                        const double* radii, std::size_t radius_count,
                                                                        bool are_scales) {
   const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
-  Unconnected found = meshhood::nearest_unconnected(workspace.index(), rows.query());
+  Unconnected found = meshhood::nearest_unconnected(workspace.searched(), rows.query());
   answer.ids = std::move(found.vertices);
   answer.reals = std::move(found.gaps);
 }
@@ -121,7 +121,7 @@ extern "C" {
 /// All vertices if `vertices` is null. The ids and reals of the answer have `k` places for each row.
 [[clang::export_name("k_nearest")]] void k_nearest(const VertexId* vertices, std::size_t vertex_count, Metric metric,
                                                    double radius, double k) {
-  KNearest found = meshhood::k_nearest(workspace.index(), view_vertices(vertices, vertex_count), to_size(k),
+  KNearest found = meshhood::k_nearest(workspace.searched(), view_vertices(vertices, vertex_count), to_size(k),
                                        nearest_options(metric, radius));
   answer.ids = std::move(found.ids);
   answer.reals = std::move(found.distances);
@@ -130,7 +130,7 @@ extern "C" {
 /// The same rows up to an area. The counts of the answer are their offsets.
 [[clang::export_name("discs")]] void discs(const VertexId* vertices, std::size_t vertex_count, Metric metric,
                                            double radius, double area, const double* areas, std::size_t area_count) {
-  Neighborhoods found = meshhood::discs(workspace.index(), view_vertices(vertices, vertex_count), area,
+  Neighborhoods found = meshhood::discs(workspace.searched(), view_vertices(vertices, vertex_count), area,
                                         {areas, area_count}, nearest_options(metric, radius));
   answer.counts.assign(found.offsets.begin(), found.offsets.end());
   answer.ids = std::move(found.ids);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Regions: searches from any point, with masks. `start_at_...` and `restrict_search` come first, and borrow their
-// arrays for the calls that follow.
+// Regions: searches from any point, with masks. `start_at_...` comes first, and borrows its array for the calls that
+// follow; so does `search_by`, which copies the masks.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -41,43 +41,45 @@ extern "C" {
   }
 }
 
-[[clang::export_name("restrict_search")]] void restrict_search(const std::uint8_t* walls, std::size_t wall_count,
-                                                               const std::uint8_t* ignored, std::size_t ignored_count) {
-  restriction = {.walls = std::span(walls, wall_count), .ignored = std::span(ignored, ignored_count)};
+/// The metric of the rows and the masks of all searches that follow; no masks if both are empty.
+[[clang::export_name("search_by")]] void search_by(Metric metric, const std::uint8_t* walls, std::size_t wall_count,
+                                                   const std::uint8_t* ignored, std::size_t ignored_count) {
+  row_metric = metric;
+  workspace.set_masks({walls, wall_count}, {ignored, ignored_count});
 }
 
 /// Whether a seed lies in the ball.
 [[clang::export_name("region")]] bool region(double radius, bool with_distances) {
-  if (with_distances) return workspace.regions().region(origin, radius, answer.ids, answer.reals, restriction);
+  if (with_distances) return workspace.regions().region(origin, radius, answer.ids, answer.reals);
   answer.reals.clear();
-  return workspace.regions().region(origin, radius, answer.ids, restriction);
+  return workspace.regions().region(origin, radius, answer.ids);
 }
 
 /// The same of the largest ball.
 [[clang::export_name("nested")]] bool nested(const double* radii, std::size_t radius_count) {
   const bool is_near =
-      workspace.regions().nested(origin, std::span(radii, radius_count), answer.ids, region_sizes, restriction);
+      workspace.regions().nested(origin, std::span(radii, radius_count), answer.ids, region_sizes);
   answer_sizes();
   return is_near;
 }
 
 /// Of the vertex `v`; not of the start.
 [[clang::export_name("rings")]] void rings(VertexId v, double k) {
-  workspace.edges().rings(v, to_size(k), answer.ids, region_sizes, restriction);
+  workspace.edges().rings(v, to_size(k), answer.ids, region_sizes);
   answer_sizes();
 }
 
 [[clang::export_name("contains")]] bool contains(VertexId w, double radius) {
-  return workspace.regions().contains(origin, w, radius, restriction);
+  return workspace.regions().contains(origin, w, radius);
 }
 
 [[clang::export_name("connecting_radius")]] double connecting_radius(VertexId w) {
-  return workspace.regions().connecting_radius(origin, w, restriction);
+  return workspace.regions().connecting_radius(origin, w);
 }
 
 [[clang::export_name("nearest_connected")]] void nearest_connected(double k) {
   const std::size_t most = std::min(to_size(k), workspace.index().vertex_count());
-  workspace.regions().nearest_connected(origin, most, answer.ids, answer.reals, restriction);
+  workspace.regions().nearest_connected(origin, most, answer.ids, answer.reals);
 }
 
 /// Returns the vertex; the first real of the answer is its distance.

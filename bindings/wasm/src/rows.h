@@ -5,15 +5,14 @@
 #include <span>
 
 #include "meshhood/batch.h"
-#include "meshhood/filter.h"
 
 #include "arguments.h"
 
 /// The arguments that every call on many vertices begins with, as JavaScript passes them (bindings/wasm/rows.js).
 namespace meshhood::wasm {
 
-/// What the searches may pass. `restrict_search` sets it before a call, and borrows its arrays.
-inline Filter restriction;
+/// By what rows are found. `search_by` sets it before a call.
+inline Metric row_metric = Metric::Straight;
 
 struct RowArguments {
   const VertexId* vertices;  ///< null for all
@@ -25,7 +24,7 @@ struct RowArguments {
 
   /// Borrows the lists.
   [[nodiscard]] BatchQuery query() const {
-    BatchQuery query{.vertices = view_vertices(vertices, vertex_count), .radius = radius, .filter = restriction};
+    BatchQuery query{.vertices = view_vertices(vertices, vertex_count), .radius = radius, .metric = row_metric};
     const std::span list(radii, radius_count);
     if (are_scales) {
       query.radius = BatchRadius::scales({list.begin(), list.end()});

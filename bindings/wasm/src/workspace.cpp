@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "workspace.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
+
+#include "meshhood/error.h"
 
 namespace meshhood::wasm {
 
@@ -40,12 +43,26 @@ void Workspace::forget_derived() {
   face_index_.reset();
   faces_.reset();
   surface_.reset();
-  edges_.reset();
-  regions_.reset();
-  methods_ = {};
+  searches_ = {};
+  has_masks_ = false;
+  masked_searches_ = {};
+  masked_index_.reset();
   paper_index_.reset();
   mean_edge_.reset();
   graph_.reset();
+}
+
+void Workspace::set_masks(std::span<const std::uint8_t> walls, std::span<const std::uint8_t> ignored) {
+  has_masks_ = false;  // if this throws
+  if (walls.empty() && ignored.empty()) return;
+  if (!masked_index_ || !std::ranges::equal(walls_, walls) || !std::ranges::equal(ignored_, ignored)) {
+    masked_searches_ = {};
+    masked_index_.reset();
+    walls_.assign(walls.begin(), walls.end());
+    ignored_.assign(ignored.begin(), ignored.end());
+    masked_index_ = masked(*index_, {.walls = walls_, .ignored = ignored_});
+  }
+  has_masks_ = true;
 }
 
 const GraphData& Workspace::graph() {
@@ -64,19 +81,22 @@ const paper::Index& Workspace::paper_index() {
 }
 
 SearchMethod Workspace::make_method(MethodName name) {
+  if (has_masks_ && (name == MethodName::Paper || name == MethodName::Bfs || name == MethodName::Ball)) {
+    raise(ErrorCode::InvalidOption, "method: expected 'exact' with walls or ignored vertices");
+  }
   switch (name) {
-    case MethodName::Exact: return index();
+    case MethodName::Exact: return searched();
     case MethodName::Paper: return paper_index();
     case MethodName::Bfs: return SearchMethod::breadth_first(graph().view());
     case MethodName::Ball: return SearchMethod::ball_scan(graph().view().positions);
-    case MethodName::Path: return SearchMethod::along_edges(index());
-    case MethodName::Rings: return SearchMethod::rings(index());
+    case MethodName::Path: return SearchMethod(searched()).by(Metric::Path);
+    case MethodName::Rings: return SearchMethod(searched()).by(Metric::Rings);
   }
   __builtin_unreachable();
 }
 
 Method& Workspace::method(MethodName name) {
-  std::optional<Method>& method = methods_[static_cast<std::size_t>(name)];
+  std::optional<Method>& method = searches().methods[static_cast<std::size_t>(name)];
   if (!method) {
     const SearchMethod search = make_method(name);
     method.emplace(Method{.search = search, .searcher = search.make_searcher()});
@@ -85,13 +105,15 @@ Method& Workspace::method(MethodName name) {
 }
 
 RegionSearcher& Workspace::regions() {
-  if (!regions_) regions_.emplace(index());
-  return *regions_;
+  std::optional<RegionSearcher>& regions = searches().regions;
+  if (!regions) regions.emplace(searched());
+  return *regions;
 }
 
 EdgeSearcher& Workspace::edges() {
-  if (!edges_) edges_.emplace(index());
-  return *edges_;
+  std::optional<EdgeSearcher>& edges = searches().edges;
+  if (!edges) edges.emplace(searched());
+  return *edges;
 }
 
 void Workspace::use_faces(const FacesView& faces, const Fingerprint& content) {

@@ -27,6 +27,13 @@ struct Method {
   AnySearcher searcher;
 };
 
+/// The searches of an index, each made when it is first used.
+struct Searches {
+  std::array<std::optional<Method>, kMethodCount> methods;  // by their names
+  std::optional<RegionSearcher> regions;
+  std::optional<EdgeSearcher> edges;
+};
+
 /// One mesh, its index, and what the methods need besides: the graph, the paper's index, searchers. Each part is made
 /// when it is first used.
 class Workspace {
@@ -47,14 +54,22 @@ class Workspace {
   /// Moves the vertices `changed`, or all. Throws as `meshhood::refit`; the index is then as it was.
   void refit(const PositionsView& positions, const std::optional<IndicesView>& changed);
 
+  /// Sets the masks of the searches that follow; none if both are empty. The index of the last masks is kept.
+  void set_masks(std::span<const std::uint8_t> walls, std::span<const std::uint8_t> ignored);
+
   /// There must be an index, as for all functions below but those of the mesher.
   [[nodiscard]] const Index& index() const { return *index_; }
+
+  /// The same with the masks.
+  [[nodiscard]] const Index& searched() const { return has_masks_ ? *masked_index_ : *index_; }
 
   /// The graph and the positions, in the numbering of the mesh.
   [[nodiscard]] const GraphData& graph();
 
   /// In the unit of the positions.
   [[nodiscard]] double mean_edge();
+
+  // With the masks:
 
   [[nodiscard]] Method& method(MethodName name);
   [[nodiscard]] RegionSearcher& regions();
@@ -67,8 +82,8 @@ class Workspace {
   /// Throws as `CurvatureIndex::build`.
   void use_normals(std::span<const double> normals);
 
-  /// With the normals of the last `use_...`.
-  [[nodiscard]] const CurvatureIndex& surface() const { return *surface_; }
+  /// With the normals of the last `use_...`, and the masks.
+  [[nodiscard]] CurvatureIndex surface() const { return surface_->on(searched()); }
 
   /// Made of faces, as by `use_faces`. Throws as `FaceIndex::build`.
   [[nodiscard]] const FaceIndex& face_index(const FacesView& faces, const Fingerprint& content);
@@ -83,15 +98,19 @@ class Workspace {
   void forget_derived();
   [[nodiscard]] const paper::Index& paper_index();
   [[nodiscard]] SearchMethod make_method(MethodName name);
+  [[nodiscard]] Searches& searches() { return has_masks_ ? masked_searches_ : searches_; }
 
   io::Mesh mesh_;
   std::optional<Index> index_;
   std::optional<GraphData> graph_;
   std::optional<double> mean_edge_;
   std::optional<paper::Index> paper_index_;
-  std::array<std::optional<Method>, kMethodCount> methods_;  // by their names
-  std::optional<RegionSearcher> regions_;
-  std::optional<EdgeSearcher> edges_;
+  Searches searches_;
+  bool has_masks_ = false;
+  std::vector<std::uint8_t> walls_;  // of `masked_index_`
+  std::vector<std::uint8_t> ignored_;
+  std::optional<Index> masked_index_;
+  Searches masked_searches_;
   std::optional<CurvatureIndex> surface_;
   std::optional<Fingerprint> faces_;  // those of `surface_`, if it was made from faces
   std::optional<FaceIndex> face_index_;

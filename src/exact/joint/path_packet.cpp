@@ -35,14 +35,11 @@ void sort_along_longest_axis(std::span<std::uint32_t> vertices, const PositionsI
 
 }  // namespace
 
-PathPacket::PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const LaneFilter& walls,
-                       const LaneFilter& ignored, const PathLimits& limits)
+PathPacket::PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const PathLimits& limits)
     : index_(&index),
       graph_(&graph.of(index)),
       kernels_(&path_kernels(isa)),
       joint_kernels_(&joint_kernels(isa)),
-      walls_(&walls),
-      ignored_(&ignored),
       limits_(limits),
       search_(index, graph),
       numbers_(index.vertex_count(), kNoNumber),
@@ -60,7 +57,7 @@ bool PathPacket::run(std::span<const PathQuery> queries) {
   }
   sort_along_longest_axis(std::span(starts).first(queries.size()), index_->positions);
   const auto are_too_many = [this](std::span<const Path>) { return search_.found().size() > limits_.vertices; };
-  search_.run(std::span(starts).first(queries.size()), most, *walls_, are_too_many);
+  search_.run(std::span(starts).first(queries.size()), most, are_too_many);
   if (are_too_many({})) return false;
   list_edges();
   if (!pass_on_lengths()) return false;
@@ -71,7 +68,7 @@ bool PathPacket::run(std::span<const PathQuery> queries) {
 void PathPacket::run_single(const PathQuery& query) {
   begin(std::span(&query, 1));
   is_single_ = true;
-  search_.run(query.vertex, query.radius, *walls_);
+  search_.run(query.vertex, query.radius);
 }
 
 void PathPacket::begin(std::span<const PathQuery> queries) {
@@ -140,16 +137,16 @@ bool PathPacket::pass_on_lengths() {
 
 /// Takes the ignored vertices out of what was found.
 void PathPacket::leave_out_ignored() {
-  if (ignored_->empty()) return;
+  if (index_->ignored.empty()) return;
   for (std::size_t number = 0; number < lengths_.size(); ++number) {
-    if (ignored_->has_at(vertex(number))) lengths_[number] = kReachedByNone;
+    if (index_->is_ignored_at(vertex(number))) lengths_[number] = kReachedByNone;
   }
 }
 
 PerLane<std::uint64_t> PathPacket::counts() {
   PerLane<std::uint64_t> counts{};
   if (is_single_) {
-    for (const Path& path : search_.found()) counts[0] += ignored_->has_at(path.end) ? 0 : 1;
+    for (const Path& path : search_.found()) counts[0] += index_->is_ignored_at(path.end) ? 0 : 1;
     return counts;
   }
   const PathLengths limits = this->limits();
@@ -169,20 +166,20 @@ PerLane<std::uint64_t> PathPacket::counts() {
 std::span<const Path> PathPacket::paths_in_order(std::size_t query) {
   const auto [source, radius] = queries_[query];
   const std::span<const Path> found = search_.found();
-  if (walls_->has_at(source)) return {};
+  if (index_->is_wall_at(source)) return {};
   if (paths_.size() < found.size()) paths_.resize(found.size());
   std::size_t count = 0;
   // Whether a vertex is within the radius cannot be predicted, so there is no branch.
   for (std::size_t number = 0; number < found.size(); ++number) {
     const std::uint32_t end = vertex(number);
     const double length = is_single_ ? found[number].length : lengths_[number][query];
-    const bool is_left_out = is_single_ && ignored_->has_at(end);
+    const bool is_left_out = is_single_ && index_->is_ignored_at(end);
     paths_[count] = {length, end};
     count += static_cast<std::size_t>(length <= std::min(radius, kLongest)) & static_cast<std::size_t>(end != source) &
              static_cast<std::size_t>(!is_left_out);
   }
   const std::span<const Path> paths = order_.sorted({0, source}, std::span(paths_).first(count));
-  return paths.subspan(ignored_->has_at(source) ? 1 : 0);
+  return paths.subspan(index_->is_ignored_at(source) ? 1 : 0);
 }
 
 std::span<const Piece> PathPacket::pieces() {
@@ -219,9 +216,8 @@ void PathPacket::list_leaves() {
   if (!leaves_.empty()) return;
   place_of_.forget();
   for (std::uint32_t number = 0; number < search_.found().size(); ++number) {
-    const VertexId id = index_->id(vertex(number));
-    if (ignored_->has(id)) continue;
-    const std::uint32_t slot = index_->slot[id];
+    const std::uint32_t slot = index_->slot_at(vertex(number));
+    if ((index_->ignored_lanes(leaf_of(slot)) >> lane_of(slot) & 1U) != 0) continue;
     const LeafId leaf = leaf_of(slot);
     if (!place_of_.is_known(leaf)) {
       place_of_.set(leaf, static_cast<std::uint32_t>(leaves_.size()));

@@ -17,7 +17,6 @@
 #include "exact/joint/packet_answer.h"
 #include "exact/joint/path_front.h"
 #include "exact/layout.h"
-#include "exact/query/lane_filter.h"
 #include "exact/query/path_search.h"
 #include "exact/weighted_graph.h"
 #include "simd/paths.h"
@@ -55,9 +54,7 @@ struct PathLimits {
 /// 0.4 kB for each vertex that it reaches, up to its limit. What is found does not depend on earlier calls.
 class PathPacket final : public PacketLengths {
  public:
-  /// The filters must outlive the packet.
-  PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const LaneFilter& walls, const LaneFilter& ignored,
-             const PathLimits& limits = {});
+  PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const PathLimits& limits = {});
 
   /// Finds the paths from 1 to 32 vertices, each within the radius of its query. Returns false if that would exceed the
   /// limits; then `run_single` is to be called for each.
@@ -105,8 +102,6 @@ class PathPacket final : public PacketLengths {
   const WeightedGraph* graph_;
   const PathKernels* kernels_;
   const JointKernels* joint_kernels_;
-  const LaneFilter* walls_;
-  const LaneFilter* ignored_;
   PathLimits limits_;
   PathSearch search_;                   // its paths number the vertices that were found
   std::vector<std::uint32_t> numbers_;  // by vertex; kNoNumber outside `list_edges`

@@ -9,17 +9,6 @@
 #include "shared/text.h"
 
 namespace meshhood {
-namespace {
-
-void check_mask(const VertexMask& mask, std::size_t vertices, const char* name) {
-  const std::size_t size = mask.size();
-  if (size == 0 || size == vertices) return;
-  raise(ErrorCode::InvalidOption, std::string(name) + ": " + std::to_string(size) +
-                                      " values, expected one for each of " + std::to_string(vertices) + " vertices");
-}
-
-}  // namespace
-
 void check_point(const SpacePoint& p, std::string_view where) {
   for (std::size_t axis = 0; axis < p.size(); ++axis) {
     if (std::abs(p[axis]) <= kLargestCoordinate) continue;
@@ -43,11 +32,6 @@ void check_start(const Start& start, std::size_t vertices, std::string_view wher
   for (std::size_t i = 0; i < start.seeds().size(); ++i) {
     check_vertex(start.seeds()[i], vertices, prefix + "seed " + std::to_string(i) + ": vertex");
   }
-}
-
-void check_filter(const Filter& filter, std::size_t vertices) {
-  check_mask(filter.walls, vertices, "walls");
-  check_mask(filter.ignored, vertices, "ignored");
 }
 
 Point position_of(const IndexView& index, VertexId v) {

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <string_view>
 
-#include "meshhood/filter.h"
 #include "meshhood/start.h"
 
 #include "exact/layout.h"
@@ -22,9 +21,6 @@ void check_vertex(VertexId v, std::size_t vertices, std::string_view name);
 
 /// Error{InvalidOption, VertexOutOfRange}.
 void check_start(const Start& start, std::size_t vertices, std::string_view where);
-
-/// Error{InvalidOption} unless each mask is empty or has a value for each vertex.
-void check_filter(const Filter& filter, std::size_t vertices);
 
 /// The position of a vertex.
 [[nodiscard]] Point position_of(const IndexView& index, VertexId v);

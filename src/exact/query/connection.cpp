@@ -16,28 +16,26 @@ constexpr double kNoRadius = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-bool RegionSearcher::contains(const Start& start, VertexId w, double radius, const Filter& filter) {
+bool RegionSearcher::contains(const Start& start, VertexId w, double radius) {
   State& state = *state_;
   state.check(start);
   check_vertex(w, state.index->vertex_count(), "vertex");
   check_radius(radius);
-  state.check(filter);
-  const Point center = state.begin(start, filter);
+  const Point center = state.begin(start);
   const std::uint32_t slot = state.slot(w);
   if (!(squared_distance(position_of(*state.index, w), center) <= squared_radius(radius))) return false;
-  if (state.ignored.has(w)) return false;
+  if (state.is_ignored(slot)) return false;
   state.flood.grow(radius, slot);
   return state.flood.has_reached(slot);
 }
 
-double RegionSearcher::connecting_radius(const Start& start, VertexId w, const Filter& filter) {
+double RegionSearcher::connecting_radius(const Start& start, VertexId w) {
   State& state = *state_;
   state.check(start);
   check_vertex(w, state.index->vertex_count(), "vertex");
-  state.check(filter);
-  const Point center = state.begin(start, filter);
+  const Point center = state.begin(start);
   const std::uint32_t slot = state.slot(w);
-  if (state.ignored.has(w)) return kNoRadius;
+  if (state.is_ignored(slot)) return kNoRadius;
   // No smaller ball holds `w` itself.
   double radius = std::sqrt(squared_distance(position_of(*state.index, w), center));
   state.flood.grow(radius, slot);
@@ -50,10 +48,9 @@ double RegionSearcher::connecting_radius(const Start& start, VertexId w, const F
 }
 
 void RegionSearcher::nearest_connected(const Start& start, std::size_t k, std::vector<VertexId>& out,
-                                       std::vector<double>& radii, const Filter& filter) {
+                                       std::vector<double>& radii) {
   State& state = *state_;
   state.check(start);
-  state.check(filter);
   std::vector<VertexId> ids;
   std::vector<double> found_radii;
   const auto add = [&](VertexId vertex, double radius) {
@@ -61,7 +58,7 @@ void RegionSearcher::nearest_connected(const Start& start, std::size_t k, std::v
     found_radii.push_back(radius);
     return ids.size() < k;
   };
-  if (k > 0) state.for_each_nearest(start, kNoRadius, filter, add);
+  if (k > 0) state.for_each_nearest(start, kNoRadius, add);
   out = std::move(ids);
   radii = std::move(found_radii);
 }

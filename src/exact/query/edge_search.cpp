@@ -33,26 +33,24 @@ struct EdgeSearcher::State {
         rings(*index, *kernels),
         answer(*index) {}
 
-  void check(VertexId v, double radius, const Filter& filter) const {
+  void check(VertexId v, double radius) const {
     index.check_current();
     check_query(v, index->vertex_count(), radius);
-    check_filter(filter, index->vertex_count());
   }
 
   /// Finds the vertices, those that are ignored included.
-  void search(VertexId v, double radius, const Filter& filter) {
-    check(v, radius, filter);
+  void search(VertexId v, double radius) {
+    check(v, radius);
     if (!paths) paths.emplace(*index, *graph);
     const std::uint32_t slot = index->slot[v];
-    paths->run(index->leaf_begin[leaf_of(slot)] + lane_of(slot), radius, LaneFilter(*index, filter.walls));
+    paths->run(index->leaf_begin[leaf_of(slot)] + lane_of(slot), radius);
   }
 
   /// Calls `f(path)` for the vertices of `found` that are not ignored.
   template <class F>
-  void for_each(std::span<const Path> found, const Filter& filter, F&& f) const {
-    const LaneFilter ignored(*index, filter.ignored);
+  void for_each(std::span<const Path> found, F&& f) const {
     for (const Path& path : found) {
-      if (!ignored.has_at(path.end)) f(path);
+      if (!index->is_ignored_at(path.end)) f(path);
     }
   }
 };
@@ -76,41 +74,40 @@ std::span<const VertexId> EdgeSearcher::permutation() const& {
   return padded.empty() ? padded : padded.first(vertex_count());
 }
 
-void EdgeSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, const Filter& filter) {
-  state_->search(v, radius, filter);
+void EdgeSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
+  state_->search(v, radius);
   const std::span<const Path> found = state_->paths->found_in_order();
   out.reserve(found.size());
   out.clear();
-  state_->for_each(found, filter, [&](const Path& path) { out.push_back(state_->index->id(path.end)); });
+  state_->for_each(found, [&](const Path& path) { out.push_back(state_->index->id(path.end)); });
 }
 
-void EdgeSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
-                                const Filter& filter) {
-  state_->search(v, radius, filter);
+void EdgeSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
+  state_->search(v, radius);
   const std::span<const Path> found = state_->paths->found_in_order();
   // Before either changes: if this throws, neither has changed.
   out.reserve(found.size());
   distances.reserve(found.size());
   out.clear();
   distances.clear();
-  state_->for_each(found, filter, [&](const Path& path) {
+  state_->for_each(found, [&](const Path& path) {
     out.push_back(state_->index->id(path.end));
     distances.push_back(path.length);
   });
 }
 
-std::size_t EdgeSearcher::count(VertexId v, double radius, const Filter& filter) {
-  state_->search(v, radius, filter);
+std::size_t EdgeSearcher::count(VertexId v, double radius) {
+  state_->search(v, radius);
   std::size_t count = 0;
-  state_->for_each(state_->paths->found(), filter, [&](const Path&) { ++count; });
+  state_->for_each(state_->paths->found(), [&](const Path&) { ++count; });
   return count;
 }
 
-std::span<const VertexRange> EdgeSearcher::ranges(VertexId v, double radius, const Filter& filter) & {
-  state_->search(v, radius, filter);
+std::span<const VertexRange> EdgeSearcher::ranges(VertexId v, double radius) & {
+  state_->search(v, radius);
   std::vector<VertexRange>& ranges = state_->ranges;
   std::vector<VertexId> positions;
-  state_->for_each(state_->paths->found(), filter,
+  state_->for_each(state_->paths->found(),
                    [&](const Path& path) { positions.push_back(static_cast<VertexId>(path.end)); });
   std::sort(positions.begin(), positions.end());
   ranges.clear();
@@ -118,19 +115,16 @@ std::span<const VertexRange> EdgeSearcher::ranges(VertexId v, double radius, con
   return ranges;
 }
 
-void EdgeSearcher::rings(VertexId v, std::size_t k, std::vector<VertexId>& out, std::vector<std::size_t>& counts,
-                         const Filter& filter) {
+void EdgeSearcher::rings(VertexId v, std::size_t k, std::vector<VertexId>& out, std::vector<std::size_t>& counts) {
   State& state = *state_;
-  state.check(v, 0, filter);
-  const LaneFilter walls(*state.index, filter.walls);
-  const LaneFilter ignored(*state.index, filter.ignored);
+  state.check(v, 0);
   std::vector<VertexId> ids;
   std::vector<std::size_t> sizes;
   std::vector<LeafSubset> found;
-  for (state.rings.start(state.index->slot[v], walls); !state.rings.ring().empty(); state.rings.advance()) {
+  for (state.rings.start(state.index->slot[v]); !state.rings.ring().empty(); state.rings.advance()) {
     found.clear();
     for (const LeafSubset& subset : state.rings.ring()) {
-      const LaneMask lanes = subset.lanes & ~ignored.of(subset.leaf);
+      const LaneMask lanes = subset.lanes & ~state.index->ignored_lanes(subset.leaf);
       if (lanes != 0) found.push_back({subset.leaf, lanes});
     }
     state.answer.assign(found);

@@ -18,9 +18,8 @@ Flood::Flood(const IndexView& index, const Kernels& kernels)
       ball_(any_ball({0, 0, 0}, 0)),
       states_(index.leaf_count()) {}
 
-void Flood::start(const Point& center, const LaneFilter& walls) {
+void Flood::start(const Point& center) {
   center_ = Center(index_->frame, center);
-  walls_ = &walls;
   ball_ = any_ball(center, 0);
   ball_.squared_radius = -1;  // the ball is empty: it does not hold its center
   awake_.clear();
@@ -33,9 +32,8 @@ void Flood::start(const Point& center, const LaneFilter& walls) {
 Flood::State& Flood::state_of(LeafId leaf) {
   if (states_.is_known(leaf)) return states_[leaf];
   const Leaf& record = index_->leaves[leaf];
-  const LaneMask walls = walls_->of(leaf);
-  return states_.set(leaf, {.open = first_lanes(record.size) & ~walls,
-                            .connected = record.connected && walls == 0,
+  return states_.set(leaf, {.open = index_->open_lanes(leaf),
+                            .connected = record.connected,
                             .wakes = std::numeric_limits<double>::infinity(),
                             .squares = squared_distances(record.bounds, center_)});
 }

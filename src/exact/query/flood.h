@@ -8,7 +8,6 @@
 #include "base/epoch_array.h"
 #include "exact/layout.h"
 #include "exact/query/any_center.h"
-#include "exact/query/lane_filter.h"
 #include "exact/query/sleepers.h"
 #include "exact/vertex_set.h"
 #include "simd/ball.h"
@@ -24,8 +23,8 @@ class Flood {
  public:
   Flood(const IndexView& index, const Kernels& kernels);
 
-  /// Begins around `center`, with nothing reached. `walls` must outlive the flood.
-  void start(const Point& center, const LaneFilter& walls);
+  /// Begins around `center`, with nothing reached.
+  void start(const Point& center);
 
   /// Adds a seed: it is reached when the ball holds it, unless it is a wall.
   void add_seed(std::uint32_t slot);
@@ -75,7 +74,6 @@ class Flood {
 
   const IndexView* index_;
   const Kernels* kernels_;
-  const LaneFilter* walls_ = nullptr;
   Center center_;
   LeafBall ball_;
   EpochArray<State> states_;  // by leaf

@@ -28,11 +28,10 @@ void check_radii(std::span<const double> radii) {
 }  // namespace
 
 bool RegionSearcher::nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
-                            std::vector<std::size_t>& counts, const Filter& filter) {
+                            std::vector<std::size_t>& counts) {
   State& state = *state_;
   state.check(start);
   check_radii(radii);
-  state.check(filter);
   std::vector<std::size_t> sizes;
   sizes.reserve(radii.size());
   std::vector<VertexId> ids;
@@ -40,7 +39,7 @@ bool RegionSearcher::nested(const Start& start, std::span<const double> radii, s
     append_ids(ring, *state.index, *state.kernels, ids);
     sizes.push_back(ids.size());
   };
-  if (State::is_neighborhood(start, filter)) {
+  if (State::is_neighborhood(start)) {
     SearcherAccess::State& searcher = state.searcher();
     VertexSet before(*state.index);
     for (const double radius : radii) {
@@ -50,7 +49,7 @@ bool RegionSearcher::nested(const Start& start, std::span<const double> radii, s
       std::swap(before, searcher.answer);
     }
   } else {
-    state.begin(start, filter);
+    state.begin(start);
     for (const double radius : radii) {
       const std::size_t before = state.flood.reached().size();
       state.flood.grow(radius);

@@ -36,16 +36,15 @@ PathSearch::PathSearch(const IndexView& index, KeptGraph& graph)
       lengths_(index.vertex_count(), kUnreached),
       is_met_(index.vertex_count() / kVerticesOfBlock + 1) {}
 
-void PathSearch::begin(std::span<const std::uint32_t> starts, double radius, const LaneFilter& walls) {
+void PathSearch::begin(std::span<const std::uint32_t> starts, double radius) {
   forget();
   is_complete_ = false;
   radius_ = radius;
-  walls_ = &walls;
   const double mean_length = mean_length_near(starts.front());
   queue_.clear(mean_length / kBucketsPerEdge);
   is_small_ = radius < kSmall * mean_length;
   for (const std::uint32_t start : starts) {
-    if (walls.has_at(start) || lengths_[start] == 0) continue;
+    if (index_->is_wall_at(start) || lengths_[start] == 0) continue;
     lengths_[start] = 0;
     queue_.push({0, start});
   }
@@ -170,7 +169,7 @@ void PathSearch::push_shorter() {
   for (const Path& path : std::span(shorter_).first(shorter_count_)) {
     if (!(path.length <= radius_)) {
       left_.push_back(path.end);
-    } else if (walls_->has_at(path.end)) {
+    } else if (index_->is_wall_at(path.end)) {
       lengths_[path.end] = kWall;
       left_.push_back(path.end);
     } else {

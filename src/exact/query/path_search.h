@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "exact/layout.h"
-#include "exact/query/lane_filter.h"
 #include "exact/query/path_order.h"
 #include "exact/query/path_queue.h"
 #include "exact/weighted_graph.h"
@@ -33,23 +32,23 @@ class PathSearch {
   PathSearch(const IndexView& index, KeptGraph& graph);
 
   /// Finds the vertices whose path distance from the vertex `start`, in index order, is at most `radius`, without
-  /// passing `walls`.
-  void run(std::uint32_t start, double radius, const LaneFilter& walls) {
-    run(start, radius, walls, [](std::span<const Path>) { return false; });
+  /// passing walls.
+  void run(std::uint32_t start, double radius) {
+    run(start, radius, [](std::span<const Path>) { return false; });
   }
 
   /// The same, but ends as soon as `is_enough(paths)` returns true: it is called for the paths that were found since
   /// the last call. All paths that are shorter than one of these have then been found.
   template <class IsEnough>
-  void run(std::uint32_t start, double radius, const LaneFilter& walls, IsEnough&& is_enough) {
-    run(std::span(&start, 1), radius, walls, is_enough);
+  void run(std::uint32_t start, double radius, IsEnough&& is_enough) {
+    run(std::span(&start, 1), radius, is_enough);
   }
 
   /// The same from several vertices, of which one may be named more than once: the path to a vertex is then the
   /// shortest of those from any of them.
   template <class IsEnough>
-  void run(std::span<const std::uint32_t> starts, double radius, const LaneFilter& walls, IsEnough&& is_enough) {
-    begin(starts, radius, walls);
+  void run(std::span<const std::uint32_t> starts, double radius, IsEnough&& is_enough) {
+    begin(starts, radius);
     while (queue_.open()) {
       const std::size_t before = found_.size();
       search_open_bucket();
@@ -71,7 +70,7 @@ class PathSearch {
   [[nodiscard]] std::size_t steps() const { return steps_; }
 
  private:
-  void begin(std::span<const std::uint32_t> starts, double radius, const LaneFilter& walls);
+  void begin(std::span<const std::uint32_t> starts, double radius);
   void abandon();
   void forget();
   [[nodiscard]] double mean_length_near(std::uint32_t vertex) const;
@@ -89,14 +88,13 @@ class PathSearch {
   const WeightedGraph* graph_;
   double radius_ = 0;
   bool is_small_ = false;
-  const LaneFilter* walls_ = nullptr;  // of this run
-  std::vector<double> lengths_;        // by vertex: of the shortest path so far, also beyond the radius
-  std::vector<std::uint32_t> left_;    // vertices with such a length that are not found: beyond the radius, or walls
-  std::vector<std::uint8_t> is_met_;   // by block of consecutive vertices: whether this run has met one of them
-  std::vector<std::uint32_t> met_;     // these blocks
-  bool is_complete_ = true;            // else the last run threw
-  PathQueue queue_;                    // holds longer paths to the same vertices too
-  std::vector<Path> round_;            // the first `round_count_`: the paths of the open bucket that are followed now
+  std::vector<double> lengths_;       // by vertex: of the shortest path so far, also beyond the radius
+  std::vector<std::uint32_t> left_;   // vertices with such a length that are not found: beyond the radius, or walls
+  std::vector<std::uint8_t> is_met_;  // by block of consecutive vertices: whether this run has met one of them
+  std::vector<std::uint32_t> met_;    // these blocks
+  bool is_complete_ = true;           // else the last run threw
+  PathQueue queue_;                   // holds longer paths to the same vertices too
+  std::vector<Path> round_;           // the first `round_count_`: the paths of the open bucket that are followed now
   std::size_t round_count_ = 0;
   std::vector<Path> shorter_;  // the first `shorter_count_`: found since, not in the queue yet
   std::size_t shorter_count_ = 0;

@@ -19,13 +19,9 @@ void RegionSearcher::State::check(const Start& start, std::string_view where) co
   check_start(start, index->vertex_count(), where);
 }
 
-void RegionSearcher::State::check(const Filter& filter) const { check_filter(filter, index->vertex_count()); }
-
-Point RegionSearcher::State::begin(const Start& start, const Filter& filter) {
-  walls = LaneFilter(*index, filter.walls);
-  ignored = LaneFilter(*index, filter.ignored);
+Point RegionSearcher::State::begin(const Start& start) {
   const Point center = center_of(start);
-  flood.start(center, walls);
+  flood.start(center);
   for (const VertexId seed : start.seeds()) flood.add_seed(slot(seed));
   return center;
 }
@@ -34,10 +30,6 @@ Point RegionSearcher::State::center_of(const Start& start) const {
   if (!start.center()) return position_of(*index, start.vertex());
   const SpacePoint& p = *start.center();
   return {p[0], p[1], p[2]};
-}
-
-bool RegionSearcher::State::is_neighborhood(const Start& start, const Filter& filter) {
-  return !start.center() && filter.walls.size() == 0 && filter.ignored.size() == 0;
 }
 
 bool RegionSearcher::State::has_seed(const Start& start, double radius) const {
@@ -54,26 +46,21 @@ SearcherAccess::State& RegionSearcher::State::searcher() {
   return *neighborhoods;
 }
 
-LaneMask RegionSearcher::State::without_ignored(const LeafSubset& subset) const {
-  return subset.lanes & ~ignored.of(subset.leaf);
-}
-
 void RegionSearcher::State::collect_found(std::size_t skip) {
   found.clear();
   for_each_found(skip, [&](const LeafSubset& subset) { found.push_back(subset); });
   answer.assign(found);
 }
 
-Point RegionSearcher::State::search(const Start& start, double radius, const Filter& filter) {
+Point RegionSearcher::State::search(const Start& start, double radius) {
   check(start);
   check_radius(radius);
-  check(filter);
-  if (is_neighborhood(start, filter)) {
+  if (is_neighborhood(start)) {
     searcher().search(start.vertex(), radius);
     std::swap(answer, searcher().answer);
     return center_of(start);
   }
-  const Point center = begin(start, filter);
+  const Point center = begin(start);
   flood.grow(radius);
   collect_found();
   return center;
@@ -92,16 +79,16 @@ void RegionSearcher::rebind(const Index& index) {
   }
 }
 
-bool RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter) {
-  state_->search(start, radius, filter);
+bool RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out) {
+  state_->search(start, radius);
   const bool has_seed = state_->has_seed(start, radius);  // before `out` changes, which may be the seeds
   replace_ids(state_->answer, *state_->index, *state_->kernels, out);
   return has_seed;
 }
 
 bool RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out,
-                            std::vector<double>& distances, const Filter& filter) {
-  const Point center = state_->search(start, radius, filter);
+                            std::vector<double>& distances) {
+  const Point center = state_->search(start, radius);
   const bool has_seed = state_->has_seed(start, radius);
   // Before `out` changes: if this throws, neither has changed.
   distances.reserve(state_->answer.count());
@@ -111,25 +98,24 @@ bool RegionSearcher::region(const Start& start, double radius, std::vector<Verte
   return has_seed;
 }
 
-std::size_t RegionSearcher::count(const Start& start, double radius, const Filter& filter) {
-  state_->search(start, radius, filter);
+std::size_t RegionSearcher::count(const Start& start, double radius) {
+  state_->search(start, radius);
   return state_->answer.count();
 }
 
 /// The union of the regions, one flood after the other.
-bool RegionSearcher::stroke(std::span<const Dab> dabs, std::vector<VertexId>& out, const Filter& filter) {
+bool RegionSearcher::stroke(std::span<const Dab> dabs, std::vector<VertexId>& out) {
   State& state = *state_;
   for (std::size_t i = 0; i < dabs.size(); ++i) {
     const std::string where = "dab " + std::to_string(i) + ": ";
     state.check(dabs[i].start, where);
     check_radius(dabs[i].radius, where);
   }
-  state.check(filter);
   std::vector<LeafSubset>& found = state.found;
   found.clear();
   bool all_have_seeds = true;
   for (const Dab& dab : dabs) {
-    state.begin(dab.start, filter);
+    state.begin(dab.start);
     state.flood.grow(dab.radius);
     all_have_seeds = all_have_seeds && state.has_seed(dab.start, dab.radius);
     state.for_each_found(0, [&](const LeafSubset& subset) { found.push_back(subset); });

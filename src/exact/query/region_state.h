@@ -16,7 +16,6 @@
 #include "exact/bound_index.h"
 #include "exact/layout.h"
 #include "exact/query/flood.h"
-#include "exact/query/lane_filter.h"
 #include "exact/search/searcher_state.h"
 #include "exact/vertex_set.h"
 #include "shared/distance.h"
@@ -41,8 +40,6 @@ struct RegionSearcher::State {
   Isa isa;
   const Kernels* kernels;
   Flood flood;
-  LaneFilter walls;
-  LaneFilter ignored;
   std::vector<LeafSubset> found;  // scratch
   std::vector<NextVertex> ring;   // scratch
   VertexSet answer;
@@ -58,15 +55,14 @@ struct RegionSearcher::State {
 
   /// Throws unless the arguments of a query are valid. `where` begins the messages.
   void check(const Start& start, std::string_view where = {}) const;
-  void check(const Filter& filter) const;
 
   [[nodiscard]] Point center_of(const Start& start) const;
 
   /// Begins a flood from valid arguments, with nothing reached. Returns its center.
-  Point begin(const Start& start, const Filter& filter);
+  Point begin(const Start& start);
 
   /// Whether the region of a valid start is the neighborhood of its vertex.
-  [[nodiscard]] static bool is_neighborhood(const Start& start, const Filter& filter);
+  [[nodiscard]] static bool is_neighborhood(const Start& start) { return !start.center(); }
 
   /// Whether a seed lies in the ball, when the flood of a valid start has grown to `radius`.
   [[nodiscard]] bool has_seed(const Start& start, double radius) const;
@@ -77,14 +73,16 @@ struct RegionSearcher::State {
   /// The slot of a vertex, whose id is valid.
   [[nodiscard]] std::uint32_t slot(VertexId v) const { return index->slot[v]; }
 
-  [[nodiscard]] LaneMask without_ignored(const LeafSubset& subset) const;
+  [[nodiscard]] bool is_ignored(std::uint32_t slot) const {
+    return (index->ignored_lanes(leaf_of(slot)) >> lane_of(slot) & 1U) != 0;
+  }
 
   /// Calls `f(subset)` for the vertices that the flood has reached, except in its first `skip` steps, and that are not
   /// ignored.
   template <class F>
   void for_each_found(std::size_t skip, F&& f) const {
     for (const LeafSubset& subset : flood.reached().subspan(skip)) {
-      const LaneMask lanes = without_ignored(subset);
+      const LaneMask lanes = subset.lanes & ~index->ignored_lanes(subset.leaf);
       if (lanes != 0) f(LeafSubset{subset.leaf, lanes});
     }
   }
@@ -93,18 +91,18 @@ struct RegionSearcher::State {
   void collect_found(std::size_t skip = 0);
 
   /// Calls `f(vertex, radius)` for the vertices that are not ignored by their connecting radius, then by distance from
-  /// the center, then by id, until it returns false or there is none whose radius is at most `most`. The start and the
-  /// filter are valid.
+  /// the center, then by id, until it returns false or there is none whose radius is at most `most`. The start is
+  /// valid.
   template <class F>
-  void for_each_nearest(const Start& start, double most, const Filter& filter, F&& f);
+  void for_each_nearest(const Start& start, double most, F&& f);
 
   /// Refills `answer` with the region, and returns its center.
-  Point search(const Start& start, double radius, const Filter& filter);
+  Point search(const Start& start, double radius);
 };
 
 template <class F>
-void RegionSearcher::State::for_each_nearest(const Start& start, double most, const Filter& filter, F&& f) {
-  const Point center = begin(start, filter);
+void RegionSearcher::State::for_each_nearest(const Start& start, double most, F&& f) {
+  const Point center = begin(start);
   for (;;) {
     const double radius = flood.next_radius();
     if (!(radius <= most) || radius == std::numeric_limits<double>::infinity()) return;

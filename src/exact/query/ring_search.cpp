@@ -8,8 +8,7 @@ namespace meshhood {
 RingSearch::RingSearch(const IndexView& index, const Kernels& kernels)
     : index_(&index), kernels_(&kernels), states_(index.leaf_count()) {}
 
-void RingSearch::start(std::uint32_t slot, const LaneFilter& walls) {
-  walls_ = &walls;
+void RingSearch::start(std::uint32_t slot) {
   next_leaves_.clear();
   ring_.clear();
   states_.forget();
@@ -43,7 +42,7 @@ void RingSearch::advance() {
 }
 
 RingSearch::State& RingSearch::state_of(LeafId leaf) {
-  return states_.is_known(leaf) ? states_[leaf] : states_.set(leaf, {.seen = walls_->of(leaf)});
+  return states_.is_known(leaf) ? states_[leaf] : states_.set(leaf, {.seen = ~index_->open_lanes(leaf)});
 }
 
 /// Adds those of the vertices to the next ring that are in none yet.

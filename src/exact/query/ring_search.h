@@ -8,7 +8,6 @@
 
 #include "base/epoch_array.h"
 #include "exact/layout.h"
-#include "exact/query/lane_filter.h"
 #include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
@@ -20,8 +19,8 @@ class RingSearch {
  public:
   RingSearch(const IndexView& index, const Kernels& kernels);
 
-  /// Begins with ring 0, the vertex `slot`; with nothing if it is a wall. `walls` must outlive the search.
-  void start(std::uint32_t slot, const LaneFilter& walls);
+  /// Begins with ring 0, the vertex `slot`; with nothing if it is a wall.
+  void start(std::uint32_t slot);
 
   /// The last ring; each leaf once.
   [[nodiscard]] std::span<const LeafSubset> ring() const { return ring_; }
@@ -41,7 +40,6 @@ class RingSearch {
 
   const IndexView* index_;
   const Kernels* kernels_;
-  const LaneFilter* walls_ = nullptr;
   EpochArray<State> states_;  // by leaf
   std::vector<LeafSubset> ring_;
   std::vector<LeafId> next_leaves_;

@@ -5,14 +5,6 @@ namespace meshhood {
 
 std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
   const Adjacency& edges = graph_->of(*index_).edges;
-  const auto slot_of = [this](std::size_t place) { return index_->slot[index_->id(place)]; };
-  const auto is_wall = [&](std::size_t place) {
-    return !index_->walls.empty() && index_->is_wall(leaf_of(slot_of(place)), lane_of(slot_of(place)));
-  };
-  const auto is_ignored = [&](std::size_t place) {
-    return !index_->ignored.empty() &&
-           (index_->ignored_lanes(leaf_of(slot_of(place))) >> lane_of(slot_of(place)) & 1U) != 0;
-  };
   edges_to_.forget();
   found_.clear();
   pieces_.clear();
@@ -20,13 +12,13 @@ std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
   const auto reach = [&](std::uint32_t place, std::uint32_t count) {
     if (edges_to_.is_known(place)) return;
     edges_to_.set(place, count);
-    if (!is_wall(place)) queue_.push_back(place);
+    if (!index_->is_wall_at(place)) queue_.push_back(place);
   };
   reach(index_->leaf_begin[leaf_of(slot)] + lane_of(slot), 0);
   std::size_t count = 0;
   for (std::size_t head = 0; head < queue_.size(); ++head) {
     const std::uint32_t place = queue_[head];
-    if (!is_ignored(place)) {
+    if (!index_->is_ignored_at(place)) {
       found_.insert(place);
       ++count;
     }
@@ -43,7 +35,7 @@ std::span<const Piece> VertexRings::pieces() {
   if (!pieces_.empty()) return pieces_;
   words_.clear();
   found_.take_all([&](std::size_t vertex) {
-    const std::uint32_t slot = index_->slot[index_->id(vertex)];
+    const std::uint32_t slot = index_->slot_at(vertex);
     const LeafId leaf = leaf_of(slot);
     if (pieces_.empty() || pieces_.back().leaves.begin != leaf) {
       pieces_.push_back({{leaf, leaf + 1}, 0, nullptr});

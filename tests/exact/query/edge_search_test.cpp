@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/index.h"
+#include "meshhood/masks.h"
 
 #include "support/draw_start.h"
 #include "support/exact_answer.h"
@@ -65,11 +66,12 @@ class AlongEdges : public testing::TestWithParam<Family> {
       Random random(vertices);
       for (std::size_t i = 0; i < scaled(cases, 2) && !HasFailure(); ++i, ++count) {
         const auto v = static_cast<VertexId>(random.below(mesh.size()));
-        const bool has_filter = random.below(2) == 0;
-        const auto walls = draw_mask(random, mesh.size(), has_filter ? 6 : 0);
-        const auto ignored = draw_mask(random, mesh.size(), has_filter ? 3 : 0);
-        const Filter filter = has_filter ? Filter{.walls = walls, .ignored = ignored} : Filter{};
-        f(graph, searcher, v, random, filter, walls, ignored);
+        const bool has_masks = random.below(2) == 0;
+        const auto walls = draw_mask(random, mesh.size(), has_masks ? 6 : 0);
+        const auto ignored = draw_mask(random, mesh.size(), has_masks ? 3 : 0);
+        const Index searched = masked(index, has_masks ? Masks{.walls = walls, .ignored = ignored} : Masks{});
+        searcher.rebind(searched);
+        f(graph, searcher, v, random, walls, ignored);
       }
     }
     std::printf("%s: %zu cases\n", std::string(GetParam().name).c_str(), count);
@@ -77,8 +79,8 @@ class AlongEdges : public testing::TestWithParam<Family> {
 };
 
 TEST_P(AlongEdges, PathDistancesAreTheLeast) {
-  for_each_case(8, [](const Oracle& graph, EdgeSearcher& searcher, VertexId v, Random& random, const Filter& filter,
-                      const auto& walls, const auto& ignored) {
+  for_each_case(8, [](const Oracle& graph, EdgeSearcher& searcher, VertexId v, Random& random, const auto& walls,
+                      const auto& ignored) {
     const auto length = [&](std::size_t a, std::size_t b) { return graph.distance(a, b); };
     const std::vector<double> least = path_distances(graph, v, walls, length);
     const double tie = least[random.below(least.size())];
@@ -91,16 +93,16 @@ TEST_P(AlongEdges, PathDistancesAreTheLeast) {
       }
       std::vector<VertexId> ids;
       std::vector<double> distances;
-      searcher.neighborhood(v, radius, ids, distances, filter);
+      searcher.neighborhood(v, radius, ids, distances);
       ASSERT_EQ(distances.size(), ids.size());
       ASSERT_TRUE(std::is_sorted(distances.begin(), distances.end()));
       for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(distances[i], least[ids[i]]) << "vertex " << ids[i];
       ASSERT_EQ(sorted(ids), expected) << "radius " << radius;
-      searcher.neighborhood(v, radius, ids, filter);
+      searcher.neighborhood(v, radius, ids);
       ASSERT_EQ(sorted(ids), expected) << "radius " << radius;
-      ASSERT_EQ(searcher.count(v, radius, filter), expected.size());
+      ASSERT_EQ(searcher.count(v, radius), expected.size());
       std::vector<VertexId> in_ranges;
-      for (const VertexRange& range : searcher.ranges(v, radius, filter)) {
+      for (const VertexRange& range : searcher.ranges(v, radius)) {
         for (VertexId i = range.begin; i < range.end; ++i) in_ranges.push_back(searcher.permutation()[i]);
       }
       ASSERT_EQ(sorted(in_ranges), expected);
@@ -109,13 +111,13 @@ TEST_P(AlongEdges, PathDistancesAreTheLeast) {
 }
 
 TEST_P(AlongEdges, RingsCountTheEdges) {
-  for_each_case(8, [](const Oracle& graph, EdgeSearcher& searcher, VertexId v, Random& random, const Filter& filter,
-                      const auto& walls, const auto& ignored) {
+  for_each_case(8, [](const Oracle& graph, EdgeSearcher& searcher, VertexId v, Random& random, const auto& walls,
+                      const auto& ignored) {
     const std::vector<double> hops = path_distances(graph, v, walls, [](std::size_t, std::size_t) { return 1.0; });
     const std::size_t k = random.below(12);
     std::vector<VertexId> ids;
     std::vector<std::size_t> counts;
-    searcher.rings(v, k, ids, counts, filter);
+    searcher.rings(v, k, ids, counts);
     double last = -1;
     for (const double hop : hops) last = hop <= static_cast<double>(k) ? std::max(last, hop) : last;
     ASSERT_EQ(static_cast<double>(counts.size()), last + 1);
@@ -156,14 +158,11 @@ TEST(EdgeSearch, RefusesInvalidArguments) {
   const TestMesh mesh = make_grid(3, 3, true);
   const Index index = build(mesh.view());
   EdgeSearcher searcher(index);
-  const std::vector<std::uint8_t> short_mask(8);
   std::vector<VertexId> ids{7};
   std::vector<std::size_t> counts{7};
   expect_refused(ErrorCode::VertexOutOfRange, "vertex 9", [&] { searcher.neighborhood(9, 1, ids); });
   expect_refused(ErrorCode::InvalidRadius, "radius nan",
                  [&] { searcher.neighborhood(0, std::numeric_limits<double>::quiet_NaN(), ids); });
-  expect_refused(ErrorCode::InvalidOption, "walls: 8 values",
-                 [&] { searcher.neighborhood(0, 1, ids, {.walls = short_mask}); });
   expect_refused(ErrorCode::VertexOutOfRange, "vertex 9", [&] { searcher.rings(9, 1, ids, counts); });
   EXPECT_THAT(ids, ElementsAre(7));
   EXPECT_THAT(counts, ElementsAre(7));

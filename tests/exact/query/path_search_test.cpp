@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/index.h"
+#include "meshhood/masks.h"
 
 #include "exact/index_access.h"
 #include "shared/distance.h"
@@ -81,7 +82,7 @@ double steps_for_each_vertex(const PlaneGraph& graph) {
   const IndexView& index = IndexAccess::view(built);
   PathSearch search(index, *IndexAccess::share_graph(built));
   const std::uint32_t slot = index.slot[0];
-  search.run(index.leaf_begin[leaf_of(slot)] + lane_of(slot), std::numeric_limits<double>::infinity(), LaneFilter());
+  search.run(index.leaf_begin[leaf_of(slot)] + lane_of(slot), std::numeric_limits<double>::infinity());
   const std::vector<double> expected = graph.distances();
   std::size_t reachable = 0;
   for (const double length : expected) reachable += std::isfinite(length) ? 1 : 0;
@@ -154,19 +155,21 @@ TEST(PathSearch, SearchesAgainFromOtherVerticesAndBehindOtherWalls) {
   for (VertexId i = 1; i < 10; ++i) graph.join(i - 1, i);
   const Index built = graph.index();
   const IndexView& index = IndexAccess::view(built);
-  PathSearch search(index, *IndexAccess::share_graph(built));
-  const auto count = [&](VertexId v, const LaneFilter& walls) {
-    const std::uint32_t slot = index.slot[v];
-    search.run(index.leaf_begin[leaf_of(slot)] + lane_of(slot), 20, walls);
-    return search.found().size();
-  };
   std::vector<std::uint8_t> walls(10);
   walls[4] = 1;
-  EXPECT_EQ(count(0, LaneFilter(index, walls)), 4U);
-  EXPECT_EQ(count(0, LaneFilter()), 10U);
-  EXPECT_EQ(count(9, LaneFilter(index, walls)), 5U);
-  EXPECT_EQ(count(4, LaneFilter(index, walls)), 0U);
-  EXPECT_EQ(count(4, LaneFilter()), 10U);
+  const Index with_walls = masked(built, {.walls = walls});
+  PathSearch search(index, *IndexAccess::share_graph(built));
+  PathSearch between_walls(IndexAccess::view(with_walls), *IndexAccess::share_graph(built));
+  const auto count = [&](PathSearch& by, VertexId v) {
+    const std::uint32_t slot = index.slot[v];
+    by.run(index.leaf_begin[leaf_of(slot)] + lane_of(slot), 20);
+    return by.found().size();
+  };
+  EXPECT_EQ(count(between_walls, 0), 4U);
+  EXPECT_EQ(count(search, 0), 10U);
+  EXPECT_EQ(count(between_walls, 9), 5U);
+  EXPECT_EQ(count(between_walls, 4), 0U);
+  EXPECT_EQ(count(search, 4), 10U);
 }
 
 TEST(PathSearch, FindsTheShortestPathsFromAnyOfSeveralVertices) {
@@ -180,7 +183,7 @@ TEST(PathSearch, FindsTheShortestPathsFromAnyOfSeveralVertices) {
   for (const VertexId v : {1U, 8U, 1U}) {
     starts.push_back(index.leaf_begin[leaf_of(index.slot[v])] + lane_of(index.slot[v]));
   }
-  search.run(starts, 3, LaneFilter(), [](std::span<const Path>) { return false; });
+  search.run(starts, 3, [](std::span<const Path>) { return false; });
   EXPECT_EQ(search.found().size(), 10U);
   for (const Path& path : search.found()) {
     const auto x = static_cast<int>(index.id(path.end));

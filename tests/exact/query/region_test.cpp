@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/index.h"
+#include "meshhood/masks.h"
 #include "meshhood/search.h"
 
 #include "exact/query/region_state.h"
@@ -32,19 +33,15 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// A searcher for each kernel, which take turns.
-std::vector<RegionSearcher> region_searchers(const Index& index) {
-  std::vector<RegionSearcher> searchers;
-  for (const Isa isa : available_isas()) {
-    searchers.emplace_back(index);
-    RegionAccess::set_isa(searchers.back(), isa);
-  }
-  return searchers;
+RegionSearcher region_searcher(const Index& index, Isa isa) {
+  RegionSearcher searcher(index);
+  RegionAccess::set_isa(searcher, isa);
+  return searcher;
 }
 
 class Regions : public testing::TestWithParam<Family> {
  protected:
-  /// Calls `f(mesh, index, oracle, searcher, random)` for meshes of many sizes, with many starts each.
+  /// Calls `f(mesh, oracle, index, isa, random)` for meshes of many sizes, with many starts each.
   template <class F>
   void for_each_case(std::size_t cases, F&& f) {
     std::size_t count = 0;
@@ -55,10 +52,10 @@ class Regions : public testing::TestWithParam<Family> {
         SCOPED_TRACE(mesh.name);
         const Index index = build(mesh.view());
         const RegionOracle oracle(mesh);
-        std::vector<RegionSearcher> searchers = region_searchers(index);
+        const std::vector<Isa> isas = available_isas();
         Random random(seed + vertices);
         for (std::size_t i = 0; i < scaled(cases, 3); ++i, ++count) {
-          f(mesh, oracle, searchers[count % searchers.size()], random);
+          f(mesh, oracle, index, isas[count % isas.size()], random);
           if (HasFailure()) return;
         }
       }
@@ -79,32 +76,34 @@ std::vector<double> radii_of(const RegionOracle& oracle, const PlainStart& start
 }
 
 TEST_P(Regions, AreThoseOfAPlainSearch) {
-  for_each_case(12, [](const TestMesh& mesh, const RegionOracle& oracle, RegionSearcher& searcher, Random& random) {
+  for_each_case(12, [](const TestMesh& mesh, const RegionOracle& oracle, const Index& index, Isa isa, Random& random) {
     const DrawnStart drawn = draw_start(random, mesh);
+    RegionSearcher searcher = region_searcher(drawn.on(index), isa);
     for (const double radius : radii_of(oracle, drawn.plain, random)) {
       const std::vector<VertexId> expected = oracle.region(drawn.plain, radius);
       std::vector<VertexId> ids;
       std::vector<double> distances;
-      searcher.region(drawn.start(), radius, ids, distances, drawn.filter());
+      searcher.region(drawn.start(), radius, ids, distances);
       ASSERT_EQ(distances.size(), ids.size());
       for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(distances[i], oracle.distance(drawn.plain, ids[i]));
       ASSERT_EQ(sorted(ids), expected) << "radius " << radius;
-      searcher.region(drawn.start(), radius, ids, drawn.filter());
+      searcher.region(drawn.start(), radius, ids);
       ASSERT_EQ(sorted(ids), expected) << "radius " << radius;
-      ASSERT_EQ(searcher.count(drawn.start(), radius, drawn.filter()), expected.size());
+      ASSERT_EQ(searcher.count(drawn.start(), radius), expected.size());
     }
   });
 }
 
 TEST_P(Regions, OfNestedRadiiAreThoseOfOneRadiusEach) {
-  for_each_case(8, [](const TestMesh& mesh, const RegionOracle& oracle, RegionSearcher& searcher, Random& random) {
+  for_each_case(8, [](const TestMesh& mesh, const RegionOracle& oracle, const Index& index, Isa isa, Random& random) {
     const DrawnStart drawn = draw_start(random, mesh);
+    RegionSearcher searcher = region_searcher(drawn.on(index), isa);
     std::vector<double> radii = radii_of(oracle, drawn.plain, random);
     std::sort(radii.begin(), radii.end());
     radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
     std::vector<VertexId> ids;
     std::vector<std::size_t> counts;
-    searcher.nested(drawn.start(), radii, ids, counts, drawn.filter());
+    searcher.nested(drawn.start(), radii, ids, counts);
     ASSERT_EQ(counts.size(), radii.size());
     ASSERT_EQ(counts.back(), ids.size());
     for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -116,30 +115,32 @@ TEST_P(Regions, OfNestedRadiiAreThoseOfOneRadiusEach) {
 }
 
 TEST_P(Regions, ContainAVertexFromItsConnectingRadiusOn) {
-  for_each_case(8, [](const TestMesh& mesh, const RegionOracle& oracle, RegionSearcher& searcher, Random& random) {
+  for_each_case(8, [](const TestMesh& mesh, const RegionOracle& oracle, const Index& index, Isa isa, Random& random) {
     const DrawnStart drawn = draw_start(random, mesh);
+    RegionSearcher searcher = region_searcher(drawn.on(index), isa);
     const std::vector<double> expected = oracle.connecting_radii(drawn.plain);
     for (int i = 0; i < 6; ++i) {
       const auto w = static_cast<VertexId>(random.below(mesh.size()));
-      const double radius = searcher.connecting_radius(drawn.start(), w, drawn.filter());
+      const double radius = searcher.connecting_radius(drawn.start(), w);
       ASSERT_EQ(radius, expected[w]) << "vertex " << w;
-      ASSERT_EQ(searcher.contains(drawn.start(), w, radius, drawn.filter()), radius < kInfinity) << "vertex " << w;
+      ASSERT_EQ(searcher.contains(drawn.start(), w, radius), radius < kInfinity) << "vertex " << w;
       if (radius == 0) continue;
-      ASSERT_FALSE(searcher.contains(drawn.start(), w, std::nextafter(radius, 0), drawn.filter())) << "vertex " << w;
+      ASSERT_FALSE(searcher.contains(drawn.start(), w, std::nextafter(radius, 0))) << "vertex " << w;
     }
   });
 }
 
 TEST_P(Regions, GrowByTheNearestConnectedVertices) {
-  for_each_case(6, [](const TestMesh& mesh, const RegionOracle& oracle, RegionSearcher& searcher, Random& random) {
+  for_each_case(6, [](const TestMesh& mesh, const RegionOracle& oracle, const Index& index, Isa isa, Random& random) {
     const DrawnStart drawn = draw_start(random, mesh);
+    RegionSearcher searcher = region_searcher(drawn.on(index), isa);
     const std::vector<double> radii = oracle.connecting_radii(drawn.plain);
     std::vector<std::uint32_t> expected = oracle.in_order(drawn.plain, radii);
     const std::size_t k = random.below(4) == 0 ? mesh.size() + 1 : random.below(mesh.size() + 1);
     expected.resize(std::min(k, expected.size()));
     std::vector<VertexId> ids;
     std::vector<double> found;
-    searcher.nearest_connected(drawn.start(), k, ids, found, drawn.filter());
+    searcher.nearest_connected(drawn.start(), k, ids, found);
     ASSERT_EQ(ids, expected);
     ASSERT_EQ(found.size(), ids.size());
     for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(found[i], radii[ids[i]]);
@@ -147,7 +148,7 @@ TEST_P(Regions, GrowByTheNearestConnectedVertices) {
 }
 
 TEST_P(Regions, OfAStrokeAreTheirUnion) {
-  for_each_case(6, [](const TestMesh& mesh, const RegionOracle& oracle, RegionSearcher& searcher, Random& random) {
+  for_each_case(6, [](const TestMesh& mesh, const RegionOracle& oracle, const Index& index, Isa isa, Random& random) {
     std::vector<DrawnStart> drawn(random.below(5));
     std::vector<Dab> dabs;
     std::vector<VertexId> expected;
@@ -163,9 +164,9 @@ TEST_P(Regions, OfAStrokeAreTheirUnion) {
     expected = sorted(expected);
     expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
     std::vector<VertexId> ids;
-    const Filter filter =
-        drawn.empty() ? Filter{} : Filter{.walls = drawn.front().plain.walls, .ignored = drawn.front().plain.ignored};
-    searcher.stroke(dabs, ids, filter);
+    const Masks masks =
+        drawn.empty() ? Masks{} : Masks{.walls = drawn.front().plain.walls, .ignored = drawn.front().plain.ignored};
+    region_searcher(masked(index, masks), isa).stroke(dabs, ids);
     ASSERT_EQ(sorted(ids), expected);
   });
 }
@@ -216,8 +217,8 @@ TEST(Region, SaysWhetherASeedLiesInTheBall) {
   // A vertex always lies in its ball. A wall does, too, although nothing is found.
   std::vector<std::uint8_t> walls(25);
   walls[12] = 1;
-  EXPECT_TRUE(searcher.region(VertexId{12}, 0, ids, {.walls = walls}));
-  EXPECT_TRUE(searcher.region(start, 3, ids, {.walls = walls}));
+  EXPECT_TRUE(region_searcher(masked(index, {.walls = walls}), best_isa()).region(VertexId{12}, 0, ids));
+  EXPECT_TRUE(region_searcher(masked(index, {.walls = walls}), best_isa()).region(start, 3, ids));
   EXPECT_THAT(ids, IsEmpty());
 
   EXPECT_TRUE(searcher.stroke(std::array{Dab{start, 3}, Dab{VertexId{0}, 0}}, ids));
@@ -266,12 +267,13 @@ TEST(Region, EndsAtWallsAndPassesIgnoredVertices) {
   std::vector<std::uint8_t> row(mesh.size());
   for (VertexId v = 12; v < 15; ++v) row[v] = 1;  // the fifth of nine rows of three
   const std::vector<bool> bits(row.begin(), row.end());
-  EXPECT_EQ(searcher.count(VertexId{0}, kInfinity, {.walls = row}), 12U);
-  EXPECT_EQ(searcher.count(VertexId{0}, kInfinity, {.walls = bits}), 12U);
-  EXPECT_EQ(searcher.count(VertexId{0}, kInfinity, {.ignored = bits}), 24U);
-  EXPECT_EQ(searcher.count(VertexId{0}, kInfinity, {.ignored = row}), 24U);
-  EXPECT_EQ(searcher.count(VertexId{12}, kInfinity, {.walls = row}), 0U) << "a wall is no seed";
-  EXPECT_EQ(searcher.connecting_radius(VertexId{0}, 26, {.walls = row}), kInfinity);
+  EXPECT_EQ(region_searcher(masked(index, {.walls = row}), best_isa()).count(VertexId{0}, kInfinity), 12U);
+  EXPECT_EQ(region_searcher(masked(index, {.walls = bits}), best_isa()).count(VertexId{0}, kInfinity), 12U);
+  EXPECT_EQ(region_searcher(masked(index, {.ignored = bits}), best_isa()).count(VertexId{0}, kInfinity), 24U);
+  EXPECT_EQ(region_searcher(masked(index, {.ignored = row}), best_isa()).count(VertexId{0}, kInfinity), 24U);
+  EXPECT_EQ(region_searcher(masked(index, {.walls = row}), best_isa()).count(VertexId{12}, kInfinity), 0U)
+      << "a wall is no seed";
+  EXPECT_EQ(region_searcher(masked(index, {.walls = row}), best_isa()).connecting_radius(VertexId{0}, 26), kInfinity);
 }
 
 TEST(Region, RefusesInvalidArguments) {
@@ -281,18 +283,15 @@ TEST(Region, RefusesInvalidArguments) {
   std::vector<VertexId> ids{1, 2};
   std::vector<std::size_t> counts{5};
   const std::vector<VertexId> seeds{0, 9};
-  const std::vector<std::uint8_t> short_mask(8);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto search = [&](const Start& start, double radius, const Filter& filter = {}) {
-    return [&, start, radius, filter] { searcher.region(start, radius, ids, filter); };
+  const auto search = [&](const Start& start, double radius) {
+    return [&, start, radius] { searcher.region(start, radius, ids); };
   };
   expect_refused(ErrorCode::VertexOutOfRange, "vertex 9", search(VertexId{9}, 1));
   expect_refused(ErrorCode::VertexOutOfRange, "seed 1: vertex 9", search({{0, 0, 0}, seeds}, 1));
   expect_refused(ErrorCode::InvalidOption, "coordinate 1 is nan", search({{0, nan, 0}, {}}, 1));
   expect_refused(ErrorCode::InvalidOption, "coordinate 2 is inf", search({{0, 0, kInfinity}, {}}, 1));
   expect_refused(ErrorCode::InvalidRadius, "radius -1", search(VertexId{0}, -1));
-  expect_refused(ErrorCode::InvalidOption, "walls: 8 values", search(VertexId{0}, 1, {.walls = short_mask}));
-  expect_refused(ErrorCode::InvalidOption, "ignored: 8 values", search(VertexId{0}, 1, {.ignored = short_mask}));
   expect_refused(ErrorCode::InvalidRadius, "radii: value 1",
                  [&] { searcher.nested(VertexId{0}, std::array{1.0, 1.0}, ids, counts); });
   expect_refused(ErrorCode::VertexOutOfRange, "dab 1: vertex 9",

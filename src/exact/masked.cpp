@@ -1,22 +1,30 @@
 // SPDX-License-Identifier: MIT
-#include "exact/query/filtered.h"
-
+// The same index for searches with masks. It shares the positions, edges and spheres, all of which remain valid without
+// the walls: a sphere still contains what is below it, and a link may be one more than is needed. What would be wrong
+// is changed in copies:
+//
+// - the walls of each leaf are kept as lanes, which every search takes out of those that are in the ball;
+// - a leaf with walls is not connected, and every node above it is *pierced*, that is never whole. So a search goes
+// down
+//   to the vertices wherever there are walls.
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "meshhood/error.h"
+#include "meshhood/masks.h"
+
 #include "exact/index_access.h"
 #include "exact/node_search.h"
-#include "exact/query/arguments.h"
-#include "exact/query/lane_filter.h"
 #include "shared/parallel.h"
 
 namespace meshhood {
 namespace {
 
-/// The arrays that a filter changes.
-struct FilteredData {
+/// The arrays that masks change.
+struct MaskedData {
   std::vector<LaneMask> walls;
   std::vector<LaneMask> ignored;
   std::vector<Leaf> leaves;
@@ -24,21 +32,35 @@ struct FilteredData {
   IndexView shared;  // keeps the others alive
 };
 
+void check_mask(const VertexMask& mask, std::size_t vertices, const char* name) {
+  const std::size_t size = mask.size();
+  if (size == 0 || size == vertices) return;
+  raise(ErrorCode::InvalidOption, std::string(name) + ": " + std::to_string(size) +
+                                      " values, expected one for each of " + std::to_string(vertices) + " vertices");
+}
+
+LaneMask lanes_of(const IndexView& index, const VertexMask& mask, std::size_t leaf) {
+  LaneMask lanes = 0;
+  for (std::size_t i = index.leaf_begin[leaf]; i < index.leaf_begin[leaf + 1]; ++i) {
+    lanes |= LaneMask{mask[index.id(i)]} << (i - index.leaf_begin[leaf]);
+  }
+  return lanes;
+}
+
 /// The lanes of each leaf; nothing if the mask has no vertex.
 std::vector<LaneMask> lanes_by_leaf(const IndexView& index, const VertexMask& mask, TaskContext& task) {
   constexpr std::size_t kLeavesAtOnce = 512;
-  const LaneFilter filter(index, mask);
-  if (filter.empty()) return {};
+  if (mask.size() == 0) return {};
   std::vector<LaneMask> lanes(index.leaf_count());
   task.parallel_for(lanes.size(), kLeavesAtOnce, [&](unsigned, std::size_t begin, std::size_t end) {
-    for (std::size_t leaf = begin; leaf < end; ++leaf) lanes[leaf] = filter.of(static_cast<LeafId>(leaf));
+    for (std::size_t leaf = begin; leaf < end; ++leaf) lanes[leaf] = lanes_of(index, mask, leaf);
   });
   if (std::ranges::all_of(lanes, [](LaneMask some) { return some == 0; })) lanes.clear();
   return lanes;
 }
 
 /// Marks leaves with walls as not connected, and the nodes above them as pierced.
-void pierce(const IndexView& index, FilteredData& data) {
+void pierce(const IndexView& index, MaskedData& data) {
   data.leaves.assign(index.leaves.begin(), index.leaves.end());
   data.records.assign(index.records.begin(), index.records.end());
   const auto mark = [&](NodeId node) { data.records[node / kFanOut].pierced |= node_at(node % kFanOut); };
@@ -55,16 +77,16 @@ void pierce(const IndexView& index, FilteredData& data) {
 
 }  // namespace
 
-Index filtered(const Index& index, const Filter& filter, unsigned threads) {
-  const IndexView& given = IndexAccess::view(index);
-  check_filter(filter, given.vertex_count());
-  if (filter.empty()) return IndexAccess::alias(index);
+Index masked(const Index& index, const Masks& masks, unsigned threads) {
+  const IndexView& given = IndexAccess::whole(index, "masked again");
+  check_mask(masks.walls, given.vertex_count(), "walls");
+  check_mask(masks.ignored, given.vertex_count(), "ignored");
   const Progress none;
   TaskContext task(threads, none, 0);
-  auto data = std::make_shared<FilteredData>();
+  auto data = std::make_shared<MaskedData>();
   data->shared = given;
-  data->walls = lanes_by_leaf(given, filter.walls, task);
-  data->ignored = lanes_by_leaf(given, filter.ignored, task);
+  data->walls = lanes_by_leaf(given, masks.walls, task);
+  data->ignored = lanes_by_leaf(given, masks.ignored, task);
   auto view = std::make_shared<IndexView>(given);
   if (!data->walls.empty()) {
     pierce(given, *data);
@@ -73,6 +95,7 @@ Index filtered(const Index& index, const Filter& filter, unsigned threads) {
   }
   view->walls = data->walls;
   view->ignored = data->ignored;
+  view->is_masked = true;
   view->geometry = nullptr;
   view->owner = std::move(data);
   return IndexAccess::make(std::move(view), index);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Answers with walls are those of the reference search on the graph without the walls; ignored vertices are left out of
 // them. Single queries, counts, ids and distances of batches, on every instruction set.
-#include "exact/query/filtered.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -13,8 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/batch.h"
-#include "meshhood/edge_search.h"
-#include "meshhood/region.h"
+#include "meshhood/curvature.h"
+#include "meshhood/masks.h"
+#include "meshhood/refit.h"
+#include "meshhood/serialize.h"
 
 #include "exact/index_access.h"
 #include "exact/search/searcher_state.h"
@@ -53,10 +53,10 @@ std::vector<std::uint8_t> draw_region(Random& random, const IndexView& index) {
   }
 }
 
-/// A mesh with a filter, and the answers of the reference.
-class FilteredCase {
+/// A mesh with masks, and the answers of the reference.
+class MaskedCase {
  public:
-  FilteredCase(TestMesh mesh, Random& random)
+  MaskedCase(TestMesh mesh, Random& random)
       : mesh_(std::move(mesh)),
         index_(build(mesh_.view())),
         walls_(draw_region(random, IndexAccess::view(index_))),
@@ -67,7 +67,7 @@ class FilteredCase {
   [[nodiscard]] const Index& index() const { return index_; }
   [[nodiscard]] const TestMesh& mesh() const { return mesh_; }
   [[nodiscard]] std::size_t size() const { return mesh_.size(); }
-  [[nodiscard]] Filter filter() const { return {walls_, ignored_}; }
+  [[nodiscard]] Index masked() const { return meshhood::masked(index_, {walls_, ignored_}); }
 
   /// Ascending ids.
   const std::vector<VertexId>& expected(VertexId v, double radius) {
@@ -115,8 +115,8 @@ struct Ways {
   std::size_t rows = 0;
 };
 
-void compare_single(FilteredCase& scene, Random& random, const Oracle& oracle, Ways& ways) {
-  const Index searched = filtered(scene.index(), scene.filter(), 1);
+void compare_single(MaskedCase& scene, Random& random, const Oracle& oracle, Ways& ways) {
+  const Index searched = scene.masked();
   std::vector<Searcher> searchers = searchers_of(searched);
   for (int i = 0; i < 6; ++i) {
     const auto v = static_cast<VertexId>(random.below(scene.size()));
@@ -132,10 +132,11 @@ void compare_single(FilteredCase& scene, Random& random, const Oracle& oracle, W
   }
 }
 
-void compare_batch(FilteredCase& scene, double radius, unsigned threads, Ways& ways) {
-  const BatchQuery query{.radius = radius, .filter = scene.filter()};
-  const Neighborhoods found = neighborhoods(scene.index(), query, {.threads = threads, .distances = true});
-  const std::vector<std::uint64_t> sizes = counts(scene.index(), query, {.threads = threads});
+void compare_batch(MaskedCase& scene, double radius, unsigned threads, Ways& ways) {
+  const Index index = scene.masked();
+  const BatchQuery query{.radius = radius};
+  const Neighborhoods found = neighborhoods(index, query, {.threads = threads, .distances = true});
+  const std::vector<std::uint64_t> sizes = counts(index, query, {.threads = threads});
   ASSERT_EQ(sizes.size(), scene.size());
   for (VertexId v = 0; v < scene.size(); ++v) {
     const std::size_t begin = found.offsets[v];
@@ -149,14 +150,14 @@ void compare_batch(FilteredCase& scene, double radius, unsigned threads, Ways& w
   ways.rows += scene.size();
 }
 
-class FilteredFamily : public testing::TestWithParam<Family> {};
+class MaskedFamily : public testing::TestWithParam<Family> {};
 
-TEST_P(FilteredFamily, GivesTheAnswersOfTheGraphWithoutWalls) {
+TEST_P(MaskedFamily, GivesTheAnswersOfTheGraphWithoutWalls) {
   Random random(11);
   Ways ways;
   const std::vector<Isa> isas = available_isas();
   for (std::uint64_t seed = 0; seed < scaled(60, 6); ++seed) {
-    FilteredCase scene(make_mesh(GetParam(), seed, draw_size(seed)), random);
+    MaskedCase scene(make_mesh(GetParam(), seed, draw_size(seed)), random);
     if (scene.size() == 0) continue;
     const Oracle oracle(scene.mesh());
     ASSERT_NO_FATAL_FAILURE(compare_single(scene, random, oracle, ways));
@@ -172,14 +173,14 @@ TEST_P(FilteredFamily, GivesTheAnswersOfTheGraphWithoutWalls) {
               ways.reach, ways.walls, ways.rows);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, FilteredFamily, testing::ValuesIn(families()), family_name);
+INSTANTIATE_TEST_SUITE_P(Families, MaskedFamily, testing::ValuesIn(families()), family_name);
 
 /// Large enough for cores, whole nodes of several levels, and packets of one group with and without walls.
-TEST(Filtered, GivesTheAnswersOfTheGraphWithoutWallsOnALargeSheet) {
+TEST(Masked, GivesTheAnswersOfTheGraphWithoutWallsOnALargeSheet) {
   Random random(4);
   Ways ways;
   for (int round = 0; round < 10; ++round) {
-    FilteredCase scene(bumpy_grid(70), random);
+    MaskedCase scene(bumpy_grid(70), random);
     const Oracle oracle(scene.mesh());
     ASSERT_NO_FATAL_FAILURE(compare_single(scene, random, oracle, ways));
     ASSERT_NO_FATAL_FAILURE(compare_batch(scene, random.uniform(2, 25), 2, ways));
@@ -190,20 +191,20 @@ TEST(Filtered, GivesTheAnswersOfTheGraphWithoutWallsOnALargeSheet) {
   EXPECT_GT(ways.walls, 0U);
 }
 
-TEST(Filtered, GivesRowsWithRadiiOfTheirOwnAndOfChosenVertices) {
+TEST(Masked, GivesRowsWithRadiiOfTheirOwnAndOfChosenVertices) {
   Random random(5);
-  FilteredCase scene(bumpy_grid(40), random);
+  MaskedCase scene(bumpy_grid(40), random);
+  const Index index = scene.masked();
   std::vector<VertexId> rows;
   std::vector<double> radii;
   for (int i = 0; i < 900; ++i) {
     rows.push_back(static_cast<VertexId>(random.below(scene.size())));
     radii.push_back(random.uniform(0, 9));
   }
-  const std::vector<std::uint64_t> sizes =
-      counts(scene.index(), {.vertices = rows, .radius = radii, .filter = scene.filter()});
+  const std::vector<std::uint64_t> sizes = counts(index, {.vertices = rows, .radius = radii});
   for (std::size_t i = 0; i < rows.size(); ++i) ASSERT_EQ(sizes[i], scene.expected(rows[i], radii[i]).size());
   const std::vector<std::uint64_t> scaled_sizes =
-      counts(scene.index(), {.vertices = rows, .radius = BatchRadius::scales({5, 1.5}), .filter = scene.filter()});
+      counts(index, {.vertices = rows, .radius = BatchRadius::scales({5, 1.5})});
   ASSERT_EQ(scaled_sizes.size(), 2 * rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ASSERT_EQ(scaled_sizes[i], scene.expected(rows[i], 5).size());
@@ -211,7 +212,7 @@ TEST(Filtered, GivesRowsWithRadiiOfTheirOwnAndOfChosenVertices) {
   }
 }
 
-TEST(Filtered, RestrictsPathsInBatches) {
+TEST(Masked, RestrictsPathsInBatches) {
   const TestMesh mesh = make_grid(5, 5, true).finish(false);
   const Index index = build(mesh.view());
   std::vector<std::uint8_t> walls(25);
@@ -219,54 +220,35 @@ TEST(Filtered, RestrictsPathsInBatches) {
   std::vector<std::uint8_t> ignored(25);
   ignored[9] = 1;
   const std::vector<VertexId> rows{7, 12};
-  const SearchMethod paths = SearchMethod::along_edges(index);
-  const BatchQuery query{.vertices = rows, .radius = 5, .filter = {walls, ignored}};
-  EXPECT_THAT(counts(paths, query), ElementsAre(13, 0)) << "two rows without 9, then 14, 19, 18 and 24";
-  EXPECT_EQ(neighborhoods(paths, query).ids.size(), 13U);
+  const Index searched = masked(index, {walls, ignored});
+  const BatchQuery query{.vertices = rows, .radius = 5, .metric = Metric::Path};
+  EXPECT_THAT(counts(searched, query), ElementsAre(13, 0)) << "two rows without 9, then 14, 19, 18 and 24";
+  EXPECT_EQ(neighborhoods(searched, query).ids.size(), 13U);
 }
 
-TEST(Filtered, CopiesTheMasksWhenTheCallBegins) {
+TEST(Masked, HasACopyOfTheMasks) {
   const TestMesh mesh = bumpy_grid(60);
   const Index index = build(mesh.view());
   std::vector<std::uint8_t> walls(mesh.size());
   for (std::size_t v = 0; v < mesh.size(); v += 7) walls[v] = 1;
-  for (const bool along_edges : {false, true}) {
-    const SearchMethod method = along_edges ? SearchMethod::along_edges(index) : SearchMethod(index);
-    const std::vector<std::uint8_t> given = walls;
-    const BatchQuery query{.radius = 2, .filter = {.walls = walls}};
-    const std::vector<std::uint64_t> expected = counts(method, query);
-    std::vector<std::uint64_t> found;
-    for_each_neighborhood(method, query, [&](const BatchRow& row) {
-      found.push_back(row.ids.size());
-      std::fill(walls.begin(), walls.end(), std::uint8_t{1});
-    });
-    EXPECT_EQ(found, expected);
-    walls = given;
-  }
+  const Index searched = masked(index, {.walls = walls});
+  const Index same = masked(index, {.walls = walls}, 3);
+  std::ranges::fill(walls, std::uint8_t{1});
+  EXPECT_EQ(counts(searched, {.radius = 2}), counts(same, {.radius = 2}));
+  EXPECT_GT(counts(searched, {.radius = 2})[1], 1U);
 }
 
-/// A method that a filter restricts once answers as the method does with this filter in each call, also a searcher.
-TEST(Filtered, RestrictsAMethodForManyCalls) {
+/// A searcher of each metric answers as a batch, and the mesh is the whole one.
+TEST(Masked, AnswersSingleQueriesAsBatches) {
   Random random(21);
   const TestMesh mesh = bumpy_grid(20);
   const Index index = build(mesh.view());
-  std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), 6);
-  std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), 4);
-  for (const SearchMethod& method :
-       {SearchMethod(index), SearchMethod::along_edges(index), SearchMethod::rings(index)}) {
-    const BatchOptions options{.distances = true};
-    const Filter filter{walls, ignored};
-    const Neighborhoods expected = neighborhoods(method, {.radius = 2.5, .filter = filter}, options);
-    const std::vector<std::uint8_t> given_walls = walls;
-    const std::vector<std::uint8_t> given_ignored = ignored;
-    const SearchMethod restricted = method.restricted(filter, 2);
-    std::ranges::fill(walls, std::uint8_t{1});
-    std::ranges::fill(ignored, std::uint8_t{0});
-    const Neighborhoods found = neighborhoods(restricted, {.radius = 2.5}, options);
-    EXPECT_EQ(found.offsets, expected.offsets);
-    EXPECT_EQ(found.ids, expected.ids);
-    EXPECT_EQ(found.distances, expected.distances);
-    AnySearcher searcher = restricted.make_searcher();
+  const std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), 6);
+  const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), 4);
+  const Index searched = masked(index, {walls, ignored});
+  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
+    const Neighborhoods expected = neighborhoods(searched, {.radius = 2.5, .metric = metric}, {.distances = true});
+    AnySearcher searcher = SearchMethod(searched).by(metric).make_searcher();
     std::vector<VertexId> ids;
     std::vector<double> distances;
     for (VertexId v = 0; v < mesh.size(); ++v) {
@@ -281,35 +263,49 @@ TEST(Filtered, RestrictsAMethodForManyCalls) {
       for (const VertexRange& range : searcher.ranges(v, 2.5)) in_ranges += range.size();
       ASSERT_EQ(in_ranges, size);
     }
-    walls = given_walls;
-    ignored = given_ignored;
-    expect_refused(ErrorCode::InvalidOption, "without any so far",
-                   [&] { static_cast<void>(restricted.restricted(filter)); });
-    expect_refused(ErrorCode::InvalidOption, "without any so far",
-                   [&] { static_cast<void>(counts(restricted, {.radius = 1, .filter = filter})); });
   }
+  EXPECT_EQ(fingerprint(searched), fingerprint(index));
 }
 
-TEST(Filtered, RefusesMasksOfAnotherSizeAndMethodsWithoutFilters) {
+TEST(Masked, RefusesMasksOfAnotherSizeAndWhatWouldLoseThem) {
   const TestMesh mesh = make_grid(4, 4, false).finish(false);
-  const Index index = build(mesh.view());
+  Index index = build(mesh.view());
   const std::vector<std::uint8_t> short_mask(8);
   const std::vector<std::uint8_t> mask(16);
-  const auto count = [](const SearchMethod& method, const Filter& filter) {
-    return [&method, filter] { static_cast<void>(counts(method, {.radius = 1, .filter = filter})); };
-  };
-  const SearchMethod exact(index);
-  const SearchMethod paths = SearchMethod::along_edges(index);
-  const SearchMethod ball = SearchMethod::ball_scan(mesh.positions_view());
-  expect_refused(ErrorCode::InvalidOption, "walls: 8 values", count(exact, {.walls = short_mask}));
-  expect_refused(ErrorCode::InvalidOption, "ignored: 8 values", count(exact, {.ignored = short_mask}));
-  expect_refused(ErrorCode::InvalidOption, "walls: 8 values", count(paths, {.walls = short_mask}));
-  expect_refused(ErrorCode::InvalidOption, "takes no walls and no ignored vertices", count(ball, {.walls = mask}));
+  expect_refused(ErrorCode::InvalidOption, "walls: 8 values, expected one for each of 16 vertices",
+                 [&] { static_cast<void>(masked(index, {.walls = short_mask})); });
+  expect_refused(ErrorCode::InvalidOption, "ignored: 8 values",
+                 [&] { static_cast<void>(masked(index, {.ignored = short_mask})); });
+  for (const Masks& masks : {Masks{.walls = mask}, Masks{}}) {
+    Index searched = masked(index, masks);
+    expect_refused(ErrorCode::InvalidOption, "masked again", [&] { static_cast<void>(masked(searched, masks)); });
+    expect_refused(ErrorCode::InvalidOption, "not saved", [&] { save(searched, [](std::span<const std::byte>) {}); });
+    expect_refused(ErrorCode::InvalidOption, "not checked", [&] { static_cast<void>(searched.check(mesh.view())); });
+    expect_refused(ErrorCode::InvalidOption, "not refitted",
+                   [&] { static_cast<void>(refit(searched, mesh.positions_view())); });
+    expect_refused(ErrorCode::InvalidOption, "not refitted", [&] { searched.refit_in_place(mesh.positions_view()); });
+    expect_refused(ErrorCode::InvalidOption, "no masks", [&] { static_cast<void>(SearchMethod::in_space(searched)); });
+  }
+  const Index searched = masked(index, {.walls = mask});
+  index.refit_in_place(mesh.positions_view());
+  expect_refused(ErrorCode::InvalidOption, "refitted in place",
+                 [&] { static_cast<void>(counts(searched, {.radius = 1})); });
 }
 
-/// Many vertices in one packet that no filter touches, beside one that loses all of its queries. Balls with the larger
+TEST(Masked, SharesTheNormalsOfASurface) {
+  const TestMesh mesh = bumpy_grid(12);
+  const Index index = build(mesh.view());
+  const std::vector<std::uint8_t> walls(mesh.size());
+  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  const CurvatureIndex same = surface.on(masked(index, {.walls = walls}));
+  EXPECT_EQ(curvatures(same, {.radius = 3}).k1, curvatures(surface, {.radius = 3}).k1);
+  const Index other = build(mesh.view());
+  expect_refused(ErrorCode::InvalidOption, "of another mesh", [&] { static_cast<void>(surface.on(other)); });
+}
+
+/// Many vertices in one packet that no wall touches, beside one that loses all of its queries. Balls with the larger
 /// radius have whole leaves in common.
-TEST(Filtered, AnswersWallsInTheMiddleOfALeaf) {
+TEST(Masked, AnswersWallsInTheMiddleOfALeaf) {
   Random random(9);
   const TestMesh mesh = bumpy_grid(30);
   const Index index = build(mesh.view());
@@ -323,7 +319,8 @@ TEST(Filtered, AnswersWallsInTheMiddleOfALeaf) {
     const Adjacency graph = without_walls(mesh, walls);
     ReferenceSearcher reference(GraphView{mesh.positions_view(), graph.view()});
     for (const double radius : {6.0, 15.0}) {
-      const std::vector<std::uint64_t> sizes = counts(index, {.radius = radius, .filter = {.walls = walls}});
+      const Index searched = masked(index, {.walls = walls});
+      const std::vector<std::uint64_t> sizes = counts(searched, {.radius = radius});
       for (VertexId v = 0; v < mesh.size(); ++v) {
         ASSERT_EQ(sizes[v], walls[v] != 0 ? 0 : reference.count(v, radius)) << "vertex " << v << ", leaf " << leaf;
       }
