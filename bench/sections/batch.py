@@ -8,11 +8,10 @@ SHOWN_RADII = (2, 5, 10, 20, 65)
 
 def speed(data):
     """Times as fast as breadth-first search, for the README."""
-    shown = {name: data["meshes"][name] for name in SHOWN if name in data["meshes"]} or data["meshes"]
     header = ["radius in mean edges"]
-    for name in shown:
+    for name in shown(data):
         header += [f"{name}: count", "ids"]
-    by_radius = [{row["radius_edges"]: row for row in result["rows"]} for result in shown.values()]
+    by_radius = [{row["radius_edges"]: row for row in result["rows"]} for result in shown(data).values()]
     return table(header, [[f"{radius:g}", *(cell for rows in by_radius for cell in ratios(rows[radius]))]
                           for radius in by_radius[0] if radius in SHOWN_RADII])
 
@@ -22,7 +21,12 @@ def rows(data):
               "work", "AVX2", "portable", "Python / C++"]
     return table(header, [[name, f"{result['vertices']:,}", f"{row['radius_edges']:g}", number(row["found"]),
                            *(number(row[method]["median"]) for method in ("bfs", "count", "ids")), *ratios(row), *others(row)]
-                          for name, result in data["meshes"].items() for row in result["rows"]])
+                          for name, result in shown(data).items() for row in result["rows"]])
+
+
+def shown(data):
+    """The meshes of SHOWN, or all where there is none of them."""
+    return {name: data["meshes"][name] for name in SHOWN if name in data["meshes"]} or data["meshes"]
 
 
 def ratios(row):
