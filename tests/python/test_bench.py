@@ -68,7 +68,7 @@ def test_arrays(elsewhere, monkeypatch):
         listed = data["pieces"]["tiny, 2, 3"]["questions"]["ids"]
         assert rows[names[2]]["found"] == pytest.approx(listed[names[3]]["found"])
         assert all(row["seconds"]["median"] > 0 for row in rows.values())
-    assert [line[:12] for line in array_tables.times(data).splitlines()[2:]] == ["| tiny | 3 | ", "| tiny | 4 | "]
+    assert [line[:12] for line in array_tables.times(data).splitlines()[2:]] == ["| tiny | 3 |", "| tiny | 4 |"]
 
 
 def test_pictures(elsewhere, monkeypatch):
