@@ -4,7 +4,7 @@ from .. import scaling
 from ..timing import fitted_exponent
 from .markdown import number, table
 
-SIZES = (10_000, 100_000, 1_000_000, 10_000_000)
+SIZES = (10_000, 1_000_000, 10_000_000)
 
 
 def over_size(data):
