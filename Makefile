@@ -10,8 +10,8 @@
 #   make packages             makes and tests what a release publishes, in build/packages; about half an hour
 #   make test-all             runs also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
 #
-# These reproduce docs/benchmarks.md. They write that page and print how long each part took. They need a quiet machine;
-# otherwise the page says that it was busy.
+# These measure the tables of docs/benchmarks again. They write them and print how long each part took. They need a quiet
+# machine; otherwise a table says that it was busy.
 #
 #   make reproduce            the paper's tables and pictures, accuracy, growth; about 20 minutes
 #   make peers                other libraries on the same queries; about 15 minutes

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Measures the figures that meshhood publishes, each part by one command. The results are docs/benchmarks/*.json; all
-pages and plots are made from them.
+"""Measures the figures that meshhood publishes, each part by one command. The results are build/benchmarks/results/*.json;
+`report` makes the tables of README.md and docs/benchmarks/*.md from them, and all plots.
 
     python3 -m bench tables      the paper's Table 1 and Table 2, the phases of its query, the times for all vertices
     python3 -m bench exact       the exact index beside the best breadth-first search, cold and warm
@@ -15,7 +15,7 @@ pages and plots are made from them.
     python3 -m bench peers       other libraries on the same queries
     python3 -m bench tasks       the programs of examples/tasks beside those of other tools
     python3 -m bench reading     files of a million triangles, beside other libraries
-    python3 -m bench report      plots and docs/benchmarks.md, from the results
+    python3 -m bench report      the tables and plots, from the results
 
 `make reproduce` and `make peers` install what is needed and run them. Figures from a busy machine are marked.
 """

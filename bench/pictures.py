@@ -8,6 +8,7 @@ from . import meshes, places, programs, results
 # VTK would otherwise look for a screen.
 os.environ.setdefault("PYVISTA_OFF_SCREEN", "true")
 PIXELS = (800, 800)
+SHOWN = "e"  # by the page; the others are in build
 
 
 @dataclass(frozen=True)
@@ -53,8 +54,9 @@ def draw(picture):
     plotter.background_color = "white"
     meshhood.plot_neighborhood(index, v, radius, positions, faces, legend=False, plotter=plotter)
     look(plotter, middle(positions[index.query_ball(v, radius, method="ball")]), radius, picture)
-    places.RESULTS.mkdir(parents=True, exist_ok=True)
-    plotter.screenshot(places.RESULTS / f"figure4{picture.letter}.png")
+    folder = places.PAGES if picture.letter == SHOWN else places.RESULTS
+    folder.mkdir(parents=True, exist_ok=True)
+    plotter.screenshot(folder / f"figure4{picture.letter}.png")
     plotter.close()
     return {"letter": picture.letter, "mesh": meshes.described(picture.mesh), "radius_edges": picture.radius_edges,
             "vertex": v, "found": found(index, v, radius)}

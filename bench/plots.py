@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: MIT
-"""The plots, as SVG in docs/benchmarks: drawn from the results alone."""
+"""The plots, drawn from the results alone. Those that a page shows go to docs/benchmarks, with few colors."""
+import io
+
 import matplotlib
 
-matplotlib.use("svg")
-matplotlib.rcParams.update({"svg.hashsalt": "meshhood", "svg.fonttype": "none", "font.size": 9, "axes.grid": True,
-                            "grid.alpha": 0.3, "lines.markersize": 3.5, "legend.fontsize": 8})
+matplotlib.use("agg")
+matplotlib.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "savefig.dpi": 110,
+                            "lines.markersize": 3.5, "legend.fontsize": 8})
 
 from matplotlib import pyplot  # noqa: E402: the backend comes first
+from PIL import Image  # noqa: E402
 
 from . import accuracy, places, programs, results, scaling  # noqa: E402
 from .timing import fitted_exponent  # noqa: E402
+
+SHOWN = ("table2", "accuracy", "query_over_size")  # by a page
 
 STYLES = {
     "bfs": ("breadth-first search", "tab:red", "o"),
@@ -45,7 +50,10 @@ def legend_below(axis):
 
 
 def save(figure, name):
-    figure.savefig(places.RESULTS / f"{name}.svg", metadata={"Date": None})
+    folder = places.PAGES if name in SHOWN else places.RESULTS
+    with io.BytesIO() as drawn:
+        figure.savefig(drawn)
+        Image.open(drawn).convert("RGB").quantize(32).save(folder / f"{name}.png", optimize=True)
     pyplot.close(figure)
     return name
 

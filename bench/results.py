@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Results as files: measurements are kept as JSON, from which all pages and plots are made."""
+"""Results as files: measurements are kept as JSON in build/benchmarks, from which all tables and plots are made."""
 import json
 
 from . import machine, places

@@ -112,7 +112,7 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release" AND TARGET guard)
   set_tests_properties(bench.guard PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
 endif()
 
-# The harness on a small shape, and the pages in docs compared with the results they are made from.
+# The harness on a small shape, and the places of its tables in the documents.
 if(TARGET race AND TARGET meshhood_cli)
   add_test(NAME bench.harness COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/repo/bench_test.py $<TARGET_FILE_DIR:race>)
 endif()

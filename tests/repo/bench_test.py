@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The harness on a small shape, and whether the pages of the benchmarks are generated from the results.
+"""The harness on a small shape, and whether the pages of the benchmarks have places for its tables.
 
 usage: tests/repo/bench_test.py FOLDER    FOLDER has the programs: build/release/bench; beside it lies meshhood
 """
 import array
-import json
 import math
+import re
 import subprocess
 import sys
 import tempfile
@@ -118,37 +118,40 @@ class Parts(unittest.TestCase):
             patched.start()
             self.addCleanup(patched.stop)
 
-    def page(self, part):
-        """Runs the part, and returns its page."""
-        data = results.load(part)
-        self.assertGreaterEqual(data["machine"]["load_beside"], 0)
-        text = SECTIONS[part].text(data)
-        self.assertGreater(text.count("|"), 50)
-        if hasattr(SECTIONS[part], "summary"):
-            self.assertGreater(SECTIONS[part].summary(data).count("|"), 20)
-        return text
+    def table(self, name):
+        """The table of the results, as it gets into a page."""
+        page = report.filled(f"before\n<!-- from the benchmarks: {name} -->\nwhat was there\n<!-- to here -->\nafter\n")
+        self.assertRegex(page, r"(?s)^before\n<!-- .*\n\n\| .*\n\*Measured on .*\n<!-- to here -->\nafter\n$")
+        self.assertNotIn("what was there", page)
+        return page
 
     def test_tables(self):
         paper_tables.tables(["tiny"], 50)
-        self.assertIn("tiny", self.page("paper_tables"))
+        self.assertIn("| tiny | 3,000 |", self.table("paper_tables.space"))
+        self.assertIn("| tiny | 10 |", self.table("paper_tables.queries"))
 
     def test_exact(self):
         exact_index.run(["tiny"], 50)
-        self.assertIn("**tiny**, 3,000 vertices", self.page("exact_index"))
-        self.assertIn("tiny", SECTIONS["exact_index"].head_table(results.load("exact_index")))
+        self.assertIn("| tiny | 5 |", self.table("exact_index.speed"))
 
     def test_batch(self):
         batch.run(["tiny"])
-        self.assertIn("tiny", self.page("batch"))
-        self.assertIn("tiny: count", SECTIONS["batch"].head_table(results.load("batch")))
+        self.assertIn("| tiny | 3,000 | 5 |", self.table("batch.rows"))
+        self.assertIn("tiny: count", self.table("batch.speed"))
 
     def test_accuracy(self):
         accuracy.run(["tiny"], 50)
-        self.assertIn("tiny", self.page("accuracy"))
+        self.assertIn("| tiny | 20 |", self.table("accuracy.extra"))
 
     def test_scaling(self):
         scaling.run(10_000, 50)
-        self.assertIn("k^", self.page("scaling"))
+        self.assertIn("| sphere | 10,000 |", self.table("scaling.over_size"))
+        self.assertIn("k^", self.table("scaling.over_radius"))
+
+    def test_a_table_without_results_stays(self):
+        for file in report.documents():
+            text = file.read_text(encoding="utf-8")
+            self.assertEqual(report.filled(text), text, file.name)
 
 
 class Watching(unittest.TestCase):
@@ -178,22 +181,35 @@ class Figures(unittest.TestCase):
 
 
 class Documents(unittest.TestCase):
-    def test_every_page_is_generated_from_the_results(self):
-        documents = report.documents()
-        self.assertGreater(len(documents), 5)
-        for path, text in documents.items():
-            self.assertEqual(path.read_text(encoding="utf-8"), text, "run python3 -m bench report")
+    def test_every_section_has_a_place_with_its_table_and_machine(self):
+        found = [place for file in report.documents() for place in report.PLACE.finditer(file.read_text(encoding="utf-8"))]
+        self.assertEqual({place["source"] for place in found}, set(SECTIONS))
+        for place in found:
+            self.assertTrue(callable(getattr(SECTIONS[place["source"]], place["table"])))
+            self.assertRegex(place["text"], r"(?s)^\n\| .*\n\*Measured on .*\*\n\n$", place["source"])
 
-    def test_the_table_of_the_readme_is_generated_from_the_results(self):
-        written = places.README.read_text(encoding="utf-8")
-        self.assertEqual(written, report.readme(), "run python3 -m bench report")
+    def test_a_page_has_one_picture_at_most_and_no_raw_results(self):
+        pages = list(places.PAGES.glob("*.md"))
+        self.assertGreater(len(pages), 10)
+        shown = [re.findall(r"!\[[^]]*\]\(([^)]*)\)", page.read_text(encoding="utf-8")) for page in pages]
+        self.assertLessEqual(max(map(len, shown)), 1)
+        others = {file.name for file in places.PAGES.iterdir() if file.suffix != ".md"}
+        self.assertEqual(others, {name for names in shown for name in names})
 
-    def test_every_result_names_its_machine(self):
-        files = list(places.RESULTS.glob("*.json"))
-        self.assertGreater(len(files), 5)
-        for file in files:
-            machine = json.loads(file.read_text(encoding="utf-8"))["machine"]
-            self.assertIn("load_before", machine, file.name)
+    def test_the_readme_has_numbers_of_the_page(self):
+        speed, rows = (tables(file) for file in (places.README, places.PAGES / "batch.md"))
+        header, *speed = next(table for table in speed if table[0][0] == "radius in mean edges")
+        measured = {(row["mesh"], row["radius"]): row for row in (dict(zip(rows[0][0], cells)) for cells in rows[0][1:])}
+        for radius, *cells in speed:
+            for at, cell in enumerate(cells):
+                mesh = header[1 + at - at % 2].partition(":")[0]
+                self.assertEqual(cell, measured[mesh, radius][("× count", "× ids")[at % 2]], (mesh, radius))
+
+
+def tables(file):
+    """The tables of a document, each as lists of cells, without the line below the header."""
+    found = re.findall(r"(?m)(?:^\|.*\n)+", file.read_text(encoding="utf-8"))
+    return [[[cell.strip() for cell in line.split("|")[1:-1]] for line in table.splitlines() if "---" not in line] for table in found]
 
 
 if __name__ == "__main__":

@@ -112,7 +112,7 @@ def link_within_site(app, docname, source):
 
 
 def list_benchmarks(app, docname, source):
-    """benchmarks.md is written by `python3 -m bench report`, which knows no Sphinx."""
+    """benchmarks.md names its pages in a table, for readers without Sphinx, which needs a toctree."""
     if docname == "benchmarks":
         source[0] += "\n```{toctree}\n:hidden:\n:glob:\n\nbenchmarks/*\n```\n"
 

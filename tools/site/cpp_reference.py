@@ -5,7 +5,7 @@
     cpp_reference.py XML OUTPUT
 
 XML      the folder that tools/site/Doxyfile writes
-OUTPUT   a folder, which gets a file for each header: index.inc for meshhood/index.h, with its entries in their order
+OUTPUT   a folder, which gets a section for each header: index.inc for meshhood/index.h, with its entries in their order
 """
 
 import re
@@ -197,12 +197,14 @@ def is_in(node, header):
 
 
 def write(headers, header, file):
-    """The comment of the header, then its entries, each in its namespace."""
+    """A section in Markdown: the comment of the header, then its entries, each in its namespace."""
     of_file = next(c for c in headers.of_kind("file") if flat(c.find("compoundname")) == header)
     parts = [description(of_file)]
     for _, namespace, text in sorted(headers.entries(header), key=lambda entry: entry[0]):
         parts += [f".. cpp:namespace:: {namespace}", text]
-    file.write_text("\n\n".join(part for part in parts if part) + "\n\n.. cpp:namespace:: 0\n", encoding="utf-8")
+    text = "\n\n".join(part for part in parts if part) + "\n\n.. cpp:namespace:: 0\n"
+    folder = "io/" if "io/" in of_file.find("location").get("file") else ""
+    file.write_text(f"## meshhood/{folder}{header}\n\n````{{eval-rst}}\n{text}````\n", encoding="utf-8")
 
 
 def main():
