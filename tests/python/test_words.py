@@ -2,6 +2,7 @@
 """The words that calls on many vertices share mean the same in each: rows, radii, scales, masks, metric, order."""
 
 import inspect
+import pickle
 
 import meshes
 import meshhood
@@ -130,12 +131,8 @@ def test_batches_with_masks_are_single_queries_with_masks(metric):
 
 
 @pytest.mark.parametrize("name", ("aggregate", "maximum", "variance", "kernel", "moments"))
-@pytest.mark.parametrize("metric", ("straight", "path"))
-def test_masks_and_paths_in_values(name, metric):
-    if metric == "path" and name == "moments":
-        with pytest.raises(ValueError, match="metric: 'path', expected 'straight'"):
-            CALLS[name](2.5, metric="path")
-        return
+@pytest.mark.parametrize("metric", ("straight", "path", "rings"))
+def test_masks_and_metrics_in_values(name, metric):
     found = CALLS[name](2.5, **MASKS, metric=metric)
     listed = rows_of(*INDEX.query_ball(None, 2.5, return_distance=True, **MASKS, metric=metric))
     for v, (ids, distances) in enumerate(listed):
@@ -317,8 +314,45 @@ def test_errors_blame_the_argument_at_fault():
         INDEX.curvature(5.0, F)
     with pytest.raises(ValueError, match="method: 'bfs', expected 'exact' with walls"):
         INDEX.count(None, 1.0, walls=WALLS, method="bfs")
-    with pytest.raises(TypeError, match="walls: expected bool"):
-        INDEX.count(None, 1.0, walls=np.arange(COUNT))
+    with pytest.raises(TypeError, match="walls: .* numbers 0 or 1, expected a bool mask, or vertices"):
+        INDEX.count(None, 1.0, walls=WALLS.astype(int))
+    with pytest.raises(ValueError, match="walls: "):
+        INDEX.count(None, 1.0, walls=[COUNT])
+
+
+def test_masks_are_also_lists_of_vertices():
+    words = {"walls": np.flatnonzero(WALLS), "ignored": np.flatnonzero(IGNORED).tolist()}
+    np.testing.assert_array_equal(INDEX.count(None, 2.5, **words), INDEX.count(None, 2.5, **MASKS))
+    np.testing.assert_array_equal(INDEX.query_ball(4, 2.5, **words), INDEX.query_ball(4, 2.5, **MASKS))
+
+
+def test_an_index_with_masks_answers_as_calls_with_them():
+    index = INDEX.masked(**MASKS)
+    for metric in ("straight", "path", "rings"):
+        np.testing.assert_array_equal(index.count(None, 2, metric=metric), INDEX.count(None, 2, metric=metric, **MASKS))
+    np.testing.assert_array_equal(index.curvature(2.5).k1, INDEX.curvature(2.5, **MASKS).k1)
+    np.testing.assert_array_equal(index.query_region(4, 2.5), INDEX.query_region(4, 2.5, **MASKS))
+    assert index.mean_edge_length == INDEX.mean_edge_length
+    np.testing.assert_array_equal(index.count(None, 2, unit="edge"), INDEX.count(None, 2, unit="edge", **MASKS))
+    for refused, message in (
+        (lambda: index.count(None, 2, walls=WALLS), "masked again"),
+        (lambda: index.masked(ignored=[1]), "masked again"),
+        (lambda: index.refit(V), "not refitted"),
+        (lambda: pickle.dumps(index), "not saved"),
+        (lambda: index.count(None, 2, method="bfs"), "method: 'bfs', expected 'exact' with walls"),
+        (lambda: index.count(3, 2, method="ball"), "method: 'ball', expected 'exact' with walls"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            refused()
+
+
+def test_masks_whose_content_changes_are_other_masks():
+    walls = np.zeros(COUNT, bool)
+    for v in (3, 9, 30):
+        walls[v] = True
+        assert INDEX.count(v, 2.5, walls=walls) == 0
+        walls[v] = False
+        assert INDEX.count(v, 2.5, walls=walls) == INDEX.count(v, 2.5)
 
 
 # Each call that takes faces.
@@ -442,7 +476,5 @@ def test_rings_are_a_metric(masks):
         number = dict(zip(wanted, np.repeat(np.arange(len(counts)), np.diff(counts, prepend=0))))
         assert edges.tolist() == [number[i] for i in ids]
         np.testing.assert_array_equal(INDEX.query_ball(v, 2, **words)[0], ids)
-    with pytest.raises(ValueError, match="metric: 'rings', expected 'straight' or 'path'"):
-        INDEX.smooth(VALUES, 2, metric="rings")
     with pytest.raises(ValueError, match="unit: expected 'mesh' with metric='rings'"):
         INDEX.count(None, 2, metric="rings", unit="edge")

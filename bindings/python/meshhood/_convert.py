@@ -168,8 +168,11 @@ def mask(values, name, count):
         return None
     array = as_array(values, name)
     if array.dtype != np.bool_:
+        ids = vertices(array, count, name)
+        if len(ids) == count > 2 and ids.max() <= 1:
+            raise TypeError(f"{name}: {count} numbers 0 or 1, expected a bool mask, or vertices")
         chosen = np.zeros(count, np.uint8)
-        chosen[vertices(array, count, name)] = 1
+        chosen[ids] = 1
         return chosen
     if array.shape != (count,):
         raise ValueError(f"{name}: a bool mask of shape {array.shape}, expected ({count},)")
