@@ -238,7 +238,7 @@ def test_rims_on_a_scan_are_loops_where_the_mesh_is_closed(tmp_path):
         (lambda i: i.query_region(0, -1), r"r: radius -1"),
         (lambda i: i.query_region(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
         (lambda i: i.query_region([0.0, 0.0, 0.0], 1, metric="path"), r"start: expected a vertex with metric='path'"),
-        (lambda i: i.query_region(0, 1, walls=np.zeros(36)), r"walls: expected bool, not float64"),
+        (lambda i: i.query_region(0, 1, walls=np.zeros(36)), r"walls: expected integers, not float64"),
         (lambda i: i.query_region(0, 1, ignored=np.zeros(35, bool)), r"ignored: a bool mask of shape \(35,\)"),
         (lambda i: i.query_stroke([[0, 0, 0]], 1, seeds=[[0], [1]]), r"seeds: expected \(1,\) or \(1, k\)"),
         (lambda i: i.query_stroke([[0, 0, 0]], [1, 2]), r"r: expected one number, or one for each of 1 rows"),
