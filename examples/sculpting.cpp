@@ -21,20 +21,25 @@ class Sculpting {
 
   /// Raises the surface around a point in space, and returns how many vertices have moved.
   std::size_t raise(const meshhood::SpacePoint& brush, double radius) {
-    searcher_.region(meshhood::Start::nearest(index_, brush), radius, moved_, {.walls = frozen_});
+    searcher_.rebind(searched_);
+    searcher_.region(meshhood::Start::nearest(index_, brush), radius, moved_);
     for (const meshhood::VertexId v : moved_) positions_[3 * std::size_t{v} + 2] += 0.1F;
-    index_.refit_in_place(positions_, moved_);  // only these have moved
-    searcher_.rebind(index_);                   // each searcher that goes on
+    index_.refit_in_place(positions_, moved_);                 // only these have moved
+    searched_ = meshhood::masked(index_, {.walls = frozen_});  // what the brush does not pass
     return moved_.size();
   }
 
-  void freeze(std::size_t vertex) { frozen_[vertex] = true; }
+  void freeze(std::size_t vertex) {
+    frozen_[vertex] = true;
+    searched_ = meshhood::masked(index_, {.walls = frozen_});
+  }
 
  private:
   std::vector<float> positions_;
   meshhood::Index index_;
-  meshhood::RegionSearcher searcher_{index_};
-  std::vector<bool> frozen_ = std::vector<bool>(index_.vertex_count());  // walls, which the brush does not pass
+  std::vector<bool> frozen_ = std::vector<bool>(index_.vertex_count());
+  meshhood::Index searched_ = meshhood::masked(index_, {.walls = frozen_});
+  meshhood::RegionSearcher searcher_{searched_};
   std::vector<meshhood::VertexId> moved_;
 };
 // [readme]

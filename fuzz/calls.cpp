@@ -328,7 +328,8 @@ class Session {
     for (std::size_t i = below(8); i > 0; --i) start.walls[below(vertices)] = 1;
     const double radius = oracle.distance(start, below(vertices));
     const auto w = static_cast<VertexId>(below(vertices));
-    RegionSearcher searcher(masked(*place.index, {.walls = start.walls}));
+    const Index searched = masked(*place.index, {.walls = start.walls});
+    RegionSearcher searcher(searched);
     searcher.region({start.center, start.seeds}, radius, ids_);
     std::sort(ids_.begin(), ids_.end());
     if (ids_ != oracle.region(start, radius)) fail("the region differs");

@@ -80,6 +80,9 @@ class OffReader {
       if (is_missing) return builder_.warnings.add("no number of edges", faces);
     }
     read_count("edges");
+    if (are_in_line && !text_.at_line_end()) {
+      text_.malformed("expected the end of the line of counts, found {}", quote(std::string(text_.token())));
+    }
   }
 
   uint64_t read_count(std::string_view what) {
