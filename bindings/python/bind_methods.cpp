@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -73,6 +74,13 @@ std::shared_ptr<ExactMethod> masked_method(const ExactMethod& method, const Mask
   return exact_method(without_lock([&] { return masked(method.index(), masks_of(walls, ignored), 0); }));
 }
 
+bool are_same_masks(const Mask& a, const Mask& b) {
+  const auto bytes = [](const Mask& mask) {
+    return mask ? std::span(mask->data(), mask->size()) : std::span<const std::uint8_t>();
+  };
+  return a.has_value() == b.has_value() && std::ranges::equal(bytes(a), bytes(b));
+}
+
 /// Not a copy: the array keeps the index alive, and may not be written to.
 Output<const std::int32_t> permutation(const nb::object& self) {
   const Index& index = nb::cast<ExactMethod&>(self).index();
@@ -113,6 +121,7 @@ void bind_methods(nb::module_& module) {
       .def("neighborhoods", &many, nb::arg().none(), nb::arg(), nb::arg("distances"), nb::arg("sorted"),
            nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none())
       .def("counts", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none());
+  module.def("are_same_masks", &are_same_masks, nb::arg().none(), nb::arg().none());
   nb::class_<ExactMethod, Method>(module, "ExactMethod")
       .def("masked", &masked_method, nb::arg("walls").none(), nb::arg("ignored").none())
       .def("quality",

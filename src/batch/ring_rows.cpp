@@ -19,21 +19,12 @@ std::uint32_t rings_of(double radius) {
   return static_cast<std::uint32_t>(std::min(radius, kMost));
 }
 
-/// Calls `f(leaf, lane, length)` for the vertices of an answer to one query, ascending.
-template <class F>
-void for_each_length(std::span<const Piece> pieces, PacketLengths& lengths, F&& f) {
-  for (const auto& [leaves, queries, reached] : pieces) {
-    lengths.select(leaves.begin);
-    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
-      if (reached[lane] != 0) f(leaves.begin, lane, lengths.at(lane)[0]);
-    }
-  }
-}
-
 }  // namespace
 
 LeafRings::LeafRings(const Index& index)
-    : graph_(IndexAccess::share_graph(index)), packet_(IndexAccess::view(index), best_isa()) {
+    : index_(&IndexAccess::view(index)),
+      graph_(IndexAccess::share_graph(index)),
+      packet_(IndexAccess::view(index), best_isa()) {
   if (is_unlike_a_surface(IndexAccess::view(index))) by_vertex_.emplace(IndexAccess::view(index), *graph_);
 }
 
@@ -59,14 +50,6 @@ void RingSearcher::run(VertexId v, double radius) {
   rings_.run(std::array{BatchItem{0, v, index_->slot[v], radius}});
 }
 
-/// Calls `f(vertex, edges)` for the vertices of the answer, by their numbers in index order, ascending.
-template <class F>
-void RingSearcher::search(VertexId v, double radius, F&& f) {
-  run(v, radius);
-  for_each_length(rings_.pieces(), rings_.lengths(),
-                  [&](LeafId leaf, unsigned lane, double edges) { f(index_->leaf_begin[leaf] + lane, edges); });
-}
-
 std::vector<VertexId> RingSearcher::neighborhood(VertexId v, double radius) {
   std::vector<VertexId> out;
   neighborhood(v, radius, out);
@@ -75,14 +58,16 @@ std::vector<VertexId> RingSearcher::neighborhood(VertexId v, double radius) {
 
 void RingSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
   std::vector<VertexId> ids;
-  search(v, radius, [&](std::size_t vertex, double) { ids.push_back(index_->id(vertex)); });
+  run(v, radius);
+  rings_.for_each([&](std::size_t vertex, double) { ids.push_back(index_->id(vertex)); });
   out = std::move(ids);
 }
 
 void RingSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
   std::vector<VertexId> ids;
   std::vector<double> edges_to;
-  search(v, radius, [&](std::size_t vertex, double edges) {
+  run(v, radius);
+  rings_.for_each([&](std::size_t vertex, double edges) {
     ids.push_back(index_->id(vertex));
     edges_to.push_back(edges);
   });
@@ -97,7 +82,8 @@ std::size_t RingSearcher::count(VertexId v, double radius) {
 
 std::span<const VertexRange> RingSearcher::ranges(VertexId v, double radius) {
   ranges_.clear();
-  search(v, radius, [&](std::size_t vertex, double) { append_to(ranges_, static_cast<VertexId>(vertex)); });
+  run(v, radius);
+  rings_.for_each([&](std::size_t vertex, double) { append_to(ranges_, static_cast<VertexId>(vertex)); });
   return ranges_;
 }
 
@@ -109,22 +95,22 @@ bool RingRows::run(std::span<const RowRun> runs) {
 
 bool RingRows::write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
                      RowReceiver& receiver) {
-  const RowAnswers own{rings_.pieces(), rings_.counts()};
-  const auto& [pieces, counts] = distances ? own : answers;
-  writer_.begin(pieces);
-  for (unsigned i = 0; i < items.size(); ++i) {
-    const BatchMemory memory = receiver.memory(items[i].row, counts[i]);
-    writer_.write_ids(i, memory.ids);
-    if (distances) write_distances(memory.distances);
-    if (!receiver.done(items[i].row)) return false;
+  if (writes_pieces(distances)) {
+    writer_.begin(answers.pieces);
+    for (unsigned i = 0; i < items.size(); ++i) {
+      writer_.write_ids(i, receiver.memory(items[i].row, answers.counts[i]).ids);
+      if (!receiver.done(items[i].row)) return false;
+    }
+    return true;
   }
-  return true;
-}
-
-/// Of a run with one row.
-void RingRows::write_distances(std::span<double> distances) {
-  double* next = distances.data();
-  for_each_length(rings_.pieces(), rings_.lengths(), [&](LeafId, unsigned, double edges) { *next++ = edges; });
+  const BatchMemory memory = receiver.memory(items.front().row, rings_.counts()[0]);
+  std::size_t next = 0;
+  rings_.for_each([&](std::size_t vertex, double edges) {
+    memory.ids[next] = index_.id(vertex);
+    if (distances) memory.distances[next] = edges;
+    ++next;
+  });
+  return receiver.done(items.front().row);
 }
 
 }  // namespace meshhood

@@ -37,12 +37,28 @@ class LeafRings {
   [[nodiscard]] const PerLane<std::uint64_t>& counts() const { return counts_; }
   [[nodiscard]] std::span<const Piece> pieces() { return by_vertex_ ? by_vertex_->pieces() : packet_.pieces(); }
 
+  /// Of one query: calls `f(vertex, edges)` for the vertices of the answer, in index order, ascending.
+  template <class F>
+  void for_each(F&& f) {
+    if (by_vertex_) {
+      for (const std::uint32_t place : by_vertex_->places()) f(place, by_vertex_->edges_to(place));
+      return;
+    }
+    for (const auto& [leaves, queries, reached] : packet_.pieces()) {
+      packet_.select(leaves.begin);
+      for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+        if (reached[lane] != 0) f(index_->leaf_begin[leaves.begin] + lane, packet_.at(lane)[0]);
+      }
+    }
+  }
+
   /// Of one query.
   [[nodiscard]] PacketLengths& lengths() {
     return by_vertex_ ? static_cast<PacketLengths&>(*by_vertex_) : static_cast<PacketLengths&>(packet_);
   }
 
  private:
+  const IndexView* index_;
   std::shared_ptr<KeptGraph> graph_;
   RingPacket packet_;
   std::optional<VertexRings> by_vertex_;
@@ -65,8 +81,6 @@ class RingSearcher {
 
  private:
   void run(VertexId v, double radius);
-  template <class F>
-  void search(VertexId v, double radius, F&& f);
 
   BoundIndex index_;
   LeafRings rings_;
@@ -76,7 +90,8 @@ class RingSearcher {
 /// The same for the rows of a batch: those of a leaf are answered together, with distances one by one.
 class RingRows final : public RowSearch {
  public:
-  explicit RingRows(const Index& index) : rings_(index), writer_(IndexAccess::view(index), best_isa()) {}
+  explicit RingRows(const Index& index)
+      : index_(IndexAccess::view(index)), rings_(index), writer_(IndexAccess::view(index), best_isa()) {}
 
   [[nodiscard]] bool pays(std::span<const BatchItem> /*items*/, bool distances) const override {
     return !distances && !rings_.is_by_vertex();
@@ -86,13 +101,12 @@ class RingRows final : public RowSearch {
   [[nodiscard]] QueryWord queries() const override { return first_lanes(rows_); }
   [[nodiscard]] std::span<const Piece> pieces() override { return rings_.pieces(); }
   [[nodiscard]] PacketLengths* lengths() override { return &rings_.lengths(); }
-  [[nodiscard]] bool writes_pieces(bool distances) const override { return !distances; }
+  [[nodiscard]] bool writes_pieces(bool distances) const override { return !distances && !rings_.is_by_vertex(); }
   bool write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
              RowReceiver& receiver) override;
 
  private:
-  void write_distances(std::span<double> distances);
-
+  const IndexView& index_;
   LeafRings rings_;
   RowWriter writer_;
   unsigned rows_ = 0;  // of the last run

@@ -80,7 +80,7 @@ class Held:
             return self
         masks = [_convert.mask(walls, "walls", self._count), _convert.mask(ignored, "ignored", self._count)]
         kept, index = self._last_masked
-        if index is None or not all(map(_are_equal, kept, masks)):
+        if index is None or not all(map(_core.are_same_masks, kept, masks)):
             masks = [None if mask is None else mask.copy() for mask in masks]  # what is kept does not change
             index = self._masked(*masks, weakref.proxy(self))  # without a cycle
             self._last_masked = (masks, index)  # replaced as a whole: no lock, which a fork could copy while it is held
@@ -130,10 +130,6 @@ class Held:
         if F is not None:
             raise ValueError("F: expected None, because the normals are given")
         return self._surfaces.of_normals(normals)
-
-
-def _are_equal(kept: Any, mask: Any) -> bool:
-    return kept is mask if kept is None or mask is None else np.array_equal(kept, mask)
 
 
 def _digest(arrays: Any) -> bytes:

@@ -2,6 +2,7 @@
 #include "meshhood/edge_search.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -11,6 +12,8 @@
 #include "exact/query/arguments.h"
 #include "exact/query/path_search.h"
 #include "exact/query/ring_search.h"
+#include "exact/query/vertex_rings.h"
+#include "exact/search/vertex_bfs.h"
 #include "exact/vertex_set.h"
 #include "shared/distance.h"
 
@@ -23,8 +26,9 @@ struct EdgeSearcher::State {
   const Kernels* kernels;
   std::optional<PathSearch> paths;  // made by the first search: it needs the lengths of all edges
   RingSearch rings;
-  VertexSet answer;                 // of `rings`
-  std::vector<VertexRange> ranges;  // of the last call of that name
+  std::optional<VertexRings> by_vertex;  // for a graph unlike a surface, instead of `rings`
+  VertexSet answer;                      // of `rings`
+  std::vector<VertexRange> ranges;       // of the last call of that name
 
   explicit State(const Index& owner)
       : index(owner),
@@ -45,6 +49,10 @@ struct EdgeSearcher::State {
     const std::uint32_t slot = index->slot[v];
     paths->run(index->leaf_begin[leaf_of(slot)] + lane_of(slot), radius);
   }
+
+  /// The rings up to ring `k`, added to two empty lists.
+  void rings_by_vertex(VertexId v, std::size_t k, std::vector<VertexId>& ids, std::vector<std::size_t>& sizes);
+  void rings_by_leaf(VertexId v, std::size_t k, std::vector<VertexId>& ids, std::vector<std::size_t>& sizes);
 
   /// Calls `f(path)` for the vertices of `found` that are not ignored.
   template <class F>
@@ -115,22 +123,46 @@ std::span<const VertexRange> EdgeSearcher::ranges(VertexId v, double radius) & {
   return ranges;
 }
 
+void EdgeSearcher::State::rings_by_vertex(VertexId v, std::size_t k, std::vector<VertexId>& ids,
+                                          std::vector<std::size_t>& sizes) {
+  if (!by_vertex) by_vertex.emplace(*index, *graph);
+  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
+  by_vertex->run(index->slot[v], static_cast<std::uint32_t>(std::min(k, kMost)));
+  std::vector<std::vector<VertexId>> by_edges(by_vertex->ring_count());
+  for (const std::uint32_t place : by_vertex->places()) {
+    by_edges[by_vertex->edges_to(place)].push_back(index->id(place));
+  }
+  for (const std::vector<VertexId>& ring : by_edges) {
+    ids.insert(ids.end(), ring.begin(), ring.end());
+    sizes.push_back(ids.size());
+  }
+}
+
+void EdgeSearcher::State::rings_by_leaf(VertexId v, std::size_t k, std::vector<VertexId>& ids,
+                                        std::vector<std::size_t>& sizes) {
+  std::vector<LeafSubset> found;
+  for (rings.start(index->slot[v]); !rings.ring().empty(); rings.advance()) {
+    found.clear();
+    for (const LeafSubset& subset : rings.ring()) {
+      const LaneMask lanes = subset.lanes & ~index->ignored_lanes(subset.leaf);
+      if (lanes != 0) found.push_back({subset.leaf, lanes});
+    }
+    answer.assign(found);
+    append_ids(answer, *index, *kernels, ids);
+    sizes.push_back(ids.size());
+    if (sizes.size() > k) break;
+  }
+}
+
 void EdgeSearcher::rings(VertexId v, std::size_t k, std::vector<VertexId>& out, std::vector<std::size_t>& counts) {
   State& state = *state_;
   state.check(v, 0);
   std::vector<VertexId> ids;
   std::vector<std::size_t> sizes;
-  std::vector<LeafSubset> found;
-  for (state.rings.start(state.index->slot[v]); !state.rings.ring().empty(); state.rings.advance()) {
-    found.clear();
-    for (const LeafSubset& subset : state.rings.ring()) {
-      const LaneMask lanes = subset.lanes & ~state.index->ignored_lanes(subset.leaf);
-      if (lanes != 0) found.push_back({subset.leaf, lanes});
-    }
-    state.answer.assign(found);
-    append_ids(state.answer, *state.index, *state.kernels, ids);
-    sizes.push_back(ids.size());
-    if (sizes.size() > k) break;
+  if (is_unlike_a_surface(*state.index)) {
+    state.rings_by_vertex(v, k, ids, sizes);
+  } else {
+    state.rings_by_leaf(v, k, ids, sizes);
   }
   out = std::move(ids);
   counts = std::move(sizes);

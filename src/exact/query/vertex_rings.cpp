@@ -7,6 +7,7 @@ std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
   const Adjacency& edges = graph_->of(*index_).edges;
   edges_to_.forget();
   found_.clear();
+  places_.clear();
   pieces_.clear();
   queue_.clear();
   const auto reach = [&](std::uint32_t place, std::uint32_t count) {
@@ -31,18 +32,23 @@ std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
   return count;
 }
 
+std::span<const std::uint32_t> VertexRings::places() {
+  found_.take_all([&](std::size_t place) { places_.push_back(static_cast<std::uint32_t>(place)); });
+  return places_;
+}
+
 std::span<const Piece> VertexRings::pieces() {
   if (!pieces_.empty()) return pieces_;
   words_.clear();
-  found_.take_all([&](std::size_t vertex) {
-    const std::uint32_t slot = index_->slot_at(vertex);
+  for (const std::uint32_t place : places()) {
+    const std::uint32_t slot = index_->slot_at(place);
     const LeafId leaf = leaf_of(slot);
     if (pieces_.empty() || pieces_.back().leaves.begin != leaf) {
       pieces_.push_back({{leaf, leaf + 1}, 0, nullptr});
       words_.push_back({});
     }
     words_.back()[lane_of(slot)] = 1;
-  });
+  }
   for (std::size_t i = 0; i < pieces_.size(); ++i) pieces_[i].reached = words_[i].data();
   return pieces_;
 }

@@ -26,7 +26,18 @@ class VertexRings final : public PacketLengths {
   /// there are, without the ignored ones.
   std::size_t run(std::uint32_t slot, std::uint32_t rings);
 
-  /// These vertices, leaf by leaf in index order. Valid until the next `run`.
+  /// How many rings there are, of which the last may have ignored vertices alone; 0 for a wall.
+  [[nodiscard]] std::size_t ring_count() const {
+    return queue_.empty() ? 0 : std::size_t{edges_to_[queue_.back()]} + 1;
+  }
+
+  /// These vertices, by their places in index order, ascending. Valid until the next `run`.
+  [[nodiscard]] std::span<const std::uint32_t> places();
+
+  /// The number of edges to one of them.
+  [[nodiscard]] std::uint32_t edges_to(std::uint32_t place) const { return edges_to_[place]; }
+
+  /// The same leaf by leaf. Takes much longer on a star, whose leaves have a vertex each.
   [[nodiscard]] std::span<const Piece> pieces();
 
   /// Numbers of edges as lengths.
@@ -42,7 +53,8 @@ class VertexRings final : public PacketLengths {
   EpochArray<std::uint32_t> edges_to_;  // by place
   NumberSet found_;
   std::vector<std::uint32_t> queue_;
-  std::vector<Piece> pieces_;  // made from `found_` when they are asked for
+  std::vector<std::uint32_t> places_;  // made from `found_` when they are asked for
+  std::vector<Piece> pieces_;          // likewise, from these
   std::vector<PerLane<QueryWord>> words_;
   std::size_t first_ = 0;  // of the selected leaf
   PathLengths length_{};
