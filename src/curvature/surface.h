@@ -26,8 +26,8 @@ struct CurvatureIndex::State {
   /// With the normals of another, whose mesh is the same.
   State(const Index& given, const State& other);
 
-  Index searched;              // shares its memory with the caller's
-  BoundIndex index;            // its arrays
+  Index searched;    // shares its memory with the caller's
+  BoundIndex index;  // its arrays
   std::shared_ptr<RawVector<double>> normals;
   std::span<double> normal_x;  // unit vectors; NaN without one
   std::span<double> normal_y;

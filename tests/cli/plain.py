@@ -150,15 +150,16 @@ class Plain:
         first = sorted(found, key=lambda v: (found[v], squared[v], v))[:most]
         return {v: found[v] for v in first}
 
-    def nearest_unconnected(self, v, r, walls="", ignored=""):
-        """The nearest vertex in the ball that is not in the neighborhood, and its distance: (-1, inf) without one."""
+    def nearest_unconnected(self, v, r, walls="", ignored="", metric="straight"):
+        """The nearest vertex in the ball, or by rings of all, that is not in the neighborhood, and its distance: (-1,
+        inf) without one."""
         v = int(self.kept[v])
         if self.mask(walls)[v]:
             return -1, math.inf
         squared = self.squared(self.V[v])
-        inside = (squared <= r * r) & ~self.mask(walls)
+        inside = ((squared <= r * r) | (metric == "rings")) & ~self.mask(walls)
         other = inside & ~self.mask(ignored) & (self.kept == np.arange(len(self.V)))
-        other[list(self._component([v], inside))] = False
+        other[list(self.neighborhood(v, r, metric, walls))] = False
         ids = np.flatnonzero(other)
         if len(ids) == 0:
             return -1, math.inf

@@ -340,14 +340,14 @@ def unconnected(run, wrong):
     check_radii(question, arrays, wrong)
     for row in sample(len(rows)):
         for scale, r in enumerate(question.radii_of(row)):
-            other, gap = question.mesh.nearest_unconnected(rows[row], r, question.walls, question.ignored)
+            other, gap = question.mesh.nearest_unconnected(int(rows[row]), r, question.walls, question.ignored, question.metric)
             expect(wrong, f"other of row {row}, vertex {rows[row]}", int(arrays["other"][scale, row]), other)
             expect(wrong, f"gap of row {row}", arrays["gap"][scale, row], gap)
     check_mesh_files(run, wrong, arrays["gap"][-1])
     return len(sample(len(rows)))
 
 
-FITS = (*READING, "--walls", "--ignored", "--unit", "--no-filter", "--like-libigl", "--kinds", "--threshold")
+FITS = (*READING, "--metric", "--walls", "--ignored", "--unit", "--no-filter", "--like-libigl", "--kinds", "--threshold")
 
 
 @functools.lru_cache(maxsize=None)

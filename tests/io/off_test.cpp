@@ -115,7 +115,8 @@ TEST(Off, TheNumberOfEdgesMayBeMissing) {
 TEST(Off, TheLineOfCountsHasNoVertex) {
   const std::string rest = "1 0 0\n2 0 0\n0 3 0\n3 0 1 2\n";
   for (const std::string start : {"OFF\n3 1 0 7\n", "OFF 3 1 0 7\n", "OFF\n3 1 0 7 # counts\n"}) {
-    expect_refused("a.off", start + rest, ErrorCode::MalformedFile, "expected the end of the line of counts, found '7'");
+    expect_refused("a.off", start + rest, ErrorCode::MalformedFile,
+                   "expected the end of the line of counts, found '7'");
   }
 }
 

@@ -254,8 +254,6 @@ def test_wrong_arguments_are_refused_by_name():
     ):
         with pytest.raises(ValueError, match=message):
             index.curvature(**arguments)
-    with pytest.raises(ValueError, match="useKring"):
-        meshhood.principal_curvature(V, F, 5, True)
     with pytest.warns(UserWarning, match="libigl raises"):
         meshhood.principal_curvature(V, F, 1)
 

@@ -221,7 +221,8 @@ def asked_plainly(call, words, v, radius):
         plain.pop(name, None)
     plain |= {call.radius: radius, "vertices": [int(v)], "workers": 1}
     index = WITHOUT_WALLS if "walls" in words else INDEX
-    if "like" in words and "walls" in words:  # whose values depend on the order of the edges
+    has_other_edges = "like" in words or (call.name == "features" and words.get("metric") == "rings")
+    if has_other_edges and "walls" in words:  # whose values depend on the order or the mean length of all edges
         index, plain["walls"] = INDEX, WALLS
     if call.name == "nearest_unconnected" and "walls" in words:  # where a vertex without edges is not connected, too
         plain["ignored"] = WALLS | words.get("ignored", False)
@@ -324,9 +325,10 @@ def by_hand(call, words, v, radius):
 
 def nearest_by_hand(words, v, radius):
     plain = PLAIN["walls" in words, "ignored" in words]
-    is_path = words.get("metric") == "path"
-    ids, keys = plain.path(int(v), radius) if is_path else plain.connecting(plain.V[v], [v], radius)
-    order = np.lexsort([ids, plain.distances_of(ids, int(v)), keys])
+    metric = words.get("metric", "straight")
+    straight = metric == "straight"
+    ids, keys = plain.connecting(plain.V[v], [v], radius) if straight else getattr(plain, metric)(int(v), radius)
+    order = np.lexsort([ids, plain.distances_of(ids, int(v)), keys] if straight else [PLACE[ids], keys])
     if "until" in words:
         needed = 1 + np.searchsorted(np.cumsum(weights_of({"weights": "area", **words})[ids[order]]), words["until"])
         return ids[order[:needed]], keys[order[:needed]]
@@ -681,7 +683,7 @@ CALLS_ELSE = {
 # Calls without options, and those of which other tests ask for all that they have.
 WITHOUT_PAIRS = {
     "nearest", "quality", "query_stroke", "rim", "geometric_radii", "open_parts", "persistence", "show_config",
-    "smoothing_radius", "plot_neighborhood", "view", "open", "ids",
+    "smoothing_radius", "plot_neighborhood", "view", "open", "ids", "masked",
 }  # fmt: skip
 
 

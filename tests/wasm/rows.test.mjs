@@ -68,7 +68,7 @@ test('aggregates with masks, paths, scales and a radius for each row are those o
   const values = Float64Array.from({ length: count }, (_, v) => mesh.positions[3 * v + 2]);
   write('values.txt', `${values.join('\n')}\n`);
   const common = ['aggregate', 'hills.ply', '--values', 'values.txt', ...ROWS];
-  for (const metric of ['straight', 'path']) {
+  for (const metric of ['straight', 'path', 'rings']) {
     const expected = ofCommandLine(...common, '-r', '2,5', '--metric', metric, '--kernel', 'biweight').values;
     const options = { vertices, metric, walls, ignored, kernel: 'biweight' };
     assert.deepEqual(index.aggregate(values, null, { ...options, scales: Float64Array.of(2, 5) }), expected, metric);
@@ -78,15 +78,35 @@ test('aggregates with masks, paths, scales and a radius for each row are those o
   }
   const smooth = index.smooth(values, 3, { vertices, metric: 'path', walls });
   assert.ok(Math.abs(smooth[0] - values[400]) < 1 && smooth[0] !== index.smooth(values, 3, { vertices, walls })[0]);
-  assert.throws(() => index.aggregate(values, 2, { metric: 'rings' }), { message: /^metric: 'rings', expected one of 'straight', 'path'/ });
+  assert.throws(() => index.aggregate(values, 2, { metric: 'ring' }), { message: /^metric: 'ring', expected one of 'straight', 'path', 'rings'/ });
+  assert.throws(() => index.aggregate(values, 2, { metric: 'rings', unit: 'edge' }), { message: /^unit: 'edge'/ });
 });
 
-test('curvatures with masks and scales are those of the command line', () => {
-  const expected = ofCommandLine('curvature', 'hills.ply', '-r', '3,5', ...ROWS);
-  const found = index.curvature(null, { faces: mesh, vertices, walls, ignored, scales: Float64Array.of(3, 5) });
-  for (const part of ['k1', 'k2', 'd1', 'd2']) assert.deepEqual(found[part], expected[part], part);
-  assert.deepEqual(numbers(found.state), numbers(expected.state));
-  assert.equal(found.state[2], 2);
+test('curvatures with masks, metrics and scales are those of the command line', () => {
+  for (const metric of ['straight', 'path', 'rings']) {
+    const expected = ofCommandLine('curvature', 'hills.ply', '-r', '3,5', '--metric', metric, ...ROWS);
+    const found = index.curvature(null, { faces: mesh, vertices, metric, walls, ignored, scales: Float64Array.of(3, 5) });
+    for (const part of ['k1', 'k2', 'd1', 'd2']) assert.deepEqual(found[part], expected[part], `${metric}: ${part}`);
+    assert.deepEqual(numbers(found.state), numbers(expected.state));
+    assert.equal(found.state[2], 2);
+  }
+});
+
+test('masks whose content changes are other masks, and calls without have none', () => {
+  const barrier = new Uint8Array(count);
+  const whole = index.count(400, 3);
+  for (const v of [400, 401]) {
+    barrier[v] = 1;
+    assert.equal(index.count(v, 3, { walls: barrier }), 0);
+    assert.equal(index.queryBall(v, 3, { walls: barrier }).length, 0);
+    assert.equal(index.count(400, 3), whole);
+    barrier[v] = 0;
+    assert.equal(index.count(v, 3, { walls: barrier }), index.count(v, 3));
+  }
+  for (const method of ['paper', 'bfs', 'ball']) {
+    assert.throws(() => index.count(400, 3, { method, walls: barrier }), { message: /^method: expected 'exact'/ });
+    assert.ok(index.count(400, 3, { method }) >= whole);
+  }
 });
 
 test('the nearest unconnected vertices are those of the command line and of a scan', () => {
@@ -114,6 +134,8 @@ test('features with masks and scales are those of the command line', () => {
   const options = { faces: mesh, vertices, walls, ignored };
   const found = index.features(null, { ...options, kinds, scales: Float64Array.of(3, 5) });
   assert.deepEqual(found, expected.features);
+  const rings = ofCommandLine('features', 'hills.ply', '-r', '3', '--metric', 'rings', ...ROWS).features;
+  assert.deepEqual(index.features(3, { ...options, metric: 'rings' }), rings);
   const crease = index.features(5, options);
   assert.deepEqual(crease, Float64Array.from(vertices, (_, row) => found[4 * (5 + row)]));
   assert.ok(Number.isNaN(crease[2]) && Number.isFinite(crease[0]));
@@ -152,7 +174,7 @@ test('discs have the first of the nearest vertices whose areas reach a sum', () 
   assert.throws(() => index.queryKnn(400, null), { name: 'TypeError', message: /^k: expected/ });
   assert.throws(() => index.queryKnn(400, null, { until: 8 }), { code: 'InvalidOption', message: /^weights: 'area' needs/ });
   assert.throws(() => index.queryKnn(400, null, { until: 0, weights: ones }), { code: 'InvalidOption', message: /^area: 0/ });
-  assert.throws(() => index.queryKnn(400, 3, { metric: 'rings' }), { code: 'InvalidOption', message: /^metric/ });
+  assert.deepEqual([...index.queryKnn(400, 3, { metric: 'rings' }).distances], [0, 1, 1]);
   assert.throws(() => index.queryKnn(400, 3, { r: -1 }), { code: 'InvalidRadius' });
 });
 

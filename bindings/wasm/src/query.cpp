@@ -59,9 +59,7 @@ void sort_rows(VertexOrder order, std::span<const std::uint32_t> offsets) {
   }
 }
 
-NearestOptions nearest_options(Metric metric, double radius) {
-  return {.metric = metric, .radius = radius};
-}
+NearestOptions nearest_options(Metric metric, double radius) { return {.metric = metric, .radius = radius}; }
 
 }  // namespace
 

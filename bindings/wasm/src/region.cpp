@@ -57,8 +57,7 @@ extern "C" {
 
 /// The same of the largest ball.
 [[clang::export_name("nested")]] bool nested(const double* radii, std::size_t radius_count) {
-  const bool is_near =
-      workspace.regions().nested(origin, std::span(radii, radius_count), answer.ids, region_sizes);
+  const bool is_near = workspace.regions().nested(origin, std::span(radii, radius_count), answer.ids, region_sizes);
   answer_sizes();
   return is_near;
 }
