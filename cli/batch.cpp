@@ -2,7 +2,6 @@
 // meshhood batch: the neighborhoods of all vertices, or of a list, in CSR form.
 #include "meshhood/batch.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +28,6 @@
 #include "quantity.h"
 #include "row_file.h"
 #include "row_query.h"
-#include "shard.h"
 #include "size_limit.h"
 #include "task.h"
 #include "vertex_order.h"
@@ -47,7 +45,6 @@ struct BatchCommand {
   bool count = false;
   bool distances = false;
   bool json = false;
-  std::string shard;  ///< as typed; empty for all rows
   std::optional<std::uint64_t> max_bytes;
   std::string output;
 };
@@ -68,14 +65,14 @@ bool sorts_rows(const BatchCommand& options) {
 }
 
 /// The approximate size of the file: the members without the zip headers. The ones of a matrix without distances
-/// compress to a thousandth.
+/// are compressed: 258 of them take 13 bits.
 double file_bytes(const BatchCommand& options, const BatchSize& total, std::size_t columns) {
   const auto rows = static_cast<double>(total.rows);
   const auto count = static_cast<double>(total.count);
   const double vertices = has_vertices(row_order(options)) ? 8 * rows : 0;
   if (options.count) return vertices + 8 * rows * static_cast<double>(options.rows.scale_count());
   const double index_bytes = fits_32_bits(total.count, columns) ? 4 : 8;
-  return vertices + index_bytes * (rows + count) + (options.distances ? 8 : 1e-3) * count;
+  return vertices + index_bytes * (rows + count) + (options.distances ? 8 : 13.0 / 8 / 258) * count;
 }
 
 /// One for each array of the file whose length is that of the answer, and one to count.
@@ -184,29 +181,8 @@ std::string task_name(const BatchCommand& options, const std::optional<BatchEsti
                      bytes_text(file_bytes(options, estimate->mean, columns)));
 }
 
-/// The description of a shard and of its batch.
-std::string describe(const BatchCommand& options, const Shard& shard, std::size_t rows, const RowQuery& query,
-                     Input& input) {
-  return Json{{"number", shard.number},
-              {"shards", shard.count},
-              {"rows", rows},
-              {"order", name_of(kRowOrders, row_order(options))},
-              {"columns", input.vertex_count()},
-              {"mesh", to_text(input.fingerprint())},
-              {"method", options.search.method},
-              {"metric", options.search.metric},
-              {"radius", query.radii().front()},
-              {"walls", std::count(input.masks().walls.begin(), input.masks().walls.end(), 1)},
-              {"ignored", std::count(input.masks().ignored.begin(), input.masks().ignored.end(), 1)},
-              {"sort", options.sort},
-              {"count", options.count},
-              {"distances", options.distances}}
-      .dump();
-}
-
-/// `shard`: the text of its own array; empty if all rows are written.
-BatchSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, VertexSorter& sorter,
-                const std::string& shard) {
+BatchSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options,
+                VertexSorter& sorter) {
   const SizeLimit limit(options.output, options.max_bytes);
   const std::optional<BatchEstimate> expected = options.count ? std::nullopt : estimate(method, query);
   const std::size_t columns = method.vertex_count();
@@ -215,21 +191,11 @@ BatchSize write(const SearchMethod& method, const BatchQuery& query, const Batch
             {"rows", static_cast<double>(number_of_passes(options))});  // outlives the temporary file
   io::NpzWriter npz(options.output);
   if (has_vertices(row_order(options))) write_vertices(npz, query.vertices);
-  if (!shard.empty()) npz.add_text(kShardArray, shard);
   if (options.count) write_radii(npz, query.radius);
   const BatchSize total = Writer(method, query, options, sorter, limit, task, npz).write();
   Task::check_cancelled();
   npz.commit();
   return total;
-}
-
-/// The query vertices of a shard of `rows`.
-std::vector<VertexId> vertices_of(const Shard& shard, const BatchVertices& rows, std::size_t vertices) {
-  const std::size_t count = rows.count(vertices);
-  const std::size_t first = shard.first_row(count);
-  std::vector<VertexId> result(shard.end_row(count) - first);
-  for (std::size_t row = 0; row < result.size(); ++row) result[row] = rows[first + row];
-  return result;
 }
 
 /// Without the vertices that have become others.
@@ -247,13 +213,8 @@ void check_options(const BatchCommand& options) {
   check_weld(options.reading.weld, options.search.method);
   check_method(options.search, !options.rows.masks.empty(), options.rows.radii.unit);
   check_sort(options.sort, options.search.method);
-  if (!options.shard.empty() && !options.rows.row_radii.empty()) {
-    raise(ErrorCode::InvalidOption, "--shard: a radius for each row, expected one for all");
-  }
   const std::size_t radii = options.rows.scale_count();
-  if (radii == 1) return;
-  if (!options.shard.empty()) raise(ErrorCode::InvalidOption, fmt::format("--shard: {} radii, expected one", radii));
-  if (!options.count) {
+  if (radii > 1 && !options.count) {
     raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one{}", radii,
                                                 options.distances ? " with --distances" : ", or --count"));
   }
@@ -280,15 +241,7 @@ void batch(const BatchCommand& options) {
       query.radius = radii_in_index_order;
     }
   }
-  std::string about;
-  std::vector<VertexId> of_shard;
-  if (!options.shard.empty()) {
-    const Shard shard = parse_shard(options.shard);
-    about = describe(options, shard, query.vertices.count(input.vertex_count()), rows, input);
-    of_shard = vertices_of(shard, query.vertices, input.vertex_count());
-    query.vertices = of_shard;
-  }
-  const BatchSize total = write(method, query, options, sorter, about);
+  const BatchSize total = write(method, query, options, sorter);
   Json document{{"output", options.output}, {"method", options.search.method}};
   if (!options.search.is_straight()) document["metric"] = options.search.metric;
   document.update({{"order", name_of(kRowOrders, order)}, {"rows", total.rows}, {"count", total.count}});
@@ -321,10 +274,6 @@ void add_batch(CLI::App& program) {
                  "also write distances in the metric of the radius: the array distances, or the values of the matrix")
       ->excludes(count);
   add_max_bytes(*command, options->max_bytes);
-  command
-      ->add_option("--shard", options->shard,
-                   "compute piece i of N of the rows, for meshhood merge; slurm/N: i from SLURM_ARRAY_TASK_ID")
-      ->type_name("i/N");
   add_output(*command, ".npz", "file to write", options->output)->required();
   add_json(*command, options->json);
   command->callback([options] { batch(*options); });

@@ -18,7 +18,6 @@ void add_features(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_info(CLI::App& program);
 void add_manual(CLI::App& program);
-void add_merge(CLI::App& program);
 void add_partition(CLI::App& program);
 void add_query(CLI::App& program);
 void add_region(CLI::App& program);

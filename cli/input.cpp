@@ -133,8 +133,6 @@ const std::vector<VertexId>& Input::first_at_position() {
   return *first_at_position_;
 }
 
-Fingerprint Input::fingerprint() { return header_ ? header_->mesh : meshhood::fingerprint(graph()); }
-
 GraphView Input::graph() {
   assert(mesh_ || exact_);
   if (mesh_) {

@@ -68,9 +68,6 @@ class Input {
   /// By vertex: the first vertex at its position. Computed at the first use, then kept.
   [[nodiscard]] const std::vector<VertexId>& first_at_position();
 
-  /// Of the mesh. An index says its own.
-  [[nodiscard]] Fingerprint fingerprint();
-
   /// The file must have edges.
   [[nodiscard]] GraphView graph();
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -30,11 +29,6 @@ template <class T, std::size_t Size>
     if (known == value) return name;
   }
   return names.front().first;
-}
-
-template <class T, std::size_t Size>
-[[nodiscard]] bool is_name_of(const Names<T, Size>& names, std::string_view name) {
-  return std::any_of(names.begin(), names.end(), [&](const auto& known) { return known.first == name; });
 }
 
 /// The value of a name, which is one of `names`.

@@ -93,7 +93,6 @@ void add_subcommands(CLI::App& program) {
   add_curvature(program);
   add_features(program);
   add_unconnected(program);
-  add_merge(program);
   add_partition(program);
   add_compare(program);
   add_generate(program);

@@ -1,31 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "row_file.h"
 
-#include <algorithm>
 #include <array>
-#include <cstddef>
 #include <limits>
-#include <span>
 
 namespace meshhood::cli {
 namespace {
 
 bool is_matrix(RowOrder order) { return order != RowOrder::Index; }
-
-/// The values of a matrix of ones.
-void write_ones(io::NpzWriter& npz, std::uint64_t count) {
-  constexpr auto kOnes = [] {
-    std::array<bool, std::size_t{1} << 16> ones{};
-    ones.fill(true);
-    return ones;
-  }();
-  npz.begin<bool>("data", count);
-  for (std::uint64_t left = count; left > 0;) {
-    const auto ones = std::span(kOnes).first(static_cast<std::size_t>(std::min<std::uint64_t>(left, kOnes.size())));
-    npz.append<bool>(ones);
-    left -= ones.size();
-  }
-}
 
 }  // namespace
 
@@ -44,7 +26,7 @@ void begin_rows(io::NpzWriter& npz, RowOrder order, std::uint64_t rows, std::uin
 std::string_view distances_name(RowOrder order) { return is_matrix(order) ? "data" : "distances"; }
 
 void end_rows(io::NpzWriter& npz, RowOrder order, std::uint64_t count) {
-  if (is_matrix(order)) write_ones(npz, count);
+  if (is_matrix(order)) npz.add_ones("data", count);
 }
 
 }  // namespace meshhood::cli

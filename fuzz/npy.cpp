@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as `.npy` and `.npz` files. The first byte of an input says what it is: two arrays, of positions and faces,
-// of which the next two bytes give the size of the first; or an archive of arrays.
+// Any bytes as two `.npy` files, of positions and faces. The first two bytes of an input give the size of the first.
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "io/npz_reader.h"
 #include "memory_file.h"
 #include "parts/chunked_mesh.h"
 #include "refusal.h"
@@ -70,41 +67,14 @@ void read_arrays(std::span<const std::byte> positions, std::span<const std::byte
   }
 }
 
-template <class T>
-void read_values(io::NpzReader& reader, std::string_view name) {
-  reader.begin(name);
-  std::vector<T> values;
-  while (reader.read(values)) {
-  }
-}
-
-void read_archive(std::span<const std::byte> bytes) {
-  static const MemoryFile file;
-  file.replace(bytes);
-  const auto attempt = [&](auto&& read) {
-    try {
-      io::NpzReader reader(file.path());
-      read(reader);
-    } catch (const Error& error) {
-      expect_clear(error, {ErrorCode::IoFailure, ErrorCode::MalformedFile, ErrorCode::UnsupportedFormat},
-                   "/proc/self/fd/");
-    }
-  };
-  attempt([](io::NpzReader& reader) { static_cast<void>(reader.integers("offsets")); });
-  attempt([](io::NpzReader& reader) { read_values<std::int64_t>(reader, "ids"); });
-  attempt([](io::NpzReader& reader) { read_values<double>(reader, "distances"); });
-  attempt([](io::NpzReader& reader) { static_cast<void>(reader.text("radius")); });
-}
-
 }  // namespace
 
 void run(std::span<const std::byte> input) {
-  constexpr std::size_t kHead = 3;
+  constexpr std::size_t kHead = 2;
   if (input.size() < kHead) return;
   const auto byte = [&](std::size_t i) { return std::to_integer<std::size_t>(input[i]); };
   const auto body = input.subspan(kHead);
-  if (byte(0) % 2 == 1) return read_archive(body);
-  const std::size_t first = std::min(body.size(), byte(1) | byte(2) << 8U);
+  const std::size_t first = std::min(body.size(), byte(0) | byte(1) << 8U);
   read_arrays(body.first(first), body.subspan(first));
 }
 

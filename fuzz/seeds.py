@@ -1,10 +1,8 @@
 #!/usr/bin/env python3
 """Adds the first inputs of each fuzzer, small files that reach all parts of the readers, to its archive in fuzz/corpus."""
-import io
 import json
 import random
 import struct
-import zipfile
 
 import corpus
 
@@ -119,23 +117,13 @@ def npy(descr, shape, data, version=1, order=False):
 
 
 def arrays(positions, faces):
-    """Two files after the head of the target: an even byte, and the size of the first."""
-    return struct.pack("<BH", 0, len(positions)) + positions + faces
-
-
-def npz(**members):
-    archive = io.BytesIO()
-    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as file:
-        for name, data in members.items():
-            file.writestr(zipfile.ZipInfo(f"{name}.npy"), data)
-    return struct.pack("<BH", 1, 0) + archive.getvalue()
+    """Two files after the head of the target, the size of the first."""
+    return struct.pack("<H", len(positions)) + positions + faces
 
 
 FLOATS = npy("<f4", "(4, 3)", struct.pack("<12f", *range(12)))
 DOUBLES = npy(">f8", "(3, 3)", struct.pack(">9d", *range(9)), version=2)
 INTEGERS = npy("<i8", "(2, 3)", struct.pack("<6q", 0, 1, 2, 2, 1, 3))
-ROWS = {"offsets": npy("<i8", "(3,)", struct.pack("<3q", 0, 1, 3)), "ids": npy("<i4", "(3,)", struct.pack("<3i", 0, 0, 1)),
-        "distances": npy("<f8", "(3,)", struct.pack("<3d", 0, 0, 1)), "radius": npy("|S3", "()", b"1.5")}
 SEEDS["npy"] = {
     "triangles": arrays(FLOATS, INTEGERS),
     "big_endian": arrays(DOUBLES, npy(">i4", "(1, 4)", struct.pack(">4i", 0, 1, 2, 0), version=3)),
@@ -146,9 +134,6 @@ SEEDS["npy"] = {
     "huge": arrays(npy("<f4", "(6148914691236517206, 3)", bytes(24)), INTEGERS),
     "truncated": arrays(FLOATS[:-1], INTEGERS),
     "unsigned": arrays(FLOATS, npy("<u8", "(2, 3)", struct.pack("<6Q", 0, 1, 2, 2, 1, 3))),
-    "rows": npz(**ROWS),
-    "rows_without_ids": npz(offsets=ROWS["offsets"]),
-    "rows_too_short": npz(**ROWS | {"ids": npy("<i4", "(9,)", bytes(12))}),
 }
 FILES = ("index.mhi", "vertices.npy", "owned.npy", "face_corners.npy", "face_offsets.npy")
 PART = {"vertices": 20, "owned": 16, "faces": 24,

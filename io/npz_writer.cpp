@@ -11,7 +11,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,11 +19,11 @@
 
 namespace meshhood::io {
 
-void NpzWriter::begin_member(std::string_view name, std::string_view type, std::string_view shape, std::uint64_t bytes,
-                             ZipWriter::Packing packing) {
+void NpzWriter::begin_member(std::string_view name, std::string_view type, std::string_view shape,
+                             std::uint64_t bytes) {
   assert(bytes_left_ == 0);
   const std::string head = npy_header(type, shape);
-  zip_.begin(fmt::format("{}.npy", name), head.size() + bytes, packing);
+  zip_.begin(fmt::format("{}.npy", name), head.size() + bytes);
   zip_.write(head);
   bytes_left_ = bytes;
 }
@@ -36,11 +35,9 @@ void NpzWriter::begin(std::string_view name, std::uint64_t count) {
 
 template <class T>
 void NpzWriter::begin(std::string_view name, std::span<const std::uint64_t> shape) {
-  // Numbers hardly compress.
-  const auto packing = std::is_same_v<T, bool> ? ZipWriter::Packing::Deflated : ZipWriter::Packing::Stored;
   const std::uint64_t count = std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
   const std::string lengths = fmt::format("({}{})", fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
-  begin_member(name, npy_type<T>(), lengths, count * sizeof(T), packing);
+  begin_member(name, npy_type<T>(), lengths, count * sizeof(T));
 }
 
 template <class T>
@@ -51,7 +48,7 @@ void NpzWriter::append(std::span<const T> values) {
 }
 
 void NpzWriter::add_text(std::string_view name, std::string_view text) {
-  begin_member(name, fmt::format("|S{}", text.size()), "()", text.size(), ZipWriter::Packing::Stored);
+  begin_member(name, fmt::format("|S{}", text.size()), "()", text.size());
   append(std::span<const char>(text));
 }
 
@@ -65,9 +62,13 @@ void NpzWriter::add_texts(std::string_view name, std::span<const std::string> te
   }
   const char order = std::endian::native == std::endian::little ? '<' : '>';
   const std::uint64_t bytes = characters.size() * sizeof(char32_t);
-  begin_member(name, fmt::format("{}U{}", order, longest), fmt::format("({},)", texts.size()), bytes,
-               ZipWriter::Packing::Stored);
+  begin_member(name, fmt::format("{}U{}", order, longest), fmt::format("({},)", texts.size()), bytes);
   append(std::span<const char32_t>(characters));
+}
+
+void NpzWriter::add_ones(std::string_view name, std::uint64_t count) {
+  assert(bytes_left_ == 0);
+  zip_.add_run(fmt::format("{}.npy", name), npy_header(npy_type<bool>(), fmt::format("({},)", count)), '\1', count);
 }
 
 void NpzWriter::commit() {
@@ -75,7 +76,6 @@ void NpzWriter::commit() {
   zip_.commit();
 }
 
-template void NpzWriter::begin<bool>(std::string_view, std::uint64_t);
 template void NpzWriter::begin<std::int32_t>(std::string_view, std::uint64_t);
 template void NpzWriter::begin<std::int64_t>(std::string_view, std::uint64_t);
 template void NpzWriter::begin<std::uint64_t>(std::string_view, std::uint64_t);
@@ -83,7 +83,6 @@ template void NpzWriter::begin<double>(std::string_view, std::uint64_t);
 template void NpzWriter::begin<std::int32_t>(std::string_view, std::span<const std::uint64_t>);
 template void NpzWriter::begin<std::int64_t>(std::string_view, std::span<const std::uint64_t>);
 template void NpzWriter::begin<double>(std::string_view, std::span<const std::uint64_t>);
-template void NpzWriter::append<bool>(std::span<const bool>);
 template void NpzWriter::append<std::int32_t>(std::span<const std::int32_t>);
 template void NpzWriter::append<std::int64_t>(std::span<const std::int64_t>);
 template void NpzWriter::append<std::uint64_t>(std::span<const std::uint64_t>);

@@ -14,7 +14,7 @@ namespace meshhood::io {
 
 /// Writes named arrays to a file for `numpy.load`, atomically (see `FileWriter`).
 ///
-/// T: bool, std::int32_t, std::int64_t, std::uint64_t or double. All errors are Error{IoFailure}.
+/// T: std::int32_t, std::int64_t, std::uint64_t or double. All errors are Error{IoFailure}.
 class NpzWriter {
  public:
   explicit NpzWriter(const std::filesystem::path& path) : zip_(path) {}
@@ -36,6 +36,9 @@ class NpzWriter {
     append(values);
   }
 
+  /// Adds an array of `count` values true, which is compressed. Other values are stored, as numbers hardly compress.
+  void add_ones(std::string_view name, std::uint64_t count);
+
   /// Adds an ASCII string as an array without dimensions.
   void add_text(std::string_view name, std::string_view text);
 
@@ -46,8 +49,7 @@ class NpzWriter {
   void commit();
 
  private:
-  void begin_member(std::string_view name, std::string_view type, std::string_view shape, std::uint64_t bytes,
-                    ZipWriter::Packing packing);
+  void begin_member(std::string_view name, std::string_view type, std::string_view shape, std::uint64_t bytes);
 
   ZipWriter zip_;
   std::uint64_t bytes_left_ = 0;  // of the current array

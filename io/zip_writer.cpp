@@ -2,128 +2,211 @@
 #include "io/zip_writer.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
-#include <new>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-#include <minizip/zip.h>
-
-#include "io/file_writer.h"
-#include "io/messages.h"
-
 namespace meshhood::io {
 namespace {
 
-/// The file that minizip writes to. Minizip is C, so no exception may pass through it: the first is kept for `check` to
-/// throw, and nothing is written after it. Minizip itself gets no error, because it leaks memory if a write fails.
-struct Target {
-  FileWriter file;
-  std::exception_ptr failure = nullptr;
+constexpr std::uint64_t kMost32 = std::numeric_limits<std::uint32_t>::max();  // says that the value is in Zip64 fields
+constexpr std::uint16_t kStored = 0;
+constexpr std::uint16_t kDeflated = 8;
 
-  template <class F>
-  void attempt(F&& f) noexcept {
-    if (failure) return;
-    try {
-      std::forward<F>(f)(file);
-    } catch (...) {
-      failure = std::current_exception();
+using ChecksumTables = std::array<std::array<std::uint32_t, 256>, 8>;
+
+/// Table k: what a byte contributes to the CRC-32 if k bytes follow it.
+constexpr ChecksumTables checksum_tables() {
+  ChecksumTables tables{};
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
+    std::uint32_t value = byte;
+    for (int bit = 0; bit < 8; ++bit) value = value >> 1U ^ ((value & 1U) != 0 ? 0xedb88320U : 0U);
+    tables[0][byte] = value;
+  }
+  for (std::size_t k = 1; k < tables.size(); ++k) {
+    for (std::size_t byte = 0; byte < 256; ++byte) {
+      const std::uint32_t before = tables[k - 1][byte];
+      tables[k][byte] = before >> 8U ^ tables[0][before & 0xffU];
     }
   }
+  return tables;
+}
+
+/// The CRC-32 of what `checksum` is of, followed by `bytes`. Eight bytes at once, so that the disk is the slower part.
+std::uint32_t extend_checksum(std::uint32_t checksum, std::string_view bytes) {
+  static constexpr ChecksumTables kTables = checksum_tables();
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  std::uint32_t state = ~checksum;
+  for (; bytes.size() >= 8; bytes.remove_prefix(8)) {
+    std::uint32_t next = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const std::uint32_t mixed = i < 4 ? state >> (8U * i) & 0xffU : 0U;
+      next ^= kTables[7 - i][byte(i) ^ mixed];
+    }
+    state = next;
+  }
+  for (std::size_t i = 0; i < bytes.size(); ++i) state = state >> 8U ^ kTables[0][(state ^ byte(i)) & 0xffU];
+  return ~state;
+}
+
+/// Appends values in the order of bytes of the format.
+class Fields {
+ public:
+  Fields& u16(std::uint64_t value) { return put(value, 2); }
+  Fields& u32(std::uint64_t value) { return put(value, 4); }
+  Fields& u64(std::uint64_t value) { return put(value, 8); }
+  /// A value of 32 bits, or the sign that it is in a field of Zip64.
+  Fields& clipped(std::uint64_t value) { return u32(std::min(value, kMost32)); }
+  Fields& text(std::string_view value) {
+    bytes_ += value;
+    return *this;
+  }
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  Fields& put(std::uint64_t value, unsigned size) {
+    for (unsigned i = 0; i < size; ++i) bytes_ += static_cast<char>(value >> (8U * i) & 0xffU);
+    return *this;
+  }
+
+  std::string bytes_;
 };
 
-voidpf open_target(voidpf target, const void* /*path*/, int /*mode*/) { return target; }
+/// Appends the codes of Deflate, which begin with their highest bit, to bytes, which are filled from the lowest bit.
+class Codes {
+ public:
+  explicit Codes(FileWriter& file) : file_(file) {}
 
-uLong write_to(voidpf target, voidpf /*stream*/, const void* bytes, uLong size) {
-  const std::string_view text(static_cast<const char*>(bytes), size);
-  static_cast<Target*>(target)->attempt([&](FileWriter& file) { file.write(text); });
-  return size;
-}
+  void put(unsigned code, unsigned length) {
+    while (length-- > 0) {
+      byte_ |= (code >> length & 1U) << filled_;
+      if (++filled_ == 8) flush();
+    }
+  }
 
-ZPOS64_T position_in(voidpf target, voidpf /*stream*/) { return static_cast<Target*>(target)->file.position(); }
+  /// Fills the last byte with zeros.
+  void flush() {
+    if (filled_ == 0) return;
+    const char byte = static_cast<char>(byte_);
+    file_.write({&byte, 1});
+    byte_ = filled_ = 0;
+  }
 
-/// For a new file, minizip seeks only from the beginning.
-long seek_in(voidpf target, voidpf /*stream*/, ZPOS64_T position, int /*origin*/) {
-  static_cast<Target*>(target)->attempt([&](FileWriter& file) { file.seek(position); });
-  return 0;
-}
+ private:
+  FileWriter& file_;
+  unsigned byte_ = 0;
+  unsigned filled_ = 0;
+};
 
-int close_target(voidpf /*target*/, voidpf /*stream*/) { return 0; }
-
-int has_failed(voidpf /*target*/, voidpf /*stream*/) { return 0; }
-
-zlib_filefunc64_def functions_of(Target& target) {
-  return {.zopen64_file = open_target,
-          .zread_file = nullptr,
-          .zwrite_file = write_to,
-          .ztell64_file = position_in,
-          .zseek64_file = seek_in,
-          .zclose_file = close_target,
-          .zerror_file = has_failed,
-          .opaque = &target};
+/// A last block with the fixed codes: the byte, copies of 258 bytes from one byte before, the rest of the bytes.
+void write_run_block(FileWriter& file, unsigned char byte, std::uint64_t count) {
+  constexpr std::uint64_t kLongest = 258;
+  Codes codes(file);
+  codes.put(0b110, 3);  // the last block; fixed codes, whose number 01 begins with the lower bit
+  const auto put_bytes = [&](std::uint64_t bytes) {
+    while (bytes-- > 0) codes.put(0x30U + byte, 8);
+  };
+  const std::uint64_t copies = count == 0 ? 0 : (count - 1) / kLongest;
+  put_bytes(std::min<std::uint64_t>(count, 1));
+  for (std::uint64_t i = 0; i < copies; ++i) codes.put(0b11000101'00000, 13);  // length 258; distance 1
+  put_bytes(count == 0 ? 0 : count - 1 - copies * kLongest);
+  codes.put(0, 7);  // the end
+  codes.flush();
 }
 
 }  // namespace
 
-struct ZipWriter::State {
-  explicit State(const std::filesystem::path& file)
-      : path(file),
-        target{FileWriter(file, FileWriter::Order::Any)} {  // the sizes in the headers are written after the values
-    zlib_filefunc64_def functions = functions_of(target);
-    zip = zipOpen2_64(path.c_str(), APPEND_STATUS_CREATE, nullptr, &functions);
-    if (zip == nullptr) throw std::bad_alloc();
-  }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  ~State() {
-    if (zip != nullptr) zipClose(zip, nullptr);
-  }
+ZipWriter::ZipWriter(const std::filesystem::path& path)
+    : file_(path, FileWriter::Order::Any) {}  // a header has the checksum of what follows it
 
-  void check(int status) const {
-    if (target.failure) std::rethrow_exception(target.failure);
-    if (status != ZIP_OK) {
-      raise_io(path, 0, fmt::format("cannot write a zip file: minizip error {}", status));
-    }
-  }
+void ZipWriter::begin(const std::string& name, std::uint64_t bytes) {
+  begin({.name = name, .bytes = bytes, .method = kStored});
+}
 
-  std::filesystem::path path;
-  Target target;
-  zipFile zip = nullptr;
-  bool in_member = false;
-};
-
-ZipWriter::ZipWriter(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {}
-ZipWriter::~ZipWriter() = default;
-
-void ZipWriter::begin(const std::string& name, std::uint64_t bytes, Packing packing) {
-  constexpr std::uint64_t kLargestWithoutZip64 = 0xff000000;  // 2^32 - 1, less what compression may add
-  if (std::exchange(state_->in_member, true)) state_->check(zipCloseFileInZip(state_->zip));
-  const zip_fileinfo info{
-      .tmz_date = {.tm_sec = 0, .tm_min = 0, .tm_hour = 0, .tm_mday = 1, .tm_mon = 0, .tm_year = 1980},
-      .dosDate = 0,
-      .internal_fa = 0,
-      .external_fa = 0};
-  const int method = packing == Packing::Deflated ? Z_DEFLATED : 0;
-  state_->check(zipOpenNewFileInZip64(state_->zip, name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr, method,
-                                      Z_BEST_SPEED, bytes > kLargestWithoutZip64 ? 1 : 0));
+void ZipWriter::begin(Member member) {
+  end_member();
+  member.offset = file_.position();
+  file_.write(header(member, false));
+  members_.push_back(std::move(member));
 }
 
 void ZipWriter::write(std::string_view bytes) {
-  constexpr std::size_t kMost = std::size_t{1} << 30;  // minizip counts in 32 bits
-  while (!bytes.empty()) {
-    const std::string_view part = bytes.substr(0, kMost);
-    state_->check(zipWriteInFileInZip(state_->zip, part.data(), static_cast<unsigned>(part.size())));
-    bytes.remove_prefix(part.size());
+  members_.back().checksum = extend_checksum(members_.back().checksum, bytes);
+  file_.write(bytes);
+}
+
+void ZipWriter::add_run(const std::string& name, std::string_view head, char byte, std::uint64_t count) {
+  assert(head.size() < 0x10000 && static_cast<unsigned char>(byte) < 144);
+  begin({.name = name, .bytes = head.size() + count, .method = kDeflated});
+  file_.write(Fields().text({"\0", 1}).u16(head.size()).u16(~head.size()).bytes());  // a block that is not compressed
+  write(head);
+  write_run_block(file_, static_cast<unsigned char>(byte), count);
+  const std::string run(std::size_t{1} << 16, byte);
+  std::uint32_t& checksum = members_.back().checksum;
+  for (std::uint64_t left = count; left > 0;) {
+    const std::string_view part = std::string_view(run).substr(0, std::min<std::uint64_t>(left, run.size()));
+    checksum = extend_checksum(checksum, part);
+    left -= part.size();
   }
 }
 
+/// The header is written again, now with the checksum.
+void ZipWriter::end_member() {
+  if (members_.empty()) return;
+  Member& member = members_.back();
+  const std::uint64_t end = file_.position();
+  member.packed = end - member.offset - header(member, false).size();
+  assert(member.method != kStored || member.packed == member.bytes);
+  file_.seek(member.offset);
+  file_.write(header(member, false));
+  file_.seek(end);
+}
+
+/// Of a member, in front of it or in the directory at the end of the file. Its length depends only on what `begin`
+/// knows.
+std::string ZipWriter::header(const Member& member, bool is_central) {
+  const bool is_large = member.bytes >= kMost32;
+  const bool is_far = is_central && member.offset >= kMost32;
+  Fields large;
+  if (is_large) large.u64(member.bytes).u64(member.packed);
+  if (is_far) large.u64(member.offset);
+  Fields extra;
+  if (is_large || is_far) extra.u16(1).u16(large.bytes().size()).text(large.bytes());
+  const unsigned version = is_large || is_far ? 45 : 20;
+  constexpr unsigned kDate = 1U << 5U | 1U;  // 1980-01-01
+  Fields fields;
+  is_central ? fields.u32(0x02014b50).u16(version) : fields.u32(0x04034b50);
+  fields.u16(version).u16(0).u16(member.method).u16(0).u16(kDate).u32(member.checksum);
+  fields.u32(is_large ? kMost32 : member.packed).u32(is_large ? kMost32 : member.bytes);
+  fields.u16(member.name.size()).u16(extra.bytes().size());
+  if (is_central) fields.u16(0).u16(0).u16(0).u32(0).clipped(member.offset);
+  return fields.text(member.name).text(extra.bytes()).bytes();
+}
+
+/// Of the file, behind a directory of `bytes` bytes at `offset`.
+std::string ZipWriter::end(std::uint64_t members, std::uint64_t offset, std::uint64_t bytes) {
+  constexpr unsigned kVersion = 45;
+  constexpr unsigned kSizeOfRest = 44;
+  Fields fields;
+  if (offset >= kMost32) {
+    fields.u32(0x06064b50).u64(kSizeOfRest).u16(kVersion).u16(kVersion).u32(0).u32(0);
+    fields.u64(members).u64(members).u64(bytes).u64(offset);
+    fields.u32(0x07064b50).u32(0).u64(offset + bytes).u32(1);
+  }
+  return fields.u32(0x06054b50).u16(0).u16(0).u16(members).u16(members).u32(bytes).clipped(offset).u16(0).bytes();
+}
+
 void ZipWriter::commit() {
-  state_->check(zipClose(std::exchange(state_->zip, nullptr), nullptr));
-  state_->target.file.commit();
+  end_member();
+  const std::uint64_t offset = file_.position();
+  for (const Member& member : members_) file_.write(header(member, true));
+  file_.write(end(members_.size(), offset, file_.position() - offset));
+  file_.commit();
 }
 
 }  // namespace meshhood::io

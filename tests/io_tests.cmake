@@ -2,6 +2,7 @@
 foreach(stem shared_meshes ply obj off stl float_keeps blocks text file progress index index_progress weld write mutation)
   meshhood_test(io/${stem} meshhood_test_support meshhood_families)
 endforeach()
+meshhood_test(io/zip ALONE meshhood_test_support meshhood_npz)
 
 # A file system in memory that can be filled.
 add_library(meshhood_small_disk STATIC support/small_disk.cpp)

@@ -37,9 +37,9 @@ ARGUMENTS = {
     "unconnected": "mesh.ply -r 1 -o out",
     "view": "mesh.ply -o out",
 }
-# Without a file of their own, or with a folder; and shards, which are to be removed.
-OTHERS = {"manual", "help", "merge"}
-NOT_FILES = {("partition", "-o"), ("batch", "--shard")}
+# Without a file of their own, or with a folder.
+OTHERS = {"manual", "help"}
+NOT_FILES = {("partition", "-o")}
 # Results that fit into a pipe, so that nothing waits for the reader; and a page needs a mesh file that is stored.
 SMALL = 1 << 16
 WRITTEN = {"-o", "--ply", "--vtk", "--arrays"}

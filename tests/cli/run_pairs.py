@@ -46,9 +46,9 @@ SAME_BYTES = {"batch", "aggregate", "curvature", "features", "unconnected", "reg
 # Of these, no input may be standard input, because it is read more than once; of view the mesh.
 STORED = {("partition", "FILE"), ("partition", "--faces"), ("view", "FILE")}
 
-# Not run: what prints and ends, and the shards, which have tests of their own.
-LEFT_OUT = {"--help", "--version", "--shard"}
-COMMANDS_LEFT_OUT = {"merge", "manual"}  # of shards; without options
+# Not run: what prints and ends.
+LEFT_OUT = {"--help", "--version"}
+COMMANDS_LEFT_OUT = {"manual"}  # without options
 
 # These are run on the mesh, check on its index, and all others on either: the index is faster to read.
 MESH_COMMANDS = {"build", "partition", "view", "info", "generate", "check"}

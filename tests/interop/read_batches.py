@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Reads what `meshhood batch` writes with SciPy, and compares it with components that SciPy finds itself.
+"""Reads what `meshhood batch` writes with NumPy, SciPy and `unzip -t`. Compares it with components that SciPy finds.
 
     read_batches.py MESHHOOD
 
 Exit code 77, skipped, without the libraries.
 """
 
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -16,6 +17,7 @@ SKIPPED = 77
 SHAPES = ("scroll", "plates", "soup", "ngons", "star", "isolated")
 VERTICES = 700
 RADIUS = 2.5
+UNZIP = shutil.which("unzip")
 
 try:
     import numpy as np
@@ -58,6 +60,8 @@ class Batches:
 
     def file(self, *options):
         self.run("batch", "mesh.ply", "-r", str(RADIUS), *options, "-o", "out.npz")
+        if UNZIP:
+            subprocess.run([UNZIP, "-tqq", "out.npz"], cwd=self.folder, check=True)
         return self.folder / "out.npz"
 
 
@@ -136,6 +140,7 @@ def main(program):
             check_paper(batches, oracle)
             check_threads(batches)
             print(f"{shape}: {len(oracle.positions)} rows as SciPy finds them")
+    print("unzip -t found no fault" if UNZIP else "skipped: unzip is not installed")
     return 0
 
 

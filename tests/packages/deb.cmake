@@ -9,7 +9,7 @@ file(GLOB package ${WORK_DIR}/meshhood_${VERSION}_*.deb)
 execute_process(COMMAND dpkg-deb --extract ${package} ${WORK_DIR}/root COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND dpkg-deb --field ${package} Depends
   OUTPUT_VARIABLE needed OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-if(NOT needed MATCHES "libc6.*libfmt.*libminizip.*libstdc")
+if(NOT needed MATCHES "libc6.*libfmt.*libstdc")
   message(FATAL_ERROR "the package depends on ${needed}")
 endif()
 execute_process(COMMAND apt-get install --simulate --quiet=2 ${package} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)

@@ -75,7 +75,7 @@ on_older_processors() {
 in_musl() {
   local folder=$packages/installed/$target interpreter=$packages/python-musl/python zig
   zig=$("$python" -c 'import os, ziglang; print(os.path.dirname(ziglang.__file__) + "/zig")')
-  "$here/musl_python.sh" "${interpreter%/*}" "$zig" "$packages/sources/zlib"
+  "$here/musl_python.sh" "${interpreter%/*}" "$zig"
   rm -rf "$folder"
   "${pip[@]}" --target "$folder" --only-binary :all: --implementation cp --python-version 3.13 \
     --platform musllinux_1_2_x86_64 "$1" numpy

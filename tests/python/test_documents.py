@@ -24,8 +24,8 @@ PAGE_OF_VIEWER = Path(meshhood.__file__).with_name("viewer.html")
 STAND_INS = """
 ssh() { shift; bash -c "$*"; }
 sbatch() {
-  local task
-  for ((task = 1; task <= ${1##*-}; ++task)); do SLURM_ARRAY_TASK_ID=$task bash -c "$3"; done
+  local task tasks=${1#--array=}
+  for ((task = ${tasks%-*}; task <= ${tasks#*-}; ++task)); do SLURM_ARRAY_TASK_ID=$task bash -c "$3"; done
 }
 """
 
