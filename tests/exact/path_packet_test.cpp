@@ -131,7 +131,7 @@ class PacketTrial {
   std::shared_ptr<KeptGraph> graph_;
   PathSearch single_;
   PathPacket packet_;
-  std::vector<double> some_lengths_;
+  std::vector<double> some_lengths_{0};  // vertex 0 may be a wall
 };
 
 class PathsOfFamily : public testing::TestWithParam<Family> {};
