@@ -31,8 +31,8 @@ Metric checked_metric(const std::string& name, const std::string& unit) {
   return value_of(kMetrics, name);
 }
 
-void check_method(const MethodOptions& options, bool has_filter, const std::string& unit) {
-  if (options.method != "exact" && (!options.is_straight() || has_filter)) {
+void check_method(const MethodOptions& options, bool has_masks, const std::string& unit) {
+  if (options.method != "exact" && (!options.is_straight() || has_masks)) {
     raise(ErrorCode::InvalidOption, "--metric, --walls and --ignored require --method exact");
   }
   static_cast<void>(checked_metric(options.metric, unit));

@@ -33,8 +33,8 @@ void add_metric(CLI::App& command, std::string& metric);
 /// Throws Error{InvalidOption} if it has no radii of this unit.
 [[nodiscard]] Metric checked_metric(const std::string& name, const std::string& unit);
 
-/// Throws Error{InvalidOption} if the options contradict each other, a filter, or the unit of the radius.
-void check_method(const MethodOptions& options, bool has_filter, const std::string& unit);
+/// Throws Error{InvalidOption} if the options contradict each other, masks, or the unit of the radius.
+void check_method(const MethodOptions& options, bool has_masks, const std::string& unit);
 
 /// Of the straight metric: a query of the exact index has its own. Borrows `input`. `settings` are those of the method
 /// paper; `threads` build the index. Throws Error{InvalidOption} if the method needs edges and the input has none.

@@ -204,7 +204,7 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, const StartQu
   return answers;
 }
 
-/// The answers that the methods do not give: from a point, with a filter, in another metric, for several radii.
+/// The answers that the methods do not give: from a point, with masks, in another metric, for several radii.
 std::vector<Answer> answers_of_starts(const QueryCommand& options, const StartQuery& query,
                                       std::span<const double> radii, Input& input) {
   input.need_edges("this query");

@@ -2,6 +2,7 @@
 #include "start.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -19,12 +20,14 @@ namespace meshhood::cli {
 namespace {
 
 /// A search that starts nowhere finds nothing, which may be a radius in the wrong unit.
-void note_far_point(RegionSearcher& searcher, const Start& start, double radius) {
+void note_far_point(const PositionsView& positions, const Start& start, double radius) {
+  const SpacePoint& center = *start.center();
   VertexId nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (const VertexId seed : start.seeds()) {
-    const double distance =
-        searcher.connecting_radius(start, seed);  // the path of a seed to itself has no other vertex
+    const double distance = positions.visit([&](const auto& xyz) {
+      return std::hypot(xyz(seed, 0) - center[0], xyz(seed, 1) - center[1], xyz(seed, 2) - center[2]);
+    });
     if (distance < least) nearest = seed;
     least = std::min(least, distance);
   }
@@ -117,7 +120,7 @@ StartAnswer regions_of(const QueryStart& start, const std::string& metric, std::
   StartAnswer answer;
   RegionSearcher searcher(input.exact_index());
   const bool is_near = searcher.region(start.view(), radii.back(), answer.vertices, answer.distances);
-  if (!is_near) note_far_point(searcher, start.view(), radii.back());
+  if (!is_near) note_far_point(input.positions(), start.view(), radii.back());
   std::vector<double> distance_of(input.vertex_count());  // `nested` returns no distances
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) distance_of[answer.vertices[i]] = answer.distances[i];
   searcher.nested(start.view(), radii, answer.vertices, answer.counts);

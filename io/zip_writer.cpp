@@ -11,6 +11,8 @@
 #include <string_view>
 #include <utility>
 
+#include "io/waiting.h"
+
 namespace meshhood::io {
 namespace {
 
@@ -113,7 +115,10 @@ void write_run_block(FileWriter& file, unsigned char byte, std::uint64_t count) 
   };
   const std::uint64_t copies = count == 0 ? 0 : (count - 1) / kLongest;
   put_bytes(std::min<std::uint64_t>(count, 1));
-  for (std::uint64_t i = 0; i < copies; ++i) codes.put(0b11000101'00000, 13);  // length 258; distance 1
+  for (std::uint64_t i = 0; i < copies; ++i) {
+    codes.put(0b11000101'00000, 13);  // length 258; distance 1
+    if (i % 0x10000 == 0) report_wait();
+  }
   put_bytes(count == 0 ? 0 : count - 1 - copies * kLongest);
   codes.put(0, 7);  // the end
   codes.flush();
@@ -152,6 +157,7 @@ void ZipWriter::add_run(const std::string& name, std::string_view head, char byt
     const std::string_view part = std::string_view(run).substr(0, std::min<std::uint64_t>(left, run.size()));
     checksum = extend_checksum(checksum, part);
     left -= part.size();
+    report_wait();  // 10^10 bytes take seconds
   }
 }
 

@@ -59,16 +59,6 @@ auto region(Queries& queries, const Center& center, const Seeds& seeds, double r
   return std::tuple(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)), has_seed);
 }
 
-auto path_region(Queries& queries, VertexId v, double radius) {
-  std::vector<VertexId> ids;
-  std::vector<double> lengths;
-  queries.with_edges([&](EdgeSearcher& searcher) {
-    searcher.neighborhood(v, radius, ids, lengths);
-    return true;
-  });
-  return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(lengths)));
-}
-
 /// Seeds that do not exist are -1.
 auto stroke(Queries& queries, const Points& centers, const SeedRows& seeds, const Reals& radii) {
   std::vector<VertexId> ids;
@@ -143,7 +133,6 @@ void bind_queries(nb::module_& module) {
   const auto center = nb::arg("center").none();
   nb::class_<Queries>(module, "Queries")
       .def("region", &region, center, nb::arg(), nb::arg())
-      .def("path_region", &path_region, nb::arg(), nb::arg())
       .def("stroke", &stroke, nb::arg(), nb::arg(), nb::arg())
       .def("nested", &nested, center, nb::arg(), nb::arg())
       .def("contains", &contains, center, nb::arg(), nb::arg(), nb::arg())

@@ -227,7 +227,7 @@ export class MeshIndex extends Owner {
 
   queryKnn(v, k, options = {}) {
     const given = withDefaults(options, NEAREST);
-    const { r, until, weights, faces, metric, unit } = given;
+    const { r, until, weights, faces, unit } = given;
     if ((k === null || k === undefined) === (until === null)) {
       throw new TypeError('k: expected a number of vertices; or null, and an area as until');
     }
@@ -236,7 +236,7 @@ export class MeshIndex extends Owner {
     expectRadius(r);
     const vertices = isMany(v) ? v : Uint32Array.of(v);
     const search = (use) => withMasks(this.instance, given, () => this.instance.with([vertices], (ids) =>
-      use(ids, vertices?.length ?? 0, choose(METRICS, metric, 'metric'), this.#scale(unit) * r)));
+      use(ids, vertices?.length ?? 0, this.#scale(unit) * r)));
     const rows = {};
     if (until === null) {
       expectSize(k, 'k');
@@ -357,11 +357,11 @@ export class MeshIndex extends Owner {
 
   aggregate(values, r, options = {}) {
     const given = withDefaults(options, AGGREGATION);
-    const { metric, reduce, weights, kernel, vertices, nan, nesting, ddof, faces, unit } = given;
+    const { reduce, weights, kernel, vertices, nan, nesting, ddof, faces, unit } = given;
     const signal = toReals(values, 'values');
     const channels = Math.max(1, Math.floor(signal.length / this.vertexCount) || 0);
     const choices = [
-      choose(METRICS, metric, 'metric'), choose(REDUCTIONS, reduce, 'reduce'), choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'),
+      choose(REDUCTIONS, reduce, 'reduce'), choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'),
       choose(NESTINGS, nesting, 'nesting'),
     ];
     expectSize(ddof, 'ddof');

@@ -51,7 +51,8 @@ class SearchMethod {
 
   /// The method of the same `Index` by a metric: `make_searcher` then makes an `EdgeSearcher`, or a searcher of rings,
   /// whose ids are in index order and whose distances are numbers of edges. In a batch, the metric of the query does
-  /// this. Throws Error{InvalidOption} if the method is of no `Index`, unless `metric` is `Straight`.
+  /// this, unless it is `Straight`: then that of the method holds. Throws Error{InvalidOption} if the method is not the
+  /// exact one of an `Index`, unless `metric` is `Straight`.
   [[nodiscard]] SearchMethod by(Metric metric) const;
 
   /// The vertices within the radius in space, connected or not, by the tree of the index. Ids are in index order.

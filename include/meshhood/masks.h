@@ -47,13 +47,10 @@ struct Masks {
 
   /// Searches pass these vertices, but they do not belong to answers.
   VertexMask ignored = {};
-
-  /// Whether there are no masks.
-  [[nodiscard]] bool empty() const { return walls.size() == 0 && ignored.size() == 0; }
 };
 
-/// The same index with masks: every search of it, and every call that takes it, leaves out walls and ignored vertices.
-/// The masks are copied; the arrays of `index` are shared, all of which remain valid without the walls. Memory: some 50
+/// The same index with masks: every search of it, and every call that takes it, leaves out walls and ignored vertices,
+/// but `nearest` and `Start::nearest`, which look at all vertices; a wall as a seed leads nowhere. The masks are copied; the arrays of `index` are shared, all of which remain valid without the walls. Memory: some 50
 /// bytes a leaf with walls, 4 with ignored vertices alone. A search takes about as long as without masks.
 ///
 /// An index with masks is not saved, checked, refitted or masked again. After `refit_in_place` of `index`,

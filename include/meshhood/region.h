@@ -36,7 +36,7 @@ struct Dab {
 /// such query for a vertex. It shares the memory of the index, which may be moved, refitted or
 /// destroyed meanwhile: answers are those of the index as it was.
 ///
-/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed, the coordinate or the mask; arguments
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed or the coordinate; arguments
 /// are then unchanged.
 class RegionSearcher {
  public:

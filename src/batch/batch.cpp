@@ -27,7 +27,7 @@ void sort_answer(std::span<VertexId> ids, std::span<double> distances) {
 }
 
 Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, std::size_t passes)
-    : method_(method.by(query.metric)),
+    : method_(query.metric == Metric::Straight ? method : method.by(query.metric)),
       factory_(method_.searchers()),
       options_(options),
       rows_(query, factory_.vertex_count),

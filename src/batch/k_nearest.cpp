@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -21,6 +22,8 @@
 #include "exact/query/path_search.h"
 #include "exact/query/region_state.h"
 #include "exact/query/ring_search.h"
+#include "exact/query/vertex_rings.h"
+#include "exact/search/vertex_bfs.h"
 #include "shared/parallel.h"
 #include "shared/text.h"
 
@@ -137,10 +140,39 @@ class PathRowSearch {
 class RingRowSearch {
  public:
   RingRowSearch(const Index& index, const NearestOptions& options)
-      : index_(index), rings_(*index_, kernels(best_isa())), radius_(options.radius) {}
+      : index_(index),
+        graph_(IndexAccess::share_graph(index)),
+        rings_(*index_, kernels(best_isa())),
+        radius_(options.radius) {
+    if (is_unlike_a_surface(*index_)) by_vertex_.emplace(*index_, *graph_);
+  }
 
   template <class Take>
   void run(VertexId v, std::size_t /*enough*/, double /*enough_area*/, std::span<const double> /*areas*/, Take&& take) {
+    by_vertex_ ? run_by_vertex(v, take) : run_by_leaf(v, take);
+  }
+
+ private:
+  /// With twice as many rings each time, so that all searches take at most about twice as long as the last.
+  template <class Take>
+  void run_by_vertex(VertexId v, Take& take) {
+    constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+    const auto most = static_cast<std::uint32_t>(std::min(radius_, kMost));
+    std::size_t taken = 0;  // rings
+    for (std::uint32_t count = std::min(most, 1U);; count = count > most / 2 ? most : 2 * count) {
+      by_vertex_->run(index_->slot[v], count);
+      const std::vector<std::vector<std::uint32_t>> rings = by_vertex_->rings();
+      for (; taken < rings.size(); ++taken) {
+        for (const std::uint32_t place : rings[taken]) {
+          if (!take(index_->id(place), static_cast<double>(taken))) return;
+        }
+      }
+      if (count == most || rings.size() <= count) return;
+    }
+  }
+
+  template <class Take>
+  void run_by_leaf(VertexId v, Take& take) {
     double edges = 0;
     for (rings_.start(index_->slot[v]); edges <= radius_ && !rings_.ring().empty(); rings_.advance()) {
       ring_.assign(rings_.ring().begin(), rings_.ring().end());
@@ -155,9 +187,10 @@ class RingRowSearch {
     }
   }
 
- private:
   BoundIndex index_;
+  std::shared_ptr<KeptGraph> graph_;
   RingSearch rings_;
+  std::optional<VertexRings> by_vertex_;  // for a graph unlike a surface, instead of `rings_`
   double radius_;
   std::vector<LeafSubset> ring_;
 };

@@ -102,6 +102,7 @@ SearcherFactory factory_of(const Index& index) {
 
 SearcherFactory straight_factory(const Index& index) {
   SearcherFactory factory = factory_of(index);
+  factory.has_metrics = true;
   factory.make_searcher = [&index] { return AnySearcher(Searcher(index)); };
   factory.positions_together = StraightRows::kGroupPositions;
   factory.make_joint_search = [&index] { return std::make_unique<StraightRows>(index); };
@@ -110,6 +111,7 @@ SearcherFactory straight_factory(const Index& index) {
 
 SearcherFactory path_factory(const Index& index) {
   SearcherFactory factory = factory_of(index);
+  factory.has_metrics = true;
   factory.make_searcher = [&index] { return AnySearcher(EdgeSearcher(index)); };
   factory.make_joint_search = [&index] { return std::make_unique<PathRows>(index); };
   return factory;
@@ -117,6 +119,7 @@ SearcherFactory path_factory(const Index& index) {
 
 SearcherFactory ring_factory(const Index& index) {
   SearcherFactory factory = factory_of(index);
+  factory.has_metrics = true;
   factory.make_searcher = [&index] { return AnySearcher(RingSearcher(index)); };
   factory.make_joint_search = [&index] { return std::make_unique<RingRows>(index); };
   return factory;
@@ -151,10 +154,17 @@ SearchMethod SearchMethod::breadth_first(const GraphView& graph) {
 }
 
 SearchMethod SearchMethod::by(Metric metric) const {
-  if (metric == Metric::Straight) return *this;
-  const Index* const index = searchers_->of_slots;
-  if (index == nullptr) raise(ErrorCode::InvalidOption, "metric: expected Straight, because the method is of no Index");
-  return SearchMethod(shared(metric == Metric::Path ? path_factory(*index) : ring_factory(*index)));
+  if (!searchers_->has_metrics) {
+    if (metric == Metric::Straight) return *this;
+    raise(ErrorCode::InvalidOption, "metric: expected Straight, because the method is not the exact one of an Index");
+  }
+  const Index& index = *searchers_->of_slots;
+  switch (metric) {
+    case Metric::Path: return SearchMethod(shared(path_factory(index)));
+    case Metric::Rings: return SearchMethod(shared(ring_factory(index)));
+    case Metric::Straight: break;
+  }
+  return SearchMethod(index);
 }
 
 SearchMethod SearchMethod::in_space(const Index& index) {

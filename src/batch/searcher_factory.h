@@ -27,6 +27,9 @@ struct SearcherFactory {
   /// The index whose slots the positions are; null if they are others. Lives as long as the functions.
   const Index* of_slots = nullptr;
 
+  /// Whether the method is the exact one of the index, by any metric.
+  bool has_metrics = false;
+
   /// Counting takes much less time than listing. If not, rows to be kept are searched once, and copied.
   bool is_count_cheap = false;
 

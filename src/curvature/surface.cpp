@@ -183,8 +183,8 @@ CurvatureIndex CurvatureIndex::build(const Index& index, std::span<const double>
 }
 
 CurvatureIndex CurvatureIndex::on(const Index& index) const {
-  // Masked indices share the slots of their mesh.
-  if (IndexAccess::view(index).slot.data() != CurvatureAccess::state(*this).index->slot.data()) {
+  // Masked indices share this counter with their mesh; a refitted copy has its own.
+  if (IndexAccess::view(index).newest != state_->index->newest) {
     raise(ErrorCode::InvalidOption, "the index is of another mesh, expected one from `masked` of that of the surface");
   }
   return CurvatureIndex(std::make_unique<State>(index, *state_));

@@ -55,10 +55,11 @@ void visit_moments(const Index& index, const BatchQuery& query, bool open_ball, 
                    const PacketOptions& options, const std::function<MomentVisitor()>& make_visitor) {
   BatchQuery closed = query;
   std::vector<double> radii;
-  if (open_ball && query.radius.list()) {
+  const bool opens = open_ball && query.metric != Metric::Rings;
+  if (opens && query.radius.list()) {
     for (const double radius : *query.radius.list()) radii.push_back(open_radius(radius));
     closed.radius = radii;
-  } else if (open_ball) {
+  } else if (opens) {
     closed.radius = open_radius(query.radius.common());
   }
   for_each_packet(

@@ -28,7 +28,7 @@ using MomentVisitor =
 
 /// Calls a visitor with each packet of the query, on the threads of `for_each_packet`, once for the rows of each unit.
 /// `make_visitor` is called once by each thread. `open_ball`: a vertex at exactly the radius does not count; a ball of
-/// radius 0 has its vertex.
+/// radius 0 has its vertex. Rings are counted as they are.
 ///
 /// The moments of a row depend on index, source, vertex and radius alone, bit for bit: see `PacketMoments`.
 void visit_moments(const Index& index, const BatchQuery& query, bool open_ball, const MomentSource& source,

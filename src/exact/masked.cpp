@@ -5,8 +5,7 @@
 //
 // - the walls of each leaf are kept as lanes, which every search takes out of those that are in the ball;
 // - a leaf with walls is not connected, and every node above it is *pierced*, that is never whole. So a search goes
-// down
-//   to the vertices wherever there are walls.
+//   down to the vertices wherever there are walls.
 #include <algorithm>
 #include <memory>
 #include <string>

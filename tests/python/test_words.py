@@ -324,6 +324,17 @@ def test_masks_are_also_lists_of_vertices():
     words = {"walls": np.flatnonzero(WALLS), "ignored": np.flatnonzero(IGNORED).tolist()}
     np.testing.assert_array_equal(INDEX.count(None, 2.5, **words), INDEX.count(None, 2.5, **MASKS))
     np.testing.assert_array_equal(INDEX.query_ball(4, 2.5, **words), INDEX.query_ball(4, 2.5, **MASKS))
+    np.testing.assert_array_equal(INDEX.count(None, 2.5, walls=[], ignored=()), INDEX.count(None, 2.5))
+
+
+def test_an_index_with_masks_has_the_attributes_of_a_subclass():
+    class Named(meshhood.MeshIndex):
+        pass
+
+    index = Named(V, F)
+    index.name = "left"
+    assert index.masked(walls=[3]).name == "left"
+
 
 
 def test_an_index_with_masks_answers_as_calls_with_them():
@@ -335,7 +346,7 @@ def test_an_index_with_masks_answers_as_calls_with_them():
     assert index.mean_edge_length == INDEX.mean_edge_length
     np.testing.assert_array_equal(index.count(None, 2, unit="edge"), INDEX.count(None, 2, unit="edge", **MASKS))
     for refused, message in (
-        (lambda: index.count(None, 2, walls=WALLS), "masked again"),
+        (lambda: index.count(None, 2, walls=WALLS), "walls, ignored: expected None, because this index has masks"),
         (lambda: index.masked(ignored=[1]), "masked again"),
         (lambda: index.refit(V), "not refitted"),
         (lambda: pickle.dumps(index), "not saved"),
@@ -476,5 +487,6 @@ def test_rings_are_a_metric(masks):
         number = dict(zip(wanted, np.repeat(np.arange(len(counts)), np.diff(counts, prepend=0))))
         assert edges.tolist() == [number[i] for i in ids]
         np.testing.assert_array_equal(INDEX.query_ball(v, 2, **words)[0], ids)
+        np.testing.assert_array_equal(INDEX.query_region(v, 2, **words)[0], ids)
     with pytest.raises(ValueError, match="unit: expected 'mesh' with metric='rings'"):
         INDEX.count(None, 2, metric="rings", unit="edge")

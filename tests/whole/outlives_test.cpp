@@ -203,6 +203,44 @@ TEST_F(Outlives, RebindMakesSearchersOfTheNewState) {
   EXPECT_EQ(ids, expected);
 }
 
+TEST(Rebind, RingsOfAHubAreThoseOfTheNewState) {
+  TestMesh star;  // a graph unlike a surface, whose rings are found vertex by vertex
+  star.add_vertex(0, 0, 0);
+  for (VertexId i = 1; i < 3000; ++i) {
+    star.add_vertex(i, 1, 0);
+    star.add_face({0, i});
+  }
+  star = star.finish(false);
+  Index index = build(star.view());
+  EdgeSearcher edges(index);
+  std::vector<VertexId> before;
+  std::vector<VertexId> after;
+  std::vector<std::size_t> sizes;
+  edges.rings(7, 1, before, sizes);
+  index.refit_in_place(star.positions_view());
+  edges.rebind(index);
+  edges.rings(7, 1, after, sizes);
+  EXPECT_EQ(before, after);
+}
+
+TEST_F(Outlives, ASurfaceDoesNotTakeARefittedIndex) {
+  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  const Index other = refit(index, moved.positions_view());
+  expect_refused(ErrorCode::InvalidOption, "of another mesh", [&] { static_cast<void>(surface.on(other)); });
+  expect_refused(ErrorCode::InvalidOption, "of another mesh",
+                 [&] { static_cast<void>(surface.on(masked(other, {.walls = walls}))); });
+  static_cast<void>(surface.on(masked(index, {.walls = walls})));
+}
+
+TEST_F(Outlives, AMethodByAMetricIsOneByAnother) {
+  const SearchMethod paths = SearchMethod(index).by(Metric::Path);
+  EXPECT_EQ(counts(paths.by(Metric::Straight), {.radius = kRadius}), counts(index, {.radius = kRadius}));
+  EXPECT_NE(counts(paths, {.radius = kRadius}), counts(index, {.radius = kRadius}));
+  expect_refused(ErrorCode::InvalidOption, "metric: expected Straight", [&] {
+    static_cast<void>(counts(SearchMethod::in_space(index), {.radius = kRadius, .metric = Metric::Path}));
+  });
+}
+
 /// Calls `ask` on an object of which `take` has moved the state to another.
 template <class Made>
 void expect_moved_from_refused(const std::string& name, Made made, const std::function<void(Made&)>& ask) {

@@ -168,7 +168,7 @@ def mask(values, name, count):
         return None
     array = as_array(values, name)
     if array.dtype != np.bool_:
-        ids = vertices(array, count, name)
+        ids = vertices(values, count, name)  # not `array`: an empty list has no integers
         if len(ids) == count > 2 and ids.max() <= 1:
             raise TypeError(f"{name}: {count} numbers 0 or 1, expected a bool mask, or vertices")
         chosen = np.zeros(count, np.uint8)

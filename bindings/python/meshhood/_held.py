@@ -78,6 +78,8 @@ class Held:
         """The index of these masks, the last of which is kept: a loop of calls with the same masks makes it once."""
         if walls is None and ignored is None:
             return self
+        if self._whole is not None:
+            raise ValueError("walls, ignored: expected None, because this index has masks")
         masks = [_convert.mask(walls, "walls", self._count), _convert.mask(ignored, "ignored", self._count)]
         kept, index = self._last_masked
         if index is None or not all(map(_core.are_same_masks, kept, masks)):

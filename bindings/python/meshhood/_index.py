@@ -178,7 +178,10 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
 
     def _like_this(self, exact: Any) -> MeshIndex:
         """An index of this class, with the attributes that a subclass has added."""
-        other = type(self)._holding(exact, self._faces)
+        return self._with_attributes(type(self)._holding(exact, self._faces))
+
+    def _with_attributes(self, other: MeshIndex) -> MeshIndex:
+        """`other`, with the attributes that a subclass has added to this one."""
         state = self.__getstate__()
         attributes, slots = state if isinstance(state, tuple) else (state, None)
         for name, value in {**(attributes or {}), **(slots or {})}.items():
@@ -482,14 +485,14 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
     def masked(self, *, walls: Mask = None, ignored: Mask = None) -> MeshIndex:
         """The same index with masks: every call of it leaves out walls and ignored vertices (see `MeshIndex`), and takes
         no such words. For loops of calls: the masks are read once, O(#V). Shares the memory of this index; an index
-        with masks is not saved, refitted, pickled or masked again.
+        with masks is not saved, refitted, pickled or masked again. `nearest` and `closest_point` are those of the whole mesh.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> lower = index.masked(walls=V[:, 2] > 0)
         >>> sizes = [lower.count(v, 0.3) for v in (42, 43)]
         """
         masks = _convert.mask(walls, "walls", self._count), _convert.mask(ignored, "ignored", self._count)
-        return self._masked(*masks, self)
+        return self._with_attributes(self._masked(*masks, self))
 
     def refit(
         self,

@@ -39,8 +39,7 @@ def principal_curvature(
         radius = 2
     index = MeshIndex(V, F, workers=workers)
     if useKring:
-        # Half an edge more, because libigl's balls are open.
-        found = index.curvature(radius + 0.5, metric="rings", like="libigl", workers=workers)
+        found = index.curvature(radius, metric="rings", like="libigl", workers=workers)
     else:
         length = _core.libigl_radius(index.positions, *index._face_arrays(None), edges=float(radius))
         found = index.curvature(length, like="libigl", workers=workers)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""More kinds of queries: around any point, with filters, for several radii, along the edges."""
+"""More kinds of queries: around any point, with masks, for several radii, along the edges."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _convert
 from ._held import Held
-from ._rows import check_words, sort_of, sorted_rows
-from ._types import Counts, Ids, Mask, Metric, Number, Reals, Sort, Unit
+from ._rows import check_unit, check_words, sort_of, sorted_rows
+from ._types import METRICS, Counts, Ids, Mask, Metric, Number, Reals, Sort, Unit
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -57,7 +57,7 @@ class Queries(Held):
             If all seeds are outside, the region is empty, and a warning says so: the point is too far from the mesh.
         face : if `start` is a point: the face on which it lies, as `closest_point` returns it; its corners are the
             seeds. Prefer this for picks: the nearest vertex may lie on another sheet than the nearest point.
-        metric : "path" needs a vertex as start.
+        metric : "path" and "rings" need a vertex as start.
         walls, ignored, unit : see `MeshIndex`.
         r, return_distance, sort : as for one vertex of `query_ball`, and so is the result. Distances are float64.
 
@@ -72,13 +72,15 @@ class Queries(Held):
         sort = sort_of(words)
         center, first = self._start(start, words.get("seeds"), words.get("face"), "query_ball(vertices, r)")
         radius = self._scale(words.get("unit", "mesh")) * _convert.radius(r)
-        queries = self._with_masks(words.get("walls"), words.get("ignored"))._queries
-        if _convert.choice(words.get("metric", "straight"), "metric", ("straight", "path")) == "path":
+        check_unit(words)
+        index = self._with_masks(words.get("walls"), words.get("ignored"))
+        metric = _convert.choice(words.get("metric", "straight"), "metric", METRICS)
+        if metric != "straight":
             if center is not None:
-                raise ValueError("start: expected a vertex with metric='path', because a point has no edges")
-            indices, distances = queries.path_region(int(first[0]), radius)
+                raise ValueError(f"start: expected a vertex with metric={metric!r}, because a point has no edges")
+            indices, distances = index._method(words).neighborhood_and_distances(int(first[0]), radius)
         else:
-            indices, distances, has_seed = queries.region(center, first, radius)
+            indices, distances, has_seed = index._queries.region(center, first, radius)
             _warn_unless(has_seed or not len(first), "start: the")
         if sort is not None:
             indices, distances = sorted_rows(self, sort, np.array([0, len(indices)]), indices, distances)

@@ -59,7 +59,7 @@ void sort_rows(VertexOrder order, std::span<const std::uint32_t> offsets) {
   }
 }
 
-NearestOptions nearest_options(Metric metric, double radius) { return {.metric = metric, .radius = radius}; }
+NearestOptions nearest_options(double radius) { return {.metric = row_metric, .radius = radius}; }
 
 }  // namespace
 
@@ -117,19 +117,19 @@ extern "C" {
 }
 
 /// All vertices if `vertices` is null. The ids and reals of the answer have `k` places for each row.
-[[clang::export_name("k_nearest")]] void k_nearest(const VertexId* vertices, std::size_t vertex_count, Metric metric,
-                                                   double radius, double k) {
+[[clang::export_name("k_nearest")]] void k_nearest(const VertexId* vertices, std::size_t vertex_count, double radius,
+                                                   double k) {
   KNearest found = meshhood::k_nearest(workspace.searched(), view_vertices(vertices, vertex_count), to_size(k),
-                                       nearest_options(metric, radius));
+                                       nearest_options(radius));
   answer.ids = std::move(found.ids);
   answer.reals = std::move(found.distances);
 }
 
 /// The same rows up to an area. The counts of the answer are their offsets.
-[[clang::export_name("discs")]] void discs(const VertexId* vertices, std::size_t vertex_count, Metric metric,
-                                           double radius, double area, const double* areas, std::size_t area_count) {
+[[clang::export_name("discs")]] void discs(const VertexId* vertices, std::size_t vertex_count, double radius,
+                                           double area, const double* areas, std::size_t area_count) {
   Neighborhoods found = meshhood::discs(workspace.searched(), view_vertices(vertices, vertex_count), area,
-                                        {areas, area_count}, nearest_options(metric, radius));
+                                        {areas, area_count}, nearest_options(radius));
   answer.counts.assign(found.offsets.begin(), found.offsets.end());
   answer.ids = std::move(found.ids);
   answer.reals = std::move(found.distances);

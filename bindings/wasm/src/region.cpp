@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Regions: searches from any point, with masks. `start_at_...` comes first, and borrows its array for the calls that
-// follow; so does `search_by`, which copies the masks.
+// follow; `search_by` comes first, too, and copies the masks.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -70,6 +70,7 @@ void EdgeSearcher::rebind(const Index& index) {
     state_->index = BoundIndex(index);
     state_->graph = IndexAccess::share_graph(index);
     state_->paths.reset();
+    state_->by_vertex.reset();  // it borrows the graph
   } else {
     *this = EdgeSearcher(index);
   }
@@ -128,12 +129,8 @@ void EdgeSearcher::State::rings_by_vertex(VertexId v, std::size_t k, std::vector
   if (!by_vertex) by_vertex.emplace(*index, *graph);
   constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
   by_vertex->run(index->slot[v], static_cast<std::uint32_t>(std::min(k, kMost)));
-  std::vector<std::vector<VertexId>> by_edges(by_vertex->ring_count());
-  for (const std::uint32_t place : by_vertex->places()) {
-    by_edges[by_vertex->edges_to(place)].push_back(index->id(place));
-  }
-  for (const std::vector<VertexId>& ring : by_edges) {
-    ids.insert(ids.end(), ring.begin(), ring.end());
+  for (const std::vector<std::uint32_t>& ring : by_vertex->rings()) {
+    for (const std::uint32_t place : ring) ids.push_back(index->id(place));
     sizes.push_back(ids.size());
   }
 }

@@ -32,6 +32,12 @@ std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
   return count;
 }
 
+std::vector<std::vector<std::uint32_t>> VertexRings::rings() {
+  std::vector<std::vector<std::uint32_t>> rings(ring_count());
+  for (const std::uint32_t place : places()) rings[edges_to(place)].push_back(place);
+  return rings;
+}
+
 std::span<const std::uint32_t> VertexRings::places() {
   found_.take_all([&](std::size_t place) { places_.push_back(static_cast<std::uint32_t>(place)); });
   return places_;

@@ -31,6 +31,9 @@ class VertexRings final : public PacketLengths {
     return queue_.empty() ? 0 : std::size_t{edges_to_[queue_.back()]} + 1;
   }
 
+  /// These vertices ring by ring, by their places in index order, each ring ascending.
+  [[nodiscard]] std::vector<std::vector<std::uint32_t>> rings();
+
   /// These vertices, by their places in index order, ascending. Valid until the next `run`.
   [[nodiscard]] std::span<const std::uint32_t> places();
 
