@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "meshhood/error.h"
-#include "meshhood/region.h"
+#include "meshhood/search.h"
 
 #include "commands.h"
 #include "input.h"
@@ -40,7 +40,7 @@ struct Connections {
 Connections connections_of(const ConnectCommand& options, Input& input) {
   const StartQuery query(options.start, input);
   const Start start = query.starts.front().view();
-  RegionSearcher searcher(input.exact_index());
+  Searcher searcher(input.exact_index());
   Connections found;
   if (options.nearest) {
     const std::size_t k = std::min<std::size_t>(*options.nearest, input.vertex_count());

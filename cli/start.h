@@ -79,9 +79,8 @@ struct StartAnswer {
   std::vector<std::size_t> counts;  ///< the first `counts[i]` vertices are within radius `i`
 };
 
-/// The regions of a start for ascending `radii`, at least one, as the rings of `RegionSearcher::nested`. With the
-/// metric "path" or "rings", the vertices whose path distance or number of edges is at most each radius; the start must
-/// then be a vertex.
+/// The neighborhoods of a start for ascending `radii`, at least one, as the rings of `Searcher::nested`. With the
+/// metric "path" or "rings" the start must be a vertex.
 [[nodiscard]] StartAnswer regions_of(const QueryStart& start, const std::string& metric, std::span<const double> radii,
                                      Input& input);
 

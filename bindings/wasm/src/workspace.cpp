@@ -104,16 +104,10 @@ Method& Workspace::method(MethodName name) {
   return *method;
 }
 
-RegionSearcher& Workspace::regions() {
-  std::optional<RegionSearcher>& regions = searches().regions;
-  if (!regions) regions.emplace(searched());
-  return *regions;
-}
-
-EdgeSearcher& Workspace::edges() {
-  std::optional<EdgeSearcher>& edges = searches().edges;
-  if (!edges) edges.emplace(searched());
-  return *edges;
+Searcher& Workspace::searcher(Metric metric) {
+  std::optional<Searcher>& searcher = searches().by_metric[static_cast<std::size_t>(metric)];
+  if (!searcher) searcher.emplace(searched(), metric);
+  return *searcher;
 }
 
 void Workspace::use_faces(const FacesView& faces, const Fingerprint& content) {

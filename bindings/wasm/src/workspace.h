@@ -30,8 +30,7 @@ struct Method {
 /// The searches of an index, each made when it is first used.
 struct Searches {
   std::array<std::optional<Method>, kMethodCount> methods;  // by their names
-  std::optional<RegionSearcher> regions;
-  std::optional<EdgeSearcher> edges;
+  std::array<std::optional<Searcher>, 3> by_metric;         // of starts that may be points
 };
 
 /// One mesh, its index, and what the methods need besides: the graph, the paper's index, searchers. Each part is made
@@ -72,8 +71,7 @@ class Workspace {
   // With the masks:
 
   [[nodiscard]] Method& method(MethodName name);
-  [[nodiscard]] RegionSearcher& regions();
-  [[nodiscard]] EdgeSearcher& edges();
+  [[nodiscard]] Searcher& searcher(Metric metric);
 
   /// Makes the normals from faces; nothing is done if `content`, a hash of the faces, is that of the faces before.
   /// Throws as `CurvatureIndex::build`.
