@@ -66,11 +66,15 @@ void add_start(CLI::App& command, const std::string& vertex, StartOptions& optio
   add_masks(command, options.masks);
 }
 
-void check_start_options(const StartOptions& options, bool takes_many) {
+void check_start_options(const StartOptions& options, bool takes_many, const std::string& metric) {
   if (options.point.empty() == options.vertices.empty()) {
     raise(ErrorCode::InvalidOption, "expected either --vertex or --point");
   }
   if (!takes_many && options.vertices.size() > 1) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
+  if (!options.point.empty() && metric != "straight") {
+    raise(ErrorCode::InvalidOption,
+          fmt::format("--metric {}: expected --vertex instead of --point, because a point has no edges", metric));
+  }
 }
 
 QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(options.center()) {

@@ -41,7 +41,8 @@ struct StartOptions {
 void add_start(CLI::App& command, const std::string& vertex, StartOptions& options);
 
 /// Throws Error{InvalidOption} unless there is either a point, or a vertex, or several for a command that `takes_many`.
-void check_start_options(const StartOptions& options, bool takes_many);
+/// A metric that is not straight takes no point.
+void check_start_options(const StartOptions& options, bool takes_many, const std::string& metric = "straight");
 
 /// Where a search starts. Owns the seeds.
 class QueryStart {

@@ -3,7 +3,6 @@
 // radius, so all calls are cuts of one list.
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -14,8 +13,6 @@
 namespace meshhood {
 namespace {
 
-constexpr double kNoRadius = std::numeric_limits<double>::infinity();
-
 struct LengthQueries final : SingleQueries {
   using SingleQueries::SingleQueries;
 
@@ -25,9 +22,8 @@ struct LengthQueries final : SingleQueries {
   }
 
   VertexSet& search(const Start& start, double radius) override {
-    run_checked(start, radius);
     subsets_.clear();
-    add_found(subsets_);
+    run_checked(start, radius).collect(subsets_);
     answer.assign(subsets_);
     return answer;
   }
@@ -35,6 +31,10 @@ struct LengthQueries final : SingleQueries {
   std::size_t count(const Start& start, double radius) override { return run_checked(start, radius).found().size(); }
 
   void list(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>* distances) override {
+    // Rings are found leaf by leaf; to sort their vertices one by one takes longer than the search.
+    if (metric == Metric::Rings && distances == nullptr) {
+      return replace_ids(search(start, radius), *index, *kernels, out);
+    }
     const std::span<const Path> found = in_order_of_ids(run_checked(start, radius));
     out.reserve(found.size());
     if (distances != nullptr) distances->reserve(found.size());
@@ -47,8 +47,7 @@ struct LengthQueries final : SingleQueries {
   }
 
   void collect(const Start& start, double radius, std::vector<LeafSubset>& found) override {
-    run(start, radius);
-    add_found(found);
+    run(start, radius).collect(found);
   }
 
   void nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& ids,
@@ -102,13 +101,6 @@ struct LengthQueries final : SingleQueries {
     sorted_.assign(found.begin(), found.end());
     std::ranges::sort(sorted_, is_before);
     return sorted_;
-  }
-
-  void add_found(std::vector<LeafSubset>& found) {
-    for (const Path& path : search_->found()) {
-      const std::uint32_t slot = index->slot_at(path.end);
-      found.push_back({leaf_of(slot), LaneMask{1} << lane_of(slot)});
-    }
   }
 
   /// Infinite if it is more than `radius`.

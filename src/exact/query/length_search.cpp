@@ -17,7 +17,7 @@ namespace {
 
 class PathLengthSearch final : public LengthSearch {
  public:
-  PathLengthSearch(const IndexView& index, KeptGraph& graph) : index_(&index), paths_(index, graph) {}
+  PathLengthSearch(const IndexView& index, KeptGraph& graph) : LengthSearch(index), paths_(index, graph) {}
 
   void run(std::uint32_t slot, double radius, const IsEnough& is_enough) override {
     paths_.run(index_->leaf_begin[leaf_of(slot)] + lane_of(slot), radius,
@@ -37,7 +37,6 @@ class PathLengthSearch final : public LengthSearch {
     return some_;
   }
 
-  const IndexView* index_;
   PathSearch paths_;
   std::vector<Path> some_;
 };
@@ -45,17 +44,23 @@ class PathLengthSearch final : public LengthSearch {
 class RingLengthSearch final : public LengthSearch {
  public:
   RingLengthSearch(const IndexView& index, KeptGraph& graph, const Kernels& kernels)
-      : index_(&index), by_leaf_(index, kernels) {
+      : LengthSearch(index), by_leaf_(index, kernels) {
     if (is_unlike_a_surface(index)) by_vertex_.emplace(index, graph);
   }
 
   void run(std::uint32_t slot, double radius, const IsEnough& is_enough) override {
     found_.clear();
+    subsets_.clear();
     by_vertex_ ? run_by_vertex(slot, radius, is_enough) : run_by_leaf(slot, radius, is_enough);
   }
 
   std::span<const Path> found() override { return found_; }
   std::span<const Path> in_order() override { return found_; }
+
+  void collect(std::vector<LeafSubset>& subsets) override {
+    if (by_vertex_) return LengthSearch::collect(subsets);
+    subsets.insert(subsets.end(), subsets_.begin(), subsets_.end());
+  }
 
  private:
   /// With twice as many rings each time, so that all searches take at most about twice as long as the last; at once if
@@ -82,24 +87,33 @@ class RingLengthSearch final : public LengthSearch {
       const std::size_t before = found_.size();
       ring_.assign(by_leaf_.ring().begin(), by_leaf_.ring().end());
       std::ranges::sort(ring_, {}, &LeafSubset::leaf);
-      for (const auto& [leaf, lanes] : ring_) {
+      for (const auto& [leaf, all] : ring_) {
+        const LaneMask lanes = all & ~index_->ignored_lanes(leaf);
+        if (lanes == 0) continue;
+        subsets_.push_back({leaf, lanes});
         const std::uint32_t first = index_->leaf_begin[leaf];
-        for_each_lane(lanes & ~index_->ignored_lanes(leaf),
-                      [&](unsigned lane) { found_.push_back({edges, first + lane}); });
+        for_each_lane(lanes, [&](unsigned lane) { found_.push_back({edges, first + lane}); });
       }
       if (is_enough && is_enough(std::span(found_).subspan(before))) return;
       ++edges;
     }
   }
 
-  const IndexView* index_;
   RingSearch by_leaf_;
   std::optional<VertexRings> by_vertex_;  // for a graph unlike a surface, instead
   std::vector<LeafSubset> ring_;
   std::vector<Path> found_;
+  std::vector<LeafSubset> subsets_;  // the same, leaf by leaf
 };
 
 }  // namespace
+
+void LengthSearch::collect(std::vector<LeafSubset>& subsets) {
+  for (const Path& path : found()) {
+    const std::uint32_t slot = index_->slot_at(path.end);
+    subsets.push_back({leaf_of(slot), LaneMask{1} << lane_of(slot)});
+  }
+}
 
 std::unique_ptr<LengthSearch> make_length_search(const IndexView& index, KeptGraph& graph, Metric metric,
                                                  const Kernels& kernels) {

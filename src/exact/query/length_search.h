@@ -5,11 +5,13 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "meshhood/metric.h"
 
 #include "exact/layout.h"
 #include "exact/query/path_queue.h"
+#include "exact/vertex_set.h"
 #include "exact/weighted_graph.h"
 #include "simd/kernels.h"
 
@@ -23,7 +25,7 @@ class LengthSearch {
   /// than one of them have then been found.
   using IsEnough = std::function<bool(std::span<const Path>)>;
 
-  LengthSearch() = default;
+  explicit LengthSearch(const IndexView& index) : index_(&index) {}
   LengthSearch(const LengthSearch&) = delete;
   LengthSearch& operator=(const LengthSearch&) = delete;
   virtual ~LengthSearch() = default;
@@ -38,6 +40,12 @@ class LengthSearch {
 
   /// Ascending by length, then by place.
   [[nodiscard]] virtual std::span<const Path> in_order() = 0;
+
+  /// Adds them to `subsets`, in no stated order.
+  virtual void collect(std::vector<LeafSubset>& subsets);
+
+ protected:
+  const IndexView* index_;
 };
 
 /// `metric` is not straight. For paths, O(#V) here, and O(#V + #E) for the first search of an index. What it is made

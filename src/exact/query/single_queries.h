@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -18,6 +19,9 @@
 #include "simd/kernels.h"
 
 namespace meshhood {
+
+/// The connecting radius of a vertex that no radius connects.
+inline constexpr double kNoRadius = std::numeric_limits<double>::infinity();
 
 /// The answers to single queries by one metric. Arguments are valid, unless a function says that it checks them.
 struct SingleQueries {

@@ -6,8 +6,6 @@
 namespace meshhood {
 namespace {
 
-constexpr double kNoRadius = std::numeric_limits<double>::infinity();
-
 /// Whether one search answers a query: the start is a vertex.
 bool is_neighborhood(const Start& start) { return !start.center(); }
 
