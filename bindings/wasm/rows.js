@@ -5,7 +5,7 @@ import { MeshhoodError } from './instance.js';
 
 // Options with their defaults.
 export const MASKS = { walls: null, ignored: null };
-export const ROWS = { scales: null, metric: 'straight', ...MASKS };
+export const ROWS = { vertices: null, scales: null, metric: 'straight', ...MASKS };
 
 // The places are those of meshhood::Metric.
 export const METRICS = ['straight', 'path', 'rings'];
@@ -35,8 +35,8 @@ export function withMasks(instance, { walls = null, ignored = null, metric = 'st
   });
 }
 
-/** The same for rows. `use` gets the six arguments that describe them; `vertices` is null for all. */
-export function withRows(instance, vertices, r, { scales = null, ...words }, scale, use) {
+/** The same for rows. `use` gets the six arguments that describe them. `scale` is that of the unit. */
+export function withRows(instance, r, { vertices, scales = null, ...words }, scale, use) {
   expectVertices(vertices, 'vertices');
   const { common, list } = readRadius(r, scales, scale);
   return withMasks(instance, words, () => instance.with([vertices, list], (ids, radii) =>
