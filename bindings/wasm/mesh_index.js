@@ -5,7 +5,7 @@ import {
 } from './arguments.js';
 import { Curvature } from './curvature.js';
 import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
-import { MASKS, METRICS, ROWS, withMasks, withRows } from './rows.js';
+import { MASKS, METRICS, ROWS, SCALED_ROWS, withMasks, withRows } from './rows.js';
 
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
 const BY_METRIC = METHODS.length - 1; // and the place of another metric: as in bindings/wasm/src/workspace.h
@@ -26,14 +26,11 @@ const BUILDING = { offsets: null, cut: null, progress: undefined };
 const QUERY = { method: 'exact', metric: 'straight', unit: 'mesh' };
 const ANSWER = { sort: null, distances: false };
 const SEARCH = { seeds: null, ...MASKS };
-const SMOOTHING = {
-  weights: null, faces: null, vertices: null, metric: 'straight', ...MASKS, nan: 'propagate', unit: 'mesh',
-};
-const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, scales: null, ...SMOOTHING };
-const CURVATURE = { ...ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true, unit: 'mesh' };
-const FEATURES = { ...ROWS, faces: null, kinds: 'crease', filter: true, unit: 'mesh' };
-const UNCONNECTED = { vertices: null, metric: 'straight', ...MASKS, unit: 'mesh' };
-const NEAREST = { r: Infinity, ...UNCONNECTED };
+const NEAREST = { r: Infinity, ...ROWS };
+const SMOOTHING = { weights: null, faces: null, nan: 'propagate', ...ROWS };
+const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ...SMOOTHING, scales: null };
+const CURVATURE = { ...SCALED_ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true };
+const FEATURES = { ...SCALED_ROWS, faces: null, kinds: 'crease', filter: true };
 
 function chooseMethod({ method = 'exact', metric }) {
   const place = choose(METHODS, method, 'method');
@@ -47,12 +44,11 @@ function chooseMethod({ method = 'exact', metric }) {
 
 const isVertex = (start) => typeof start === 'number';
 
-/** The same for one start. Only the exact method by straight lines searches around points. */
+/** The same for one start. Only the exact method by straight lines takes points. */
 function chooseMethodFrom(start, given) {
   const place = chooseMethod(given);
   if (place === 0 || isVertex(start)) return place;
-  throw new MeshhoodError(
-    'InvalidOption', "start: a point, expected a vertex with another method than 'exact' or metric than 'straight'");
+  throw new MeshhoodError('InvalidOption', "start: a point, which needs method 'exact' and metric 'straight'");
 }
 
 function build(positions, corners, options = {}) {
@@ -289,7 +285,7 @@ export class MeshIndex extends Owner {
   // Neighborhoods of many vertices.
 
   neighborhoods(r, options = {}) {
-    const { sort, distances, ...given } = withDefaults(options, { vertices: null, ...QUERY, ...MASKS, ...ANSWER });
+    const { sort, distances, ...given } = withDefaults(options, { ...QUERY, ...ROWS, ...ANSWER });
     if (sort !== null) choose(ORDERS, sort, 'sort');
     this.#findRows(r, given, { distances: distances || sort === 'distance', byId: sort === 'id' });
     if (sort === 'index' || sort === 'distance') this.instance.call('sort_answer', ORDERS.indexOf(sort), true);
@@ -297,7 +293,7 @@ export class MeshIndex extends Owner {
   }
 
   counts(r, options = {}) {
-    this.#findRows(r, withDefaults(options, { ...QUERY, ...ROWS }), { countOnly: true });
+    this.#findRows(r, withDefaults(options, { ...QUERY, ...SCALED_ROWS }), { countOnly: true });
     const counts = this.instance.takeCounts();
     this.instance.releaseAnswer();
     return counts;
@@ -343,7 +339,7 @@ export class MeshIndex extends Owner {
   }
 
   nearestUnconnected(r, options = {}) {
-    const given = withDefaults(options, UNCONNECTED);
+    const given = withDefaults(options, ROWS);
     withRows(this.instance, r, given, this.#scale(given.unit), (...rows) =>
       this.instance.call('nearest_unconnected', ...rows));
     const found = { ids: this.instance.takeIds(), gaps: this.instance.takeReals() };

@@ -5,7 +5,8 @@ import { MeshhoodError } from './instance.js';
 
 // Options with their defaults.
 export const MASKS = { walls: null, ignored: null };
-export const ROWS = { vertices: null, scales: null, metric: 'straight', ...MASKS };
+export const ROWS = { vertices: null, metric: 'straight', ...MASKS, unit: 'mesh' };
+export const SCALED_ROWS = { ...ROWS, scales: null };
 
 // The places are those of meshhood::Metric.
 export const METRICS = ['straight', 'path', 'rings'];

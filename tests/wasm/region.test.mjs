@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Starts of all kinds and parts of meshes in the package for JavaScript: the answers of the command line, and those of definitions.
+// Starts of all kinds, and parts of meshes, in the package for JavaScript: the answers of the command line, and those of
+// definitions.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -296,7 +297,9 @@ test('wrong arguments of searches from starts give the errors of C++ and leave t
   refuse(() => index.neighborhood(1, -1), { code: 'InvalidRadius' });
   refuse(() => index.neighborhood(1, 1, { walls: new Uint8Array(3) }), { message: /^walls: 3 values/ });
   refuse(() => index.neighborhood(1, 1, { walls: [1] }), TypeError);
-  refuse(() => index.neighborhood([1, 2], 1), TypeError);
+  for (const start of [[1, 2], Uint32Array.of(1, 2, 3), null]) {
+    refuse(() => index.neighborhood(start, 1), { name: 'TypeError', message: 'start: expected a vertex or three numbers' });
+  }
   refuse(() => index.neighborhood([0, 0, 0], 1, { method: 'bfs' }), { code: 'InvalidOption', message: /^start: a point/ });
   refuse(() => index.count([0, 0, 0], 1, { metric: 'path' }), { code: 'InvalidOption', message: /^start: a point/ });
   refuse(() => index.count(1, 1, { seeds: Uint32Array.of(1) }), { code: 'InvalidOption', message: /^seeds/ });
