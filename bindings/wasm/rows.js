@@ -37,9 +37,10 @@ export function withMasks(instance, { walls = null, ignored = null, metric = 'st
 }
 
 /** The same for rows. `use` gets the six arguments that describe them. `scale` is that of the unit. */
-export function withRows(instance, r, { vertices, scales = null, ...words }, scale, use) {
+export function withRows(instance, r, given, scale, use) {
+  const { vertices, scales = null } = given;
   expectVertices(vertices, 'vertices');
   const { common, list } = readRadius(r, scales, scale);
-  return withMasks(instance, words, () => instance.with([vertices, list], (ids, radii) =>
+  return withMasks(instance, given, () => instance.with([vertices, list], (ids, radii) =>
     use(ids, vertices?.length ?? 0, common, radii, list?.length ?? 0, scales !== null)));
 }
