@@ -59,15 +59,6 @@ export function expectRadius(radius) {
   expectNumber(radius, 'radius');
 }
 
-/** Radii in the order that the module expects where it takes them itself. */
-export function expectAscending(radii, name) {
-  radii.forEach((radius, i) => {
-    if (i === 0 ? radius >= 0 : radius > radii[i - 1]) return;
-    const expected = i === 0 ? 'a number >= 0' : `more than ${radii[i - 1]} before it`;
-    throw new MeshhoodError('InvalidRadius', `${name}: value ${i}: radius ${radius}, expected ${expected}`);
-  });
-}
-
 /** Of how many vertices. */
 export function expectSize(k, name) {
   if (!Number.isInteger(k) || k < 0) throw new TypeError(`${name}: ${String(k)}, expected a whole number >= 0`);

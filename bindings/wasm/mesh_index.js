@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import {
-  choose, expectAscending, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectRadius, expectSize,
+  choose, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectRadius, expectSize,
   expectType, expectVertex, expectVertices, toReals, withDefaults, withFaces, withMesh,
 } from './arguments.js';
 import { Curvature } from './curvature.js';
@@ -8,7 +8,6 @@ import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
 import { MASKS, METRICS, ROWS, SCALED_ROWS, withMasks, withRows } from './rows.js';
 
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
-const BY_METRIC = METHODS.length - 1; // and the place of another metric: as in bindings/wasm/src/workspace.h
 const ORDERS = ['index', 'id', 'distance'];
 const UNITS = ['mesh', 'edge'];
 const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count'];
@@ -25,9 +24,8 @@ const KINDS_OF_AREAS = ['area', 'height', 'variation'];
 const BUILDING = { offsets: null, cut: null, progress: undefined };
 const QUERY = { method: 'exact', metric: 'straight', unit: 'mesh' };
 const ANSWER = { sort: null, distances: false };
-const SEARCH = { seeds: null, ...MASKS };
+const SEARCH = { seeds: null, metric: 'straight', ...MASKS };
 const SCALED_SEARCH = { unit: 'mesh', ...SEARCH };
-const NESTED = { metric: 'straight', ...SCALED_SEARCH };
 const QUERY_OF_START = { ...QUERY, ...SEARCH };
 const LIST_OF_START = { ...QUERY_OF_START, ...ANSWER };
 const COUNTS = { ...QUERY, ...SCALED_ROWS };
@@ -39,23 +37,21 @@ const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ..
 const CURVATURE = { ...SCALED_ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true };
 const FEATURES = { ...SCALED_ROWS, faces: null, kinds: 'crease', filter: true };
 
-function chooseMethod({ method = 'exact', metric }) {
+function chooseMethod({ method, metric }) {
   const place = choose(METHODS, method, 'method');
-  const other = choose(METRICS, metric, 'metric');
-  if (other === 0) return place;
-  if (method !== 'exact') {
+  if (choose(METRICS, metric, 'metric') !== 0 && place !== 0) {
     throw new MeshhoodError('InvalidOption', `method: '${method}', expected 'exact' with metric '${metric}'`);
   }
-  return BY_METRIC + other;
+  return place;
 }
 
 const isVertex = (start) => typeof start === 'number';
 
-/** The same for one start. Only the exact method by straight lines takes points. */
+/** The same for one start. Only the exact method takes points. */
 function chooseMethodFrom(start, given) {
   const place = chooseMethod(given);
   if (place === 0 || isVertex(start)) return place;
-  throw new MeshhoodError('InvalidOption', "start: a point, which needs method 'exact' and metric 'straight'");
+  throw new MeshhoodError('InvalidOption', "start: a point, which needs method 'exact'");
 }
 
 function build(positions, corners, options = {}) {
@@ -178,11 +174,9 @@ export class MeshIndex extends Owner {
 
   count(start, r, options = {}) {
     const given = withDefaults(options, QUERY_OF_START);
-    if (!isVertex(start)) return this.#find(start, r, given, false);
-    const place = chooseMethod(given);
+    const place = chooseMethodFrom(start, given);
     expectRadius(r);
-    return this.#search(start, given, () =>
-      this.instance.call('count', place, start, this.#scale(given.unit) * r) >>> 0);
+    return this.#search(start, given, () => this.instance.call('count', place, this.#scale(given.unit) * r) >>> 0);
   }
 
   /** The answer is then in the memory of the module. Returns the number of its ids. */
@@ -190,40 +184,19 @@ export class MeshIndex extends Owner {
     const place = chooseMethodFrom(start, given);
     expectRadius(r);
     return this.#search(start, given, () => {
-      const radius = this.#scale(given.unit) * r;
-      if (isVertex(start)) return this.instance.call('query', place, start, radius, distances) >>> 0;
-      this.#warnUnless(this.instance.call('region', radius, distances));
+      this.#warnUnless(this.instance.call('neighborhood', place, this.#scale(given.unit) * r, distances));
       return this.instance.call('answer_ids_size') >>> 0;
     });
   }
 
   nested(start, radii, options = {}) {
-    const given = withDefaults(options, NESTED);
-    const place = chooseMethodFrom(start, given);
+    const given = withDefaults(options, SCALED_SEARCH);
     const scale = this.#scale(given.unit);
     const scaled = toReals(radii, 'radii').map((radius) => scale * radius);
     return this.#search(start, given, () => {
-      if (place !== 0) return this.#nestedByDistance(place, start, scaled);
       this.#warnUnless(this.instance.with([scaled], (list) => this.instance.call('nested', list, scaled.length)));
       return { counts: this.instance.takeCounts(), ids: this.instance.takeIds() };
     });
-  }
-
-  /** By metrics other than straight lines, a neighborhood has all vertices of a larger one up to its radius. */
-  #nestedByDistance(place, v, radii) {
-    expectAscending(radii, 'radii');
-    this.instance.call('query', place, v, radii.at(-1) ?? 0, true);
-    this.instance.call('sort_answer', ORDERS.indexOf('index'), false);
-    const ids = this.instance.takeIds();
-    const distances = this.instance.takeReals();
-    const isWithin = (k, radius) => distances[k] <= radius;
-    const rings = Array.from(radii, (radius, i) =>
-      ids.filter((_, k) => isWithin(k, radius) && !(i > 0 && isWithin(k, radii[i - 1]))));
-    let count = 0;
-    return {
-      counts: Uint32Array.from(rings, (ring) => (count += ring.length)),
-      ids: Uint32Array.from(rings.flatMap((ring) => [...ring])),
-    };
   }
 
   contains(start, w, r, options = {}) {

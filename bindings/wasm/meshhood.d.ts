@@ -195,8 +195,9 @@ export interface Rows {
 /** A vertex, or a point in space, which is then the center of the ball. */
 export type Start = number | readonly [number, number, number] | Float32Array | Float64Array;
 
-/** Where a search starts, and what it may pass. */
+/** Where a search starts, and what it may pass. A metric other than `straight` needs a vertex as start. */
 export interface StartOptions extends Masks {
+  metric?: Metric;
   /**
    * If the start is a point: the vertices from which the search spreads, for example the corners of the face on which
    * the point lies; by default the vertex nearest to the point. A seed outside the ball does not count. If all are
@@ -448,21 +449,22 @@ export class MeshIndex {
   nested(
     start: Start,
     radii: Float64Array | Float32Array,
-    options?: StartOptions & { metric?: Metric; unit?: Unit },
+    options?: StartOptions & { unit?: Unit },
   ): Rings;
 
   /** Whether the neighborhood of a start has vertex w. */
   contains(start: Start, w: number, r: number, options?: StartOptions & { unit?: Unit }): boolean;
 
   /**
-   * The smallest radius whose neighborhood has vertex w; Infinity if there is none. It is the minimum, over all paths
-   * of edges from a seed to w, of the largest distance between a vertex of the path and the start.
+   * The smallest radius whose neighborhood has vertex w; Infinity if there is none. Straight, it is the minimum, over
+   * all paths of edges from a seed to w, of the largest distance between a vertex of the path and the start; else the
+   * length of the shortest path, or its number of edges.
    */
   connectingRadius(start: Start, w: number, options?: StartOptions): number;
 
   /**
    * The k nearest connected vertices and their connecting radii, which ascend; of equal radius, in the order of their
-   * distances from the start, then of their ids. Fewer if no more are connected.
+   * distances from the start, then of their ids; by path or rings, in index order. Fewer if no more are connected.
    */
   nearestConnected(start: Start, k: number, options?: StartOptions): { ids: Uint32Array; radii: Float64Array };
 

@@ -101,7 +101,16 @@ for (const metric of ['path', 'rings']) {
       [[1, NaN], /value 1/], [[NaN], /value 0/], [[1, 1], /value 1/]]) {
       assert.throws(() => index.nested(333, Float64Array.from(wrong), { metric }), { code: 'InvalidRadius', message });
     }
-    assert.throws(() => index.nested([0, 0, 0], radii, { metric }), { code: 'InvalidOption', message: /^start: a point/ });
+    const words = { metric, walls, ignored };
+    const near = index.nearestConnected(333, 20, words);
+    assert.deepEqual(near.radii, near.radii.slice().sort());
+    near.ids.forEach((w, i) => {
+      assert.equal(index.connectingRadius(333, w, words), near.radii[i]);
+      assert.ok(index.contains(333, w, near.radii[i], words));
+      if (near.radii[i] > 0) assert.ok(!index.contains(333, w, 0.999 * near.radii[i], words));
+    });
+    assert.deepEqual(near.ids, index.kNearest(20, { ...words, vertices: Uint32Array.of(333) }).ids);
+    assert.throws(() => index.nested([0, 0, 0], radii, { metric }), { code: 'InvalidOption', message: /^start: / });
   });
 }
 
@@ -300,8 +309,8 @@ test('wrong arguments of searches from starts give the errors of C++ and leave t
   for (const start of [[1, 2], Uint32Array.of(1, 2, 3), null]) {
     refuse(() => index.neighborhood(start, 1), { name: 'TypeError', message: 'start: expected a vertex or three numbers' });
   }
-  refuse(() => index.neighborhood([0, 0, 0], 1, { method: 'bfs' }), { code: 'InvalidOption', message: /^start: a point/ });
-  refuse(() => index.count([0, 0, 0], 1, { metric: 'path' }), { code: 'InvalidOption', message: /^start: a point/ });
+  refuse(() => index.neighborhood([0, 0, 0], 1, { method: 'bfs' }), { code: 'InvalidOption', message: /^start: / });
+  refuse(() => index.count([0, 0, 0], 1, { metric: 'path' }), { code: 'InvalidOption', message: /^start: / });
   refuse(() => index.count(1, 1, { seeds: Uint32Array.of(1) }), { code: 'InvalidOption', message: /^seeds/ });
   refuse(() => index.contains(1, vertices, 1), { code: 'VertexOutOfRange' });
   refuse(() => new MeshIndex(new Float32Array(), new Uint32Array()).nearest([0, 0, 0]), { code: 'VertexOutOfRange' });

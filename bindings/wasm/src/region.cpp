@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Regions: searches from any point, with masks. `start_at_...` comes first, and borrows its array for the calls that
-// follow; `search_by` comes first, too, and copies the masks.
+// Searches from one start, a vertex or a point, by a method or a metric and with masks. `start_at_...` comes first, and
+// borrows its array for the calls that follow; `search_by` comes first, too, and copies the masks.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -48,19 +48,29 @@ extern "C" {
   workspace.set_masks({walls, wall_count}, {ignored, ignored_count});
 }
 
-/// Whether a seed lies in the ball.
-[[clang::export_name("region")]] bool region(double radius, bool with_distances) {
-  Searcher& searcher = workspace.searcher(row_metric);
-  if (with_distances) {
-    searcher.neighborhood(origin, radius, answer.ids, answer.reals);
-  } else {
+/// By a method; the exact one searches by the metric, the others from a vertex. Returns whether a seed lies in the
+/// ball.
+[[clang::export_name("neighborhood")]] bool neighborhood(MethodName method, double radius, bool with_distances) {
+  const auto search = [&](auto& searcher, const auto& start) {
+    if (with_distances) return searcher.neighborhood(start, radius, answer.ids, answer.reals);
     answer.reals.clear();
-    searcher.neighborhood(origin, radius, answer.ids);
+    searcher.neighborhood(start, radius, answer.ids);
+  };
+  if (method != MethodName::Exact) {
+    search(workspace.searcher(method), origin.vertex());
+    return true;
   }
+  Searcher& searcher = workspace.searcher(row_metric);
+  search(searcher, origin);
   return searcher.has_seed(origin, radius);
 }
 
-/// The same of the largest ball.
+[[clang::export_name("count")]] std::size_t count(MethodName method, double radius) {
+  if (method == MethodName::Exact) return workspace.searcher(row_metric).count(origin, radius);
+  return workspace.searcher(method).count(origin.vertex(), radius);
+}
+
+/// Whether a seed lies in the largest ball.
 [[clang::export_name("nested")]] bool nested(const double* radii, std::size_t radius_count) {
   Searcher& searcher = workspace.searcher(row_metric);
   searcher.nested(origin, std::span(radii, radius_count), answer.ids, region_sizes);
