@@ -69,7 +69,8 @@ class FaceIndex {
 
   /// The same for each of `points`. They are taken along a space-filling curve, and each search begins with the last
   /// answer, so that one takes about a third of the time of a single call. 16 bytes a point. Of the options, `threads`
-  /// and `progress` are used; the result does not depend on them. Throws as above, naming the row, and Error{Cancelled}.
+  /// and `progress` are used; the result does not depend on them. Throws as above, naming the row, and
+  /// Error{Cancelled}.
   [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const SpacePoint> points,
                                                          const BatchOptions& options = {}) const;
 
