@@ -20,7 +20,7 @@ SECONDS = 12  # intended for libigl, for a mesh and radius
 MOST_SECONDS = 40  # allowed for libigl
 LIBIGL_COST = 0.27e-6  # approximate seconds for each vertex found
 MESHLAB_COST = 0.5e-6
-NORMAL_BYTES = 28  # of a vertex, in a CurvatureIndex
+NORMAL_BYTES = 28  # of a vertex, in a surface
 
 
 def run(names):

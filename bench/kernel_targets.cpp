@@ -34,8 +34,7 @@ struct Work {
 
 class KernelTargets {
  public:
-  explicit KernelTargets(const MeshView& mesh)
-      : mesh_(reorder(mesh)), surface_(CurvatureIndex::build(mesh_.index, mesh_.view())) {
+  explicit KernelTargets(const MeshView& mesh) : mesh_(reorder(mesh)), surface_(mesh_.index, mesh_.view()) {
     const GraphData graph = extract_graph(mesh_.index);
     mean_edge_ = mean_edge_length(graph.view());
     const std::size_t vertices = mesh_.index.vertex_count();
@@ -102,7 +101,7 @@ class KernelTargets {
   }
 
   ReorderedMesh mesh_;
-  CurvatureIndex surface_;
+  Surface surface_;
   double mean_edge_ = 0;
   std::size_t targets_ = static_cast<std::size_t>(best_isa()) + 1;
   std::vector<VertexId> spread_;

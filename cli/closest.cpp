@@ -12,7 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "meshhood/error.h"
-#include "meshhood/face_index.h"
+#include "meshhood/surface.h"
 
 #include "commands.h"
 #include "input.h"
@@ -37,7 +37,7 @@ struct ClosestCommand {
 };
 
 std::vector<SurfacePoint> compute(const ClosestCommand& options, std::span<const SpacePoint> points, Input& input) {
-  const FaceIndex surface = FaceIndex::build(input.exact_index(options.threads), input.surface().faces);
+  const Surface surface(input.exact_index(options.threads), input.surface().faces);
   Task task("searching", {.name = "points"});
   return surface.closest_points(points, {.threads = options.threads, .progress = task.progress()});
 }

@@ -123,8 +123,7 @@ void curvature(const CurvatureCommand& options) {
   input.need_faces("curvature");
   const RowQuery rows(options.rows, input);
   const std::size_t scales = options.rows.scale_count();
-  const Index& index = input.exact_index(options.rows.threads);
-  const CurvatureIndex surface = CurvatureIndex::build(index, input.surface(), options.rows.threads);
+  const Surface surface(input.exact_index(options.rows.threads), input.surface());
   CurvatureOptions settings = options.like_libigl ? like_libigl() : CurvatureOptions{};
   settings.filter = !options.no_filter;
   settings.threads = options.rows.threads;

@@ -12,7 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "meshhood/region_mesh.h"
+#include "meshhood/surface.h"
 
 #include "commands.h"
 #include "input.h"
@@ -87,9 +87,9 @@ void region(const RegionCommand& options) {
   const QueryStart& start = query.starts.front();
   const double radius = resolve(options.radius, input);
   const std::vector<VertexId> ids = regions_of(start, "straight", std::span(&radius, 1), input).vertices;
-  RegionMesher mesher(input.surface());
-  const Submesh part = mesher.submesh(ids, options.faces == "all" ? Corners::All : Corners::Any);
-  const Rim rim = mesher.rim(ids, center_of(start.view(), input.positions()), radius);
+  const Surface surface(input.exact_index(), input.surface().faces);
+  const Submesh part = surface.submesh(ids, options.faces == "all" ? Corners::All : Corners::Any);
+  const Rim rim = surface.rim(ids, center_of(start.view(), input.positions()), radius);
   write_mesh(options.output, input.positions(), part);
   if (!options.arrays.empty()) write_arrays(options.arrays, part, rim);
   const auto closed = static_cast<std::size_t>(std::count(rim.closed.begin(), rim.closed.end(), 1));

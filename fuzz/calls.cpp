@@ -298,7 +298,7 @@ class Session {
   static void fit_rows(const Exact& place, const std::vector<VertexId>& vertices, double radius, unsigned threads) {
     const test::TestMesh& mesh = place.subject->mesh;
     if (mesh.face_count() == 0) return;
-    const CurvatureIndex surface = CurvatureIndex::build(*place.index, mesh.view().faces);
+    const Surface surface(*place.index, mesh.view().faces);
     const BatchQuery query{.vertices = vertices, .radius = radius};
     const Curvatures found = curvatures(surface, query, {.threads = threads});
     if (found.k1 != curvatures(surface, query, {.threads = 1}).k1) fail("curvatures depend on the threads");

@@ -22,7 +22,7 @@ foreach(part
     exact/search/component exact/search/descent exact/search/group_states exact/search/home_marks exact/search/leaf_bfs exact/search/leaf_bits
     exact/search/open_elements exact/output exact/search/reach exact/search/vertex_bfs exact/vertex_set exact/search/waves
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
-    region/region_mesher region/clip region/box_tree region/face_index
+    surface/box_tree surface/clip surface/closest_point surface/submesh surface/surface
     curvature/bits curvature/corrected curvature/curvatures curvature/features curvature/filter curvature/moments curvature/packet_moments curvature/quadric curvature/sure_leaves
     simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels simd/path_kernels
     whole/arguments whole/metrics whole/outlives whole/robustness whole/same_bits whole/differential whole/metamorphic)
@@ -40,7 +40,7 @@ meshhood_test(whole/allocation ALONE meshhood_families)
 target_sources(whole_allocation_test PRIVATE support/failing_allocations.cpp)
 
 meshhood_test(paper/meshes meshhood_test_support)
-meshhood_test(region/region_meshes meshhood_test_support)
+meshhood_test(surface/submesh_meshes meshhood_test_support)
 meshhood_test(whole/all_meshes meshhood_test_support)
 
 # The sources of the core, to be compiled in other ways than the library is.

@@ -31,19 +31,8 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
-CurvatureIndex of_faces(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets,
-                        unsigned threads) {
-  const FacesView faces = faces_of(corners, offsets);
-  return without_lock([&] { return CurvatureIndex::build(method.index(), faces, threads); });
-}
-
-CurvatureIndex of_normals(const ExactMethod& method, const Radii& normals) {
-  const std::span<const double> values(normals.data(), normals.size());
-  return without_lock([&] { return CurvatureIndex::build(method.index(), values); });
-}
-
-auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& vertices, const Radius& radius,
-                   bool libigl, bool jet, bool filter, unsigned threads, nb::handle progress, Metric metric) {
+auto curvatures_of(const Surface& surface, const std::optional<Rows>& vertices, const Radius& radius, bool libigl,
+                   bool jet, bool filter, unsigned threads, nb::handle progress, Metric metric) {
   CurvatureOptions options = libigl ? like_libigl() : CurvatureOptions{};
   options.fit = jet ? CurvatureFit::Jet : CurvatureFit::Quadric;
   options.filter = filter;
@@ -69,13 +58,11 @@ auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& ver
   return std::tuple(k1, k2, nb::object(vectors[0]), nb::object(vectors[1]), state, count);
 }
 
-auto corrected_curvatures_of(const CurvatureIndex& surface, const Input& corners, const std::optional<Input>& offsets,
-                             const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
-                             nb::handle progress, Metric metric) {
-  const FacesView faces = faces_of(corners, offsets);
+auto corrected_curvatures_of(const Surface& surface, const std::optional<Rows>& vertices, const Radius& radius,
+                             unsigned threads, nb::handle progress, Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
   const CorrectedCurvatureOptions options{.threads = threads, .progress = progress_to(progress)};
-  CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, faces, query, options); });
+  CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, query, options); });
   const std::size_t rows = found.area.size();
   const auto vectors = [rows](std::vector<double>& values, std::size_t columns) {
     return owned<double>(std::move(values), {rows, columns});
@@ -116,7 +103,7 @@ auto components_of(const ExactMethod& method, const std::optional<Rows>& vertice
 }
 
 /// Either `radii`, the scales, or `radius`.
-Output<double> features_of(const CurvatureIndex& surface, const std::optional<Rows>& vertices, const Radii& radii,
+Output<double> features_of(const Surface& surface, const std::optional<Rows>& vertices, const Radii& radii,
                            std::vector<Feature> kinds, const std::optional<Radii>& areas, bool filter, unsigned threads,
                            nb::handle progress, Metric metric, const Radius& radius) {
   BatchQuery query = query_of(vertices, radius, metric);
@@ -144,7 +131,7 @@ double radius_of_libigl(const Input& positions, const Input& corners, const std:
 
 }  // namespace
 
-void bind_curvature(nb::module_& module) {
+void bind_curvature(nb::module_& module, nb::class_<Surface>& surface) {
   nb::enum_<Feature>(module, "Feature")
       .value("crease", Feature::Crease)
       .value("mean", Feature::Mean)
@@ -156,12 +143,11 @@ void bind_curvature(nb::module_& module) {
       .value("area", Feature::Area)
       .value("height", Feature::Height)
       .value("variation", Feature::Variation);
-  nb::class_<CurvatureIndex>(module, "Surface")
-      .def("on", [](const CurvatureIndex& surface, const ExactMethod& method) { return surface.on(method.index()); })
+  surface
       .def("curvatures", &curvatures_of, nb::arg().none(), nb::arg(), nb::arg("libigl"), nb::arg("jet"),
            nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"))
-      .def("corrected", &corrected_curvatures_of, nb::arg(), nb::arg("offsets").none(), nb::arg("vertices").none(),
-           nb::arg("radius").none(), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"))
+      .def("corrected", &corrected_curvatures_of, nb::arg().none(), nb::arg().none(), nb::arg("threads"),
+           nb::arg("progress").none(), nb::arg("metric"))
       .def("features", &features_of, nb::arg().none(), nb::arg("radii"), nb::arg("kinds"), nb::arg("areas").none(),
            nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"),
            nb::arg("radius") = nb::none());
@@ -176,8 +162,6 @@ void bind_curvature(nb::module_& module) {
         return owned<double>(geometric_radii(smallest, largest, count));
       },
       nb::arg("smallest"), nb::arg("largest"), nb::arg("count"));
-  module.def("surface_of_faces", &of_faces, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("threads"));
-  module.def("surface_of_normals", &of_normals, nb::arg(), nb::arg());
   module.def("libigl_radius", &radius_of_libigl, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("edges"));
 }
 

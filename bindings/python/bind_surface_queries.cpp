@@ -16,7 +16,6 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/variant.h>
 
-#include "meshhood/face_index.h"
 #include "meshhood/k_nearest.h"
 #include "meshhood/unconnected.h"
 
@@ -31,8 +30,6 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
-using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-
 auto unconnected(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
                  nb::handle progress, Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
@@ -40,33 +37,6 @@ auto unconnected(const ExactMethod& method, const std::optional<Rows>& vertices,
   Unconnected found = without_lock([&] { return nearest_unconnected(method.index(), query, options); });
   static_assert(static_cast<std::int32_t>(kNoVertex) == -1);
   return std::pair(owned<std::int32_t>(std::move(found.vertices)), owned<double>(std::move(found.gaps)));
-}
-
-FaceIndex make_face_index(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets) {
-  const FacesView faces = faces_of(corners, offsets);
-  return without_lock([&] { return FaceIndex::build(method.index(), faces); });
-}
-
-/// The faces, the second corner of the triangle of each, its barycentric coordinates, and the points.
-auto closest_points(const FaceIndex& surface, const Points& points, unsigned threads, nb::handle progress) {
-  static_assert(sizeof(SpacePoint) == 3 * sizeof(double));
-  const std::span<const SpacePoint> all(reinterpret_cast<const SpacePoint*>(points.data()), points.shape(0));
-  const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
-  std::vector<std::int64_t> faces;
-  std::vector<std::int64_t> seconds;
-  std::vector<std::array<double, 3>> weights;
-  std::vector<SpacePoint> found;
-  without_lock([&] {
-    for (const SurfacePoint& hit : surface.closest_points(all, options)) {
-      faces.push_back(static_cast<std::int64_t>(hit.face));
-      seconds.push_back(static_cast<std::int64_t>(hit.second_corner));
-      weights.push_back(hit.weights);
-      found.push_back(hit.point);
-    }
-  });
-  const std::size_t rows = all.size();
-  return std::tuple(owned<std::int64_t>(std::move(faces)), owned<std::int64_t>(std::move(seconds)),
-                    owned<double>(std::move(weights), {rows, 3}), owned<double>(std::move(found), {rows, 3}));
 }
 
 NearestOptions nearest_options(Metric metric, double radius, unsigned threads, std::uint64_t max_bytes,
@@ -113,9 +83,6 @@ auto discs_of(const ExactMethod& method, const std::optional<Rows>& vertices, do
 void bind_surface_queries(nb::module_& module) {
   module.def("nearest_unconnected", &unconnected, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("threads"),
              nb::arg("progress").none(), nb::arg("metric"));
-  nb::class_<FaceIndex>(module, "FaceIndex")
-      .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none());
-  module.def("face_index", &make_face_index, nb::arg(), nb::arg(), nb::arg("offsets").none());
   module.def("k_nearest", &k_nearest_of, nb::arg(), nb::arg().none(), nb::arg("k"), nb::arg("fill"), nb::arg("metric"),
              nb::arg("radius"), nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none());
   module.def("discs", &discs_of, nb::arg(), nb::arg().none(), nb::arg("area"), nb::arg("areas"), nb::arg("metric"),

@@ -3,6 +3,8 @@
 
 #include <nanobind/nanobind.h>
 
+#include "meshhood/surface.h"
+
 /// The extension module of the Python package: conversions, and the interpreter lock. Arguments have been checked and
 /// converted by meshhood/_mesh.py and meshhood/_convert.py.
 namespace meshhood::python {
@@ -19,14 +21,14 @@ void bind_makers(nanobind::module_& module);
 /// Regions, connecting radii, rings and nearest vertices.
 void bind_queries(nanobind::module_& module);
 
-/// Regions as meshes.
-void bind_region_mesh(nanobind::module_& module);
+/// Surfaces: closest points, and regions as meshes.
+nanobind::class_<Surface> bind_surface(nanobind::module_& module);
 
-/// Nearest vertices and points for many rows: on the surface, connected, and not connected.
+/// Nearest vertices for many rows: connected, and not connected.
 void bind_surface_queries(nanobind::module_& module);
 
-/// Curvature.
-void bind_curvature(nanobind::module_& module);
+/// Curvature, of surfaces too.
+void bind_curvature(nanobind::module_& module, nanobind::class_<Surface>& surface);
 
 /// Mesh files, index files, and an index as bytes.
 void bind_files(nanobind::module_& module);

@@ -73,10 +73,10 @@ NB_MODULE(_core, module) {
   nb::register_exception_translator(meshhood::python::translate);
   meshhood::python::bind_methods(module);
   meshhood::python::bind_aggregates(module);
-  meshhood::python::bind_curvature(module);
   meshhood::python::bind_makers(module);
   meshhood::python::bind_queries(module);
-  meshhood::python::bind_region_mesh(module);
+  auto surface = meshhood::python::bind_surface(module);
+  meshhood::python::bind_curvature(module, surface);
   meshhood::python::bind_surface_queries(module);
   meshhood::python::bind_files(module);
   meshhood::python::bind_parts(module);

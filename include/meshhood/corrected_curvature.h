@@ -48,13 +48,12 @@ struct CorrectedCurvatureOptions {
 /// Nothing is fitted, and neighborhoods are neither filtered nor extended. The measures are robust on noisy meshes, and
 /// defined for a radius of 0.
 ///
-/// faces  those of the mesh that the index was built from. A face at a wall still gives shares to its other corners.
+/// A face at a wall still gives shares to its other corners.
 /// query  as of `aggregate`.
-/// Each row depends on index, faces, vertex and radius alone, bit for bit, as that of `aggregate`. Takes the time of
+/// Each row depends on surface, vertex and radius alone, bit for bit, as that of `aggregate`. Takes the time of
 /// `aggregate` with twelve channels.
 /// Throws Error{InvalidMesh, TooLarge, VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
-[[nodiscard]] CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const FacesView& faces,
-                                                       const BatchQuery& query,
+[[nodiscard]] CorrectedCurvatures corrected_curvatures(const Surface& surface, const BatchQuery& query,
                                                        const CorrectedCurvatureOptions& options = {});
 
 }  // namespace meshhood

@@ -3,64 +3,24 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "meshhood/batch.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
-#include "meshhood/owner.h"
 #include "meshhood/progress.h"
+#include "meshhood/surface.h"
 
 /// Curvature at a scale: the shape of the surface in the neighborhood of a vertex with radius r. The measures and how
 /// to choose among them are explained in docs/curvature.md.
 ///
-///     const auto surface = meshhood::CurvatureIndex::build(index, mesh);
+/// The normal of a vertex is the sum of the vector areas of its faces, normalized. The vector area of a triangle is
+/// half the cross product of two edges; that of a polygon is Newell's sum.
+///
+///     const meshhood::Surface surface(index, faces);
 ///     const auto [k1, k2, d1, d2, state, count] = meshhood::curvatures(surface, {.radius = 2.5}, {.threads = 0});
 namespace meshhood {
-
-/// The data for curvature besides the index of a mesh: the normals of the vertices. Immutable: any number of threads
-/// may use it. Shares the memory of the index, as a searcher does: the index may be moved or destroyed. 24 bytes a
-/// vertex.
-class CurvatureIndex {
- public:
-  /// The normal of a vertex is the sum of the vector areas of its faces, normalized. The vector area of a triangle is
-  /// half the cross product of two edges. That of a polygon is Newell's sum.
-  ///
-  /// mesh     the mesh that the index was built from, with faces; borrowed for the call.
-  /// threads  as in `BuildOptions`. The result does not depend on it.
-  /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid, has no faces, or has other positions than the index, and
-  /// Error{InvalidOption}. O(#V + #corners).
-  [[nodiscard]] static CurvatureIndex build(const Index& index, const MeshView& mesh, unsigned threads = 1);
-
-  /// The same with the positions of the index. `faces` are those of the mesh that it was built from.
-  [[nodiscard]] static CurvatureIndex build(const Index& index, const FacesView& faces, unsigned threads = 1);
-
-  /// The same for a graph without faces.
-  ///
-  /// normals    #V by 3, in the order of the caller's vertices, of any length; copied. A vertex whose normal has length
-  ///            0 or a NaN counts as one without a normal.
-  /// Throws Error{InvalidMesh}, naming the vertex, if a normal is infinite.
-  [[nodiscard]] static CurvatureIndex build(const Index& index, std::span<const double> normals);
-
-  /// The same normals for an index of the same mesh with other masks, or without: see `masked`. O(1). Throws
-  /// Error{InvalidOption} if the index is of another mesh.
-  [[nodiscard]] CurvatureIndex on(const Index& index) const;
-
-  /// #V.
-  [[nodiscard]] std::size_t vertex_count() const;
-
-  /// Memory without the index, in bytes.
-  [[nodiscard]] std::size_t bytes() const;
-
- private:
-  friend struct CurvatureAccess;
-
-  struct State;
-  explicit CurvatureIndex(std::unique_ptr<const State> state);
-  detail::Owner<const State> state_;
-};
 
 /// How principal curvatures follow from the fitted quadric z = a x^2 + b x y + c y^2 + d x + e y.
 enum class ShapeOperator : std::uint8_t {
@@ -162,12 +122,12 @@ struct CurvatureMemory {
 /// threads or the processor. O(size of the neighborhoods) in the worst case; the common part of the neighborhoods of a
 /// leaf is summed once.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
-[[nodiscard]] Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query,
+[[nodiscard]] Curvatures curvatures(const Surface& surface, const BatchQuery& query,
                                     const CurvatureOptions& options = {});
 
 /// Writes the same into memory of the caller, which need not be initialized: all of it, unless the call throws. Throws
 /// as the overload above, and Error{InvalidOption} if an array does not have the requested size.
-void curvatures(const CurvatureIndex& surface, const BatchQuery& query, const CurvatureMemory& out,
+void curvatures(const Surface& surface, const BatchQuery& query, const CurvatureMemory& out,
                 const CurvatureOptions& options = {});
 
 /// Koenderink's shape index, 2 / pi atan((k1 + k2) / (k1 - k2)): 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a

@@ -37,7 +37,7 @@ struct FeatureOptions {
   /// One column each, at least one.
   std::vector<Feature> kinds = {Feature::Crease};
 
-  /// #V, the area of each vertex (see `vertex_areas`): required for Area, Height and Variation.
+  /// #V, the area of each vertex, for Area, Height and Variation; those of the surface if empty.
   Borrowed<double> areas = {};
 
   /// As for `curvatures`.
@@ -57,7 +57,7 @@ struct FeatureOptions {
 /// radius, as the kinds require. A row depends on surface, areas, vertex and radius alone, bit for bit: not on the
 /// other rows of the call, earlier calls, threads or the processor. Throws Error{VertexOutOfRange, InvalidRadius,
 /// InvalidOption, Cancelled}. A radius must be > 0 and finite.
-[[nodiscard]] std::vector<double> features(const CurvatureIndex& surface, const BatchQuery& query,
+[[nodiscard]] std::vector<double> features(const Surface& surface, const BatchQuery& query,
                                            const FeatureOptions& options = {});
 
 /// `count` radii from `smallest` to `largest` with a constant ratio. Throws Error{InvalidRadius, InvalidOption}.

@@ -73,8 +73,8 @@ class Index {
   /// changed in place, unless refit.h says otherwise.
   ///
   /// No thread may use the index or its searchers meanwhile. Afterwards a searcher throws Error{InvalidOption} until
-  /// `rebind` makes it one of the new state. A `CurvatureIndex`, a `FaceIndex` and a masked index (see masks.h)
-  /// throw, too, and are to be made again.
+  /// `rebind` makes it one of the new state, and a `Surface` until its `refit_in_place`. A masked index (see masks.h)
+  /// throws, too, and is to be made again.
   ///
   /// Throws as `refit`; the index is then as it was.
   void refit_in_place(const PositionsView& positions, const BuildOptions& options = {});

@@ -16,9 +16,10 @@
 ///     const auto ids = searcher.neighborhood(42, 1.5);  // the same set as breadth-first search
 ///
 /// `Searcher`, for one vertex or point, and visitors are in search.h, batches over many vertices in batch.h, sums over
-/// neighborhoods in aggregate.h and moments.h, walls in masks.h, meshes that deform in refit.h, files in io/mesh_io.h
-/// and io/index_io.h. Meshes of other libraries are in eigen.h, cgal.h, openmesh.h and geometry_central.h.
-/// `meshhood::paper` has the same calls with the approximate neighborhoods of the paper.
+/// neighborhoods in aggregate.h and moments.h, walls in masks.h, meshes that deform in refit.h. `Surface`, for closest
+/// points, regions as meshes and curvature, is in surface.h. Files are in io/mesh_io.h and io/index_io.h. Meshes of
+/// other libraries are in eigen.h, cgal.h, openmesh.h and geometry_central.h. `meshhood::paper` has the same calls with
+/// the approximate neighborhoods of the paper.
 
 #include "meshhood/adjacency.h"            // IWYU pragma: export
 #include "meshhood/aggregate.h"            // IWYU pragma: export
@@ -27,7 +28,6 @@
 #include "meshhood/curvature.h"            // IWYU pragma: export
 #include "meshhood/error.h"                // IWYU pragma: export
 #include "meshhood/face_graph.h"           // IWYU pragma: export
-#include "meshhood/face_index.h"           // IWYU pragma: export
 #include "meshhood/features.h"             // IWYU pragma: export
 #include "meshhood/fingerprint.h"          // IWYU pragma: export
 #include "meshhood/index.h"                // IWYU pragma: export
@@ -44,9 +44,9 @@
 #include "meshhood/progress.h"             // IWYU pragma: export
 #include "meshhood/reference.h"            // IWYU pragma: export
 #include "meshhood/refit.h"                // IWYU pragma: export
-#include "meshhood/region_mesh.h"          // IWYU pragma: export
 #include "meshhood/reorder.h"              // IWYU pragma: export
 #include "meshhood/search.h"               // IWYU pragma: export
 #include "meshhood/serialize.h"            // IWYU pragma: export
 #include "meshhood/start.h"                // IWYU pragma: export
+#include "meshhood/surface.h"              // IWYU pragma: export
 #include "meshhood/unconnected.h"          // IWYU pragma: export

@@ -29,8 +29,9 @@ class Start {
 
   /// The vertex of another library's index that is a `VertexId` without a loss, as `CGAL::SM_Vertex_index`.
   template <class Handle>
-    requires(std::is_class_v<Handle> && requires(const Handle& handle) { VertexId{handle}; } &&
-             !requires(const Handle& handle) { bool{handle}; })
+    requires(
+        std::is_class_v<Handle> && requires(const Handle& handle) { VertexId{handle}; } &&
+        !requires(const Handle& handle) { bool{handle}; })
   Start(const Handle& v) : vertex_{v} {}
 
   /// center  any point in space: finite, no coordinate beyond 2^500 in magnitude.

@@ -6,15 +6,16 @@
 
 #include "meshhood/aggregate.h"
 #include "meshhood/corrected_curvature.h"
+#include "meshhood/error.h"
 
 #include "base/validate.h"
 #include "base/vector.h"
 #include "curvature/quadric.h"
-#include "curvature/surface.h"
 #include "curvature/symmetric.h"
 #include "shared/distance.h"
 #include "shared/parallel.h"
 #include "simd/moments.h"
+#include "surface/surface.h"
 
 namespace meshhood {
 namespace {
@@ -70,7 +71,7 @@ Measures measures_of(std::span<const Corner> face) {
 
 /// The measures that each vertex holds, #V by 12 in the caller's order. Lengths are in the frame, where nothing
 /// overflows.
-std::vector<double> measures_by_vertex(const SurfaceState& surface, const FacesView& faces) {
+std::vector<double> measures_by_vertex(const OrientedIndex& surface, const FacesView& faces) {
   const IndexView& index = *surface.index;
   std::vector<double> held(std::tuple_size_v<Measures> * index.vertex_count());
   std::vector<Corner> face;
@@ -163,20 +164,22 @@ struct CorrectedRows {
 
 }  // namespace
 
-CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const FacesView& faces, const BatchQuery& query,
+CorrectedCurvatures corrected_curvatures(const Surface& surface, const BatchQuery& query,
                                          const CorrectedCurvatureOptions& options) {
-  const SurfaceState& state = CurvatureAccess::state(surface);
   TaskContext task(options.threads);
-  validate(MeshView{state.searched.positions(), faces}, task);
+  const OrientedIndex state = SurfaceAccess::oriented(surface, task);
+  if (surface.face_count() == 0 && surface.vertex_count() != 0) {
+    raise(ErrorCode::InvalidMesh, "the surface has no faces, expected faces, also with normals");
+  }
   constexpr std::size_t kChannels = CorrectedCurvatures::kMeasures;
-  const std::vector<double> held = measures_by_vertex(state, faces);
+  const std::vector<double> held = measures_by_vertex(state, SurfaceAccess::state(surface).faces().view());
   std::vector<VertexId> listed;
   AggregateQuery sum{.vertices = {}, .radius = query.radius, .metric = query.metric, .reduce = Reduce::Sum};
   if (query.vertices.list()) {
     listed.assign(query.vertices.list()->begin(), query.vertices.list()->end());
     sum.vertices = listed;
   }
-  const std::vector<double> sums = aggregate(state.searched, {.values = held, .channels = kChannels}, sum,
+  const std::vector<double> sums = aggregate(*state.searched, {.values = held, .channels = kChannels}, sum,
                                              {.threads = options.threads, .progress = options.progress});
   const std::size_t results = sums.size() / kChannels;
   const std::size_t rows = sum.vertices.count(surface.vertex_count());

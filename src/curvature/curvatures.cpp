@@ -17,15 +17,15 @@
 #include "curvature/jet.h"
 #include "curvature/packet_moments.h"
 #include "curvature/quadric.h"
-#include "curvature/surface.h"
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
 #include "exact/index_access.h"
+#include "surface/surface.h"
 
 namespace meshhood {
 namespace {
 
-TangentFrame frame_at(const SurfaceState& surface, std::uint32_t place, ShapeOperator shape_operator) {
+TangentFrame frame_at(const OrientedIndex& surface, std::uint32_t place, ShapeOperator shape_operator) {
   const Point normal = surface.normal(place);
   if (shape_operator == ShapeOperator::Exact) return frame_of(normal);
   return frame_towards(normal, surface.position(surface.first_neighbor(place)) - surface.position(place));
@@ -34,7 +34,7 @@ TangentFrame frame_at(const SurfaceState& surface, std::uint32_t place, ShapeOpe
 /// Fits the rows of packets. One object a thread.
 class CurvatureFitter {
  public:
-  CurvatureFitter(const SurfaceState& surface, Metric metric, const CurvatureOptions& options,
+  CurvatureFitter(const OrientedIndex& surface, Metric metric, const CurvatureOptions& options,
                   const CurvatureMemory& out)
       : surface_(&surface), options_(&options), out_(out), direct_(surface, metric, options) {}
 
@@ -46,7 +46,7 @@ class CurvatureFitter {
   void prefetch_row(std::size_t row) const;
   void write(std::size_t row, const DirectFit::Result& result);
 
-  const SurfaceState* surface_;
+  const OrientedIndex* surface_;
   const CurvatureOptions* options_;
   CurvatureMemory out_;
   DirectFit direct_;
@@ -135,7 +135,7 @@ void check_sizes(const CurvatureMemory& memory, std::size_t rows) {
 
 CurvatureOptions like_libigl() { return {.filter = true, .open_ball = true, .shape_operator = ShapeOperator::Libigl}; }
 
-Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, const CurvatureOptions& options) {
+Curvatures curvatures(const Surface& surface, const BatchQuery& query, const CurvatureOptions& options) {
   const std::size_t rows = query.vertices.count(surface.vertex_count());
   Curvatures result;
   result.k1.resize(rows);
@@ -148,16 +148,15 @@ Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, co
   return result;
 }
 
-void curvatures(const CurvatureIndex& surface, const BatchQuery& query, const CurvatureMemory& out,
+void curvatures(const Surface& surface, const BatchQuery& query, const CurvatureMemory& out,
                 const CurvatureOptions& options) {
   if (options.fit == CurvatureFit::Jet && options.shape_operator == ShapeOperator::Libigl) {
     raise(ErrorCode::InvalidOption, "libigl's shape operator requires the quadric, not the jet");
   }
-  const SurfaceState& state = CurvatureAccess::state(surface);
+  const OrientedIndex state = SurfaceAccess::oriented(surface, options.threads);
   check_sizes(out, query.vertices.count(surface.vertex_count()));
-  const MomentSource source{
-      .index = &*state.index, .filter = options.filter ? &state : nullptr, .metric = query.metric};
-  visit_moments(state.searched, query, options.open_ball, source,
+  const MomentSource source{.index = state.index, .filter = options.filter ? &state : nullptr, .metric = query.metric};
+  visit_moments(*state.searched, query, options.open_ball, source,
                 {.threads = options.threads, .progress = options.progress}, [&] {
                   auto fitter = std::make_shared<CurvatureFitter>(state, query.metric, options, out);
                   return [fitter](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
@@ -177,6 +176,22 @@ double curvedness(double k1, double k2) {
   const double a = k1 / largest;
   const double b = k2 / largest;
   return largest * std::sqrt((a * a + b * b) / 2);
+}
+
+double libigl_radius(const MeshView& mesh, double edges) {
+  validate(mesh);
+  double sum = 0;
+  std::size_t sides = 0;
+  mesh.positions.visit([&](const auto& xyz) {
+    mesh.faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const VertexId next = corners[(i + 1) % corners.size()];
+        sum += std::sqrt(squared_distance(point(xyz, corners[i]), point(xyz, next)));
+        ++sides;
+      }
+    });
+  });
+  return sides == 0 ? 0 : edges * (sum / static_cast<double>(sides));
 }
 
 }  // namespace meshhood

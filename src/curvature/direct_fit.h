@@ -8,7 +8,7 @@
 #include "meshhood/batch.h"
 
 #include "curvature/quadric.h"
-#include "curvature/surface.h"
+#include "surface/surface.h"
 
 namespace meshhood {
 
@@ -17,7 +17,7 @@ namespace meshhood {
 class DirectFit {
  public:
   /// Borrows its arguments.
-  DirectFit(const SurfaceState& surface, Metric metric, const CurvatureOptions& options)
+  DirectFit(const OrientedIndex& surface, Metric metric, const CurvatureOptions& options)
       : surface_(&surface), metric_(metric), options_(&options) {}
 
   struct Result {
@@ -35,7 +35,7 @@ class DirectFit {
   [[nodiscard]] double set_points(std::uint32_t place);
   [[nodiscard]] double scale_for(double extent) const;
 
-  const SurfaceState* surface_;
+  const OrientedIndex* surface_;
   Metric metric_;
   const CurvatureOptions* options_;
   std::optional<Searcher> searcher_;

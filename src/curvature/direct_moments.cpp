@@ -7,7 +7,6 @@
 
 #include "base/vector.h"
 #include "curvature/packet_moments.h"
-#include "curvature/surface.h"
 #include "simd/kernels.h"
 
 namespace meshhood {

@@ -12,6 +12,15 @@
 
 namespace meshhood {
 
+/// The places in index order of the vertices of the neighborhood of the one at `place`. They ascend.
+inline void find_places(Searcher& searcher, const IndexView& index, std::uint32_t place, double radius,
+                        std::vector<std::uint32_t>& found) {
+  found.clear();
+  for (const VertexRange& range : searcher.ranges(index.id(place), radius)) {
+    for (VertexId i = range.begin; i < range.end; ++i) found.push_back(i);
+  }
+}
+
 /// The moments of one neighborhood from the offsets of its vertices from the query vertex. Slower than `PacketMoments`,
 /// but accurate where the vertices of a leaf are much farther apart than the radius. One object a thread.
 class DirectMoments {

@@ -14,9 +14,9 @@
 
 #include "base/vector.h"
 #include "batch/rows.h"
-#include "curvature/surface.h"
 #include "shared/distance.h"
 #include "shared/text.h"
+#include "surface/surface.h"
 
 namespace meshhood {
 namespace {
@@ -62,9 +62,9 @@ double patch_feature(Feature kind, const PrincipalComponents& patch, std::size_t
 /// What one call of `features` computes, radius by radius.
 class FeatureExtraction {
  public:
-  FeatureExtraction(const CurvatureIndex& surface, const BatchQuery& query, FeatureOptions options)
+  FeatureExtraction(const Surface& surface, const BatchQuery& query, FeatureOptions options)
       : surface_(surface),
-        state_(CurvatureAccess::state(surface)),
+        state_(SurfaceAccess::oriented(surface, options.threads)),
         radii_(radius_of_passes(query.radius)),
         metric_(query.metric),
         options_(std::move(options)),
@@ -79,7 +79,7 @@ class FeatureExtraction {
       radii_ = {BatchRadius(radius_of_row_)};
     }
     check();
-    if (metric_ == Metric::Rings) unit_ = mean_edge_length(state_.searched);
+    if (metric_ == Metric::Rings) unit_ = mean_edge_length(*state_.searched);
   }
 
   std::vector<double> run() {
@@ -115,9 +115,11 @@ class FeatureExtraction {
     }
     sums_ = std::any_of(options_.kinds.begin(), options_.kinds.end(), follows_from_areas);
     fits_ = !std::all_of(options_.kinds.begin(), options_.kinds.end(), follows_from_areas);
-    if (sums_ && options_.areas.empty() && surface_.vertex_count() > 0) {
-      raise(ErrorCode::InvalidOption, "area, height and variation need the areas of the vertices");
+    if (!sums_ || !options_.areas.empty()) return;
+    if (surface_.face_count() == 0 && surface_.vertex_count() > 0) {
+      raise(ErrorCode::InvalidOption, "area, height and variation of a surface without faces need `areas`");
     }
+    options_.areas = surface_.vertex_areas();
   }
 
   [[nodiscard]] BatchQuery query_of(const BatchRadius& radius) const {
@@ -141,7 +143,7 @@ class FeatureExtraction {
 
   void write_patches(const BatchRadius& radius_of_rows, std::span<double> values) {
     const PrincipalComponents patch =
-        principal_components(state_.searched, query_of(radius_of_rows),
+        principal_components(*state_.searched, query_of(radius_of_rows),
                              {.weights = options_.areas, .threads = options_.threads, .progress = next_pass()});
     const std::size_t kinds = options_.kinds.size();
     for (std::size_t row = 0; row < rows_; ++row) {
@@ -162,8 +164,8 @@ class FeatureExtraction {
     };
   }
 
-  const CurvatureIndex& surface_;
-  const SurfaceState& state_;
+  const Surface& surface_;
+  OrientedIndex state_;
   std::vector<BatchRadius> radii_;  // of the passes
   Metric metric_;
   double unit_ = 1;  // of the radii
@@ -212,7 +214,7 @@ Run longest_run(std::size_t radii, double threshold, const ValueAt& value) {
 
 }  // namespace
 
-std::vector<double> features(const CurvatureIndex& surface, const BatchQuery& query, const FeatureOptions& options) {
+std::vector<double> features(const Surface& surface, const BatchQuery& query, const FeatureOptions& options) {
   return FeatureExtraction(surface, query, options).run();
 }
 

@@ -162,7 +162,7 @@ void PacketMoments::add_sure_leaves(LeafId leaf, std::span<const double> radii) 
 
 /// Whether each vertex of `leaf` surely faces each vertex of the leaf of the queries.
 bool PacketMoments::faces_all(const Leaf& leaf) const {
-  const SurfaceState& surface = *source_.filter;
+  const OrientedIndex& surface = *source_.filter;
   bool all = true;
   for (std::size_t i = leaf.first; i < leaf.first + leaf.size; ++i) {
     all &= dot(facing_.axis, surface.normal(i)) > double{facing_.all};
@@ -185,8 +185,8 @@ void PacketMoments::add(LeafId leaf, const QueryWord* words) {
   const auto rest = std::span(open_words).first(of.size);
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = words[i] & open;
   if (source_.filter != nullptr) {
-    const SurfaceState& surface = *source_.filter;
-    kernels_->keep_facing({&surface.normal_x[of.first], &surface.normal_y[of.first], &surface.normal_z[of.first]},
+    const OrientedIndex& surface = *source_.filter;
+    kernels_->keep_facing({&surface.normals->x[of.first], &surface.normals->y[of.first], &surface.normals->z[of.first]},
                           facing_, rest);
   }
   QueryWord all = open;

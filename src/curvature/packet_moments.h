@@ -9,9 +9,9 @@
 
 #include "base/frame.h"
 #include "curvature/sure_leaves.h"
-#include "curvature/surface.h"
 #include "curvature/symmetric.h"
 #include "simd/moments.h"
+#include "surface/surface.h"
 
 namespace meshhood {
 
@@ -25,10 +25,10 @@ namespace meshhood {
 
 /// The values from which the moments of a packet are computed, in index order.
 struct MomentSource {
-  const IndexView* index;                // which is searched, with its walls
-  const SurfaceState* filter = nullptr;  // only vertices whose normal faces that of the query vertex, if set
-  std::span<const double> weights = {};  // by vertex; 1 if empty
-  Metric metric = Metric::Straight;      // of the neighborhoods, and of their radii
+  const IndexView* index;                 // which is searched, with its walls
+  const OrientedIndex* filter = nullptr;  // only vertices whose normal faces that of the query vertex, if set
+  std::span<const double> weights = {};   // by vertex; 1 if empty
+  Metric metric = Metric::Straight;       // of the neighborhoods, and of their radii
 };
 
 /// The mean of the points of a query and the axes of their covariance about it, in the unit of the moments.

@@ -10,7 +10,6 @@
 
 #include "batch/packets.h"
 #include "curvature/packet_moments.h"
-#include "curvature/surface.h"
 
 namespace meshhood {
 

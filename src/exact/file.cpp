@@ -83,7 +83,7 @@ void verify_sizes(const IndexView& view, const file::SectionReader& file) {
 /// The sections of faces, which are optional and follow on those of all arrays. Does not read their elements.
 std::optional<StoredFaces> take_faces(file::SectionReader& file) {
   if (!file.is_next("face_corners")) return std::nullopt;
-  StoredFaces faces{.corners = file.take<std::uint32_t>("face_corners"), .offsets = {}};
+  StoredFaces faces{.corners = file.take<VertexId>("face_corners"), .offsets = {}};
   if (file.is_next("face_offsets")) {
     faces.offsets = file.take<std::uint32_t>("face_offsets");
     if (faces.offsets.size() < 2) {
@@ -96,7 +96,7 @@ std::optional<StoredFaces> take_faces(file::SectionReader& file) {
 }
 
 void add(file::SectionWriter& writer, const FaceArrays& faces) {
-  writer.add("face_corners", std::span<const std::uint32_t>(faces.corners));
+  writer.add("face_corners", std::span<const VertexId>(faces.corners));
   if (!faces.offsets.empty()) writer.add("face_offsets", std::span<const std::uint32_t>(faces.offsets));
 }
 

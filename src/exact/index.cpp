@@ -35,7 +35,7 @@ IndexView& Index::view() const {
 
 void BoundIndex::raise_outdated() {
   raise(ErrorCode::InvalidOption,
-        "the index was refitted in place, expected `rebind` of the searcher, or a new CurvatureIndex, FaceIndex or "
+        "the index was refitted in place, expected `rebind` of the searcher, `refit_in_place` of the surface, or a new "
         "masked index, before the next call");
 }
 

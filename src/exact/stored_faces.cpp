@@ -23,8 +23,8 @@ bool are_all_triangles(const FacesView& faces) {
 void check_offsets(std::size_t corners) {
   constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
   if (corners <= kMost) return;
-  raise(ErrorCode::TooLarge, std::to_string(corners) + " corners of faces, but the limit for an index file is " +
-                                 std::to_string(kMost) + " unless all are triangles");
+  raise(ErrorCode::TooLarge, std::to_string(corners) + " corners of faces, but the limit is " + std::to_string(kMost) +
+                                 " unless all are triangles");
 }
 
 }  // namespace

@@ -9,10 +9,19 @@
 
 namespace meshhood {
 
-/// The faces of a mesh as an index file stores them.
+/// The faces of a mesh as index files and surfaces have them.
 struct StoredFaces {
-  std::span<const std::uint32_t> corners;  // of all faces, face after face
+  std::span<const VertexId> corners;       // of all faces, face after face
   std::span<const std::uint32_t> offsets;  // as in `FacesView::polygons`; empty if all faces are triangles
+
+  /// #F.
+  [[nodiscard]] std::size_t size() const { return offsets.empty() ? corners.size() / 3 : offsets.size() - 1; }
+
+  /// The corners of a face.
+  [[nodiscard]] std::span<const VertexId> operator[](std::size_t face) const {
+    if (offsets.empty()) return corners.subspan(3 * face, 3);
+    return corners.subspan(offsets[face], offsets[face + 1] - offsets[face]);
+  }
 
   [[nodiscard]] FacesView view() const {
     return offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(offsets, corners);
@@ -21,7 +30,7 @@ struct StoredFaces {
 
 /// The arrays of stored faces.
 struct FaceArrays {
-  std::vector<std::uint32_t> corners;
+  std::vector<VertexId> corners;
   std::vector<std::uint32_t> offsets;
 };
 

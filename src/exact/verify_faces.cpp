@@ -9,8 +9,8 @@
 namespace meshhood::file {
 namespace {
 
-void verify_corners(std::span<const std::uint32_t> corners, std::size_t vertices, const SectionReader& file) {
-  for (const std::uint32_t& corner : corners) {
+void verify_corners(std::span<const VertexId> corners, std::size_t vertices, const SectionReader& file) {
+  for (const VertexId& corner : corners) {
     if (corner < vertices) continue;
     file.refuse(&corner,
                 "vertex " + std::to_string(corner) + ", but there are " + std::to_string(vertices) + " vertices");

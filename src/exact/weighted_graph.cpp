@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <utility>
 #include <variant>
@@ -45,14 +44,8 @@ WeightedGraph make_weighted_graph(const IndexView& index) {
 
 }  // namespace
 
-KeptGraph::~KeptGraph() { delete graph_.load(std::memory_order_acquire); }
-
 const WeightedGraph& KeptGraph::of(const IndexView& index) {
-  const WeightedGraph* found = graph_.load(std::memory_order_acquire);
-  if (found != nullptr) return *found;
-  auto made = std::make_unique<const WeightedGraph>(make_weighted_graph(index));
-  if (!graph_.compare_exchange_strong(found, made.get(), std::memory_order_acq_rel)) return *found;
-  return *made.release();
+  return graph_.get([&] { return make_weighted_graph(index); });
 }
 
 }  // namespace meshhood

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
 #include <vector>
 
 #include "meshhood/adjacency.h"
+
+#include "shared/kept.h"
 
 namespace meshhood {
 
@@ -18,21 +19,13 @@ struct WeightedGraph {
 };
 
 /// The graph of an index vertex by vertex, made at its first use and kept for all searchers: for paths along the edges,
-/// and for odd graphs.
-///
-/// Any thread may ask for it. There is no lock, because a fork could leave it held: if several threads make the graph
-/// at once, one result is kept. O(#V + #E) the first time.
+/// and for odd graphs. Any thread may ask for it. O(#V + #E) the first time.
 class KeptGraph {
  public:
-  KeptGraph() = default;
-  KeptGraph(const KeptGraph&) = delete;
-  KeptGraph& operator=(const KeptGraph&) = delete;
-  ~KeptGraph();
-
   [[nodiscard]] const WeightedGraph& of(const IndexView& index);
 
  private:
-  std::atomic<const WeightedGraph*> graph_{nullptr};
+  Kept<WeightedGraph> graph_;
 };
 
 }  // namespace meshhood

@@ -24,17 +24,17 @@ namespace meshhood::test {
 namespace {
 
 /// A mesh with leaves of all sizes, and what is asked about it.
-struct Surface {
+struct Subject {
   TestMesh mesh;
   Index index;
-  CurvatureIndex surface;
+  Surface surface;
   std::vector<double> areas;
   bool has_features = true;  // they have no radius of 0 or infinity
 
-  explicit Surface(TestMesh made)
+  explicit Subject(TestMesh made)
       : mesh(std::move(made)),
         index(build(mesh.view())),
-        surface(CurvatureIndex::build(index, mesh.view())),
+        surface(index, mesh.view()),
         areas(vertex_areas(mesh.view())) {}
 };
 
@@ -44,7 +44,7 @@ void append(std::vector<double>& out, const std::vector<double>& values, std::si
 }
 
 /// All results of each row, one after the other.
-std::vector<std::vector<double>> results(const Surface& s, const BatchQuery& query, unsigned threads) {
+std::vector<std::vector<double>> results(const Subject& s, const BatchQuery& query, unsigned threads) {
   const std::size_t rows = query.vertices.count(s.mesh.size());
   std::vector<std::vector<double>> out(rows);
   const auto sums = moments(s.index, query, {.degree = 4, .weights = s.areas, .threads = threads});
@@ -83,7 +83,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 /// How many of the rows differ from those of the same vertices among all.
-std::size_t different(const Surface& s, const std::vector<std::vector<double>>& all, const std::vector<VertexId>& rows,
+std::size_t different(const Subject& s, const std::vector<std::vector<double>>& all, const std::vector<VertexId>& rows,
                       double radius, unsigned threads) {
   const auto found = results(s, {.vertices = rows, .radius = radius}, threads);
   std::size_t count = 0;
@@ -91,7 +91,7 @@ std::size_t different(const Surface& s, const std::vector<std::vector<double>>& 
   return count;
 }
 
-void expect_equal_bits(const Surface& s, double radius, Random& random) {
+void expect_equal_bits(const Subject& s, double radius, Random& random) {
   const auto all = results(s, {.radius = radius}, 1);
   const auto count = static_cast<VertexId>(s.mesh.size());
   std::vector<VertexId> shuffled(count);
@@ -111,7 +111,7 @@ void expect_equal_bits(const Surface& s, double radius, Random& random) {
 
 TEST(Bits, OfARowDependOnIndexVertexAndRadiusAlone) {
   Random random(9);
-  const Surface bumps(bumpy_grid(40).finish(false));
+  const Subject bumps(bumpy_grid(40).finish(false));
   for (const double radius : {1.5, 3.0, 7.0, 20.0}) {
     SCOPED_TRACE(radius);
     expect_equal_bits(bumps, radius, random);
@@ -125,7 +125,7 @@ TEST(Bits, OfARowDependOnIndexVertexAndRadiusAloneOnEveryFamily) {
     TestMesh mesh = make_mesh(family, 3, 300);
     if (mesh.size() < 10 || mesh.face_count() == 0) continue;
     SCOPED_TRACE(family.name);
-    const Surface s(std::move(mesh));
+    const Subject s(std::move(mesh));
     const Adjacency graph = adjacency(s.mesh.view());
     const double edge = mean_edge_length(GraphView{s.mesh.view().positions, graph.view()});
     const bool radii_are_valid = edge > 0 && 4 * edge < std::numeric_limits<double>::infinity();
@@ -149,7 +149,7 @@ struct Rows {
 };
 
 /// Rows in any order, each of one of the radii.
-Rows random_rows(const Surface& s, std::span<const double> radii, Random& random) {
+Rows random_rows(const Subject& s, std::span<const double> radii, Random& random) {
   Rows rows;
   for (std::size_t i = 0; i < s.mesh.size(); ++i) {
     rows.vertices.push_back(static_cast<VertexId>(random.below(s.mesh.size())));
@@ -160,7 +160,7 @@ Rows random_rows(const Surface& s, std::span<const double> radii, Random& random
 
 /// Compares rows of different radii with themselves: by several threads, some of them, each alone, and in a call of one
 /// radius for all vertices.
-void expect_equal_bits_of(const Surface& s, const Rows& rows, Random& random) {
+void expect_equal_bits_of(const Subject& s, const Rows& rows, Random& random) {
   const auto all = results(s, rows.query(), 1);
   const auto by_threads = results(s, rows.query(), 3);
   Rows some;
@@ -190,7 +190,7 @@ void expect_equal_bits_of(const Surface& s, const Rows& rows, Random& random) {
 
 TEST(Bits, OfARowDoNotDependOnTheRadiiOfOthers) {
   Random random(11);
-  Surface bumps(bumpy_grid(40).finish(false));
+  Subject bumps(bumpy_grid(40).finish(false));
   const auto expect = [&](const std::vector<double>& radii) {
     expect_equal_bits_of(bumps, random_rows(bumps, radii, random), random);
   };
@@ -202,7 +202,7 @@ TEST(Bits, OfARowDoNotDependOnTheRadiiOfOthers) {
 
 TEST(Bits, OfARowDoNotDependOnOthersWithWallsAndIgnoredVertices) {
   Random random(12);
-  Surface bumps(bumpy_grid(30).finish(true));
+  Subject bumps(bumpy_grid(30).finish(true));
   const Index whole = std::move(bumps.index);
   std::vector<std::uint8_t> walls(bumps.mesh.size());
   std::vector<std::uint8_t> ignored(bumps.mesh.size());
@@ -223,7 +223,7 @@ TEST(Bits, OfARowDoNotDependOnTheRadiiOfOthersOnEveryFamily) {
     TestMesh mesh = make_mesh(family, 5, 300);
     if (mesh.size() < 10 || mesh.face_count() == 0) continue;
     SCOPED_TRACE(family.name);
-    const Surface s(std::move(mesh));
+    const Subject s(std::move(mesh));
     const Adjacency graph = adjacency(s.mesh.view());
     const double edge = mean_edge_length(GraphView{s.mesh.view().positions, graph.view()});
     if (!(edge > 0 && 100 * edge < std::numeric_limits<double>::infinity())) continue;

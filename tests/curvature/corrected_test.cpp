@@ -13,11 +13,11 @@
 #include "meshhood/curvature.h"
 #include "meshhood/index.h"
 
-#include "curvature/surface.h"
 #include "exact/index_access.h"
 #include "support/families.h"
 #include "support/refusal.h"
 #include "support/test_mesh.h"
+#include "surface/surface.h"
 
 namespace meshhood::test {
 namespace {
@@ -44,9 +44,9 @@ TEST(CorrectedCurvature, OfACylinderIsThatOfTheFormula) {
     const double radius = 4;
     const TestMesh mesh = cylinder(radius, quads);
     const Index index = build(mesh.view());
-    const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+    const Surface surface(index, mesh.view());
     const std::vector<VertexId> rows{40 * 30 + 20, 40 * 61 + 18};
-    const CorrectedCurvatures found = corrected_curvatures(surface, mesh.view().faces, {rows, 0.8});
+    const CorrectedCurvatures found = corrected_curvatures(surface, {rows, 0.8});
     for (std::size_t row = 0; row < rows.size(); ++row) {
       const double* const p = &mesh.positions[3 * rows[row]];
       EXPECT_NEAR(found.k1[row], 1 / radius, 0.004) << "the other normals of the patch are tilted";
@@ -64,15 +64,15 @@ TEST(CorrectedCurvature, OfACylinderIsThatOfTheFormula) {
 TEST(CorrectedCurvature, HasTheSameBitsForAnyNumberOfThreads) {
   const TestMesh mesh = bumpy_grid(15).finish(false);
   const Index index = build(mesh.view());
-  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  const Surface surface(index, mesh.view());
   std::vector<VertexId> listed;
   for (VertexId v = 0; v < 45; ++v) listed.push_back(7 * v % 225);
   const std::vector<double> scales{2.0, 4.0};
   const BatchQuery query{.vertices = listed, .radius = BatchRadius::scales(scales)};
-  const auto expected = corrected_curvatures(surface, mesh.view().faces, query);
+  const auto expected = corrected_curvatures(surface, query);
   ASSERT_EQ(expected.k1.size(), 90U);
   for (const unsigned threads : {2U, 3U}) {
-    const auto found = corrected_curvatures(surface, mesh.view().faces, query, {.threads = threads});
+    const auto found = corrected_curvatures(surface, query, {.threads = threads});
     EXPECT_EQ(found.k1, expected.k1);
     EXPECT_EQ(found.k2, expected.k2);
     EXPECT_EQ(found.d1, expected.d1);
@@ -86,14 +86,13 @@ TEST(CorrectedCurvature, HasTheSameBitsForAnyNumberOfThreads) {
 TEST(CorrectedCurvature, OfNormalsThatPointToTheOtherSideIsStillOrdered) {
   const TestMesh mesh = bumpy_grid(15).finish(false);
   const Index index = build(mesh.view());
-  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  const Surface surface(index, mesh.view());
   std::vector<double> opposite;
   for (VertexId v = 0; v < mesh.size(); ++v) {
-    const Point n = CurvatureAccess::state(surface).normal(place_of(IndexAccess::view(index), v));
+    const Point n = SurfaceAccess::oriented(surface).normal(place_of(IndexAccess::view(index), v));
     for (const double component : {-n.x, -n.y, -n.z}) opposite.push_back(component);
   }
-  const auto found =
-      corrected_curvatures(CurvatureIndex::build(index, std::span(opposite)), mesh.view().faces, {{}, 3.0});
+  const auto found = corrected_curvatures(Surface::of_normals(index, opposite, mesh.view().faces), {{}, 3.0});
   for (std::size_t v = 0; v < mesh.size(); ++v) {
     ASSERT_LT(found.area[v], 0);
     ASSERT_GE(found.k1[v], found.k2[v]);
@@ -103,13 +102,13 @@ TEST(CorrectedCurvature, OfNormalsThatPointToTheOtherSideIsStillOrdered) {
 TEST(CorrectedCurvature, ScalesWithTheMeshBitForBit) {
   const TestMesh mesh = bumpy_grid(12).finish(false);
   const Index index = build(mesh.view());
-  const auto expected = corrected_curvatures(CurvatureIndex::build(index, mesh.view()), mesh.view().faces, {{}, 3.0});
+  const auto expected = corrected_curvatures(Surface(index, mesh.view()), {{}, 3.0});
   for (const int exponent : {-300, 300}) {
     TestMesh other = mesh;
     for (double& x : other.positions) x = std::ldexp(x, exponent);
     const Index of_other = build(other.view());
-    const auto found = corrected_curvatures(CurvatureIndex::build(of_other, other.view()), other.view().faces,
-                                            {{}, std::ldexp(3.0, exponent)}, {.threads = 2});
+    const auto found =
+        corrected_curvatures(Surface(of_other, other.view()), {{}, std::ldexp(3.0, exponent)}, {.threads = 2});
     for (std::size_t v = 0; v < mesh.size(); ++v) {
       ASSERT_EQ(std::ldexp(found.k1[v], exponent), expected.k1[v]);
       ASSERT_EQ(std::ldexp(found.mean[v], exponent), expected.mean[v]);
@@ -127,7 +126,7 @@ TEST(CorrectedCurvature, ScalesWithTheMeshBitForBit) {
 TEST(CorrectedCurvature, FollowsFromItsMeasures) {
   const TestMesh mesh = bumpy_grid(12).finish(false);
   const Index index = build(mesh.view());
-  const auto found = corrected_curvatures(CurvatureIndex::build(index, mesh.view()), mesh.view().faces, {{}, 3.0});
+  const auto found = corrected_curvatures(Surface(index, mesh.view()), {{}, 3.0});
   ASSERT_EQ(found.measures.size(), 12 * mesh.size());
   for (std::size_t v = 0; v < mesh.size(); ++v) {
     const auto m = std::span(found.measures).subspan(12 * v, 12);
@@ -149,7 +148,7 @@ TEST(CorrectedCurvature, OfAVertexWithoutFacesIsNan) {
   mesh.add_vertex(100, 0, 0);
   mesh.finish(false);
   const Index index = build(mesh.view());
-  const auto found = corrected_curvatures(CurvatureIndex::build(index, mesh.view()), mesh.view().faces, {{}, 2.0});
+  const auto found = corrected_curvatures(Surface(index, mesh.view()), {{}, 2.0});
   EXPECT_EQ(found.area[36], 0);
   EXPECT_TRUE(std::isnan(found.mean[36]) && std::isnan(found.k1[36]) && std::isnan(found.d1[3 * 36]));
   EXPECT_FALSE(std::isnan(found.k1[0]));
@@ -158,15 +157,13 @@ TEST(CorrectedCurvature, OfAVertexWithoutFacesIsNan) {
 TEST(CorrectedCurvature, RefusesInvalidArgumentsAndNamesThem) {
   const TestMesh mesh = bumpy_grid(6).finish(false);
   const Index index = build(mesh.view());
-  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  const Surface surface(index, mesh.view());
   const std::vector<VertexId> outside{36};
   const std::vector<std::uint32_t> corners{0, 1, 99};
-  expect_refused(ErrorCode::InvalidRadius, "-1",
-                 [&] { (void)corrected_curvatures(surface, mesh.view().faces, {{}, -1.0}); });
-  expect_refused(ErrorCode::VertexOutOfRange, "36",
-                 [&] { (void)corrected_curvatures(surface, mesh.view().faces, {outside, 1.0}); });
+  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)corrected_curvatures(surface, {{}, -1.0}); });
+  expect_refused(ErrorCode::VertexOutOfRange, "36", [&] { (void)corrected_curvatures(surface, {outside, 1.0}); });
   expect_refused(ErrorCode::InvalidMesh, "99",
-                 [&] { (void)corrected_curvatures(surface, FacesView::triangles(corners), {{}, 1.0}); });
+                 [&] { (void)corrected_curvatures(Surface(index, FacesView::triangles(corners)), {{}, 1.0}); });
 }
 
 }  // namespace

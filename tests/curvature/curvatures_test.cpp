@@ -23,12 +23,12 @@
 
 #include "base/vector.h"
 #include "curvature/direct_fit.h"
-#include "curvature/surface.h"
 #include "exact/index_access.h"
 #include "support/families.h"
 #include "support/refusal.h"
 #include "support/scale.h"
 #include "support/test_mesh.h"
+#include "surface/surface.h"
 
 namespace meshhood::test {
 namespace {
@@ -39,10 +39,9 @@ constexpr double kPi = std::numbers::pi;
 struct Case {
   TestMesh mesh;
   Index index;
-  CurvatureIndex surface;
+  Surface surface;
 
-  explicit Case(TestMesh given)
-      : mesh(std::move(given)), index(build(mesh.view())), surface(CurvatureIndex::build(index, mesh.view())) {}
+  explicit Case(TestMesh given) : mesh(std::move(given)), index(build(mesh.view())), surface(index, mesh.view()) {}
 };
 
 /// A surface over a grid of angles that is closed in both directions.
@@ -154,7 +153,7 @@ void expect_like_points(const Family& family, const CurvatureOptions& options, s
     const TestMesh mesh = make_mesh(family, seed, 200);
     if (mesh.face_count() == 0) continue;
     const Case one(mesh);
-    const SurfaceState& state = CurvatureAccess::state(one.surface);
+    const OrientedIndex state = SurfaceAccess::oriented(one.surface);
     const GraphData graph = extract_graph(one.index);
     const double edge = mean_edge_length(graph.view());
     for (const double edges : {1.5, 3.0, 8.0}) {
@@ -201,7 +200,7 @@ TEST(Curvatures, OfJetsAreThoseOfTheFitToThePoints) {
   const CurvatureOptions options{.filter = false, .fit = CurvatureFit::Jet};
   for (const TestMesh& mesh : {torus(3, 1), graph(0.2, 0.5, -0.4, 31)}) {
     const Case one(mesh);
-    const SurfaceState& state = CurvatureAccess::state(one.surface);
+    const OrientedIndex state = SurfaceAccess::oriented(one.surface);
     const GraphData edges = extract_graph(one.index);
     const double radius = 4 * mean_edge_length(edges.view());
     const Curvatures k = curvatures(one.surface, {.radius = radius}, options);
@@ -298,10 +297,10 @@ TEST(Curvatures, NormalsHaveTheSameBitsForAnyNumberOfThreads) {
     SCOPED_TRACE(family.name);
     const Index index = build(mesh.view());
     const auto bits = [&](unsigned threads) {
-      const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view().faces, threads);
-      const SurfaceState& state = CurvatureAccess::state(surface);
+      const Surface surface(index, mesh.view().faces);
+      const OrientedIndex state = SurfaceAccess::oriented(surface, threads);
       std::vector<std::uint64_t> all;
-      for (const auto* const axis : {&state.normal_x, &state.normal_y, &state.normal_z}) {
+      for (const auto* const axis : {&state.normals->x, &state.normals->y, &state.normals->z}) {
         for (const double number : *axis) all.push_back(std::bit_cast<std::uint64_t>(number));
       }
       return all;
@@ -337,7 +336,7 @@ TEST(Curvatures, AreWrittenToAllOfTheMemoryOfTheCaller) {
   std::vector<std::uint8_t> ignored(one.surface.vertex_count());
   for (std::size_t v = 130; v < 180; ++v) ignored[v] = 1;
   const std::vector<VertexId> rows{17, 110, 899, 135, 450, 170, 110};
-  const CurvatureIndex with_masks = one.surface.on(masked(one.index, {walls, ignored}));
+  const Surface with_masks = one.surface.on(masked(one.index, {walls, ignored}));
   for (const auto& [surface, query] : {std::pair(&one.surface, BatchQuery{.radius = 3.0}),
                                        {&with_masks, {.radius = 3.0}},
                                        {&with_masks, {.vertices = rows, .radius = 0.0}},
@@ -472,15 +471,15 @@ TEST(Curvatures, CountTheVerticesThatAreFitted) {
 
 TEST(Curvatures, GivenNormalsReplaceFaces) {
   const Case one(torus(3, 1));
-  const SurfaceState& state = CurvatureAccess::state(one.surface);
+  const OrientedIndex state = SurfaceAccess::oriented(one.surface);
   std::vector<double> normals(3 * one.mesh.size());
   for (std::size_t i = 0; i < one.mesh.size(); ++i) {
     const VertexId v = state.index->id(i);
-    normals[3 * v] = 1e200 * state.normal_x[i];
-    normals[3 * v + 1] = 1e200 * state.normal_y[i];
-    normals[3 * v + 2] = 1e200 * state.normal_z[i];
+    normals[3 * v] = 1e200 * state.normals->x[i];
+    normals[3 * v + 1] = 1e200 * state.normals->y[i];
+    normals[3 * v + 2] = 1e200 * state.normals->z[i];
   }
-  const CurvatureIndex given = CurvatureIndex::build(one.index, normals);
+  const Surface given = Surface::of_normals(one.index, normals);
   EXPECT_LT(largest_difference(curvatures(one.surface, {.radius = 0.4}), curvatures(given, {.radius = 0.4})), 1e-12);
 }
 
@@ -489,7 +488,7 @@ TEST(Curvatures, AVertexWithANormalOfNanHasNoNormal) {
   std::vector<double> normals(3 * one.mesh.size());
   for (std::size_t v = 0; v < one.mesh.size(); ++v) normals[3 * v + 2] = 1;
   normals[3 * 77 + 1] = std::nan("");
-  const Curvatures k = curvatures(CurvatureIndex::build(one.index, normals), {.radius = 3.0});
+  const Curvatures k = curvatures(Surface::of_normals(one.index, normals), {.radius = 3.0});
   for (std::size_t v = 0; v < one.mesh.size(); ++v) {
     EXPECT_EQ(k.state[v], v == 77 ? CurvatureState::NoNormal : CurvatureState::Fitted);
     EXPECT_TRUE(std::isfinite(k.k1[v]) && std::isfinite(k.k2[v]));
@@ -500,7 +499,7 @@ TEST(Curvatures, AVertexWithANormalOfNanHasNoNormal) {
 TEST(Curvatures, TheSurfaceOutlivesItsIndex) {
   const TestMesh mesh = bumpy_grid(12).finish(false);
   std::optional<Index> index = build(mesh.view());
-  const CurvatureIndex surface = CurvatureIndex::build(*index, mesh.view());
+  const Surface surface(*index, mesh.view());
   const Curvatures expected = curvatures(surface, {.radius = 3.0});
   const Index moved = std::move(*index);
   index.reset();
@@ -510,20 +509,20 @@ TEST(Curvatures, TheSurfaceOutlivesItsIndex) {
 TEST(Curvatures, ARefitOfTheIndexLeavesTheSurfaceUnchanged) {
   TestMesh mesh = bumpy_grid(12).finish(false);
   Index index = build(mesh.view());
-  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  const Surface surface(index, mesh.view());
   const Curvatures expected = curvatures(surface, {.radius = 3.0});
   mesh.positions[3 * 40 + 2] += 0.5;
   mesh.finish(false);
   const std::vector<std::uint32_t> changed{40};
   index = refit(index, mesh.positions_view(), changed);
   EXPECT_EQ(curvatures(surface, {.radius = 3.0}).k1, expected.k1);
-  EXPECT_NE(curvatures(CurvatureIndex::build(index, mesh.view()), {.radius = 3.0}).k1, expected.k1);
+  EXPECT_NE(curvatures(Surface(index, mesh.view()), {.radius = 3.0}).k1, expected.k1);
 }
 
 TEST(Curvatures, LibiglsAxisPointsToTheNeighborWithTheLowestId) {
   const TestMesh mesh = renumbered(bumpy_grid(9).finish(false), Random(3).permutation(81));
   const Case one(mesh);
-  const SurfaceState& state = CurvatureAccess::state(one.surface);
+  const OrientedIndex state = SurfaceAccess::oriented(one.surface);
   const Adjacency edges = adjacency(one.mesh.view());
   for (std::size_t i = 0; i < one.mesh.size(); ++i) {
     const auto neighbors = edges.view()[state.index->id(i)];
@@ -551,21 +550,19 @@ TEST(Curvatures, RefuseInvalidArgumentsAndNameThem) {
   TestMesh smaller = bumpy_grid(4).finish(false);
   const MeshView no_faces{one.mesh.positions_view(), FacesView()};
   std::vector<double> normals(3 * one.mesh.size(), 1.0);
-  expect_refused(ErrorCode::InvalidMesh, "vertex 7", [&] { (void)CurvatureIndex::build(one.index, moved.view()); });
-  expect_refused(ErrorCode::InvalidMesh, "16 vertices",
-                 [&] { (void)CurvatureIndex::build(one.index, smaller.view()); });
-  expect_refused(ErrorCode::InvalidMesh, "no faces", [&] { (void)CurvatureIndex::build(one.index, no_faces); });
+  expect_refused(ErrorCode::InvalidMesh, "vertex 7", [&] { (void)Surface(one.index, moved.view()); });
+  expect_refused(ErrorCode::InvalidMesh, "16 vertices", [&] { (void)Surface(one.index, smaller.view()); });
+  expect_refused(ErrorCode::InvalidMesh, "no faces",
+                 [&] { (void)curvatures(Surface(one.index, no_faces), {.radius = 1.0}); });
   expect_refused(ErrorCode::InvalidMesh, "25 vertices",
-                 [&] { (void)CurvatureIndex::build(one.index, std::span(normals).first(3)); });
+                 [&] { (void)Surface::of_normals(one.index, std::span(normals).first(3)); });
   normals[3 * 4 + 1] = -std::numeric_limits<double>::infinity();
-  expect_refused(ErrorCode::InvalidMesh, "vertex 4", [&] { (void)CurvatureIndex::build(one.index, normals); });
+  expect_refused(ErrorCode::InvalidMesh, "vertex 4", [&] { (void)Surface::of_normals(one.index, normals); });
   expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)curvatures(one.surface, {.radius = -1.0}); });
   expect_refused(ErrorCode::InvalidRadius, "-1",
                  [&] { (void)curvatures(one.surface, {.radius = -1.0}, like_libigl()); });
   expect_refused(ErrorCode::InvalidOption, "thread",
                  [&] { (void)curvatures(one.surface, {.radius = 1.0}, {.threads = kMaxThreads + 1}); });
-  expect_refused(ErrorCode::InvalidOption, "thread",
-                 [&] { (void)CurvatureIndex::build(one.index, one.mesh.view(), kMaxThreads + 1); });
   expect_refused(ErrorCode::InvalidOption, "not the jet", [&] {
     (void)curvatures(one.surface, {.radius = 1.0}, {.shape_operator = ShapeOperator::Libigl, .fit = CurvatureFit::Jet});
   });

@@ -25,7 +25,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 struct Bumps {
   TestMesh mesh = bumpy_grid(20).finish(false);
   Index index = build(mesh.view());
-  CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  Surface surface{index, mesh.view()};
   std::vector<double> areas = vertex_areas(mesh.view());
   std::vector<double> radii{2.0, 3.5, 5.0};
 };
@@ -80,7 +80,7 @@ TEST(Features, TheHeightOfASphereIsItsRadiusTimesTheMeanCurvature) {
   const std::vector<double> areas = vertex_areas(mesh.view());
   const std::vector<VertexId> rows{20 * 41 + 20};
   const std::vector<double> radii{12.0};
-  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  const Surface surface(index, mesh.view());
   const std::vector<double> found = features(surface, {rows, BatchRadius::scales(radii)},
                                              {.kinds = {Feature::Height, Feature::Mean}, .areas = areas});
   EXPECT_NEAR(std::abs(found[1]), 12.0 / 50, 0.01);
@@ -94,7 +94,7 @@ TEST(Features, DoNotDependOnTheUnit) {
   const Index index = build(mesh.view());
   std::vector<double> radii = bumps.radii;
   for (double& r : radii) r = std::ldexp(r, -200);
-  EXPECT_EQ(features(CurvatureIndex::build(index, mesh.view()), {{}, BatchRadius::scales(radii)}, {.threads = 2}),
+  EXPECT_EQ(features(Surface(index, mesh.view()), {{}, BatchRadius::scales(radii)}, {.threads = 2}),
             features(bumps.surface, {{}, BatchRadius::scales(bumps.radii)}));
 }
 
@@ -105,9 +105,8 @@ TEST(Features, OfAVertexWithoutNormalAreNan) {
   const Index index = build(mesh.view());
   const std::vector<double> areas = vertex_areas(mesh.view());
   const std::vector<double> radii{2.0};
-  const std::vector<double> found =
-      features(CurvatureIndex::build(index, mesh.view()), {{}, BatchRadius::scales(radii)},
-               {.kinds = {Feature::Crease, Feature::Area}, .areas = areas});
+  const std::vector<double> found = features(Surface(index, mesh.view()), {{}, BatchRadius::scales(radii)},
+                                             {.kinds = {Feature::Crease, Feature::Area}, .areas = areas});
   EXPECT_TRUE(std::isnan(found[2 * 36]) && std::isnan(found[2 * 36 + 1]));
   EXPECT_FALSE(std::isnan(found[0]));
 }
@@ -168,7 +167,11 @@ TEST(Features, RefuseInvalidArgumentsAndNameThem) {
   expect_refused(ErrorCode::InvalidOption, "no radii", [&] { (void)of({}, {}); });
   expect_refused(ErrorCode::InvalidRadius, "radius 1: 0", [&] { (void)of({1.0, 0.0}, {}); });
   expect_refused(ErrorCode::InvalidRadius, "inf", [&] { (void)of({std::numeric_limits<double>::infinity()}, {}); });
-  expect_refused(ErrorCode::InvalidOption, "need the areas", [&] { (void)of({1.0}, {.kinds = {Feature::Area}}); });
+  EXPECT_EQ(of({1.0}, {.kinds = {Feature::Area}}), of({1.0}, {.kinds = {Feature::Area}, .areas = bumps.areas}));
+  const std::vector<double> normals(3 * bumps.mesh.size(), 1.0);
+  expect_refused(ErrorCode::InvalidOption, "need `areas`", [&] {
+    (void)features(Surface::of_normals(bumps.index, normals), {{}, 1.0}, {.kinds = {Feature::Area}});
+  });
   expect_refused(ErrorCode::InvalidOption, "0 radii", [&] { (void)geometric_radii(1, 2, 0); });
   expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)geometric_radii(-1, 1, 2); });
   expect_refused(ErrorCode::InvalidRadius, "the smallest radius is 2", [&] { (void)geometric_radii(2, 1, 3); });

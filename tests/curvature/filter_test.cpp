@@ -110,8 +110,8 @@ TEST_F(WithWalls, IgnoredVerticesHaveNoMoments) {
 }
 
 TEST_F(WithWalls, CurvaturesAreThoseWithoutTheEdgesAtWalls) {
-  const CurvatureIndex surface = CurvatureIndex::build(with_walls, normals);
-  const CurvatureIndex expected_surface = CurvatureIndex::build(expected_index, normals);
+  const Surface surface = Surface::of_normals(with_walls, normals);
+  const Surface expected_surface = Surface::of_normals(expected_index, normals);
   for (const double radius : {1.0, 4.0}) {  // at the smaller one, many neighborhoods are extended
     for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
       const CurvatureOptions options{.fit = fit, .threads = 2};
@@ -129,7 +129,7 @@ TEST_F(WithWalls, CurvaturesAreThoseWithoutTheEdgesAtWalls) {
 TEST_F(WithWalls, IgnoredVerticesAreFittedAsLittleAsWallsThatDivideNothing) {
   std::vector<std::uint8_t> scattered(mesh.size());
   for (std::size_t v = 0; v < mesh.size(); v += 13) scattered[v] = 1;  // no two are neighbors
-  const CurvatureIndex surface = CurvatureIndex::build(index, normals);
+  const Surface surface = Surface::of_normals(index, normals);
   const Index ignoring = masked(index, {.ignored = scattered});
   const Index walled = masked(index, {.walls = scattered});
   const Curvatures found = curvatures(surface.on(ignoring), {.radius = 5});
@@ -147,8 +147,8 @@ TEST_F(WithWalls, IgnoredVerticesAreFittedAsLittleAsWallsThatDivideNothing) {
 }
 
 TEST_F(WithWalls, FeaturesHaveScalesOrARadiusForEachRow) {
-  const CurvatureIndex surface = CurvatureIndex::build(with_walls, normals);
-  const CurvatureIndex expected_surface = CurvatureIndex::build(expected_index, normals);
+  const Surface surface = Surface::of_normals(with_walls, normals);
+  const Surface expected_surface = Surface::of_normals(expected_index, normals);
   const std::vector<double> areas(mesh.size(), 0.5);
   const FeatureOptions options{.kinds = {Feature::Mean, Feature::Area}, .areas = areas};
   const BatchRadius scales = BatchRadius::scales({2, 4});
@@ -167,14 +167,13 @@ TEST_F(WithWalls, FeaturesHaveScalesOrARadiusForEachRow) {
 }
 
 TEST_F(WithWalls, CorrectedCurvaturesHaveScalesOrARadiusForEachRow) {
-  const CurvatureIndex surface = CurvatureIndex::build(with_walls, mesh.view());
-  const FacesView faces = mesh.view().faces;
-  const CorrectedCurvatures scaled = corrected_curvatures(surface, faces, {.radius = BatchRadius::scales({2, 4})});
-  const CorrectedCurvatures small = corrected_curvatures(surface, faces, {.radius = 2});
-  const CorrectedCurvatures large = corrected_curvatures(surface, faces, {.radius = 4});
+  const Surface surface(with_walls, mesh.view());
+  const CorrectedCurvatures scaled = corrected_curvatures(surface, {.radius = BatchRadius::scales({2, 4})});
+  const CorrectedCurvatures small = corrected_curvatures(surface, {.radius = 2});
+  const CorrectedCurvatures large = corrected_curvatures(surface, {.radius = 4});
   std::vector<double> radii(mesh.size(), 2.0);
   for (std::size_t v = 0; v < mesh.size(); v += 3) radii[v] = 4;
-  const CorrectedCurvatures by_row = corrected_curvatures(surface, faces, {.radius = radii});
+  const CorrectedCurvatures by_row = corrected_curvatures(surface, {.radius = radii});
   ASSERT_EQ(scaled.area.size(), 2 * mesh.size());
   for (std::size_t v = 0; v < mesh.size(); ++v) {
     ASSERT_EQ(scaled.area[v], small.area[v]);

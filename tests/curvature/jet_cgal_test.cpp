@@ -58,7 +58,7 @@ TEST(Jet, HasTheCurvaturesOfCgal) {
   const TestMesh mesh = waves(40);
   const Oracle oracle(mesh);
   const Index index = build(mesh.view());
-  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  const Surface surface(index, mesh.view());
   double worst = 0;
   std::size_t rows = 0;
   for (const double radius : {2.5, 5.0, 9.0}) {

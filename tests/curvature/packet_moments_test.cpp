@@ -13,9 +13,9 @@
 #include "meshhood/curvature.h"
 
 #include "batch/packets.h"
-#include "curvature/surface.h"
 #include "support/exact_answer.h"
 #include "support/families.h"
+#include "surface/surface.h"
 
 namespace meshhood {
 
@@ -68,8 +68,8 @@ std::pair<QueryWord, const QueryMoments*> sum(PacketMoments& sums, const IndexVi
 
 TEST(PacketMoments, DoNotDependOnTheScratchMemory) {
   const TestMesh mesh = bumpy_grid(30).finish(false);
-  const CurvatureIndex surface = CurvatureIndex::build(build(mesh.view()), mesh.view());
-  const SurfaceState& state = CurvatureAccess::state(surface);
+  const Surface surface(build(mesh.view()), mesh.view());
+  const OrientedIndex state = SurfaceAccess::oriented(surface);
   std::vector<double> radii(mesh.size());
   // Stretches of one radius, so that many vertices count for all rows of a packet, and stretches of several.
   for (std::size_t v = 0; v < radii.size(); ++v) {
@@ -84,7 +84,7 @@ TEST(PacketMoments, DoNotDependOnTheScratchMemory) {
   for (const MomentSource& source : {plain, filtered, weighted}) {
     for (const Isa isa : available_isas()) {
       PacketMoments reused(source, isa);
-      for_each_packet(state.searched, {.radius = radii}, [&](unsigned) -> PacketVisitor {
+      for_each_packet(*state.searched, {.radius = radii}, [&](unsigned) -> PacketVisitor {
         return [&](const PacketAnswer& packet) {
           for (QueryWord left = first_lanes(static_cast<unsigned>(packet.rows.size())); left != 0;) {
             PacketMoments fresh(source, isa);

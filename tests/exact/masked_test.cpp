@@ -296,8 +296,8 @@ TEST(Masked, SharesTheNormalsOfASurface) {
   const TestMesh mesh = bumpy_grid(12);
   const Index index = build(mesh.view());
   const std::vector<std::uint8_t> walls(mesh.size());
-  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
-  const CurvatureIndex same = surface.on(masked(index, {.walls = walls}));
+  const Surface surface(index, mesh.view());
+  const Surface same = surface.on(masked(index, {.walls = walls}));
   EXPECT_EQ(curvatures(same, {.radius = 3}).k1, curvatures(surface, {.radius = 3}).k1);
   const Index other = build(mesh.view());
   expect_refused(ErrorCode::InvalidOption, "of another mesh", [&] { static_cast<void>(surface.on(other)); });

@@ -365,7 +365,7 @@ TEST(RefitInPlace, IsRefusedBySearchersThatAreNotBoundAgain) {
   Searcher searcher(index);
   Searcher regions(index);
   Searcher edges(index, Metric::Path);
-  const CurvatureIndex surface = CurvatureIndex::build(index, sculpted.mesh.view());
+  const Surface surface(index, sculpted.mesh.view());
   index.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
   const char* const cause = "the index was refitted in place";
   expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(searcher.count(0, 1)); });

@@ -47,7 +47,7 @@ NAMES_OF_HEADERS = """
 using Kernel = CGAL::Simple_cartesian<double>;
 extern const std::vector<double> thickness;
 extern const meshhood::FacesView faces;
-extern const meshhood::CurvatureIndex surface;
+extern const meshhood::Surface surface;
 """
 
 

@@ -18,17 +18,16 @@
 #include "meshhood/batch.h"
 #include "meshhood/curvature.h"
 #include "meshhood/face_graph.h"
-#include "meshhood/face_index.h"
 #include "meshhood/index.h"
 #include "meshhood/k_nearest.h"
 #include "meshhood/link_points.h"
 #include "meshhood/paper.h"
 #include "meshhood/reference.h"
 #include "meshhood/refit.h"
-#include "meshhood/region_mesh.h"
 #include "meshhood/reorder.h"
 #include "meshhood/search.h"
 #include "meshhood/serialize.h"
+#include "meshhood/surface.h"
 #include "meshhood/unconnected.h"
 
 #include "batch/batch.h"
@@ -264,9 +263,9 @@ TEST_P(Allocation, FailsInARegionMesh) {
   Searcher(index).neighborhood(0, distance(mesh.view().positions, 0, 9), ids);
   const SpacePoint center = point_on_face(index, std::array<VertexId, 1>{0}, std::array{1.0});
   const auto make = [&](std::optional<Submesh>& made) {
-    RegionMesher mesher(mesh.view());
-    static_cast<void>(mesher.rim(ids, center, kInfinity));
-    made = mesher.submesh(ids, Corners::Any);
+    const Surface surface(build(mesh.view()), mesh.view());
+    static_cast<void>(surface.rim(ids, center, kInfinity));
+    made = surface.submesh(ids, Corners::Any);
   };
   std::optional<Submesh> well;
   make(well);
@@ -387,9 +386,7 @@ TEST_P(Allocation, FailsInACurvature) {
   if (mesh.face_count() == 0) GTEST_SKIP() << "no faces, no normals";
   const double radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4;
   const std::vector<VertexId> some{0, 1, 2, 17, 130, 131};
-  const auto fit = [&] {
-    return curvatures(CurvatureIndex::build(index, mesh.view()), {.vertices = some, .radius = radius});
-  };
+  const auto fit = [&] { return curvatures(Surface(index, mesh.view()), {.vertices = some, .radius = radius}); };
   const Curvatures expected = fit();
   shortages.fail_each(
       nothing_yet<Curvatures>(), [&](std::optional<Curvatures>& made) { made = fit(); },
@@ -416,12 +413,12 @@ TEST_P(Allocation, FailsInACallForTheNearest) {
       [&] { return face_graph(grid.view()).adjacency.neighbors; }};
   if (mesh.face_count() != 0) {
     calls.emplace_back([&] {
-      const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
+      const Surface surface(index, mesh.view().faces);
       return std::vector<VertexId>{static_cast<VertexId>(surface.closest_points(std::vector<SpacePoint>(3))[0].face)};
     });
     calls.emplace_back([&] {
       const std::vector<VertexId> ids = Searcher(index).neighborhood(0, radius);
-      return RegionMesher(mesh.view())
+      return Surface(index, mesh.view())
           .clip(ids, point_on_face(index, std::array<VertexId, 1>{0}, std::array{1.0}), 2 * radius)
           .corners;
     });

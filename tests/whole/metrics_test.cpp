@@ -33,7 +33,7 @@ class MetricCase {
         metric_(metric),
         oracle_(mesh_),
         index_(build(mesh_.view())),
-        surface_(CurvatureIndex::build(index_, mesh_.view())),
+        surface_(Surface(index_, mesh_.view())),
         areas_(vertex_areas(mesh_.view())),
         walls_(mesh_.size()),
         ignored_(mesh_.size()),
@@ -80,7 +80,7 @@ class MetricCase {
   /// With the fit to a neighborhood that is given by its vertices. Returns how many were compared.
   [[nodiscard]] std::size_t compare_curvatures() const {
     std::size_t compared = 0;
-    const CurvatureIndex surface = surface_.on(asked_);
+    const Surface surface = surface_.on(asked_);
     const Curvatures found = curvatures(surface, query(), {.threads = 2});
     const std::vector<double> creases =
         features(surface, query(), {.kinds = {Feature::K1, Feature::Area}, .areas = areas_});
@@ -173,7 +173,7 @@ class MetricCase {
   Metric metric_;
   RegionOracle oracle_;
   Index index_;
-  CurvatureIndex surface_;
+  Surface surface_;
   std::vector<double> areas_;
   std::vector<std::uint8_t> walls_;
   std::vector<std::uint8_t> ignored_;

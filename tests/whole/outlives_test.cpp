@@ -109,13 +109,11 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
     const std::vector<VertexId> seeds{v};
     return numbers(from_points->neighborhood({{4.2, 5.1, 0}, seeds}, 2 * kRadius));
   };
-  const auto faces = kept(FaceIndex::build(index, mesh.view().faces));
-  all["FaceIndex"] = [=] { return Answer{faces->closest_point({3.2, 4.1, 7}).distance}; };
-  const auto surface = kept(CurvatureIndex::build(index, mesh.view()));
-  all["CurvatureIndex: curvatures"] = [=] { return numbers(curvatures(*surface, {.radius = kRadius}).k1); };
-  all["CurvatureIndex: features"] = [=] {
-    return numbers(features(*surface, {.radius = BatchRadius::scales({kRadius})}));
-  };
+  const auto faces = kept(Surface(index, mesh.view().faces));
+  all["Surface: closest_point"] = [=] { return Answer{faces->closest_point({3.2, 4.1, 7}).distance}; };
+  const auto surface = kept(Surface(index, mesh.view()));
+  all["Surface: curvatures"] = [=] { return numbers(curvatures(*surface, {.radius = kRadius}).k1); };
+  all["Surface: features"] = [=] { return numbers(features(*surface, {.radius = BatchRadius::scales({kRadius})})); };
   return all;
 }
 
@@ -235,7 +233,7 @@ TEST(Rebind, RingsOfAHubAreThoseOfTheNewState) {
 }
 
 TEST_F(Outlives, ASurfaceDoesNotTakeARefittedIndex) {
-  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  const Surface surface(index, mesh.view());
   const Index other = refit(index, moved.positions_view());
   expect_refused(ErrorCode::InvalidOption, "of another mesh", [&] { static_cast<void>(surface.on(other)); });
   expect_refused(ErrorCode::InvalidOption, "of another mesh",
@@ -273,14 +271,8 @@ TEST_F(Outlives, WhatHasBeenMovedFromRefusesUntilItIsAssigned) {
   expect_moved_from_refused<paper::Searcher>("paper::Searcher", paper::Searcher(approximate), find);
   expect_moved_from_refused<paper::Index>("paper::Index", paper::build(mesh.view()),
                                           [](paper::Index& made) { static_cast<void>(made.vertex_count()); });
-  expect_moved_from_refused<FaceIndex>("FaceIndex", FaceIndex::build(index, mesh.view().faces),
-                                       [](FaceIndex& made) { static_cast<void>(made.closest_point({0, 0, 0})); });
-  expect_moved_from_refused<CurvatureIndex>(
-      "CurvatureIndex", CurvatureIndex::build(index, mesh.view()),
-      [](CurvatureIndex& made) { static_cast<void>(curvatures(made, {.radius = kRadius})); });
-  expect_moved_from_refused<RegionMesher>("RegionMesher", RegionMesher(mesh.view()), [](RegionMesher& made) {
-    static_cast<void>(made.submesh(std::vector<VertexId>{1, 2}));
-  });
+  expect_moved_from_refused<Surface>("Surface", Surface(index, mesh.view()),
+                                     [](Surface& made) { static_cast<void>(curvatures(made, {.radius = kRadius})); });
 }
 
 TEST_F(Outlives, AMethodThatHasBeenMovedFromIsACopy) {

@@ -55,7 +55,7 @@ struct Scene {
   TestMesh mesh;
   Index whole;
   Index index;  // `whole`, or with masks
-  CurvatureIndex surface;
+  Surface surface;
   std::vector<double> areas;
   std::vector<double> signal;
   std::vector<std::uint8_t> walls;
@@ -66,7 +66,7 @@ struct Scene {
       : mesh(std::move(given)),
         whole(build(mesh.view())),
         index(masked(whole, {})),
-        surface(CurvatureIndex::build(index, mesh.view())),
+        surface(index, mesh.view()),
         areas(vertex_areas(mesh.view())),
         edge(Oracle(mesh).mean_edge()) {
     Random random(3);
@@ -151,9 +151,7 @@ std::vector<Call> curvature_calls(const Scene& scene, double radius, Metric metr
   std::vector<Call> calls;
   calls.push_back({"corrected curvature",
                    [&scene, radius, metric](const auto& rows, unsigned threads) {
-                     return corrected_curvatures(scene.surface, scene.mesh.view().faces, {rows, radius, metric},
-                                                 {.threads = threads})
-                         .measures;
+                     return corrected_curvatures(scene.surface, {rows, radius, metric}, {.threads = threads}).measures;
                    },
                    CorrectedCurvatures::kMeasures, true});
   calls.push_back({"moments",

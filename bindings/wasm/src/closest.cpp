@@ -20,10 +20,9 @@ extern "C" {
                                                                   std::size_t corner_count, bool signed_corners,
                                                                   const void* offsets, std::size_t offset_count,
                                                                   bool signed_offsets) {
-  const FaceIndex& faces =
-      workspace.face_index(view_faces(corners, corner_count, signed_corners, offsets, offset_count, signed_offsets),
-                           hash_faces(corners, corner_count, offsets, offset_count));
-  const SurfacePoint found = faces.closest_point({x, y, z});
+  workspace.use_faces(view_faces(corners, corner_count, signed_corners, offsets, offset_count, signed_offsets),
+                      hash_faces(corners, corner_count, offsets, offset_count));
+  const SurfacePoint found = workspace.surface().closest_point({x, y, z});
   answer.ids.assign(found.vertices.begin(), found.vertices.end());
   answer.reals.assign(found.weights.begin(), found.weights.end());
   answer.reals.insert(answer.reals.end(), found.point.begin(), found.point.end());

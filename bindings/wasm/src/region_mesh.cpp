@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Regions as meshes. An instance for these has no index.
+// Regions as meshes.
 #include <cstddef>
 #include <cstdint>
 
@@ -17,19 +17,20 @@ extern "C" {
                                                                const void* corners, std::size_t corner_count,
                                                                bool signed_corners, const void* offsets,
                                                                std::size_t offset_count, bool signed_offsets) {
-  workspace.prepare_regions(view_positions(xyz, scalars, is_double),
-                            view_faces(corners, corner_count, signed_corners, offsets, offset_count, signed_offsets));
+  const FacesView faces = view_faces(corners, corner_count, signed_corners, offsets, offset_count, signed_offsets);
+  workspace.build({view_positions(xyz, scalars, is_double), faces}, {}, {});
+  workspace.use_faces(faces, {});
 }
 
 /// The counts of the answer are faces.
 [[clang::export_name("faces")]] void faces(const VertexId* ids, std::size_t count, Corners corners) {
-  const auto found = workspace.mesher().faces({ids, count}, corners);
+  const auto found = workspace.surface().faces({ids, count}, corners);
   answer.counts.assign(found.begin(), found.end());
 }
 
 /// The ids of the answer are the vertices, and the counts first the offsets of the faces, then the corners.
 [[clang::export_name("submesh")]] void submesh(const VertexId* ids, std::size_t count, Corners corners) {
-  const Submesh part = workspace.mesher().submesh({ids, count}, corners);
+  const Submesh part = workspace.surface().submesh({ids, count}, corners);
   answer.ids.assign(part.vertices.begin(), part.vertices.end());
   answer.counts.assign(part.offsets.begin(), part.offsets.end());
   answer.counts.insert(answer.counts.end(), part.corners.begin(), part.corners.end());
@@ -39,7 +40,7 @@ extern "C" {
 /// whether each polyline is closed.
 [[clang::export_name("rim")]] void rim(const VertexId* ids, std::size_t count, double x, double y, double z,
                                        double radius) {
-  const Rim outline = workspace.mesher().rim({ids, count}, {x, y, z}, radius);
+  const Rim outline = workspace.surface().rim({ids, count}, {x, y, z}, radius);
   answer.reals.clear();
   for (const SpacePoint& point : outline.points) answer.reals.insert(answer.reals.end(), point.begin(), point.end());
   answer.ids.clear();

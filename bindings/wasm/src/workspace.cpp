@@ -25,12 +25,18 @@ void Workspace::load(std::span<const std::byte> bytes, const LoadOptions& option
 }
 
 void Workspace::refit(const PositionsView& positions, const std::optional<IndicesView>& changed) {
+  std::optional<Surface> surface = faces_ ? std::exchange(surface_, {}) : std::nullopt;
+  const std::optional<Fingerprint> faces = faces_;
   forget_derived();
   if (changed) {
     index_->refit_in_place(positions, *changed);
+    if (surface) surface->refit_in_place(*index_, *changed);
   } else {
     index_->refit_in_place(positions);
+    if (surface) surface->refit_in_place(*index_);
   }
+  surface_ = std::move(surface);
+  faces_ = faces;
 }
 
 void Workspace::replace_index(Index&& index) {
@@ -39,8 +45,6 @@ void Workspace::replace_index(Index&& index) {
 }
 
 void Workspace::forget_derived() {
-  indexed_faces_.reset();
-  face_index_.reset();
   faces_.reset();
   surface_.reset();
   searches_ = {};
@@ -115,27 +119,13 @@ Searcher& Workspace::searcher(Metric metric) {
 
 void Workspace::use_faces(const FacesView& faces, const Fingerprint& content) {
   if (faces_ == content) return;
-  surface_ = CurvatureIndex::build(index(), faces);
+  surface_.emplace(index(), faces);
   faces_ = content;
 }
 
 void Workspace::use_normals(std::span<const double> normals) {
-  surface_ = CurvatureIndex::build(index(), normals);
+  surface_ = Surface::of_normals(index(), normals);
   faces_.reset();
-}
-
-const FaceIndex& Workspace::face_index(const FacesView& faces, const Fingerprint& content) {
-  if (indexed_faces_ != content) {
-    face_index_ = FaceIndex::build(index(), faces);
-    indexed_faces_ = content;
-  }
-  return *face_index_;
-}
-
-void Workspace::prepare_regions(const PositionsView& positions, const FacesView& faces) {
-  positions.visit(
-      [&](const auto& xyz) { region_positions_ = std::vector(xyz.first, xyz.first + positions.scalar_count()); });
-  mesher_.emplace(MeshView{std::visit([](const auto& xyz) { return PositionsView(xyz); }, region_positions_), faces});
 }
 
 }  // namespace meshhood::wasm

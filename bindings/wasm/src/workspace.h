@@ -55,7 +55,7 @@ class Workspace {
   /// Sets the masks of the searches that follow; none if both are empty. The index of the last masks is kept.
   void set_masks(std::span<const std::uint8_t> walls, std::span<const std::uint8_t> ignored);
 
-  /// There must be an index, as for all functions below but those of the mesher.
+  /// There must be an index, as for all functions below.
   [[nodiscard]] const Index& index() const { return *index_; }
 
   /// The same with the masks.
@@ -73,23 +73,15 @@ class Workspace {
   [[nodiscard]] AnySearcher& searcher(MethodName name);
   [[nodiscard]] Searcher& searcher(Metric metric);
 
-  /// Makes the normals from faces; nothing is done if `content`, a hash of the faces, is that of the faces before.
-  /// Throws as `CurvatureIndex::build`.
+  /// Makes the surface of faces; nothing is done if `content`, a hash of the faces, is that of the faces before.
+  /// Throws as `Surface`.
   void use_faces(const FacesView& faces, const Fingerprint& content);
 
-  /// Throws as `CurvatureIndex::build`.
+  /// Throws as `Surface::of_normals`.
   void use_normals(std::span<const double> normals);
 
-  /// With the normals of the last `use_...`, and the masks.
-  [[nodiscard]] CurvatureIndex surface() const { return surface_->on(searched()); }
-
-  /// Made of faces, as by `use_faces`. Throws as `FaceIndex::build`.
-  [[nodiscard]] const FaceIndex& face_index(const FacesView& faces, const Fingerprint& content);
-
-  /// Copies the mesh whose regions are made. Throws as `RegionMesher`.
-  void prepare_regions(const PositionsView& positions, const FacesView& faces);
-
-  [[nodiscard]] RegionMesher& mesher() { return *mesher_; }
+  /// Of the last `use_...`, with the masks.
+  [[nodiscard]] Surface surface() const { return surface_->on(searched()); }
 
  private:
   void replace_index(Index&& index);
@@ -110,12 +102,8 @@ class Workspace {
   std::vector<std::uint8_t> ignored_;
   std::optional<Index> masked_index_;
   Searches masked_searches_;
-  std::optional<CurvatureIndex> surface_;
+  std::optional<Surface> surface_;
   std::optional<Fingerprint> faces_;  // those of `surface_`, if it was made from faces
-  std::optional<FaceIndex> face_index_;
-  std::optional<Fingerprint> indexed_faces_;  // those of `face_index_`
-  PositionsData region_positions_;            // borrowed by `mesher_`
-  std::optional<RegionMesher> mesher_;
 };
 
 /// One for each instance of the module, which has one thread.

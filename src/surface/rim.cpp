@@ -12,13 +12,12 @@
 #include <vector>
 
 #include "meshhood/error.h"
-#include "meshhood/region_mesh.h"
 
 #include "base/vector.h"
 #include "exact/query/arguments.h"
-#include "region/region_mesher.h"
 #include "shared/distance.h"
 #include "shared/text.h"
+#include "surface/submesh.h"
 
 namespace meshhood {
 namespace {
@@ -153,12 +152,12 @@ Point exit_point(const Point& inside, const Point& outside, const Point& center,
   return inside + std::clamp(t, 0.0, 1.0) * d;
 }
 
-std::vector<SpacePoint> rim_points(const PositionsView& positions, std::span<const RimEdge> edges,
-                                   const SpacePoint& center, double radius) {
+std::vector<SpacePoint> rim_points(const IndexView& index, std::span<const RimEdge> edges, const SpacePoint& center,
+                                   double radius) {
   const Point middle{center[0], center[1], center[2]};
   std::vector<SpacePoint> points;
   for (const auto& [inner, outer] : edges) {
-    const auto at = [&](VertexId v) { return point(positions, v); };
+    const auto at = [&](VertexId v) { return position_of(index, v); };
     if (!(squared_distance(at(inner), middle) <= squared_radius(radius))) {
       raise(ErrorCode::InvalidOption, "ids: vertex " + std::to_string(inner) + " is not within the radius " +
                                           to_text(radius) + " of the center, expected a region of this ball");
@@ -169,18 +168,19 @@ std::vector<SpacePoint> rim_points(const PositionsView& positions, std::span<con
   return points;
 }
 
-Rim RegionMesher::rim(std::span<const VertexId> ids, const SpacePoint& center, double radius) {
+Rim Surface::rim(std::span<const VertexId> ids, const SpacePoint& center, double radius) const {
+  const State& state = SurfaceAccess::state(*this);
   check_point(center, "center: ");
   check_radius(radius);
-  const std::vector<std::size_t> faces = state_->select(ids, Corners::Any);
-  const auto is_inside = [&](VertexId v) { return state_->is_marked(v); };
+  const FaceSelection selection(state, ids, Corners::Any);
+  const auto is_inside = [&](VertexId v) { return selection.has(v); };
   std::vector<ExitPair> pairs;
-  for (const std::size_t face : faces) {
-    const auto corners = state_->lists.corners(face);
+  for (const std::size_t face : selection.faces()) {
+    const auto corners = state.faces()[face];
     if (corners.size() >= 3) add_exits(corners, is_inside, pairs);
   }
   const std::vector<RimEdge> exits = distinct_exits(pairs);
-  const std::vector<SpacePoint> points = rim_points(state_->positions, exits, center, radius);
+  const std::vector<SpacePoint> points = rim_points(*state.index, exits, center, radius);
   Rim rim;
   rim.offsets.push_back(0);
   for (const Polyline& line : Joiner(segments_of(pairs, exits), exits.size()).join()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "region/triangle_point.h"
+#include "surface/triangle_point.h"
 
 #include <algorithm>
 #include <cmath>

@@ -14,15 +14,15 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/aggregate.h"
-#include "meshhood/region_mesh.h"
+#include "meshhood/surface.h"
 
-#include "region/region_mesher.h"
 #include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/refusal.h"
 #include "support/region_oracle.h"
 #include "support/scale.h"
+#include "surface/submesh.h"
 
 namespace meshhood::test {
 namespace {
@@ -67,7 +67,7 @@ TEST_P(Clipped, HasThePartsOfAllFaces) {
     const TestMesh mesh = make_mesh(GetParam(), vertices + 1, vertices);
     if (mesh.size() == 0) continue;
     const RegionOracle oracle(mesh);
-    RegionMesher mesher(mesh.view());
+    const Surface surface(build(mesh.view()), mesh.view());
     Random random(vertices);
     for (std::size_t i = 0; i < scaled(10, 3); ++i) {
       PlainStart start = draw_start(random, mesh).plain;
@@ -75,7 +75,7 @@ TEST_P(Clipped, HasThePartsOfAllFaces) {
       const double radius = oracle.distance(start, random.below(mesh.size()));
       const std::vector<VertexId> ids = oracle.region(start, radius);
       const std::set<VertexId> region(ids.begin(), ids.end());
-      const ClippedMesh clipped = mesher.clip(ids, start.center, radius);
+      const ClippedMesh clipped = surface.clip(ids, start.center, radius);
       ASSERT_EQ(clipped.points.size(), clipped.edges.size());
       ASSERT_TRUE(std::is_sorted(clipped.faces.begin(), clipped.faces.end()));
       std::map<std::size_t, std::multiset<std::vector<CornerEdge>>> found;
@@ -114,10 +114,10 @@ TEST(Clip, OfABallOnAPlaneHasTheAreaInsideItsRim) {
     const RegionOracle oracle(mesh);
     const std::vector<std::uint8_t> none(mesh.size());
     const PlainStart start{{20.2, 19.7, 0}, {20 * 41 + 20}, none, none};
-    RegionMesher mesher(mesh.view());
+    const Surface surface(build(mesh.view()), mesh.view());
     const std::vector<VertexId> ids = oracle.region(start, 13.3);
-    const ClippedMesh clipped = mesher.clip(ids, start.center, 13.3);
-    const Rim rim = mesher.rim(ids, start.center, 13.3);
+    const ClippedMesh clipped = surface.clip(ids, start.center, 13.3);
+    const Rim rim = surface.rim(ids, start.center, 13.3);
     ASSERT_THAT(rim.closed, testing::ElementsAre(1));
     double inside_rim = 0;
     for (std::size_t i = 0; i < rim.points.size(); ++i) {
@@ -131,7 +131,7 @@ TEST(Clip, OfABallOnAPlaneHasTheAreaInsideItsRim) {
     EXPECT_LT(clipped.area, disc);
     // Faces with all corners inside have much less.
     const std::vector<double> areas = vertex_areas(mesh.view());
-    const std::size_t whole = mesher.faces(ids).size();
+    const std::size_t whole = surface.faces(ids).size();
     const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
     EXPECT_LT(static_cast<double>(whole) * total / static_cast<double>(mesh.face_count()), 0.95 * disc);
   }
@@ -143,23 +143,24 @@ TEST(Clip, EndsAtAWallInsideTheBall) {
   strip.add_vertex(1, 0, 0);
   strip.add_vertex(0, 1, 0);
   strip.add_face({0, 1, 2});
-  RegionMesher mesher(strip.finish(true).view());
-  const ClippedMesh clipped = mesher.clip(std::array<VertexId, 2>{0, 2}, {0, 0, 0}, 5);
+  const TestMesh whole = strip.finish(true);
+  const Surface surface(build(whole.view()), whole.view());
+  const ClippedMesh clipped = surface.clip(std::array<VertexId, 2>{0, 2}, {0, 0, 0}, 5);
   EXPECT_EQ(clipped.area, 0.5);
   EXPECT_EQ(clipped.points.back(), (SpacePoint{1, 0, 0}));
 }
 
 TEST(Clip, RefusesWhatIsNotARegionOfTheBall) {
   const TestMesh mesh = make_grid(3, 3, true);
-  RegionMesher mesher(mesh.view());
+  const Surface surface(build(mesh.view()), mesh.view());
   const std::array<VertexId, 1> far{8};
   expect_refused(ErrorCode::InvalidOption, "vertex 8 is not within the radius 1",
-                 [&] { static_cast<void>(mesher.clip(far, {0, 0, 0}, 1)); });
-  expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { static_cast<void>(mesher.clip(far, {0, 0, 0}, -1)); });
+                 [&] { static_cast<void>(surface.clip(far, {0, 0, 0}, 1)); });
+  expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { static_cast<void>(surface.clip(far, {0, 0, 0}, -1)); });
   expect_refused(ErrorCode::InvalidOption, "center: coordinate 0 is inf",
-                 [&] { static_cast<void>(mesher.clip(far, {kInfinity, 0, 0}, 1)); });
+                 [&] { static_cast<void>(surface.clip(far, {kInfinity, 0, 0}, 1)); });
   expect_refused(ErrorCode::VertexOutOfRange, "ids: position 0: vertex 9",
-                 [&] { static_cast<void>(mesher.clip(std::array<VertexId, 1>{9}, {0, 0, 0}, 1)); });
+                 [&] { static_cast<void>(surface.clip(std::array<VertexId, 1>{9}, {0, 0, 0}, 1)); });
 }
 
 }  // namespace

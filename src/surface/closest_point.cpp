@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The triangles of the faces in index order, a tree of boxes around them, and the search for the nearest one.
-#include "meshhood/face_index.h"
+// The point of a surface nearest to a point in space.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <variant>
 
-#include "meshhood/error.h"
+#include "meshhood/surface.h"
 
 #include "base/vector.h"
-#include "exact/bound_index.h"
 #include "exact/layout.h"
 #include "exact/query/arguments.h"
-#include "region/box_tree.h"
-#include "region/triangle_point.h"
 #include "shared/parallel.h"
+#include "surface/face_tree.h"
+#include "surface/surface.h"
+#include "surface/triangle_point.h"
 
 namespace meshhood {
 namespace {
@@ -82,83 +80,31 @@ std::vector<std::size_t> along_curve(std::span<const SpacePoint> points, const F
   return order;
 }
 
-}  // namespace
-
-/// A triangle of the fan of a face.
-struct Triangle {
-  std::array<std::uint32_t, 3> corners;  // places in index order
-  std::uint32_t face;
-  std::uint32_t second;  // see `SurfacePoint::second_corner`
-};
-
-/// The triangles in the order of their first corners in index order, then of their faces.
-struct FaceIndex::State {
-  explicit State(const Index& owner) : index(owner) {}
-
-  BoundIndex index;
-  std::size_t face_count = 0;  // of the mesh
-  std::vector<Triangle> triangles;
-  BoxTree boxes;
-
-  void sort_triangles(const FacesView& faces);
-
-  [[nodiscard]] std::array<Point, 3> corners_of(const Triangle& triangle) const {
-    return std::visit(
-        [&](auto xyz) {
-          const auto& [a, b, c] = triangle.corners;
-          return std::array{point(xyz, a), point(xyz, b), point(xyz, c)};
-        },
-        index->positions);
-  }
-};
-
-/// Counting sort by the corner that comes first in index order.
-void FaceIndex::State::sort_triangles(const FacesView& faces) {
-  const IndexView& view = *index;
-  face_count = faces.size();
-  const auto place_of = [&](VertexId v) { return view.leaf_begin[leaf_of(view.slot[v])] + lane_of(view.slot[v]); };
-  const auto for_each_triangle = [&](auto&& f) {
-    faces.for_each([&](std::size_t face, std::span<const VertexId> all) {
-      for (std::size_t second = 1; second + 1 < all.size(); ++second) {
-        const Triangle triangle{{place_of(all[0]), place_of(all[second]), place_of(all[second + 1])},
-                                static_cast<std::uint32_t>(face),
-                                static_cast<std::uint32_t>(second)};
-        f(std::ranges::min(triangle.corners), triangle);
-      }
-    });
-  };
-  std::vector<std::size_t> next(view.vertex_count() + 1, 0);
-  for_each_triangle([&](std::uint32_t first, const Triangle&) { ++next[first + std::size_t{1}]; });
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  if (next.back() == 0) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
-  triangles.resize(next.back());
-  for_each_triangle([&](std::uint32_t first, const Triangle& triangle) { triangles[next[first]++] = triangle; });
-}
-
 /// A triangle is first compared roughly, which bounds its distance from both sides. Only those that no other one
 /// excludes are measured exactly, at the end.
-class FaceIndex::Search {
+class ClosestPoint {
  public:
-  explicit Search(const State& state) : state_(&state), scale_(state.index->frame.scale) {}
+  ClosestPoint(const IndexView& index, const FaceTree& tree)
+      : index_(&index), tree_(&tree), scale_(index.frame.scale) {}
 
   /// Begins with the last answer, which is near if the points are.
   SurfacePoint run(const Point& q) {
     q_ = q;
-    in_frame_ = state_->index->frame.to_frame(q);
+    in_frame_ = index_->frame.to_frame(q);
     reach_ = std::numeric_limits<double>::infinity();
     best_.distance = std::numeric_limits<double>::infinity();
     const std::size_t first = nearest_;
     compare(first);
-    state_->boxes.search(
+    tree_->boxes().search(
         in_frame_, [&] { return reach_; },
         [&](std::size_t i) {
           if (i != first) compare(i);
         });
     measure();
-    const Triangle& triangle = state_->triangles[nearest_];
+    const Triangle& triangle = (*tree_)[nearest_];
     SurfacePoint found{triangle.face, triangle.second, {}, best_.weights, {best_.point.x, best_.point.y, best_.point.z},
                        best_.distance};
-    for (std::size_t i = 0; i < 3; ++i) found.vertices[i] = state_->index->id(triangle.corners[i]);
+    for (std::size_t i = 0; i < 3; ++i) found.vertices[i] = index_->id(triangle.corners[i]);
     return found;
   }
 
@@ -173,7 +119,7 @@ class FaceIndex::Search {
   void compare(std::size_t i) {
     std::array<Point, 3> from_q;
     for (std::size_t k = 0; k < 3; ++k) {
-      from_q[k] = state_->index->in_frame(state_->triangles[i].corners[k]) - in_frame_;
+      from_q[k] = index_->in_frame((*tree_)[i].corners[k]) - in_frame_;
     }
     const Point nearest = roughly_nearest(from_q);
     const double along = std::min({dot(nearest, from_q[0]), dot(nearest, from_q[1]), dot(nearest, from_q[2])});
@@ -192,13 +138,22 @@ class FaceIndex::Search {
     reach_ = std::min(reach_, distance + kFaceSlack * (distance + 4) + kUnderflow * scale_);
   }
 
+  [[nodiscard]] std::array<Point, 3> corners_of(const Triangle& triangle) const {
+    return std::visit(
+        [&](auto xyz) {
+          const auto& [a, b, c] = triangle.corners;
+          return std::array{point(xyz, a), point(xyz, b), point(xyz, c)};
+        },
+        index_->positions);
+  }
+
   /// The candidates that are left, exactly.
   void measure() {
     for (const Candidate& candidate : std::span(candidates_).first(std::exchange(size_, 0))) {
       if (is_far(candidate.least)) continue;
-      const Triangle& triangle = state_->triangles[candidate.triangle];
-      const TrianglePoint found = nearest_in_triangle(q_, state_->corners_of(triangle), scale_);
-      const Triangle& nearest = state_->triangles[nearest_];
+      const Triangle& triangle = (*tree_)[candidate.triangle];
+      const TrianglePoint found = nearest_in_triangle(q_, corners_of(triangle), scale_);
+      const Triangle& nearest = (*tree_)[nearest_];
       const bool is_nearer = found.distance < best_.distance ||
                              (found.distance == best_.distance &&
                               std::pair(triangle.face, triangle.second) < std::pair(nearest.face, nearest.second));
@@ -209,7 +164,8 @@ class FaceIndex::Search {
     }
   }
 
-  const State* state_;
+  const IndexView* index_;
+  const FaceTree* tree_;
   double scale_;
   Point q_{};
   Point in_frame_{};
@@ -217,45 +173,27 @@ class FaceIndex::Search {
   std::array<Candidate, 16> candidates_{};
   std::size_t size_ = 0;
   TrianglePoint best_{};
-  std::size_t nearest_ = 0;  // of `triangles`
+  std::size_t nearest_ = 0;  // of the triangles of the tree
 };
 
-FaceIndex FaceIndex::build(const Index& index, const FacesView& faces) {
-  validate(MeshView{index.positions(), faces});
-  if (faces.size() > std::numeric_limits<std::uint32_t>::max()) {
-    raise(ErrorCode::TooLarge, std::to_string(faces.size()) + " faces, expected at most 2^32 - 1");
-  }
-  auto state = std::make_unique<State>(index);
-  state->sort_triangles(faces);
-  state->boxes.build(state->triangles.size(), [&](std::size_t i) {
-    Box box;
-    for (const std::uint32_t place : state->triangles[i].corners) box.add(state->index->in_frame(place));
-    return box;
-  });
-  return FaceIndex(std::move(state));
-}
+}  // namespace
 
-FaceIndex::FaceIndex(std::unique_ptr<const State> state) : state_(std::move(state)) {}
-
-std::size_t FaceIndex::face_count() const { return state_->face_count; }
-
-std::size_t FaceIndex::bytes() const { return state_->triangles.size() * sizeof(Triangle) + state_->boxes.bytes(); }
-
-SurfacePoint FaceIndex::closest_point(const SpacePoint& point) const {
-  state_->index.check_current();
+SurfacePoint Surface::closest_point(const SpacePoint& point) const {
+  const State& state = SurfaceAccess::state(*this);
   check_point(point, "point: ");
-  return Search(*state_).run({point[0], point[1], point[2]});
+  return ClosestPoint(*state.index, state.tree()).run({point[0], point[1], point[2]});
 }
 
-std::vector<SurfacePoint> FaceIndex::closest_points(std::span<const SpacePoint> points,
-                                                    const BatchOptions& options) const {
-  state_->index.check_current();
+std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> points,
+                                                  const BatchOptions& options) const {
+  const State& state = SurfaceAccess::state(*this);
   for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points: row " + std::to_string(i) + ": ");
-  const std::vector<std::size_t> in_order = along_curve(points, state_->index->frame);
+  const FaceTree& tree = state.tree();
+  const std::vector<std::size_t> in_order = along_curve(points, state.index->frame);
   TaskContext task(options.threads, options.progress, points.size());
   std::vector<SurfacePoint> found(points.size());
   task.parallel_for(points.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    Search search(*state_);
+    ClosestPoint search(*state.index, tree);
     for (std::size_t i = begin; i < end; ++i) {
       const auto& [x, y, z] = points[in_order[i]];
       found[in_order[i]] = search.run({x, y, z});

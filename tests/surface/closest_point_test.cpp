@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The point of the surface nearest to a point, against a scan of all faces; that of a triangle, in long double.
-#include "meshhood/face_index.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,16 +15,17 @@
 #include "meshhood/index.h"
 #include "meshhood/refit.h"
 #include "meshhood/search.h"
+#include "meshhood/surface.h"
 
 #include "base/vector.h"
 #include "exact/index_access.h"
-#include "region/triangle_point.h"
 #include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/random.h"
 #include "support/refusal.h"
 #include "support/scale.h"
+#include "surface/triangle_point.h"
 
 namespace meshhood::test {
 namespace {
@@ -92,9 +91,9 @@ Long distance_by_regions(const Point& q, const std::array<Point, 3>& corners) {
   return length_at(vb / (va + vb + vc), vc / (va + vb + vc));
 }
 
-class FaceIndexIn : public testing::TestWithParam<Family> {};
+class ClosestPointIn : public testing::TestWithParam<Family> {};
 
-TEST_P(FaceIndexIn, FindsTheFirstOfAScan) {
+TEST_P(ClosestPointIn, FindsTheFirstOfAScan) {
   std::size_t points = 0;
   for (const std::size_t vertices : {1U, 2U, 40U, 300U, 2000U}) {
     const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
@@ -103,11 +102,11 @@ TEST_P(FaceIndexIn, FindsTheFirstOfAScan) {
     const Index index = build(mesh.view());
     if (!has_triangles) {
       expect_refused(ErrorCode::InvalidMesh, "no face of three corners",
-                     [&] { static_cast<void>(FaceIndex::build(index, mesh.view().faces)); });
+                     [&] { static_cast<void>(Surface(index, mesh.view().faces).closest_point({0, 0, 0})); });
       continue;
     }
     SCOPED_TRACE(mesh.name);
-    const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
+    const Surface surface(index, mesh.view().faces);
     EXPECT_EQ(surface.face_count(), mesh.face_count());
     const double scale = IndexAccess::view(index).frame.scale;
     Random random(vertices);
@@ -135,7 +134,7 @@ TEST_P(FaceIndexIn, FindsTheFirstOfAScan) {
   std::printf("%s: %zu points\n", std::string(GetParam().name).c_str(), points);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FaceIndexIn, testing::ValuesIn(families()), family_name);
+INSTANTIATE_TEST_SUITE_P(All, ClosestPointIn, testing::ValuesIn(families()), family_name);
 
 TEST(TrianglePoint, HasTheDistanceOfTheRegionsAroundIt) {
   Random random(5);
@@ -209,10 +208,10 @@ TEST(TrianglePoint, WithoutAnAreaIsItsSides) {
   EXPECT_THAT(one_point.weights, testing::Contains(1.0));
 }
 
-TEST(FaceIndex, OfFacesThatMeetFindsTheOneWithTheSmallestNumber) {
+TEST(ClosestPoint, OfFacesThatMeetFindsTheOneWithTheSmallestNumber) {
   const TestMesh mesh = bumpy_grid(20);
   const Index index = build(mesh.view());
-  const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
+  const Surface surface(index, mesh.view().faces);
   for (std::uint32_t v = 0; v < mesh.size(); ++v) {
     std::size_t first = mesh.face_count();
     for (std::size_t face = mesh.face_count(); face-- > 0;) {
@@ -226,7 +225,7 @@ TEST(FaceIndex, OfFacesThatMeetFindsTheOneWithTheSmallestNumber) {
   }
 }
 
-TEST(FaceIndex, OfAPolygonIsItsFan) {
+TEST(ClosestPoint, OfAPolygonIsItsFan) {
   TestMesh mesh;
   mesh.add_vertex(0, 0, 0);
   mesh.add_vertex(4, 0, 0);
@@ -235,7 +234,7 @@ TEST(FaceIndex, OfAPolygonIsItsFan) {
   mesh.add_face({0, 1});
   mesh.add_face({0, 1, 2, 3});
   const Index index = build(mesh.finish(true).view());
-  const SurfacePoint found = FaceIndex::build(index, mesh.view().faces).closest_point({1, 3, 5});
+  const SurfacePoint found = Surface(index, mesh.view().faces).closest_point({1, 3, 5});
   EXPECT_EQ(found.face, 1U);
   EXPECT_EQ(found.second_corner, 2U);
   EXPECT_THAT(found.vertices, testing::ElementsAre(0, 2, 3));
@@ -244,25 +243,25 @@ TEST(FaceIndex, OfAPolygonIsItsFan) {
   EXPECT_EQ(found.distance, 5);
 }
 
-TEST(FaceIndex, FindsAFaceThatOverhangsItsLeaf) {
+TEST(ClosestPoint, FindsAFaceThatOverhangsItsLeaf) {
   TestMesh mesh = bumpy_grid(40);
   const auto far = mesh.add_vertex(500, 0, 0);
   const auto farther = mesh.add_vertex(500, 500, 30);
   mesh.add_face({0, far, farther});
   const Index index = build(mesh.finish(true).view());
-  const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
+  const Surface surface(index, mesh.view().faces);
   EXPECT_EQ(surface.closest_point({300, 150, 40}).face, mesh.face_count() - 1);
 }
 
 /// Without edges each vertex has a root of its own, beyond which its faces extend.
-TEST(FaceIndex, FindsFacesThatJoinComponents) {
+TEST(ClosestPoint, FindsFacesThatJoinComponents) {
   const TestMesh mesh = bumpy_grid(40);
   Random random(4);
   std::vector<std::uint32_t> corners(300);
   for (std::uint32_t& v : corners) v = static_cast<std::uint32_t>(random.below(mesh.size()));
   const Adjacency no_edges{std::vector<EdgeOffset>(mesh.size() + 1, 0), {}};
   const Index index = build(GraphView{mesh.positions_view(), no_edges.view()});
-  const FaceIndex surface = FaceIndex::build(index, FacesView::triangles(corners));
+  const Surface surface(index, FacesView::triangles(corners));
   const double scale = IndexAccess::view(index).frame.scale;
   for (std::size_t i = 0; i < scaled(2000, 300); ++i) {
     const Point q{random.uniform(-5, 45), random.uniform(-5, 45), random.uniform(-5, 5)};
@@ -276,10 +275,10 @@ TEST(FaceIndex, FindsFacesThatJoinComponents) {
   }
 }
 
-TEST(FaceIndex, AnswersManyPointsOnSeveralThreadsAsOneByOne) {
+TEST(ClosestPoint, AnswersManyPointsOnSeveralThreadsAsOneByOne) {
   const TestMesh mesh = bumpy_grid(30);
   const Index index = build(mesh.view());
-  const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
+  const Surface surface(index, mesh.view().faces);
   Random random(3);
   std::vector<SpacePoint> points(500);
   for (SpacePoint& p : points) p = {random.uniform(-5, 35), random.uniform(-5, 35), random.uniform(-5, 5)};
@@ -291,19 +290,19 @@ TEST(FaceIndex, AnswersManyPointsOnSeveralThreadsAsOneByOne) {
   }
 }
 
-TEST(FaceIndex, GivesTheStartOfARegion) {
+TEST(ClosestPoint, GivesTheStartOfARegion) {
   const TestMesh mesh = bumpy_grid(30);
   const Index index = build(mesh.view());
-  const SurfacePoint hit = FaceIndex::build(index, mesh.view().faces).closest_point({10.3, 11.4, 2});
+  const SurfacePoint hit = Surface(index, mesh.view().faces).closest_point({10.3, 11.4, 2});
   Searcher searcher(index);
   EXPECT_EQ(searcher.neighborhood(hit.start(), 3), searcher.neighborhood(Start(hit.point, hit.vertices), 3));
   EXPECT_GT(searcher.count(hit.start(), 3), 10U);
 }
 
-TEST(FaceIndex, RefusesWrongPointsWrongFacesAndAnIndexRefittedInPlace) {
+TEST(ClosestPoint, RefusesWrongPointsWrongFacesAndAnIndexRefittedInPlace) {
   const TestMesh mesh = make_grid(3, 3, false);
   Index index = build(mesh.view());
-  const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
+  const Surface surface(index, mesh.view().faces);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_refused(ErrorCode::InvalidOption, "point: coordinate 1 is nan",
                  [&] { static_cast<void>(surface.closest_point({0, nan, 0})); });
@@ -312,7 +311,7 @@ TEST(FaceIndex, RefusesWrongPointsWrongFacesAndAnIndexRefittedInPlace) {
                  [&] { static_cast<void>(surface.closest_points(points)); });
   const std::vector<std::uint32_t> corners{0, 1, 9};
   expect_refused(ErrorCode::InvalidMesh, "9",
-                 [&] { static_cast<void>(FaceIndex::build(index, FacesView::triangles(corners))); });
+                 [&] { static_cast<void>(Surface(index, FacesView::triangles(corners))); });
   index.refit_in_place(mesh.positions_view());
   expect_refused(ErrorCode::InvalidOption, "refit", [&] { static_cast<void>(surface.closest_point({0, 0, 0})); });
 }

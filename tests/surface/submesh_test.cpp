@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Faces, submeshes and rims of regions, against passes over all faces of small meshes of every kind.
-#include "region/region_mesher.h"
+#include "surface/submesh.h"
 
 #include <algorithm>
 #include <array>
@@ -12,15 +12,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "meshhood/region_mesh.h"
+#include "meshhood/surface.h"
 
 #include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/refusal.h"
-#include "support/region_mesh_checks.h"
 #include "support/region_oracle.h"
 #include "support/scale.h"
+#include "support/submesh_checks.h"
 
 namespace meshhood::test {
 namespace {
@@ -39,13 +39,13 @@ class RegionMeshes : public testing::TestWithParam<Family> {
       if (mesh.size() == 0) continue;
       SCOPED_TRACE(mesh.name);
       const RegionOracle oracle(mesh);
-      RegionMesher mesher(mesh.view());
+      const Surface surface(build(mesh.view()), mesh.view());
       Random random(vertices);
       for (std::size_t i = 0; i < scaled(10, 3) && !HasFailure(); ++i, ++count) {
         PlainStart start = draw_start(random, mesh).plain;
         start.ignored.assign(mesh.size(), 0);
         const double radius = oracle.distance(start, random.below(mesh.size()));
-        f(FoundRegion{mesh, mesher, start, radius, oracle.region(start, radius)});
+        f(FoundRegion{mesh, surface, start, radius, oracle.region(start, radius)});
       }
     }
     std::printf("%s: %zu regions\n", std::string(GetParam().name).c_str(), count);
@@ -64,8 +64,8 @@ TEST(Rim, OfABallOnAGridIsOneLoopWithTheRegionOnItsLeft) {
   const TestMesh mesh = make_grid(11, 11, false);
   const RegionOracle oracle(mesh);
   const PlainStart start{{5, 5, 0}, {60}, std::vector<std::uint8_t>(121), std::vector<std::uint8_t>(121)};
-  RegionMesher mesher(mesh.view());
-  const Rim rim = mesher.rim(oracle.region(start, 3.3), start.center, 3.3);
+  const Surface surface(build(mesh.view()), mesh.view());
+  const Rim rim = surface.rim(oracle.region(start, 3.3), start.center, 3.3);
   ASSERT_THAT(rim.closed, ElementsAre(1));
   double area = 0;
   for (std::size_t i = 0; i < rim.points.size(); ++i) {
@@ -84,8 +84,8 @@ TEST(Rim, OfABallOnAGridIsOneLoopWithTheRegionOnItsLeft) {
 
 TEST(Rim, EndsAtTheBorderOfTheMesh) {
   const TestMesh mesh = make_grid(6, 6, false);
-  RegionMesher mesher(mesh.view());
-  const Rim rim = mesher.rim(std::array<VertexId, 3>{0, 1, 6}, {0, 0, 0}, 1.0);
+  const Surface surface(build(mesh.view()), mesh.view());
+  const Rim rim = surface.rim(std::array<VertexId, 3>{0, 1, 6}, {0, 0, 0}, 1.0);
   ASSERT_THAT(rim.closed, ElementsAre(0));
   EXPECT_EQ(rim.edges.front()[0] + rim.edges.back()[0], 7U);
 }
@@ -96,17 +96,17 @@ TEST(Rim, SplitsAtANonManifoldEdge) {
   mesh.add_vertex(2, 0, 0);
   for (const double y : {1.0, -1.0, 0.5}) mesh.add_face({0, 1, mesh.add_vertex(0.1, y, y * y)});
   mesh.finish(false);
-  RegionMesher mesher(mesh.view());
-  const Rim rim = mesher.rim(std::array<VertexId, 1>{0}, {0, 0, 0}, 0.25);
+  const Surface surface(build(mesh.view()), mesh.view());
+  const Rim rim = surface.rim(std::array<VertexId, 1>{0}, {0, 0, 0}, 0.25);
   EXPECT_THAT(rim.closed, ElementsAre(0, 0, 0));
   EXPECT_EQ(rim.points.size(), 6U);
 }
 
 TEST(Rim, OfTheWholeMeshIsEmpty) {
   const TestMesh mesh = make_grid(3, 3, true);
-  RegionMesher mesher(mesh.view());
+  const Surface surface(build(mesh.view()), mesh.view());
   const std::vector<VertexId> all{0, 1, 2, 3, 4, 5, 6, 7, 8};
-  EXPECT_THAT(mesher.rim(all, {0, 0, 0}, kInfinity).points, IsEmpty());
+  EXPECT_THAT(surface.rim(all, {0, 0, 0}, kInfinity).points, IsEmpty());
 }
 
 TEST(ExitPoint, IsExactForExactNumbers) {
@@ -118,21 +118,20 @@ TEST(ExitPoint, IsExactForExactNumbers) {
   EXPECT_EQ(exit_point({0x1p-900, 0, 0}, {0x1p-800, 0, 0}, {0, 0, 0}, 0).x, 0x1p-800) << "squares underflow";
 }
 
-TEST(RegionMesher, RefusesInvalidArguments) {
+TEST(Submesh, RefusesInvalidArguments) {
   const TestMesh mesh = make_grid(3, 3, true);
-  RegionMesher mesher(mesh.view());
+  const Surface surface(build(mesh.view()), mesh.view());
   const std::array<VertexId, 2> wrong{0, 9};
   expect_refused(ErrorCode::VertexOutOfRange, "ids: position 1: vertex 9",
-                 [&] { static_cast<void>(mesher.faces(wrong)); });
+                 [&] { static_cast<void>(surface.faces(wrong)); });
   const std::array<VertexId, 1> far{8};
   expect_refused(ErrorCode::InvalidOption, "vertex 8 is not within the radius 1",
-                 [&] { static_cast<void>(mesher.rim(far, {0, 0, 0}, 1)); });
-  expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { static_cast<void>(mesher.rim(far, {0, 0, 0}, -1)); });
+                 [&] { static_cast<void>(surface.rim(far, {0, 0, 0}, 1)); });
+  expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { static_cast<void>(surface.rim(far, {0, 0, 0}, -1)); });
   expect_refused(ErrorCode::InvalidOption, "center: coordinate 0 is inf",
-                 [&] { static_cast<void>(mesher.rim(far, {kInfinity, 0, 0}, 1)); });
-  const std::vector<float> positions{0, 0, 0};
-  const std::vector<std::uint32_t> corners{0, 0, 1};
-  expect_refused(ErrorCode::InvalidMesh, "face 0", [&] { RegionMesher({positions, FacesView::triangles(corners)}); });
+                 [&] { static_cast<void>(surface.rim(far, {kInfinity, 0, 0}, 1)); });
+  const std::vector<std::uint32_t> corners{0, 0, 9};
+  expect_refused(ErrorCode::InvalidMesh, "face 0", [&] { Surface(build(mesh.view()), FacesView::triangles(corners)); });
 }
 
 }  // namespace

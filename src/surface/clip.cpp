@@ -9,11 +9,9 @@
 #include <vector>
 
 #include "meshhood/aggregate.h"
-#include "meshhood/region_mesh.h"
 
 #include "exact/query/arguments.h"
-#include "region/region_mesher.h"
-#include "shared/distance.h"
+#include "surface/submesh.h"
 
 namespace meshhood {
 namespace {
@@ -72,19 +70,20 @@ class Pieces {
 
 }  // namespace
 
-ClippedMesh RegionMesher::clip(std::span<const VertexId> ids, const SpacePoint& center, double radius) {
+ClippedMesh Surface::clip(std::span<const VertexId> ids, const SpacePoint& center, double radius) const {
+  const State& state = SurfaceAccess::state(*this);
   check_point(center, "center: ");
   check_radius(radius);
-  const std::vector<std::size_t> faces = state_->select(ids, Corners::Any);
+  const FaceSelection selection(state, ids, Corners::Any);
   Pieces pieces;
-  for (const std::size_t face : faces) {
-    const auto corners = state_->lists.corners(face);
+  for (const std::size_t face : selection.faces()) {
+    const auto corners = state.faces()[face];
     if (corners.size() < 3) continue;
-    pieces.add(face, corners, [&](VertexId v) { return state_->is_marked(v); });
+    pieces.add(face, corners, [&](VertexId v) { return selection.has(v); });
   }
   ClippedMesh mesh = std::move(pieces).number();
-  mesh.points = rim_points(state_->positions, mesh.edges, center, radius);
-  const std::vector<double> areas = vertex_areas(mesh.view());
+  mesh.points = rim_points(*state.index, mesh.edges, center, radius);
+  const std::vector<double> areas = meshhood::vertex_areas(mesh.view());
   mesh.area = std::accumulate(areas.begin(), areas.end(), 0.0);
   return mesh;
 }

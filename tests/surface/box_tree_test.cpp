@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The search of a tree of boxes, against a scan of all of them in long double.
-#include "region/box_tree.h"
+#include "surface/box_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 using Long = long double;
 
-Long distance_of(const Box& box, const Point& p) {
+Long distance_of(const BoundingBox& box, const Point& p) {
   const auto gap = [](double low, double at, double high) {
     return std::max(
         {static_cast<Long>(low) - static_cast<Long>(at), static_cast<Long>(at) - static_cast<Long>(high), Long{0}});
@@ -37,7 +37,7 @@ Point random_point(Random& random, double extent) {
 class TreeOf : public testing::TestWithParam<std::size_t> {
  protected:
   TreeOf() {
-    for (Box& box : boxes) {
+    for (BoundingBox& box : boxes) {
       box.add(random_point(random, 1));
       const Point p = box.low;
       const double size = std::ldexp(1.0, -static_cast<int>(random.below(40)));
@@ -47,7 +47,7 @@ class TreeOf : public testing::TestWithParam<std::size_t> {
   }
 
   Random random{GetParam()};
-  std::vector<Box> boxes{GetParam()};
+  std::vector<BoundingBox> boxes{GetParam()};
   BoxTree tree;
 };
 
@@ -56,7 +56,7 @@ TEST_P(TreeOf, VisitsEveryBoxWithinReachOnce) {
   for (std::size_t round = 0; round < scaled(200, 40); ++round) {
     // Beside a box, where the rounding of the center matters, or far from all.
     const double size = std::ldexp(1.0, static_cast<int>(random.below(100)) - 50);
-    const Box& beside = boxes[random.below(boxes.size())];
+    const BoundingBox& beside = boxes[random.below(boxes.size())];
     const Point center = beside.high + random_point(random, size);
     const Long reach = distance_of(round % 2 == 0 ? beside : boxes[random.below(boxes.size())], center);  // a tie
     std::vector<int> visits(boxes.size(), 0);
@@ -76,7 +76,7 @@ TEST_P(TreeOf, FindsTheNearestBoxByAShrinkingReach) {
   for (std::size_t round = 0; round < rounds; ++round) {
     const Point center = random_point(random, 2);
     Long expected = std::numeric_limits<Long>::infinity();
-    for (const Box& box : boxes) expected = std::min(expected, distance_of(box, center));
+    for (const BoundingBox& box : boxes) expected = std::min(expected, distance_of(box, center));
     Long nearest = std::numeric_limits<Long>::infinity();
     tree.search(
         center, [&] { return static_cast<double>(nearest) * (1 + 1e-15); },

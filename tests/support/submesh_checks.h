@@ -13,7 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "meshhood/region_mesh.h"
+#include "meshhood/surface.h"
 
 #include "support/region_oracle.h"
 #include "support/test_mesh.h"
@@ -58,14 +58,14 @@ inline std::multiset<EdgePair> segments_of_rim(const Rim& rim) {
 /// A region of a mesh, found by the oracle.
 struct FoundRegion {
   const TestMesh& mesh;
-  RegionMesher& mesher;
+  const Surface& surface;
   PlainStart start;
   double radius;
   std::vector<VertexId> ids;
 };
 
 inline void expect_faces_of_vertices(const FoundRegion& region) {
-  const auto& [mesh, mesher, start, radius, ids] = region;
+  const auto& [mesh, surface, start, radius, ids] = region;
   const auto is_in = [&all_ids = ids](VertexId v) { return std::binary_search(all_ids.begin(), all_ids.end(), v); };
   std::vector<std::size_t> all;
   std::vector<std::size_t> any;
@@ -74,10 +74,10 @@ inline void expect_faces_of_vertices(const FoundRegion& region) {
     if (!face.empty() && std::all_of(face.begin(), face.end(), is_in)) all.push_back(f);
     if (std::any_of(face.begin(), face.end(), is_in)) any.push_back(f);
   }
-  ASSERT_EQ(mesher.faces(ids), all);
-  ASSERT_EQ(mesher.faces(ids, Corners::Any), any);
+  ASSERT_EQ(surface.faces(ids), all);
+  ASSERT_EQ(surface.faces(ids, Corners::Any), any);
   for (const auto& [corners, faces] : {std::pair(Corners::All, all), std::pair(Corners::Any, any)}) {
-    const Submesh part = mesher.submesh(ids, corners);
+    const Submesh part = surface.submesh(ids, corners);
     ASSERT_EQ(part.faces, faces);
     ASSERT_EQ(part.offsets.size(), faces.size() + 1);
     std::set<VertexId> used;
@@ -94,7 +94,7 @@ inline void expect_faces_of_vertices(const FoundRegion& region) {
 }
 
 inline void expect_rim_of_segments(const FoundRegion& region) {
-  const Rim rim = region.mesher.rim(region.ids, region.start.center, region.radius);
+  const Rim rim = region.surface.rim(region.ids, region.start.center, region.radius);
   ASSERT_EQ(rim.points.size(), rim.edges.size());
   ASSERT_EQ(rim.offsets.size(), rim.size() + 1);
   const std::multiset<EdgePair> segments = segments_of_rim(rim);
@@ -113,8 +113,8 @@ inline void expect_rim_of_segments(const FoundRegion& region) {
 }
 
 inline void expect_rim_at_radius(const FoundRegion& region) {
-  const auto& [mesh, mesher, start, radius, ids] = region;
-  const Rim rim = mesher.rim(ids, start.center, radius);
+  const auto& [mesh, surface, start, radius, ids] = region;
+  const Rim rim = surface.rim(ids, start.center, radius);
   for (std::size_t i = 0; i < rim.points.size(); ++i) {
     const auto a = position(mesh, rim.edges[i][0]);
     const auto b = position(mesh, rim.edges[i][1]);

@@ -6,9 +6,9 @@
 
 #include "support/draw_start.h"
 #include "support/each_shared_mesh.h"
-#include "support/region_mesh_checks.h"
 #include "support/region_oracle.h"
 #include "support/scale.h"
+#include "support/submesh_checks.h"
 
 namespace meshhood::test {
 namespace {
@@ -21,7 +21,7 @@ TEST_P(RealRegionMeshes, HaveTheFacesOfTheirVerticesAndTheirRim) {
   const std::size_t meshes = for_each_shared_mesh(GetParam(), [&](const TestMesh& mesh) {
     const RegionOracle oracle(mesh);
     const double mean_edge = oracle.graph().mean_edge();
-    RegionMesher mesher(mesh.view());
+    const Surface surface(build(mesh.view()), mesh.view());
     Random random(5);
     for (std::size_t i = 0; i < scaled(20, 2) && !HasFailure(); ++i, ++regions) {
       PlainStart start;
@@ -31,7 +31,7 @@ TEST_P(RealRegionMeshes, HaveTheFacesOfTheirVerticesAndTheirRim) {
       start.walls = draw_mask(random, mesh.size(), i % 2 == 0 ? 0 : 12);
       start.ignored.assign(mesh.size(), 0);
       const double radius = mean_edge * random.uniform(0, 12);
-      const FoundRegion region{mesh, mesher, start, radius, oracle.region(start, radius)};
+      const FoundRegion region{mesh, surface, start, radius, oracle.region(start, radius)};
       expect_faces_of_vertices(region);
       expect_rim_of_segments(region);
       expect_rim_at_radius(region);

@@ -18,7 +18,7 @@
 namespace meshhood {
 
 /// A box around points, in the coordinates of a frame.
-struct Box {
+struct BoundingBox {
   Point low{kNone, kNone, kNone};
   Point high{-kNone, -kNone, -kNone};
 
@@ -43,6 +43,10 @@ class BoxTree {
   template <class BoxOf>
   void build(std::size_t count, BoxOf&& box_of);
 
+  /// After some items have moved.
+  template <class BoxOf>
+  void renew(std::vector<std::size_t> items, BoxOf&& box_of);
+
   /// Calls `visit(item)` for the items whose box is at most `reach()` away from `center`, near ones first, as far as
   /// the order of nodes tells. `reach` is called again after each visit; it never grows. All are in the frame.
   template <class Reach, class Visit>
@@ -54,12 +58,15 @@ class BoxTree {
   template <class Reach, class Visit>
   class Search;
 
+  /// That of all boxes of a group.
+  [[nodiscard]] BoundingBox box_around(std::size_t level, std::size_t number) const;
+
   [[nodiscard]] static Point at(const BoxGroup::Corners& corners, std::size_t i) {
     return {static_cast<double>(corners.x[i]), static_cast<double>(corners.y[i]), static_cast<double>(corners.z[i])};
   }
 
   /// Stores a box at a place of a group.
-  static void set(BoxGroup& group, std::size_t i, const Box& box) {
+  static void set(BoxGroup& group, std::size_t i, const BoundingBox& box) {
     group.low.x[i] = -next_above(-box.low.x);
     group.low.y[i] = -next_above(-box.low.y);
     group.low.z[i] = -next_above(-box.low.z);
@@ -84,17 +91,30 @@ void BoxTree::build(std::size_t count, BoxOf&& box_of) {
   };
   add_level(count, box_of);
   while (levels_.back().size() > 1) {
-    const std::vector<BoxGroup>& below = levels_.back();
-    const std::size_t size = sizes_.back();
-    add_level(below.size(), [&](std::size_t i) {
-      Box box;
-      for (std::size_t k = 0; k < std::min<std::size_t>(kFanOut, size - i * kFanOut); ++k) {
-        box.add(at(below[i].low, k));
-        box.add(at(below[i].high, k));
-      }
-      return box;
-    });
+    const std::size_t below = levels_.size() - 1;
+    add_level(levels_.back().size(), [&](std::size_t i) { return box_around(below, i); });
   }
+}
+
+template <class BoxOf>
+void BoxTree::renew(std::vector<std::size_t> items, BoxOf&& box_of) {
+  for (const std::size_t i : items) set(levels_[0][i / kFanOut], i % kFanOut, box_of(i));
+  for (std::size_t level = 1; level < levels_.size(); ++level) {
+    for (std::size_t& i : items) i /= kFanOut;
+    std::sort(items.begin(), items.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
+    for (const std::size_t i : items) set(levels_[level][i / kFanOut], i % kFanOut, box_around(level - 1, i));
+  }
+}
+
+inline BoundingBox BoxTree::box_around(std::size_t level, std::size_t number) const {
+  const BoxGroup& group = levels_[level][number];
+  BoundingBox box;
+  for (std::size_t i = 0; i < std::min<std::size_t>(kFanOut, sizes_[level] - number * kFanOut); ++i) {
+    box.add(at(group.low, i));
+    box.add(at(group.high, i));
+  }
+  return box;
 }
 
 template <class Reach, class Visit>

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
+
+#include "meshhood/surface.h"
+
+#include "arrays.h"
+#include "bindings.h"
+#include "interpreter.h"
+#include "methods.h"
+
+namespace nb = nanobind;
+
+// Calls for one region keep the interpreter lock: they are short.
+namespace meshhood::python {
+namespace {
+
+using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+using IdList = nb::ndarray<const std::int32_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+
+std::span<const VertexId> id_span(const IdList& ids) {
+  return {reinterpret_cast<const VertexId*>(ids.data()), ids.size()};
+}
+
+Corners corners_of(bool all) { return all ? Corners::All : Corners::Any; }
+
+Surface of_faces(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets) {
+  const FacesView faces = faces_of(corners, offsets);
+  return without_lock([&] { return Surface(method.index(), faces); });
+}
+
+/// With an index of its own.
+Surface of_mesh(const Input& positions, const Input& corners, const std::optional<Input>& offsets) {
+  const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
+  return without_lock([&] {
+    const Index index = build(mesh);
+    return Surface(index, mesh.faces);
+  });
+}
+
+Surface of_normals(const ExactMethod& method, const Radii& normals, const std::optional<Input>& corners,
+                   const std::optional<Input>& offsets) {
+  const std::span<const double> values(normals.data(), normals.size());
+  const FacesView faces = corners ? faces_of(*corners, offsets) : FacesView{};
+  return without_lock([&] { return Surface::of_normals(method.index(), values, faces); });
+}
+
+/// The faces, the second corner of the triangle of each, its barycentric coordinates, and the points.
+auto closest_points(const Surface& surface, const Points& points, unsigned threads, nb::handle progress) {
+  static_assert(sizeof(SpacePoint) == 3 * sizeof(double));
+  const std::span<const SpacePoint> all(reinterpret_cast<const SpacePoint*>(points.data()), points.shape(0));
+  const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
+  std::vector<std::int64_t> faces;
+  std::vector<std::int64_t> seconds;
+  std::vector<std::array<double, 3>> weights;
+  std::vector<SpacePoint> found;
+  without_lock([&] {
+    for (const SurfacePoint& hit : surface.closest_points(all, options)) {
+      faces.push_back(static_cast<std::int64_t>(hit.face));
+      seconds.push_back(static_cast<std::int64_t>(hit.second_corner));
+      weights.push_back(hit.weights);
+      found.push_back(hit.point);
+    }
+  });
+  const std::size_t rows = all.size();
+  return std::tuple(owned<std::int64_t>(std::move(faces)), owned<std::int64_t>(std::move(seconds)),
+                    owned<double>(std::move(weights), {rows, 3}), owned<double>(std::move(found), {rows, 3}));
+}
+
+Output<std::int64_t> faces(const Surface& surface, const IdList& ids, bool all) {
+  return owned<std::int64_t>(surface.faces(id_span(ids), corners_of(all)));
+}
+
+auto submesh(const Surface& surface, const IdList& ids, bool all) {
+  Submesh part = surface.submesh(id_span(ids), corners_of(all));
+  return std::tuple(owned<std::int32_t>(std::move(part.vertices)), owned<std::int64_t>(std::move(part.faces)),
+                    owned<std::int64_t>(std::move(part.offsets)), owned<std::int32_t>(std::move(part.corners)));
+}
+
+auto clip(const Surface& surface, const IdList& ids, const SpacePoint& center, double radius) {
+  ClippedMesh part = surface.clip(id_span(ids), center, radius);
+  const std::size_t points = part.points.size();
+  return std::tuple(owned<double>(std::move(part.points), {points, 3}),
+                    owned<std::int32_t>(std::move(part.edges), {points, 2}), owned<std::int64_t>(std::move(part.faces)),
+                    owned<std::int64_t>(std::move(part.offsets)), owned<std::int32_t>(std::move(part.corners)));
+}
+
+auto rim(const Surface& surface, const IdList& ids, const SpacePoint& center, double radius) {
+  Rim rim = surface.rim(id_span(ids), center, radius);
+  const std::size_t size = rim.points.size();
+  return std::tuple(owned<double>(std::move(rim.points), {size, 3}),
+                    owned<std::int32_t>(std::move(rim.edges), {size, 2}), owned<std::int64_t>(std::move(rim.offsets)),
+                    owned<std::uint8_t>(std::move(rim.closed)));
+}
+
+}  // namespace
+
+nb::class_<Surface> bind_surface(nb::module_& module) {
+  module.def("surface_of_faces", &of_faces, nb::arg(), nb::arg(), nb::arg("offsets").none());
+  module.def("surface_of_mesh", &of_mesh, nb::arg(), nb::arg(), nb::arg("offsets").none());
+  module.def("surface_of_normals", &of_normals, nb::arg(), nb::arg(), nb::arg("corners").none(),
+             nb::arg("offsets").none());
+  nb::class_<Surface> surface(module, "Surface");
+  surface.def_prop_ro("face_count", &Surface::face_count)
+      .def("on", [](const Surface& whole, const ExactMethod& method) { return whole.on(method.index()); })
+      .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none())
+      .def("faces", &faces)
+      .def("submesh", &submesh)
+      .def("clip", &clip)
+      .def("rim", &rim);
+  return surface;
+}
+
+}  // namespace meshhood::python

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "meshhood/batch.h"
+#include "meshhood/index.h"
+#include "meshhood/mesh.h"
+#include "meshhood/owner.h"
+#include "meshhood/start.h"
+
+namespace meshhood {
+
+/// A point on a face.
+struct SurfacePoint {
+  std::size_t face;                  ///< its number
+  std::size_t second_corner;         ///< of the fan of the face: the triangle of its corners 0, this one and the next
+  std::array<VertexId, 3> vertices;  ///< of this triangle
+  std::array<double, 3> weights;     ///< barycentric coordinates in it: >= 0, with the sum 1 up to rounding
+  SpacePoint point;
+  double distance;  ///< from the point that was asked for
+
+  /// The search from the corners of the triangle, with the point as center: what a click on a surface gives. Borrows
+  /// from this object.
+  [[nodiscard]] Start start() const& { return {point, vertices}; }
+  [[nodiscard]] Start start() const&& = delete;
+};
+
+/// Which faces belong to a set of vertices: those with all corners in the set, or with at least one.
+enum class Corners : std::uint8_t { All, Any };
+
+/// Some faces of a mesh, as a mesh of their own.
+struct Submesh {
+  std::vector<VertexId> vertices;  ///< its vertices by their ids in the whole mesh, ascending: the corners of its faces
+  std::vector<std::size_t> faces;  ///< its faces by their numbers in the whole mesh, ascending
+  std::vector<std::uint64_t>
+      offsets;                    ///< #faces + 1: face `i` has the corners from `offsets[i]` to `offsets[i + 1] - 1`
+  std::vector<VertexId> corners;  ///< as positions in `vertices`; in the order of the whole mesh
+};
+
+/// The part of a surface inside a ball, as a mesh of its own. Its points in space are new ones.
+struct ClippedMesh {
+  std::vector<SpacePoint> points;
+  std::vector<std::array<VertexId, 2>>
+      edges;                           ///< of each point: twice the same vertex, or the ends of its edge as for `Rim`
+  std::vector<std::size_t> faces;      ///< of each polygon: the number of the face it is a part of; ascending
+  std::vector<std::uint64_t> offsets;  ///< #polygons + 1: polygon `i` has the corners from `offsets[i]` on
+  std::vector<VertexId> corners;       ///< as positions in `points`
+  double area = 0;                     ///< of all polygons, as `vertex_areas` measures it
+
+  /// Borrows from this object. A view of a temporary does not compile.
+  [[nodiscard]] MeshView view() const& { return {points, FacesView::polygons(offsets, corners)}; }
+  [[nodiscard]] MeshView view() const&& = delete;
+};
+
+/// The lines along which a surface leaves a ball.
+struct Rim {
+  std::vector<SpacePoint> points;              ///< of all polylines, one after the other
+  std::vector<std::array<VertexId, 2>> edges;  ///< of each point: the end of its edge inside the region, and the other
+  std::vector<std::size_t> offsets;            ///< #polylines + 1: the first point of each polyline
+  std::vector<std::uint8_t> closed;            ///< of each polyline, 1: a loop, whose last point is joined to its first
+
+  /// The number of polylines.
+  [[nodiscard]] std::size_t size() const { return closed.size(); }
+};
+
+/// The faces of a mesh beside its index, for all that a set of vertices does not tell: the nearest point of the
+/// surface, the faces of a neighborhood, its outline, its area and its shape.
+///
+///     const meshhood::Surface surface(index, faces);
+///     const auto hit = surface.closest_point({0.1, 0.2, 0.3});
+///     searcher.neighborhood(hit.start(), 1.5, ids);
+///     const auto part = surface.submesh(ids);
+///     const auto [k1, k2, d1, d2, state, count] = meshhood::curvatures(surface, {.radius = 2.5});
+///
+/// A polygon is the fan of the triangles of its corners 0, i and i + 1. A face with fewer than three corners has no
+/// points, and no area.
+///
+/// What depends on the faces is made when it is first needed, and kept: 48 bytes a triangle for closest points, 24
+/// bytes a vertex for curvature, 8 bytes a corner for the faces of each vertex, 8 bytes a vertex for areas. The first
+/// call of its kind so takes O(#V + #corners).
+///
+/// Any number of threads may use it, but for `refit_in_place`. Shares the memory of the index, as a searcher does: the
+/// index may be moved or destroyed. After a refit of the index in place, all throw Error{InvalidOption} until
+/// `refit_in_place` of the surface; one that has been moved from can be assigned and destroyed.
+class Surface {
+ public:
+  /// faces  those of the mesh that the index was built from; copied, 4 bytes a corner.
+  /// Throws Error{InvalidMesh, TooLarge} if they are invalid (see `validate`). O(#V + #corners).
+  Surface(const Index& index, const FacesView& faces);
+
+  /// The same, and Error{InvalidMesh} if `mesh` has other positions than the index.
+  Surface(const Index& index, const MeshView& mesh);
+
+  /// A surface with these normals instead of those of its faces. Without faces, it serves for curvature alone.
+  ///
+  /// normals  #V by 3, in the order of the caller's vertices, of any length; copied. A vertex whose normal has length 0
+  ///          or a NaN counts as one without a normal.
+  /// Throws as above, and Error{InvalidMesh}, naming the vertex, if a normal is infinite.
+  [[nodiscard]] static Surface of_normals(const Index& index, std::span<const double> normals,
+                                          const FacesView& faces = {});
+
+  /// The same surface for an index of the same mesh with other masks, or without: see `masked`. Shares all that is
+  /// made. O(1). Throws Error{InvalidOption} if the index is of another mesh.
+  [[nodiscard]] Surface on(const Index& index) const;
+
+  /// Follows a refit of its index. What has been made is renewed, and is then what a new surface would make; with
+  /// `changed`, for the faces of these vertices alone. No thread may use the surface meanwhile.
+  ///
+  /// index    refitted in place, or a refitted copy.
+  /// changed  ids of the vertices that have moved since, at least.
+  /// Throws Error{InvalidOption} if the index is of a mesh with another number of vertices, or if the surface has
+  /// normals of its own; Error{VertexOutOfRange}, naming the row of `changed`. The surface is then as it was.
+  void refit_in_place(const Index& index);
+  void refit_in_place(const Index& index, const IndicesView& changed);
+
+  /// #V, #F.
+  [[nodiscard]] std::size_t vertex_count() const;
+  [[nodiscard]] std::size_t face_count() const;
+
+  /// Memory without the index, in bytes, of all that has been made so far.
+  [[nodiscard]] std::size_t bytes() const;
+
+  /// The point of the surface nearest to `point`. Of several faces at the same distance, the one with the smallest
+  /// number; faces that meet at an edge or a vertex have the same distance there, bit for bit.
+  ///
+  /// The distance from a triangle is the least of those from its corners, its sides and the foot of the perpendicular,
+  /// each computed in double: it is off by a few units in the last place of itself and of the longest side, whatever
+  /// the shape. So beside sides of 10^19 in a mesh, a face that is nearer by less than ten thousand may be missed. A
+  /// triangle without an area has only sides. Points on a side or at a corner have weights that are exactly 0.
+  ///
+  /// Throws Error{InvalidOption} if a coordinate is not finite or beyond 2^500, and Error{InvalidMesh} if no face has
+  /// three corners. O(log #V) on most surfaces; more where many triangles are about equally far. Allocates nothing.
+  [[nodiscard]] SurfacePoint closest_point(const SpacePoint& point) const;
+
+  /// The same for each of `points`. They are taken along a space-filling curve, and each search begins with the last
+  /// answer, so that one takes about a third of the time of a single call. 16 bytes a point. Of the options, `threads`
+  /// and `progress` are used; the result does not depend on them. Throws as above, naming the row, and
+  /// Error{Cancelled}.
+  [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const SpacePoint> points,
+                                                         const BatchOptions& options = {}) const;
+
+  /// The faces with all corners in `ids`, or with at least one; ascending. A face without corners is never one.
+  ///
+  /// ids  vertices in [0, #V), in any order; repeats are allowed.
+  /// O(k log k), where k is the number of corners of the faces around `ids`, and #V bits, as for the calls below.
+  /// Throws Error{VertexOutOfRange}, naming the position in `ids`.
+  [[nodiscard]] std::vector<std::size_t> faces(std::span<const VertexId> ids, Corners corners = Corners::All) const;
+
+  /// These faces as a mesh. Its positions are those of `vertices`. With `Corners::All`, faces that the surface of the
+  /// ball cuts are left out, and so is their area: see `clip`. Throws as `faces`.
+  [[nodiscard]] Submesh submesh(std::span<const VertexId> ids, Corners corners = Corners::All) const;
+
+  /// The part of the surface inside a ball: `ids` is the region of `center` and `radius` (see `Searcher`).
+  ///
+  /// Faces with all corners in `ids` are whole. A face with only some is cut on its sides: where one leads from a
+  /// vertex of `ids` to another one, it ends at the point of the rim (see `rim`). Two such points of a face are joined
+  /// by a straight chord, not along the sphere, so that the area is a little too small. Corners of a polygon in `ids`
+  /// with others between them make a polygon for each run of corners. What of a face lies in the ball without a corner
+  /// in `ids` is left out.
+  ///
+  /// Points: the vertices, ascending, then those on edges by `edges`. A face with fewer than three corners adds
+  /// nothing. Throws as `rim`.
+  [[nodiscard]] ClippedMesh clip(std::span<const VertexId> ids, const SpacePoint& center, double radius) const;
+
+  /// Where the surface leaves a region: `ids` is the region of `center` and `radius` (see `Searcher`).
+  ///
+  /// A point of the rim lies on an edge from a vertex of `ids` to one that is not, where the edge leaves the ball: its
+  /// distance from `center` is `radius` up to the rounding of its coordinates. If the outer end lies inside the ball,
+  /// as a wall does, the point is that end. A face joins the two points between which its boundary leaves the region
+  /// and comes back. Where two of these segments meet, they belong to one polyline; where one, three or more meet, as
+  /// on the border of a mesh or at a non-manifold edge, polylines end. On a manifold mesh without border, all polylines
+  /// are loops. On consistently oriented faces the region lies to the left, seen from the side on which their corners
+  /// run counterclockwise.
+  ///
+  /// A face with fewer than three corners adds nothing. Polylines, and the first point of a loop, come in a fixed order
+  /// for each set of `ids`.
+  ///
+  /// Throws as `faces`, Error{InvalidRadius}, and Error{InvalidOption} if a coordinate of `center` is not finite or a
+  /// vertex of `ids` at the rim lies outside the ball.
+  [[nodiscard]] Rim rim(std::span<const VertexId> ids, const SpacePoint& center, double radius) const;
+
+  /// The area of each vertex, #V in the caller's order (see `vertex_areas`). Valid as long as the surface, or until it
+  /// is refitted.
+  [[nodiscard]] std::span<const double> vertex_areas() const&;
+  [[nodiscard]] std::span<const double> vertex_areas() const&& = delete;
+
+ private:
+  friend struct SurfaceAccess;
+
+  struct State;
+  explicit Surface(std::unique_ptr<State> state);
+  detail::Owner<State> state_;
+};
+
+}  // namespace meshhood

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <utility>
+
+namespace meshhood {
+
+/// What is made at its first use, and kept. Any thread may ask for it. There is no lock, because a fork could leave it
+/// held: if several threads make it at once, one result is kept.
+template <class T>
+class Kept {
+ public:
+  Kept() = default;
+  Kept(const Kept&) = delete;
+  Kept& operator=(const Kept&) = delete;
+  ~Kept() { delete made(); }
+
+  template <class Make>
+  const T& get(Make&& make) {
+    if (const T* const found = made()) return *found;
+    auto value = std::make_unique<T>(std::forward<Make>(make)());
+    T* found = nullptr;
+    if (!value_.compare_exchange_strong(found, value.get(), std::memory_order_acq_rel)) return *found;
+    return *value.release();
+  }
+
+  /// Null if it has not been made. May be changed while no other thread uses it.
+  [[nodiscard]] T* made() const { return value_.load(std::memory_order_acquire); }
+
+  /// While no other thread uses it.
+  void drop() { delete value_.exchange(nullptr, std::memory_order_acq_rel); }
+
+ private:
+  std::atomic<T*> value_{nullptr};
+};
+
+}  // namespace meshhood

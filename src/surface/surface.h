@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "meshhood/surface.h"
+
+#include "exact/bound_index.h"
+#include "exact/layout.h"
+#include "exact/stored_faces.h"
+#include "shared/distance.h"
+#include "shared/kept.h"
+#include "shared/raw_vector.h"
+#include "surface/face_lists.h"
+#include "surface/face_tree.h"
+
+namespace meshhood {
+
+class TaskContext;
+
+/// The faces of a surface, whatever the positions.
+struct SurfaceFaces {
+  FaceArrays arrays;
+  StoredFaces faces;  // the same
+  Kept<FaceLists> lists;
+
+  explicit SurfaceFaces(FaceArrays given) : arrays(std::move(given)), faces{arrays.corners, arrays.offsets} {}
+};
+
+/// Unit vectors in index order; NaN without one.
+struct Normals {
+  RawVector<double> x;
+  RawVector<double> y;
+  RawVector<double> z;
+
+  explicit Normals(std::size_t vertices) : x(vertices), y(vertices), z(vertices) {}
+
+  /// A normal of length 0 becomes NaN.
+  void set(std::size_t place, const Point& n);
+};
+
+/// What follows from the faces and the positions.
+struct SurfaceGeometry {
+  Kept<Normals> normals;
+  Kept<FaceTree> tree;
+  Kept<std::vector<double>> areas;
+};
+
+/// Surfaces of one mesh with other masks share the faces and the geometry.
+struct Surface::State {
+  Index searched;    // is never refitted. If the caller's index is, in place, `check_current` of `index` throws
+  BoundIndex index;  // its arrays
+  Frame frame;       // of the geometry
+  std::shared_ptr<SurfaceFaces> topology;
+  std::shared_ptr<SurfaceGeometry> geometry;
+  bool has_own_normals = false;  // which do not follow from faces
+
+  State(const Index& given, FaceArrays faces);
+  State(const Index& given, const State& other);
+
+  [[nodiscard]] const StoredFaces& faces() const { return topology->faces; }
+  [[nodiscard]] const FaceLists& lists() const;
+  [[nodiscard]] const FaceTree& tree() const;
+  [[nodiscard]] const Normals& normals(TaskContext& task) const;
+
+  [[nodiscard]] const std::vector<double>& areas() const;
+
+  /// Throws Error{InvalidOption} unless `other` is a refit of the index.
+  void check_refit(const Index& other) const;
+
+  /// Renews what has been made, after the vertices `changed` have moved.
+  void renew(SurfaceGeometry& made, std::span<const VertexId> changed) const;
+};
+
+/// The index of a surface with the normals of the vertices.
+struct OrientedIndex {
+  const Index* searched;
+  const IndexView* index;
+  const Normals* normals;
+
+  [[nodiscard]] Point position(std::size_t place) const {
+    return std::visit([&](auto xyz) { return point(xyz, place); }, index->positions);
+  }
+  [[nodiscard]] Point normal(std::size_t place) const {
+    return {normals->x[place], normals->y[place], normals->z[place]};
+  }
+
+  /// The neighbor with the lowest id; the vertex itself if it has none.
+  [[nodiscard]] std::size_t first_neighbor(std::size_t place) const;
+};
+
+/// For the sources of surfaces and curvature, and for tests.
+struct SurfaceAccess {
+  using State = Surface::State;
+
+  /// Throws Error{InvalidOption} after a refit in place.
+  [[nodiscard]] static const State& state(const Surface& surface) {
+    surface.state_->index.check_current();
+    return *surface.state_;
+  }
+
+  /// Makes the normals if there are none. Throws likewise, and Error{InvalidMesh} if there are no faces.
+  [[nodiscard]] static OrientedIndex oriented(const Surface& surface, TaskContext& task) {
+    const State& all = state(surface);
+    return {&all.searched, &*all.index, &all.normals(task)};
+  }
+  [[nodiscard]] static OrientedIndex oriented(const Surface& surface, unsigned threads = 1);
+};
+
+using SurfaceState = SurfaceAccess::State;
+
+/// The position in index order of a vertex of the caller.
+[[nodiscard]] inline std::uint32_t place_of(const IndexView& index, VertexId v) {
+  const std::uint32_t slot = index.slot[v];
+  return index.leaf_begin[leaf_of(slot)] + lane_of(slot);
+}
+
+/// The normals of the vertices of faces.
+[[nodiscard]] Normals make_normals(const IndexView& index, const FacesView& faces, TaskContext& task);
+
+/// The same for some vertices.
+void renew_normals(const IndexView& index, const StoredFaces& faces, const FaceLists& lists,
+                   std::span<const VertexId> vertices, Normals& normals);
+
+/// Of lists of three for each of the caller's vertices. Throws as `Surface::of_normals`.
+[[nodiscard]] Normals read_normals(const IndexView& index, std::span<const double> normals);
+
+}  // namespace meshhood
