@@ -85,7 +85,7 @@ class NestedRadii {
  private:
   Index index_;
   Searcher single_;
-  RegionSearcher nested_;
+  Searcher nested_;
   double mean_edge_ = 0;
   std::vector<VertexId> vertices_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paths along the edges from every vertex, in one call, beside one `EdgeSearcher` that answers one vertex after the
+// Paths along the edges from every vertex, in one call, beside one `Searcher` that answers one vertex after the
 // other: counts, ids with lengths, and a smoothed map. On one thread, in alternating rounds; microseconds a vertex, and
 // how many times as fast the call is.
 //
@@ -31,7 +31,7 @@ class Paths {
       : index_(build(mesh)),
         graph_(extract_graph(index_)),
         mean_edge_(mean_edge_length(graph_.view())),
-        edges_(index_),
+        edges_(index_, Metric::Path),
         method_(SearchMethod(index_).by(Metric::Path)),
         map_(index_.vertex_count()) {
     for (std::size_t v = 0; v < map_.size(); ++v) map_[v] = static_cast<double>(v % 97);
@@ -110,7 +110,7 @@ class Paths {
   Index index_;
   GraphData graph_;
   double mean_edge_;
-  EdgeSearcher edges_;
+  Searcher edges_;
   SearchMethod method_;
   std::vector<double> map_;
   std::vector<VertexId> ids_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The vertices within k edges of every vertex, in one call, beside two searches of one vertex after the other: a
-// breadth-first search over the vertices that is written for speed, and `EdgeSearcher::rings`. On one thread, in
+// breadth-first search over the vertices that is written for speed, and a `Searcher` by rings. On one thread, in
 // alternating rounds; microseconds a vertex and, of the first two, the ratio, for the counts and for the ids.
 //
 //   bench_rings MESH [K...]
@@ -58,7 +58,7 @@ class Rings {
       : index_(build(mesh)),
         graph_(extract_graph(index_)),
         plain_(graph_.adjacency.view()),
-        edges_(index_),
+        edges_(index_, Metric::Rings),
         method_(SearchMethod(index_).by(Metric::Rings)) {}
 
   void run(std::size_t k) {
@@ -66,7 +66,6 @@ class Rings {
     const BatchQuery query{.radius = k};
     std::array<std::size_t, 5> found{};
     std::vector<VertexId> ids;
-    std::vector<std::size_t> counts_of_rings;
     std::vector<VertexId> kept;
     const std::array<std::function<void()>, 5> runs{[&] {
                                                       for (VertexId v = 0; v < size; ++v)
@@ -87,7 +86,7 @@ class Rings {
                                                     [&] { found[3] += neighborhoods(method_, query).ids.size(); },
                                                     [&] {
                                                       for (VertexId v = 0; v < size; ++v) {
-                                                        edges_.rings(v, k, ids, counts_of_rings);
+                                                        edges_.neighborhood(v, static_cast<double>(k), ids);
                                                         found[4] += ids.size();
                                                       }
                                                     }};
@@ -104,7 +103,7 @@ class Rings {
   Index index_;
   GraphData graph_;
   PlainRings plain_;
-  EdgeSearcher edges_;
+  Searcher edges_;
   SearchMethod method_;
 };
 

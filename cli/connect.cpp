@@ -12,10 +12,11 @@
 #include <fmt/format.h>
 
 #include "meshhood/error.h"
-#include "meshhood/region.h"
+#include "meshhood/search.h"
 
 #include "commands.h"
 #include "input.h"
+#include "methods.h"
 #include "options.h"
 #include "output.h"
 #include "start.h"
@@ -29,6 +30,7 @@ struct ConnectCommand {
   StartOptions start;
   std::vector<std::uint64_t> targets;
   std::optional<std::uint64_t> nearest;
+  std::string metric = "straight";
   bool json = false;
 };
 
@@ -40,7 +42,7 @@ struct Connections {
 Connections connections_of(const ConnectCommand& options, Input& input) {
   const StartQuery query(options.start, input);
   const Start start = query.starts.front().view();
-  RegionSearcher searcher(input.exact_index());
+  Searcher searcher(input.exact_index(), value_of(kMetrics, options.metric));
   Connections found;
   if (options.nearest) {
     const std::size_t k = std::min<std::size_t>(*options.nearest, input.vertex_count());
@@ -70,7 +72,7 @@ void connect(const ConnectCommand& options) {
   if (options.targets.empty() == !options.nearest) {
     raise(ErrorCode::InvalidOption, "expected either --to or --nearest");
   }
-  check_start_options(options.start, false);
+  check_start_options(options.start, false, options.metric);
   Input input(options.file, options.reading);
   input.need_edges("connect");
   const Connections found = connections_of(options, input);
@@ -93,6 +95,7 @@ void add_connect(CLI::App& program) {
                    "instead of --to: the number of vertices to print, in the order of the radii that connect them")
       ->transform(whole_number())
       ->type_name("NUMBER");
+  add_metric(*command, options->metric);
   add_json(*command, options->json);
   command->callback([options] { connect(*options); });
 }

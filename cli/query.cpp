@@ -249,12 +249,7 @@ void check_options(const QueryCommand& options) {
     raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one with --method {}", radii, method));
   }
   check_sort(options.sort, method);
-  check_start_options(options.start, true);
-  if (has_point && !options.search.is_straight()) {
-    raise(ErrorCode::InvalidOption,
-          fmt::format("--metric {}: expected --vertex instead of --point, because a point has no edges",
-                      options.search.metric));
-  }
+  check_start_options(options.start, true, options.search.metric);
   check_weld(options.reading.weld, method);
 }
 

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "meshhood/edge_search.h"
 #include "meshhood/error.h"
-#include "meshhood/region.h"
+#include "meshhood/search.h"
 
 #include "io/messages.h"
 #include "io/number.h"
+#include "methods.h"
 #include "options.h"
 #include "output.h"
 
@@ -34,35 +34,6 @@ void note_far_point(const PositionsView& positions, const Start& start, double r
   print_error("note: ", fmt::format("the point is {:.6g} from vertex {}, where the search starts: farther than the "
                                     "radius {:.6g}, so nothing is found",
                                     least, nearest, radius));
-}
-
-/// How many of ascending distances are at most each radius.
-std::vector<std::size_t> counts_within(std::span<const double> radii, const std::vector<double>& distances) {
-  std::vector<std::size_t> counts;
-  for (const double radius : radii) {
-    const auto end = std::upper_bound(distances.begin(), distances.end(), radius);
-    counts.push_back(static_cast<std::size_t>(end - distances.begin()));
-  }
-  return counts;
-}
-
-StartAnswer paths_of(VertexId v, std::span<const double> radii, Input& input) {
-  StartAnswer answer;
-  EdgeSearcher(input.exact_index()).neighborhood(v, radii.back(), answer.vertices, answer.distances);
-  answer.counts = counts_within(radii, answer.distances);
-  return answer;
-}
-
-StartAnswer rings_of(VertexId v, std::span<const double> radii, Input& input) {
-  const auto most = static_cast<double>(input.vertex_count());
-  StartAnswer answer;
-  std::vector<std::size_t> sizes;
-  EdgeSearcher(input.exact_index())
-      .rings(v, static_cast<std::size_t>(std::min(radii.back(), most)), answer.vertices, sizes);
-  for (std::size_t ring = 0; ring < sizes.size(); ++ring)
-    answer.distances.resize(sizes[ring], static_cast<double>(ring));
-  answer.counts = counts_within(radii, answer.distances);
-  return answer;
 }
 
 }  // namespace
@@ -95,11 +66,15 @@ void add_start(CLI::App& command, const std::string& vertex, StartOptions& optio
   add_masks(command, options.masks);
 }
 
-void check_start_options(const StartOptions& options, bool takes_many) {
+void check_start_options(const StartOptions& options, bool takes_many, const std::string& metric) {
   if (options.point.empty() == options.vertices.empty()) {
     raise(ErrorCode::InvalidOption, "expected either --vertex or --point");
   }
   if (!takes_many && options.vertices.size() > 1) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
+  if (!options.point.empty() && metric != "straight") {
+    raise(ErrorCode::InvalidOption,
+          fmt::format("--metric {}: expected --vertex instead of --point, because a point has no edges", metric));
+  }
 }
 
 QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(options.center()) {
@@ -115,12 +90,10 @@ StartQuery::StartQuery(const StartOptions& options, Input& input) {
 
 StartAnswer regions_of(const QueryStart& start, const std::string& metric, std::span<const double> radii,
                        Input& input) {
-  if (metric == "path") return paths_of(*start.vertex(), radii, input);
-  if (metric == "rings") return rings_of(*start.vertex(), radii, input);
+  Searcher searcher(input.exact_index(), value_of(kMetrics, metric));
   StartAnswer answer;
-  RegionSearcher searcher(input.exact_index());
-  const bool is_near = searcher.region(start.view(), radii.back(), answer.vertices, answer.distances);
-  if (!is_near) note_far_point(input.positions(), start.view(), radii.back());
+  searcher.neighborhood(start.view(), radii.back(), answer.vertices, answer.distances);
+  if (!searcher.has_seed(start.view(), radii.back())) note_far_point(input.positions(), start.view(), radii.back());
   std::vector<double> distance_of(input.vertex_count());  // `nested` returns no distances
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) distance_of[answer.vertices[i]] = answer.distances[i];
   searcher.nested(start.view(), radii, answer.vertices, answer.counts);

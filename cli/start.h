@@ -41,7 +41,8 @@ struct StartOptions {
 void add_start(CLI::App& command, const std::string& vertex, StartOptions& options);
 
 /// Throws Error{InvalidOption} unless there is either a point, or a vertex, or several for a command that `takes_many`.
-void check_start_options(const StartOptions& options, bool takes_many);
+/// A metric that is not straight takes no point.
+void check_start_options(const StartOptions& options, bool takes_many, const std::string& metric = "straight");
 
 /// Where a search starts. Owns the seeds.
 class QueryStart {
@@ -79,9 +80,8 @@ struct StartAnswer {
   std::vector<std::size_t> counts;  ///< the first `counts[i]` vertices are within radius `i`
 };
 
-/// The regions of a start for ascending `radii`, at least one, as the rings of `RegionSearcher::nested`. With the
-/// metric "path" or "rings", the vertices whose path distance or number of edges is at most each radius; the start must
-/// then be a vertex.
+/// The neighborhoods of a start for ascending `radii`, at least one, as the rings of `Searcher::nested`. With the
+/// metric "path" or "rings" the start must be a vertex.
 [[nodiscard]] StartAnswer regions_of(const QueryStart& start, const std::string& metric, std::span<const double> radii,
                                      Input& input);
 

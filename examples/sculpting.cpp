@@ -22,7 +22,7 @@ class Sculpting {
   /// Raises the surface around a point in space, and returns how many vertices have moved.
   std::size_t raise(const meshhood::SpacePoint& brush, double radius) {
     searcher_.rebind(searched_);
-    searcher_.region(meshhood::Start::nearest(index_, brush), radius, moved_);
+    searcher_.neighborhood(meshhood::Start::nearest(index_, brush), radius, moved_);
     for (const meshhood::VertexId v : moved_) positions_[3 * std::size_t{v} + 2] += 0.1F;
     index_.refit_in_place(positions_, moved_);                 // only these have moved
     searched_ = meshhood::masked(index_, {.walls = frozen_});  // what the brush does not pass
@@ -39,7 +39,7 @@ class Sculpting {
   meshhood::Index index_;
   std::vector<bool> frozen_ = std::vector<bool>(index_.vertex_count());
   meshhood::Index searched_ = meshhood::masked(index_, {.walls = frozen_});
-  meshhood::RegionSearcher searcher_{searched_};
+  meshhood::Searcher searcher_{searched_};
   std::vector<meshhood::VertexId> moved_;
 };
 // [readme]

@@ -329,8 +329,8 @@ class Session {
     const double radius = oracle.distance(start, below(vertices));
     const auto w = static_cast<VertexId>(below(vertices));
     const Index searched = masked(*place.index, {.walls = start.walls});
-    RegionSearcher searcher(searched);
-    searcher.region({start.center, start.seeds}, radius, ids_);
+    Searcher searcher(searched);
+    searcher.neighborhood({start.center, start.seeds}, radius, ids_);
     std::sort(ids_.begin(), ids_.end());
     if (ids_ != oracle.region(start, radius)) fail("the region differs");
     const double connecting = searcher.connecting_radius({start.center, start.seeds}, w);

@@ -38,7 +38,7 @@ class Judge {
       : random_(random),
         oracle_(mesh),
         exact_(mesh.view()),
-        along_edges_(exact_.index()),
+        along_edges_(exact_.index(), Metric::Path),
         searcher_(exact_.index()),
         paper_(paper::build(mesh.view(), draw_options(random))),
         paper_searcher_(paper_),
@@ -119,7 +119,7 @@ class Judge {
   Random& random_;
   test::Oracle oracle_;
   test::ExactAnswer exact_;  // whose searchers search over leaves only
-  EdgeSearcher along_edges_;
+  Searcher along_edges_;
   Searcher searcher_;  // soon also over vertices, because the mesh is small
   paper::Index paper_;
   paper::Searcher paper_searcher_;

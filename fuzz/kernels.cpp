@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "bytes.h"
 #include "judge.h"
@@ -130,6 +131,25 @@ void compare_groups(Bytes bytes, const Kernels& tried) {
     if (found[i].inside != expected[i].inside || found[i].intersecting != expected[i].intersecting) {
       fail("classify differs");
     }
+  }
+
+  const Group& a = groups.front();
+  const Group& b = groups.back();
+  BoxGroup boxes{{a.x, a.y, a.z}, {b.x, b.y, b.z}};
+  const auto sort = [](BoxGroup::Row& low, BoxGroup::Row& high) {
+    for (std::size_t i = 0; i < kFanOut; ++i) {
+      if (low[i] > high[i]) std::swap(low[i], high[i]);
+    }
+  };
+  sort(boxes.low.x, boxes.high.x);
+  sort(boxes.low.y, boxes.high.y);
+  sort(boxes.low.z, boxes.high.z);
+  BoxGroup::Row squares;
+  BoxGroup::Row plain_squares;
+  if (tried.box_squares(boxes, Frame{}.round(center), ball.outer, squares) !=
+          test::kPlainKernels.box_squares(boxes, Frame{}.round(center), ball.outer, plain_squares) ||
+      squares != plain_squares) {
+    fail("box_squares differs");
   }
 }
 

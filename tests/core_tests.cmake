@@ -18,11 +18,11 @@ foreach(part
     exact/cell_components exact/collect_rows exact/cells exact/edge_buckets exact/edge_source exact/masked exact/forest exact/joint_search exact/kd_order exact/layout exact/leaf_spheres exact/leaves exact/link_points
     exact/links exact/node_groups exact/node_links exact/node_parts exact/path_packet exact/quality exact/refit exact/root_tree exact/tree exact/check exact/damage exact/file exact/index exact/verify
     exact/search_differential exact/search_order exact/search_rare exact/search_traps exact/threads
-    exact/query/any_center exact/query/edge_search exact/query/nearest exact/query/path_order exact/query/path_queue exact/query/path_search exact/query/region
+    exact/query/any_center exact/query/length_queries exact/query/nearest exact/query/path_order exact/query/path_queue exact/query/path_search exact/query/straight_queries
     exact/search/component exact/search/descent exact/search/group_states exact/search/home_marks exact/search/leaf_bfs exact/search/leaf_bits
     exact/search/open_elements exact/output exact/search/reach exact/search/vertex_bfs exact/vertex_set exact/search/waves
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
-    region/region_mesher region/clip region/face_index
+    region/region_mesher region/clip region/box_tree region/face_index
     curvature/bits curvature/corrected curvature/curvatures curvature/features curvature/filter curvature/moments curvature/packet_moments curvature/quadric curvature/sure_leaves
     simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels simd/path_kernels
     whole/arguments whole/metrics whole/outlives whole/robustness whole/same_bits whole/differential whole/metamorphic)

@@ -11,7 +11,7 @@
 
 #include "meshhood/meshhood.h"
 
-#include "exact/search/searcher_state.h"
+#include "exact/query/single_queries.h"
 #include "shapes/shapes.h"
 
 /// Only the instructions executed in here are counted: guard.py switches counting by the name of this function.

@@ -39,7 +39,7 @@ const few = Array.from({ length: SINGLE }, (_, i) => Math.floor((i * vertexCount
 // The engine compiles well only what has run for some time.
 for (let round = 0; round < ROUNDS; ++round) {
   for (const index of indexes) {
-    index.count(null, 2 * meanEdgeLength);
+    index.counts(2 * meanEdgeLength);
     few.forEach((v) => index.count(v, 5 * meanEdgeLength));
   }
 }
@@ -50,7 +50,7 @@ for (const radius of RADII) {
   const times = folders.map(() => ({ batch: [], one: [] }));
   for (let round = 0; round < ROUNDS; ++round) {
     for (const [i, index] of indexes.entries()) {
-      times[i].batch.push(microseconds(vertexCount, () => index.count(null, r)));
+      times[i].batch.push(microseconds(vertexCount, () => index.counts(r)));
       times[i].one.push(microseconds(SINGLE, () => few.forEach((v) => index.count(v, r))));
     }
   }

@@ -33,8 +33,8 @@ export async function measure(address) {
   const rows = RADII.map((radius) => {
     const r = radius * edge;
     const methods = {
-      exact: (v) => index.viewBall(v, r),
-      bfs: (v) => index.viewBall(v, r, { method: 'bfs' }),
+      exact: (v) => index.viewNeighborhood(v, r),
+      bfs: (v) => index.viewNeighborhood(v, r, { method: 'bfs' }),
       js: (v) => js.neighborhood(v, r),
     };
     const found = vertices.map((v) => {

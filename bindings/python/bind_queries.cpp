@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -51,67 +52,69 @@ SpacePoint point_of(const Points& points, std::size_t i) {
 }
 
 /// Also returns whether a seed lies in the ball, as `stroke` and `nested` do.
-auto region(Queries& queries, const Center& center, const Seeds& seeds, double radius) {
+auto region(Queries& queries, Metric metric, const Center& center, const Seeds& seeds, double radius) {
+  const Start start = start_of(center, seeds);
   std::vector<VertexId> ids;
   std::vector<double> distances;
-  const bool has_seed = queries.with_regions(
-      [&](RegionSearcher& searcher) { return searcher.region(start_of(center, seeds), radius, ids, distances); });
+  const bool has_seed = queries.with(metric, [&](Searcher& searcher) {
+    searcher.neighborhood(start, radius, ids, distances);
+    return searcher.has_seed(start, radius);
+  });
   return std::tuple(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)), has_seed);
 }
 
-/// Seeds that do not exist are -1.
-auto stroke(Queries& queries, const Points& centers, const SeedRows& seeds, const Reals& radii) {
+std::size_t count(Queries& queries, Metric metric, const Center& center, const Seeds& seeds, double radius) {
+  return queries.with(metric, [&](Searcher& searcher) { return searcher.count(start_of(center, seeds), radius); });
+}
+
+/// By vertices if there are no centers: then they are the seeds of the rows. Seeds that do not exist are -1.
+auto stroke(Queries& queries, Metric metric, const std::optional<Points>& centers, const SeedRows& seeds,
+            const Reals& radii) {
+  std::vector<Dab> dabs;
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const std::int32_t* const row = seeds.data() + i * seeds.shape(1);
+    std::size_t count = 0;
+    while (count < seeds.shape(1) && row[count] >= 0) ++count;
+    const Start start = centers ? Start(point_of(*centers, i), ids_of(row, count)) : Start(*row);
+    dabs.push_back({start, radii.data()[i]});
+  }
   std::vector<VertexId> ids;
-  const bool has_seeds = queries.with_regions([&](RegionSearcher& searcher) {
-    std::vector<Dab> dabs;
-    for (std::size_t i = 0; i < radii.size(); ++i) {
-      const std::int32_t* const row = seeds.data() + i * seeds.shape(1);
-      std::size_t count = 0;
-      while (count < seeds.shape(1) && row[count] >= 0) ++count;
-      dabs.push_back({{point_of(centers, i), ids_of(row, count)}, radii.data()[i]});
-    }
-    return searcher.stroke(dabs, ids);
+  const bool has_seeds = queries.with(metric, [&](Searcher& searcher) {
+    searcher.stroke(dabs, ids);
+    return std::ranges::all_of(dabs, [&](const Dab& dab) { return searcher.has_seed(dab.start, dab.radius); });
   });
   return std::pair(owned<std::int32_t>(std::move(ids)), has_seeds);
 }
 
-auto nested(Queries& queries, const Center& center, const Seeds& seeds, const Reals& radii) {
+auto nested(Queries& queries, Metric metric, const Center& center, const Seeds& seeds, const Reals& radii) {
+  const Start start = start_of(center, seeds);
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
-  const bool has_seed = queries.with_regions([&](RegionSearcher& searcher) {
-    return searcher.nested(start_of(center, seeds), std::span(radii.data(), radii.size()), ids, counts);
+  const bool has_seed = queries.with(metric, [&](Searcher& searcher) {
+    searcher.nested(start, std::span(radii.data(), radii.size()), ids, counts);
+    return radii.size() == 0 || searcher.has_seed(start, radii.data()[radii.size() - 1]);
   });
   return std::tuple(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)), has_seed);
 }
 
-bool contains(Queries& queries, const Center& center, const Seeds& seeds, VertexId w, double radius) {
-  return queries.with_regions(
-      [&](RegionSearcher& searcher) { return searcher.contains(start_of(center, seeds), w, radius); });
+bool contains(Queries& queries, Metric metric, const Center& center, const Seeds& seeds, VertexId w, double radius) {
+  return queries.with(metric,
+                      [&](Searcher& searcher) { return searcher.contains(start_of(center, seeds), w, radius); });
 }
 
-double connecting_radius(Queries& queries, const Center& center, const Seeds& seeds, VertexId w) {
-  return queries.with_regions(
-      [&](RegionSearcher& searcher) { return searcher.connecting_radius(start_of(center, seeds), w); });
+double connecting_radius(Queries& queries, Metric metric, const Center& center, const Seeds& seeds, VertexId w) {
+  return queries.with(metric,
+                      [&](Searcher& searcher) { return searcher.connecting_radius(start_of(center, seeds), w); });
 }
 
-auto nearest_connected(Queries& queries, const Center& center, const Seeds& seeds, std::size_t k) {
+auto nearest_connected(Queries& queries, Metric metric, const Center& center, const Seeds& seeds, std::size_t k) {
   std::vector<VertexId> ids;
   std::vector<double> radii;
-  queries.with_regions([&](RegionSearcher& searcher) {
+  queries.with(metric, [&](Searcher& searcher) {
     searcher.nearest_connected(start_of(center, seeds), k, ids, radii);
     return true;
   });
   return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(radii)));
-}
-
-auto rings(Queries& queries, VertexId v, std::size_t k) {
-  std::vector<VertexId> ids;
-  std::vector<std::size_t> counts;
-  queries.with_edges([&](EdgeSearcher& searcher) {
-    searcher.rings(v, k, ids, counts);
-    return true;
-  });
-  return std::pair(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)));
 }
 
 auto nearest_vertices(Queries& queries, const Points& points) {
@@ -131,14 +134,15 @@ auto nearest_vertices(Queries& queries, const Points& points) {
 
 void bind_queries(nb::module_& module) {
   const auto center = nb::arg("center").none();
+  const auto arg = nb::arg();
   nb::class_<Queries>(module, "Queries")
-      .def("region", &region, center, nb::arg(), nb::arg())
-      .def("stroke", &stroke, nb::arg(), nb::arg(), nb::arg())
-      .def("nested", &nested, center, nb::arg(), nb::arg())
-      .def("contains", &contains, center, nb::arg(), nb::arg(), nb::arg())
-      .def("connecting_radius", &connecting_radius, center, nb::arg(), nb::arg())
-      .def("nearest_connected", &nearest_connected, center, nb::arg(), nb::arg())
-      .def("rings", &rings, nb::arg(), nb::arg())
+      .def("region", &region, arg, center, arg, arg)
+      .def("count", &count, arg, center, arg, arg)
+      .def("stroke", &stroke, arg, center, arg, arg)
+      .def("nested", &nested, arg, center, arg, arg)
+      .def("contains", &contains, arg, center, arg, arg, arg)
+      .def("connecting_radius", &connecting_radius, arg, center, arg, arg)
+      .def("nearest_connected", &nearest_connected, arg, center, arg, arg)
       .def("nearest", &nearest_vertices, nb::arg());
   module.def("queries", [](std::shared_ptr<ExactMethod> exact) { return std::make_shared<Queries>(std::move(exact)); });
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <utility>
 
-#include "meshhood/edge_search.h"
-#include "meshhood/region.h"
+#include "meshhood/search.h"
 
 #include "methods.h"
 #include "pool.h"
@@ -23,20 +24,16 @@ class Queries {
 
   [[nodiscard]] const Index& index() const { return exact_->index(); }
 
-  /// Calls `f` with a searcher that no other thread uses.
+  /// Calls `f` with a searcher by the metric that no other thread uses.
   template <class F>
-  auto with_regions(F&& f) {
-    return regions_.with([this] { return RegionSearcher(index()); }, std::forward<F>(f));
-  }
-  template <class F>
-  auto with_edges(F&& f) {
-    return edges_.with([this] { return EdgeSearcher(index()); }, std::forward<F>(f));
+  auto with(Metric metric, F&& f) {
+    return searchers_[static_cast<std::size_t>(metric)].with([&] { return Searcher(index(), metric); },
+                                                             std::forward<F>(f));
   }
 
  private:
   std::shared_ptr<const ExactMethod> exact_;
-  Pool<RegionSearcher> regions_;
-  Pool<EdgeSearcher> edges_;
+  std::array<Pool<Searcher>, 3> searchers_;  // by metric
 };
 
 }  // namespace meshhood::python

@@ -59,15 +59,15 @@ export function expectRadius(radius) {
   expectNumber(radius, 'radius');
 }
 
-/** Of how many vertices or rings. */
+/** Of how many vertices. */
 export function expectSize(k, name) {
   if (!Number.isInteger(k) || k < 0) throw new TypeError(`${name}: ${String(k)}, expected a whole number >= 0`);
 }
 
-/** Three numbers. */
+/** Three numbers. A typed array of integers would be a list of vertices. */
 export function expectPoint(point, name) {
-  const isPoint = (Array.isArray(point) || ArrayBuffer.isView(point)) && point.length === 3;
-  if (!isPoint) throw new TypeError(`${name}: expected a vertex or three numbers`);
+  const isList = Array.isArray(point) || point instanceof Float64Array || point instanceof Float32Array;
+  if (!isList || point.length !== 3) throw new TypeError(`${name}: expected a vertex or three numbers`);
   for (const coordinate of point) expectNumber(coordinate, `${name}: coordinate`);
 }
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 import {
-  choose, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectRadius, expectSize, expectType,
-  expectVertex, expectVertices, toReals, withDefaults, withFaces, withMesh,
+  choose, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectRadius, expectSize,
+  expectType, expectVertex, expectVertices, toReals, withDefaults, withFaces, withMesh,
 } from './arguments.js';
 import { Curvature } from './curvature.js';
 import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
-import { MASKS, METRICS, ROWS, withMasks, withRows } from './rows.js';
+import { MASKS, METRICS, ROWS, SCALED_ROWS, withMasks, withRows } from './rows.js';
 
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
-const BY_METRIC = METHODS.length - 1; // and the place of another metric: as in bindings/wasm/src/workspace.h
 const ORDERS = ['index', 'id', 'distance'];
 const UNITS = ['mesh', 'edge'];
 const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count'];
@@ -21,30 +20,38 @@ const KINDS = [
 ];
 const KINDS_OF_AREAS = ['area', 'height', 'variation'];
 
-// The options of the calls, with their defaults.
+// The options of the calls, with their defaults. Made once: a small query takes less time than spreading them.
 const BUILDING = { offsets: null, cut: null, progress: undefined };
 const QUERY = { method: 'exact', metric: 'straight', unit: 'mesh' };
 const ANSWER = { sort: null, distances: false };
-const SEARCH = { seeds: null, ...MASKS };
-const SMOOTHING = {
-  weights: null, faces: null, vertices: null, metric: 'straight', ...MASKS, nan: 'propagate', unit: 'mesh',
-};
-const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, scales: null, ...SMOOTHING };
-const CURVATURE = {
-  vertices: null, ...ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true, unit: 'mesh',
-};
-
-const FEATURES = { vertices: null, ...ROWS, faces: null, kinds: 'crease', filter: true, unit: 'mesh' };
-const NEAREST = { r: Infinity, until: null, weights: 'area', faces: null, metric: 'straight', ...MASKS, unit: 'mesh' };
+const SEARCH = { seeds: null, metric: 'straight', ...MASKS };
+const SCALED_SEARCH = { unit: 'mesh', ...SEARCH };
+const QUERY_OF_START = { ...QUERY, ...SEARCH };
+const LIST_OF_START = { ...QUERY_OF_START, ...ANSWER };
+const COUNTS = { ...QUERY, ...SCALED_ROWS };
+const LISTS = { ...QUERY, ...ROWS, ...ANSWER };
+const NEAREST = { r: Infinity, ...ROWS };
+const DISCS = { ...NEAREST, weights: 'area', faces: null };
+const SMOOTHING = { weights: null, faces: null, nan: 'propagate', ...ROWS };
+const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ...SMOOTHING, scales: null };
+const CURVATURE = { ...SCALED_ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true };
+const FEATURES = { ...SCALED_ROWS, faces: null, kinds: 'crease', filter: true };
 
 function chooseMethod({ method, metric }) {
   const place = choose(METHODS, method, 'method');
-  const other = choose(METRICS, metric, 'metric');
-  if (other === 0) return place;
-  if (method !== 'exact') {
+  if (choose(METRICS, metric, 'metric') !== 0 && place !== 0) {
     throw new MeshhoodError('InvalidOption', `method: '${method}', expected 'exact' with metric '${metric}'`);
   }
-  return BY_METRIC + other;
+  return place;
+}
+
+const isVertex = (start) => typeof start === 'number';
+
+/** The same for one start. Only the exact method takes points. */
+function chooseMethodFrom(start, given) {
+  const place = chooseMethod(given);
+  if (place === 0 || isVertex(start)) return place;
+  throw new MeshhoodError('InvalidOption', "start: a point, which needs method 'exact'");
 }
 
 function build(positions, corners, options = {}) {
@@ -69,9 +76,6 @@ function move(instance, { positions, changed }) {
   instance.with([positions, changed], (xyz, list) => instance.call(
     'refit', xyz, positions.length, positions instanceof Float64Array, list, changed?.length ?? 0));
 }
-
-/** Whether a vertex stands for many. */
-const isMany = (v) => v === null || typeof v === 'object';
 
 export class MeshIndex extends Owner {
   #vertexCount;
@@ -151,146 +155,56 @@ export class MeshIndex extends Owner {
     throw new MeshhoodError('InvalidOption', "unit: 'edge', but the mesh has no edges of positive length");
   }
 
-  // Neighborhoods.
+  // Neighborhoods of one start.
 
-  queryBall(v, r, options = {}) {
-    const given = withDefaults(options, { ...QUERY, ...ANSWER, ...MASKS });
-    const place = chooseMethod(given);
+  neighborhood(start, r, options = {}) {
+    const given = withDefaults(options, LIST_OF_START);
     const { sort, distances } = given;
     if (sort !== null) choose(ORDERS, sort, 'sort');
-    if (!isMany(v)) {
-      this.#query(place, v, r, given, distances || sort === 'distance');
-      return this.#takeNeighborhood(sort, distances);
-    }
-    this.#queryMany(place, v, r, given, { distances: distances || sort === 'distance', byId: sort === 'id' });
-    if (sort === 'index' || sort === 'distance') this.instance.call('sort_answer', ORDERS.indexOf(sort), true);
-    const rows = { offsets: this.instance.takeCounts(), ids: this.instance.takeIds() };
-    if (distances) rows.distances = this.instance.takeReals();
-    this.instance.releaseAnswer();
-    return rows;
-  }
-
-  viewBall(v, r, options = {}) {
-    const given = withDefaults(options, QUERY);
-    const count = this.#query(chooseMethod(given), v, r, given, false);
-    return this.instance.view(Uint32Array, this.instance.call('answer_ids'), count);
-  }
-
-  count(v, r, options = {}) {
-    const given = withDefaults(options, { ...QUERY, ...ROWS });
-    const place = chooseMethod(given);
-    const { scales } = given;
-    if (!isMany(v) && scales === null) {
-      this.#expectVertex(v);
-      expectRadius(r);
-      return withMasks(this.instance, given, () =>
-        this.instance.call('count', place, v, this.#scale(given.unit) * r) >>> 0);
-    }
-    this.#queryMany(place, v, r, given, { countOnly: true });
-    const counts = this.instance.takeCounts();
-    this.instance.releaseAnswer();
-    return isMany(v) || scales !== null ? counts : counts[0];
-  }
-
-  /** Returns the number of ids. */
-  #query(method, v, r, given, distances) {
-    this.#expectVertex(v);
-    expectRadius(r);
-    return withMasks(this.instance, given, () =>
-      this.instance.call('query', method, v, this.#scale(given.unit) * r, distances));
-  }
-
-  /** Of one vertex or region. */
-  #takeNeighborhood(sort, distances) {
-    if (sort !== null) this.instance.call('sort_answer', choose(ORDERS, sort, 'sort'), false);
+    this.#find(start, r, given, distances || sort === 'distance');
+    if (sort !== null) this.instance.call('sort_answer', ORDERS.indexOf(sort), false);
     const ids = this.instance.takeIds();
     return distances ? { ids, distances: this.instance.takeReals() } : ids;
   }
 
-  /** Of one vertex, too. */
-  #queryMany(method, v, r, given, { distances = false, byId = false, countOnly = false }) {
-    if (!isMany(v)) this.#expectVertex(v);
-    const vertices = isMany(v) ? v : Uint32Array.of(v);
-    withRows(this.instance, vertices, r, given, this.#scale(given.unit), (...rows) =>
-      this.instance.call('batch', ...rows, method, countOnly, distances, byId));
+  viewNeighborhood(start, r, options = {}) {
+    const count = this.#find(start, r, withDefaults(options, QUERY_OF_START), false);
+    return this.instance.view(Uint32Array, this.instance.call('answer_ids'), count);
   }
 
-  nearestUnconnected(v, r, options = {}) {
-    const given = withDefaults(options, { metric: 'straight', ...MASKS, unit: 'mesh' });
-    expectVertices(v, 'vertices');
-    withRows(this.instance, v, r, given, this.#scale(given.unit), (...rows) =>
-      this.instance.call('nearest_unconnected', ...rows));
-    const found = { ids: this.instance.takeIds(), gaps: this.instance.takeReals() };
-    this.instance.releaseAnswer();
-    return found;
-  }
-
-  queryKnn(v, k, options = {}) {
-    const given = withDefaults(options, NEAREST);
-    const { r, until, weights, faces, unit } = given;
-    if ((k === null || k === undefined) === (until === null)) {
-      throw new TypeError('k: expected a number of vertices; or null, and an area as until');
-    }
-    if (isMany(v)) expectVertices(v, 'vertices');
-    else this.#expectVertex(v);
+  count(start, r, options = {}) {
+    const given = withDefaults(options, QUERY_OF_START);
+    const place = chooseMethodFrom(start, given);
     expectRadius(r);
-    const vertices = isMany(v) ? v : Uint32Array.of(v);
-    const search = (use) => withMasks(this.instance, given, () => this.instance.with([vertices], (ids) =>
-      use(ids, vertices?.length ?? 0, this.#scale(unit) * r)));
-    const rows = {};
-    if (until === null) {
-      expectSize(k, 'k');
-      search((...rest) => this.instance.call('k_nearest', ...rest, k));
-    } else {
-      expectNumber(until, 'until');
-      const areas = this.#weights(weights, faces);
-      if (areas === null) throw new TypeError("weights: null, expected 'area' or a typed array of numbers");
-      search((...rest) => this.instance.with([areas], (list) =>
-        this.instance.call('discs', ...rest, until, list, areas.length)));
-      rows.offsets = this.instance.takeCounts();
-    }
-    Object.assign(rows, { ids: this.instance.takeIds(), distances: this.instance.takeReals() });
-    this.instance.releaseAnswer();
-    return rows;
+    return this.#search(start, given, () => this.instance.call('count', place, this.#scale(given.unit) * r) >>> 0);
   }
 
-  // Regions.
-
-  queryRegion(start, r, options = {}) {
-    const { unit, sort, distances, ...search } = withDefaults(options, { unit: 'mesh', ...ANSWER, ...SEARCH });
+  /** The answer is then in the memory of the module. Returns the number of its ids. */
+  #find(start, r, given, distances) {
+    const place = chooseMethodFrom(start, given);
     expectRadius(r);
-    if (sort !== null) choose(ORDERS, sort, 'sort');
-    const radius = this.#scale(unit) * r;
-    const isNear = this.#search(start, search, () =>
-      this.instance.call('region', radius, distances || sort === 'distance'));
-    this.#warnUnless(isNear);
-    return this.#takeNeighborhood(sort, distances);
+    return this.#search(start, given, () => {
+      this.#warnUnless(this.instance.call('neighborhood', place, this.#scale(given.unit) * r, distances));
+      return this.instance.call('answer_ids_size') >>> 0;
+    });
   }
 
-  queryNested(start, radii, options = {}) {
-    const { unit, ...search } = withDefaults(options, { unit: 'mesh', ...SEARCH });
-    const scale = this.#scale(unit);
+  nested(start, radii, options = {}) {
+    const given = withDefaults(options, SCALED_SEARCH);
+    const scale = this.#scale(given.unit);
     const scaled = toReals(radii, 'radii').map((radius) => scale * radius);
-    const isNear = this.#search(start, search, () =>
-      this.instance.with([scaled], (list) => this.instance.call('nested', list, scaled.length)));
-    this.#warnUnless(isNear);
-    return this.#takeRings();
-  }
-
-  queryRings(v, k, options = {}) {
-    const masks = withDefaults(options, MASKS);
-    this.#expectVertex(v);
-    expectSize(k, 'k');
-    this.#search(v, { seeds: null, ...masks }, () => this.instance.call('rings', v, k));
-    return this.#takeRings();
+    return this.#search(start, given, () => {
+      this.#warnUnless(this.instance.with([scaled], (list) => this.instance.call('nested', list, scaled.length)));
+      return { counts: this.instance.takeCounts(), ids: this.instance.takeIds() };
+    });
   }
 
   contains(start, w, r, options = {}) {
-    const { unit, ...search } = withDefaults(options, { unit: 'mesh', ...SEARCH });
+    const given = withDefaults(options, SCALED_SEARCH);
     this.#expectVertex(w);
     expectRadius(r);
-    const radius = this.#scale(unit) * r;
-    return this.#search(start, search, () => this.instance.call('contains', w, radius)) !== 0;
+    const radius = this.#scale(given.unit) * r;
+    return this.#search(start, given, () => this.instance.call('contains', w, radius)) !== 0;
   }
 
   connectingRadius(start, w, options = {}) {
@@ -331,33 +245,97 @@ export class MeshIndex extends Owner {
     if (isNear || this.#hasWarned) return;
     this.#hasWarned = true;
     console.warn('meshhood: the start is farther than the radius from the vertices where the search starts, so the ' +
-      'region is empty; nearest() returns the nearest vertex and its distance');
+      'neighborhood is empty; nearest() returns the nearest vertex and its distance');
   }
 
   /** Calls `use` while the start and the masks are in the memory of the module, and returns its result. */
-  #search(start, { seeds, walls, ignored }, use) {
-    if (typeof start === 'number') this.#expectVertex(start);
+  #search(start, given, use) {
+    const { seeds } = given;
+    if (isVertex(start)) this.#expectVertex(start);
     else expectPoint(start, 'start');
-    if (seeds !== null && typeof start === 'number') {
+    if (seeds !== null && isVertex(start)) {
       throw new MeshhoodError('InvalidOption', 'seeds: expected null, for the start is a vertex');
     }
     expectVertices(seeds, 'seeds');
-    return withMasks(this.instance, { walls, ignored }, () => this.instance.with([seeds], (seedList) => {
-      if (typeof start === 'number') this.instance.call('start_at_vertex', start);
+    return withMasks(this.instance, given, () => this.instance.with([seeds], (seedList) => {
+      if (isVertex(start)) this.instance.call('start_at_vertex', start);
       else this.instance.call('start_at_point', ...start, seedList, seeds?.length ?? 0);
       return use();
     }));
   }
 
-  #takeRings() {
-    return { counts: this.instance.takeCounts(), ids: this.instance.takeIds() };
+  // Neighborhoods of many vertices.
+
+  neighborhoods(r, options = {}) {
+    const given = withDefaults(options, LISTS);
+    const { sort, distances } = given;
+    if (sort !== null) choose(ORDERS, sort, 'sort');
+    this.#findRows(r, given, { distances: distances || sort === 'distance', byId: sort === 'id' });
+    if (sort === 'index' || sort === 'distance') this.instance.call('sort_answer', ORDERS.indexOf(sort), true);
+    return this.#takeRows(distances);
+  }
+
+  counts(r, options = {}) {
+    this.#findRows(r, withDefaults(options, COUNTS), { countOnly: true });
+    const counts = this.instance.takeCounts();
+    this.instance.releaseAnswer();
+    return counts;
+  }
+
+  #findRows(r, given, { distances = false, byId = false, countOnly = false }) {
+    const place = chooseMethod(given);
+    withRows(this.instance, r, given, this.#scale(given.unit), (...rows) =>
+      this.instance.call('batch', ...rows, place, countOnly, distances, byId));
+  }
+
+  kNearest(k, options = {}) {
+    const given = withDefaults(options, NEAREST);
+    expectSize(k, 'k');
+    this.#findNearest(given, (...rows) => this.instance.call('k_nearest', ...rows, k));
+    const found = { ids: this.instance.takeIds(), distances: this.instance.takeReals() };
+    this.instance.releaseAnswer();
+    return found;
+  }
+
+  discs(area, options = {}) {
+    const given = withDefaults(options, DISCS);
+    expectNumber(area, 'area');
+    const areas = this.#weights(given.weights, given.faces);
+    if (areas === null) throw new TypeError("weights: null, expected 'area' or a typed array of numbers");
+    this.#findNearest(given, (...rows) => this.instance.with([areas], (list) =>
+      this.instance.call('discs', ...rows, area, list, areas.length)));
+    return this.#takeRows(true);
+  }
+
+  #findNearest(given, use) {
+    const { vertices, r } = given;
+    expectVertices(vertices, 'vertices');
+    expectRadius(r);
+    withMasks(this.instance, given, () => this.instance.with([vertices], (ids) =>
+      use(ids, vertices?.length ?? 0, this.#scale(given.unit) * r)));
+  }
+
+  #takeRows(distances) {
+    const rows = { offsets: this.instance.takeCounts(), ids: this.instance.takeIds() };
+    if (distances) rows.distances = this.instance.takeReals();
+    this.instance.releaseAnswer();
+    return rows;
+  }
+
+  nearestUnconnected(r, options = {}) {
+    const given = withDefaults(options, ROWS);
+    withRows(this.instance, r, given, this.#scale(given.unit), (...rows) =>
+      this.instance.call('nearest_unconnected', ...rows));
+    const found = { ids: this.instance.takeIds(), gaps: this.instance.takeReals() };
+    this.instance.releaseAnswer();
+    return found;
   }
 
   // Values and shape.
 
   aggregate(values, r, options = {}) {
     const given = withDefaults(options, AGGREGATION);
-    const { reduce, weights, kernel, vertices, nan, nesting, ddof, faces, unit } = given;
+    const { reduce, weights, kernel, nan, nesting, ddof, faces, unit } = given;
     const signal = toReals(values, 'values');
     const channels = Math.max(1, Math.floor(signal.length / this.vertexCount) || 0);
     const choices = [
@@ -366,7 +344,7 @@ export class MeshIndex extends Owner {
     ];
     expectSize(ddof, 'ddof');
     const weighed = this.#weights(weights, faces);
-    withRows(this.instance, vertices, r, given, this.#scale(unit), (...rows) =>
+    withRows(this.instance, r, given, this.#scale(unit), (...rows) =>
       this.instance.with([signal, weighed], (numbers, weightList) => this.instance.call('aggregate', ...rows,
         numbers, signal.length, channels, weightList, weighed?.length ?? 0, ...choices, ddof)));
     const aggregates = this.instance.takeReals();
@@ -395,23 +373,23 @@ export class MeshIndex extends Owner {
 
   curvature(r, options = {}) {
     const given = withDefaults(options, CURVATURE);
-    const { vertices, faces, normals, like, fit, filter, unit } = given;
+    const { faces, normals, like, fit, filter, unit } = given;
     if (like !== null) choose(['libigl'], like, 'like');
     const place = choose(FITS, fit, 'fit');
     this.#useNormals(faces, normals);
-    withRows(this.instance, vertices, r, given, this.#scale(unit), (...rows) => this.instance.call(
+    withRows(this.instance, r, given, this.#scale(unit), (...rows) => this.instance.call(
       'curvature', ...rows, place, Boolean(filter), like !== null));
     return this.#takeCurvature();
   }
 
   features(r, options = {}) {
     const given = withDefaults(options, FEATURES);
-    const { vertices, faces, kinds, filter, unit } = given;
+    const { faces, kinds, filter, unit } = given;
     const names = typeof kinds === 'string' ? [kinds] : kinds;
     const places = Uint8Array.from(names, (name) => choose(KINDS, name, 'kinds'));
     this.#useNormals(faces, null);
     const areas = names.some((name) => KINDS_OF_AREAS.includes(name)) ? this.#weights('area', faces) : null;
-    withRows(this.instance, vertices, r, given, this.#scale(unit), (...rows) =>
+    withRows(this.instance, r, given, this.#scale(unit), (...rows) =>
       this.instance.with([places, areas], (list, areaList) => this.instance.call(
         'features', ...rows, list, places.length, areaList, areas?.length ?? 0, Boolean(filter))));
     const found = this.instance.takeReals();

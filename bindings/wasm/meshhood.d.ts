@@ -12,7 +12,7 @@
  *     await initialize();
  *     const mesh = readMesh(await file.arrayBuffer(), file.name);
  *     const index = new MeshIndex(mesh.positions, mesh.corners, { offsets: mesh.offsets });
- *     const near = index.queryBall(42, 1.5);
+ *     const near = index.neighborhood(42, 1.5);
  */
 
 /** The cause of a `MeshhoodError`; as `meshhood::ErrorCode` in C++. */
@@ -158,7 +158,10 @@ export interface QueryOptions {
   unit?: Unit;
 }
 
-/** Restricts searches. A mask has #V bytes; one other than 0 puts its vertex into the set. */
+/**
+ * Restricts searches; needs method `exact`. A mask has #V bytes; one other than 0 puts its vertex into the set. The index
+ * of the last masks is kept: new ones take O(#V), the same are compared.
+ */
 export interface Masks {
   /** The search does not pass these vertices, and they belong to no answer: as if they were not in the mesh. */
   walls?: Uint8Array | null;
@@ -178,12 +181,12 @@ export interface Scales {
  */
 export type Sort = 'index' | 'id' | 'distance' | null;
 
-/** Masks need method `exact`. The index of the last masks is kept: new ones take O(#V), the same are compared. */
-export interface AnswerOptions extends QueryOptions, Masks {
+/** Of calls that list vertices. With `distances: true` they also return the distances, in the metric of the radius. */
+export interface AnswerOptions extends QueryOptions {
   sort?: Sort;
 }
 
-/** The rows of many queries: row i is `ids[offsets[i]]` to `ids[offsets[i + 1] - 1]`, and the distances likewise. */
+/** Many neighborhoods: row i is `ids[offsets[i]]` to `ids[offsets[i + 1] - 1]`, and the distances likewise. */
 export interface Rows {
   offsets: Uint32Array;
   ids: Uint32Array;
@@ -192,15 +195,28 @@ export interface Rows {
 /** A vertex, or a point in space, which is then the center of the ball. */
 export type Start = number | readonly [number, number, number] | Float32Array | Float64Array;
 
-export interface RegionOptions extends Masks {
+/** Where a search starts, and what it may pass. A metric other than `straight` needs a vertex as start. */
+export interface StartOptions extends Masks {
+  metric?: Metric;
   /**
    * If the start is a point: the vertices from which the search spreads, for example the corners of the face on which
    * the point lies; by default the vertex nearest to the point. A seed outside the ball does not count. If all are
-   * outside, the region is empty: the point is too far from the mesh. The first time that this happens with an index,
-   * a warning is written to the console. `nearest` returns the nearest vertex and its distance.
+   * outside, the neighborhood is empty: the point is too far from the mesh. The first time that this happens with an
+   * index, a warning is written to the console. `nearest` returns the nearest vertex and its distance.
    */
   seeds?: Uint32Array | null;
 }
+
+/** Of calls on many vertices. */
+export interface RowOptions extends Masks {
+  /** The rows; null for all vertices. */
+  vertices?: Uint32Array | null;
+  metric?: Metric;
+  unit?: Unit;
+}
+
+/** A radius, or one for each row. */
+export type Radii = number | Float64Array | Float32Array;
 
 /** Parts that contain each other: part i is `ids[0]` to `ids[counts[i] - 1]`. */
 export interface Rings {
@@ -208,9 +224,7 @@ export interface Rings {
   ids: Uint32Array;
 }
 
-export interface AggregateOptions extends Masks, Scales {
-  /** Of the radius and of the kernel. */
-  metric?: Metric;
+export interface AggregateOptions extends RowOptions, Scales {
   reduce?: 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count';
   /**
    * #V numbers >= 0, for `sum`, `mean`, `var` and `std`; `area` is the area that each vertex represents, which needs
@@ -223,8 +237,6 @@ export interface AggregateOptions extends Masks, Scales {
    * as 1000^-(d/r)^2, a Gaussian of the full width at half maximum r / 1.57843.
    */
   kernel?: 'box' | 'epanechnikov' | 'biweight' | 'gaussian';
-  /** The vertices whose neighborhoods are aggregated; null for all. */
-  vertices?: Uint32Array | null;
   /** `propagate`: a neighborhood with a NaN gives NaN. `omit`: NaN marks a missing value, which is left out. */
   nan?: 'propagate' | 'omit';
   /**
@@ -234,24 +246,19 @@ export interface AggregateOptions extends Masks, Scales {
   nesting?: 'own' | 'patch';
   /** `var` and `std` divide by the number of values minus this, 0 or 1. */
   ddof?: 0 | 1;
-  unit?: Unit;
 }
 
-export interface KnnOptions extends Masks {
-  /** Only vertices up to this connecting radius or path length. */
+/**
+ * The metric of an order. `straight`: by connecting radius, as for `nearestConnected`. `path`: by the length of the
+ * shortest path along edges, `rings`: by the number of edges; each then by place in index order.
+ */
+export interface NearestOptions extends RowOptions {
+  /** Only vertices up to this connecting radius, path length or number of edges. */
   r?: number;
-  /**
-   * `straight`: the nearest by connecting radius, as for `nearestConnected`. `path`: by the length of the shortest path
-   * along edges, `rings`: by the number of edges; each then by place in index order.
-   */
-  metric?: Metric;
-  unit?: Unit;
 }
 
-export interface DiscOptions extends KnnOptions {
-  /** Instead of k, an area > 0, in the square of the unit of the positions. */
-  until: number;
-  /** #V numbers >= 0, whose sum is compared with `until`; `area`, the default, needs `faces`. */
+export interface DiscOptions extends NearestOptions {
+  /** #V numbers >= 0, whose sum is compared with the area; `area`, the default, needs `faces`. */
   weights?: Float64Array | Float32Array | 'area';
   faces?: Faces | null;
 }
@@ -291,10 +298,7 @@ export class Curvature {
   readonly curvedness: Float64Array;
 }
 
-export interface CurvatureOptions extends Masks, Scales {
-  metric?: Metric;
-  /** The rows; null for all vertices. */
-  vertices?: Uint32Array | null;
+export interface CurvatureOptions extends RowOptions, Scales {
   /**
    * The faces that the index was built from, for the normals; or `normals`, one of both. The index keeps the normals
    * until other faces or normals are given: a call with faces of the same content finds them again.
@@ -311,23 +315,18 @@ export interface CurvatureOptions extends Masks, Scales {
   fit?: 'quadric' | 'jet';
   /** Fit only vertices whose normal is less than 90 degrees from that of the query vertex, if at least six remain. */
   filter?: boolean;
-  unit?: Unit;
 }
 
 /** What describes a neighborhood without unit. docs/curvature.md explains each. */
 export type Kind =
   | 'crease' | 'mean' | 'gaussian' | 'k1' | 'k2' | 'curvedness' | 'shape_index' | 'area' | 'height' | 'variation';
 
-export interface FeatureOptions extends Masks, Scales {
-  metric?: Metric;
-  /** The rows; null for all vertices. */
-  vertices?: Uint32Array | null;
+export interface FeatureOptions extends RowOptions, Scales {
   /** The faces that the index was built from, as for `curvature`. */
   faces: Faces;
   kinds?: Kind | readonly Kind[];
   /** As for `curvature`. */
   filter?: boolean;
-  unit?: Unit;
 }
 
 /**
@@ -420,122 +419,62 @@ export class MeshIndex {
   quality(): { meanRadius: number; rebuiltRadius: number; gain: number };
 
   /**
-   * The vertices of the neighborhood of v, itself included. A vertex at exactly r is inside. With `distances`, also
-   * their distances from v, in the metric of the radius.
+   * The neighborhood of a start: the vertices that are connected to a seed by edges between vertices within r of the
+   * start. A vertex is its own seed. A vertex at exactly r is inside. A wall has an empty neighborhood.
    *
-   * An exact answer depends on the index, the vertex and the radius alone. Its ids are in index order: ascending places
-   * of `permutation`.
+   * An exact answer depends on the index, the arguments and the masks alone. Its ids are in index order: ascending
+   * places of `permutation`. Another method than `exact` and another metric than `straight` need a vertex as start.
    *
-   * @param v the vertex; or many as an array, null for all
-   * @param r the radius, >= 0 or Infinity; for many vertices optionally one per vertex. The row of a wall is empty.
-   * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption; TooLarge, which disposes the index
+   * @param r the radius, >= 0 or Infinity
+   * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption; TooLarge, which disposes the index. The calls
+   * below throw the same.
    */
-  queryBall(v: number, r: number, options?: AnswerOptions & { distances?: false }): Uint32Array;
-  queryBall(
-    v: number,
-    r: number,
-    options: AnswerOptions & { distances: true },
-  ): { ids: Uint32Array; distances: Float64Array };
-  queryBall(v: Uint32Array | null, r: number | Float64Array, options?: AnswerOptions & { distances?: false }): Rows;
-  queryBall(
-    v: Uint32Array | null,
-    r: number | Float64Array,
-    options: AnswerOptions & { distances: true },
-  ): Rows & { distances: Float64Array };
-
-  /** As `queryBall` for one vertex, without a copy: a view into the memory of the index, valid until its next call. */
-  viewBall(v: number, r: number, options?: QueryOptions): Uint32Array;
-
-  /** The number of vertices of each neighborhood that `queryBall` returns. With scales, #scales by #rows. */
-  count(v: number, r: number, options?: QueryOptions & Masks): number;
-  count(v: Uint32Array | null, r: number | Float64Array, options?: QueryOptions & Masks): Uint32Array;
-  count(v: number | Uint32Array | null, r: null, options: QueryOptions & Masks & Required<Scales>): Uint32Array;
-
-  /**
-   * For each vertex the nearest of those in its ball that do not belong to its neighborhood: another sheet, the other
-   * side of a wall. Of several at the same distance, the one with the smallest id. Walls and ignored vertices are never
-   * the nearest. Where there is none, as for a wall, the gap is Infinity and the id 2^32 - 1.
-   *
-   * @param v the vertices, null for all
-   */
-  nearestUnconnected(
-    v: Uint32Array | null,
-    r: number | Float64Array,
-    options?: Masks & { unit?: Unit },
-  ): { ids: Uint32Array; gaps: Float64Array };
-
-  /**
-   * The k nearest connected vertices of each vertex, itself included: #rows by k. Where a row has fewer, the distance is
-   * Infinity and the id 2^32 - 1. Distances are connecting radii, or path lengths. With `until`, each row is a disc of
-   * fixed area instead: the first vertices in the same order whose weights add up to at least as much.
-   *
-   * @param v the vertex; or many as an array, null for all
-   * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption; TooLarge, which may dispose the index
-   */
-  queryKnn(
-    v: number | Uint32Array | null,
-    k: number,
-    options?: KnnOptions,
-  ): { ids: Uint32Array; distances: Float64Array };
-  queryKnn(v: number | Uint32Array | null, k: null, options: DiscOptions): Rows & { distances: Float64Array };
-
-  /**
-   * The region of a start and the radius r: the vertices that are connected to a seed by edges between vertices within
-   * r of the start. For a vertex as start, without masks, it is the neighborhood that `queryBall` returns.
-   *
-   * An answer depends on the index, the start, the radius and the masks alone. Without `sort`, its ids are in index
-   * order.
-   *
-   * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption, as the calls below
-   */
-  queryRegion(
+  neighborhood(start: Start, r: number, options?: StartOptions & AnswerOptions & { distances?: false }): Uint32Array;
+  neighborhood(
     start: Start,
     r: number,
-    options?: RegionOptions & { unit?: Unit; sort?: Sort; distances?: false },
-  ): Uint32Array;
-  queryRegion(
-    start: Start,
-    r: number,
-    options: RegionOptions & { unit?: Unit; sort?: Sort; distances: true },
+    options: StartOptions & AnswerOptions & { distances: true },
   ): { ids: Uint32Array; distances: Float64Array };
 
+  /** As `neighborhood`, without a copy: a view into the memory of the index, valid until its next call. */
+  viewNeighborhood(start: Start, r: number, options?: StartOptions & QueryOptions): Uint32Array;
+
+  /** The number of vertices of the neighborhood of a start. */
+  count(start: Start, r: number, options?: StartOptions & QueryOptions): number;
+
   /**
-   * The regions of strictly ascending radii, each vertex once, each ring in index order. A near vertex may belong to a
-   * late ring.
+   * The neighborhoods of strictly ascending radii, each vertex once, each ring in index order. With metric `straight`,
+   * a near vertex may belong to a late ring.
    */
-  queryNested(
+  nested(
     start: Start,
     radii: Float64Array | Float32Array,
-    options?: RegionOptions & { unit?: Unit },
+    options?: StartOptions & { unit?: Unit },
   ): Rings;
 
-  /**
-   * The vertices that at most k edges separate from v: part i has those that are at most i edges away. Each ring is in
-   * index order.
-   */
-  queryRings(v: number, k: number, options?: Masks): Rings;
-
-  /** Whether the region of a start and the radius r has vertex w. */
-  contains(start: Start, w: number, r: number, options?: RegionOptions & { unit?: Unit }): boolean;
+  /** Whether the neighborhood of a start has vertex w. */
+  contains(start: Start, w: number, r: number, options?: StartOptions & { unit?: Unit }): boolean;
 
   /**
-   * The smallest radius whose region has vertex w; Infinity if there is none. It is the minimum, over all paths of
-   * edges from a seed to w, of the largest distance between a vertex of the path and the start.
+   * The smallest radius whose neighborhood has vertex w; Infinity if there is none. Straight, it is the minimum, over
+   * all paths of edges from a seed to w, of the largest distance between a vertex of the path and the start; else the
+   * length of the shortest path, or its number of edges.
    */
-  connectingRadius(start: Start, w: number, options?: RegionOptions): number;
+  connectingRadius(start: Start, w: number, options?: StartOptions): number;
 
   /**
    * The k nearest connected vertices and their connecting radii, which ascend; of equal radius, in the order of their
-   * distances from the start, then of their ids. Fewer if no more are connected.
+   * distances from the start, then of their ids; by path or rings, in index order. Fewer if no more are connected.
    */
-  nearestConnected(start: Start, k: number, options?: RegionOptions): { ids: Uint32Array; radii: Float64Array };
+  nearestConnected(start: Start, k: number, options?: StartOptions): { ids: Uint32Array; radii: Float64Array };
 
   /** The vertex nearest to a point in space, connected or not; of several, the one with the smallest id. */
   nearest(point: Exclude<Start, number>): { vertex: number; distance: number };
 
   /**
    * The point of the surface nearest to a point in space. Its triangle has the corners 0, i and i + 1 of the face, whose
-   * vertices are the seeds of a region there. Of several faces at the same distance, the one with the smallest number.
+   * vertices are the seeds of a neighborhood there. Of several faces at the same distance, the one with the smallest
+   * number.
    *
    * @param options `faces`: those that the index was built from. It keeps what it makes of them until others are given,
    * as for `curvature`.
@@ -545,6 +484,37 @@ export class MeshIndex {
     point: Exclude<Start, number>,
     options: { faces: Faces },
   ): { face: number; vertices: Uint32Array; weights: Float64Array; point: Float64Array; distance: number };
+
+  /** The neighborhoods of many vertices, of all by default. */
+  neighborhoods(r: Radii, options?: RowOptions & AnswerOptions & { distances?: false }): Rows;
+  neighborhoods(
+    r: Radii,
+    options: RowOptions & AnswerOptions & { distances: true },
+  ): Rows & { distances: Float64Array };
+
+  /** The number of vertices of each neighborhood: #rows; with scales, r is null, and the result is #scales by #rows. */
+  counts(r: Radii | null, options?: RowOptions & QueryOptions & Scales): Uint32Array;
+
+  /**
+   * The k nearest connected vertices of each vertex, itself included: #rows by k. Where a row has fewer, the distance is
+   * Infinity and the id 2^32 - 1. Distances are connecting radii, path lengths or numbers of edges.
+   */
+  kNearest(k: number, options?: NearestOptions): { ids: Uint32Array; distances: Float64Array };
+
+  /**
+   * A disc of fixed area around each vertex: the first vertices in the order of `kNearest` whose weights add up to at
+   * least as much.
+   *
+   * @param area > 0, in the square of the unit of the positions
+   */
+  discs(area: number, options: DiscOptions): Rows & { distances: Float64Array };
+
+  /**
+   * For each vertex the nearest of those in its ball that do not belong to its neighborhood: another sheet, the other
+   * side of a wall. Of several at the same distance, the one with the smallest id. Walls and ignored vertices are never
+   * the nearest. Where there is none, as for a wall, the gap is Infinity and the id 2^32 - 1.
+   */
+  nearestUnconnected(r: Radii, options?: RowOptions): { ids: Uint32Array; gaps: Float64Array };
 
   /**
    * A sum, a mean or another aggregate of values over the neighborhood of each vertex. No ids are listed.
@@ -558,7 +528,7 @@ export class MeshIndex {
    */
   aggregate(
     values: Float64Array | Float32Array | Uint32Array | Int32Array | Uint16Array | Int16Array | Uint8Array | Int8Array,
-    r: number | Float64Array | Float32Array | null,
+    r: Radii | null,
     options?: AggregateOptions,
   ): Float64Array;
 
@@ -582,7 +552,7 @@ export class MeshIndex {
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh; TooLarge, which disposes the
    * index
    */
-  curvature(r: number | Float64Array | Float32Array | null, options: CurvatureOptions): Curvature;
+  curvature(r: Radii | null, options: CurvatureOptions): Curvature;
 
   /**
    * Feature vectors without unit, so that scales can be compared. NaN where there is no result. Radii are > 0.
@@ -590,7 +560,7 @@ export class MeshIndex {
    * @returns #rows by #kinds, with scales #scales by #rows by #kinds
    * @throws as `curvature`
    */
-  features(r: number | Float64Array | Float32Array | null, options: FeatureOptions): Float64Array;
+  features(r: Radii | null, options: FeatureOptions): Float64Array;
 
   /** Gives the memory back. All later calls throw an Error. */
   dispose(): void;

@@ -5,7 +5,8 @@ import { MeshhoodError } from './instance.js';
 
 // Options with their defaults.
 export const MASKS = { walls: null, ignored: null };
-export const ROWS = { scales: null, metric: 'straight', ...MASKS };
+export const ROWS = { vertices: null, metric: 'straight', ...MASKS, unit: 'mesh' };
+export const SCALED_ROWS = { ...ROWS, scales: null };
 
 // The places are those of meshhood::Metric.
 export const METRICS = ['straight', 'path', 'rings'];
@@ -35,10 +36,11 @@ export function withMasks(instance, { walls = null, ignored = null, metric = 'st
   });
 }
 
-/** The same for rows. `use` gets the six arguments that describe them; `vertices` is null for all. */
-export function withRows(instance, vertices, r, { scales = null, ...words }, scale, use) {
+/** The same for rows. `use` gets the six arguments that describe them. `scale` is that of the unit. */
+export function withRows(instance, r, given, scale, use) {
+  const { vertices, scales = null } = given;
   expectVertices(vertices, 'vertices');
   const { common, list } = readRadius(r, scales, scale);
-  return withMasks(instance, words, () => instance.with([vertices, list], (ids, radii) =>
+  return withMasks(instance, given, () => instance.with([vertices, list], (ids, radii) =>
     use(ids, vertices?.length ?? 0, common, radii, list?.length ?? 0, scales !== null)));
 }

@@ -65,7 +65,7 @@ function hitOf(event) {
 
 function showNeighborhood({ point }) {
   const { vertex } = index.nearest(point);
-  const near = index.queryBall(vertex, RADIUS);
+  const near = index.neighborhood(vertex, RADIUS);
   paint(Array(colors.count).keys(), SURFACE);
   paint(near, NEAR);
   document.getElementById('result').textContent = `Vertex ${vertex}: ${near.length} vertices.`;
@@ -73,7 +73,7 @@ function showNeighborhood({ point }) {
 
 /** One dab: the vertices that are connected with the triangle under the pointer, within the radius around the point. */
 function brush({ point, corners }) {
-  paint(index.queryRegion(point, BRUSH_RADIUS, { seeds: corners }), PAINT);
+  paint(index.neighborhood(point, BRUSH_RADIUS, { seeds: corners }), PAINT);
 }
 
 let pressed = null;

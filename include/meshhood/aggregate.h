@@ -146,7 +146,7 @@ struct AggregateOptions {
 /// have no effect. Infinite values give what IEEE arithmetic gives. With a smoothing kernel, a call of more than 16
 /// channels may sum in another way than one of fewer, or one with values above 2^300, so that the last bits differ.
 ///
-/// With `Metric::Path`, each row takes the time of a search of `EdgeSearcher` at the largest radius, and the first call
+/// With `Metric::Path`, each row takes the time of a search of a `Searcher` at the largest radius, and the first call
 /// for an index computes the lengths of its edges. Else the neighborhoods of one leaf are found together, and vertices
 /// that they have in common are read once for all of them, most of them as precomputed sums, but one by one for a
 /// Gaussian. Memory: for up to 16 channels at a time 9 bytes for each vertex and channel, and as much for the weights;

@@ -49,10 +49,9 @@ class SearchMethod {
   /// Throws Error{InvalidMesh, TooLarge} if the graph is invalid.
   [[nodiscard]] static SearchMethod breadth_first(const GraphView& graph);
 
-  /// The method of the same `Index` by a metric: `make_searcher` then makes an `EdgeSearcher`, or a searcher of rings,
-  /// whose ids are in index order and whose distances are numbers of edges. In a batch, the metric of the query does
-  /// this, unless it is `Straight`: then that of the method holds. Throws Error{InvalidOption} if the method is not the
-  /// exact one of an `Index`, unless `metric` is `Straight`.
+  /// The method of the same `Index` by a metric: `make_searcher` then makes a `Searcher` by it. In a batch, the metric
+  /// of the query does this, unless it is `Straight`: then that of the method holds. Throws Error{InvalidOption} if the
+  /// method is not the exact one of an `Index`, unless `metric` is `Straight`.
   [[nodiscard]] SearchMethod by(Metric metric) const;
 
   /// The vertices within the radius in space, connected or not, by the tree of the index. Ids are in index order.

@@ -30,24 +30,23 @@ struct SurfacePoint {
   [[nodiscard]] Start start() const&& = delete;
 };
 
-/// The faces of a mesh by the tree of its index, to find the point of the surface nearest to a point in space.
+/// The faces of a mesh in a tree of boxes, to find the point of the surface nearest to a point in space.
 ///
 ///     const auto surface = meshhood::FaceIndex::build(index, faces);
 ///     const auto hit = surface.closest_point({0.1, 0.2, 0.3});
 ///     searcher.region(hit.start(), 1.5, ids);
 ///
 /// A polygon is the fan of the triangles of its corners 0, i and i + 1. A face with fewer than three corners has no
-/// points. Each face belongs to the leaf of its first corner in index order, and the bounding spheres of the nodes are
-/// enlarged by what overhangs.
+/// points. Triangles are in the order of their first corners in index order, so that those near each other in the tree
+/// are near each other on the surface.
 ///
 /// Immutable: any number of threads may use it. Shares the memory of the index, as a searcher does: the index may be
-/// moved or destroyed. After `refit` it is to be built again. 24 bytes a triangle, 4 a leaf, and 4
-/// for each node of the tree.
+/// moved or destroyed. After `refit` it is to be built again. About 48 bytes a triangle.
 class FaceIndex {
  public:
   /// faces   those of the mesh that the index was built from; borrowed for the call.
   /// Throws Error{InvalidMesh, TooLarge} if they are invalid (see `validate`), or if none has three corners.
-  /// O(#V + #corners), and for a face that is large beside the leaves O(log #V).
+  /// O(#V + #corners).
   [[nodiscard]] static FaceIndex build(const Index& index, const FacesView& faces);
 
   /// #F.
@@ -65,11 +64,13 @@ class FaceIndex {
   /// triangle without an area has only sides. Points on a side or at a corner have weights that are exactly 0.
   ///
   /// Throws Error{InvalidOption} if a coordinate is not finite or beyond 2^500, or after a refit in place.
-  /// O(log #V) on most surfaces; more where faces are large beside the leaves. Allocates nothing.
+  /// O(log #V) on most surfaces; more where many triangles are about equally far. Allocates nothing.
   [[nodiscard]] SurfacePoint closest_point(const SpacePoint& point) const;
 
-  /// The same for each of `points`. Of the options, `threads` and `progress` are used; the result does not depend on
-  /// them. Throws as above, naming the row, and Error{Cancelled}.
+  /// The same for each of `points`. They are taken along a space-filling curve, and each search begins with the last
+  /// answer, so that one takes about a third of the time of a single call. 16 bytes a point. Of the options, `threads`
+  /// and `progress` are used; the result does not depend on them. Throws as above, naming the row, and
+  /// Error{Cancelled}.
   [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const SpacePoint> points,
                                                          const BatchOptions& options = {}) const;
 

@@ -17,8 +17,8 @@
 namespace meshhood {
 
 struct NearestOptions {
-  /// By what vertices are near. Straight: the connecting radius, as for `RegionSearcher::nearest_connected`; then the
-  /// distance, then the id. Path: the path distance, as for `EdgeSearcher`; rings: the number of edges; each then by
+  /// By what vertices are near. Straight: the connecting radius, as for `Searcher::nearest_connected`; then the
+  /// distance, then the id. Path: the path distance; rings: the number of edges; each then by
   /// the place in index order.
   Metric metric = Metric::Straight;
 

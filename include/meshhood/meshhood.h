@@ -15,18 +15,16 @@
 ///     meshhood::Searcher searcher(index);             // one per thread
 ///     const auto ids = searcher.neighborhood(42, 1.5);  // the same set as breadth-first search
 ///
-/// `Searcher` and visitors are in search.h, batches over many vertices in batch.h, sums over neighborhoods in
-/// aggregate.h and moments.h, searches from any point in region.h, walls in masks.h, along the edges in edge_search.h,
-/// meshes that deform in refit.h, files in io/mesh_io.h and io/index_io.h. Meshes of other libraries are in eigen.h,
-/// cgal.h, openmesh.h and geometry_central.h. `meshhood::paper` has the same calls with the approximate neighborhoods
-/// of the paper.
+/// `Searcher`, for one vertex or point, and visitors are in search.h, batches over many vertices in batch.h, sums over
+/// neighborhoods in aggregate.h and moments.h, walls in masks.h, meshes that deform in refit.h, files in io/mesh_io.h
+/// and io/index_io.h. Meshes of other libraries are in eigen.h, cgal.h, openmesh.h and geometry_central.h.
+/// `meshhood::paper` has the same calls with the approximate neighborhoods of the paper.
 
 #include "meshhood/adjacency.h"            // IWYU pragma: export
 #include "meshhood/aggregate.h"            // IWYU pragma: export
 #include "meshhood/batch.h"                // IWYU pragma: export
 #include "meshhood/corrected_curvature.h"  // IWYU pragma: export
 #include "meshhood/curvature.h"            // IWYU pragma: export
-#include "meshhood/edge_search.h"          // IWYU pragma: export
 #include "meshhood/error.h"                // IWYU pragma: export
 #include "meshhood/face_graph.h"           // IWYU pragma: export
 #include "meshhood/face_index.h"           // IWYU pragma: export
@@ -46,7 +44,6 @@
 #include "meshhood/progress.h"             // IWYU pragma: export
 #include "meshhood/reference.h"            // IWYU pragma: export
 #include "meshhood/refit.h"                // IWYU pragma: export
-#include "meshhood/region.h"               // IWYU pragma: export
 #include "meshhood/region_mesh.h"          // IWYU pragma: export
 #include "meshhood/reorder.h"              // IWYU pragma: export
 #include "meshhood/search.h"               // IWYU pragma: export

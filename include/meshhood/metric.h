@@ -5,11 +5,11 @@
 
 namespace meshhood {
 
-/// How the distance of a vertex is measured, of which radii and smoothing kernels speak.
+/// How the distance of a vertex is measured, of which radii and smoothing kernels speak. See `Searcher`.
 enum class Metric : std::uint8_t {
-  Straight,  ///< the exact neighborhood (see `Searcher`), and straight lines
-  Path,      ///< the vertices within the radius along the edges (see `EdgeSearcher`), and the lengths of shortest paths
-  Rings,     ///< the vertices that at most `radius` edges, rounded down, separate from one, and numbers of edges
+  Straight,  ///< what is connected within the ball, and straight lines
+  Path,      ///< what is within the radius along the edges, and the lengths of shortest paths
+  Rings,     ///< what at most `radius` edges, rounded down, separate from a vertex, and numbers of edges
 };
 
 }  // namespace meshhood

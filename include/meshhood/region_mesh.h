@@ -76,7 +76,7 @@ class RegionMesher {
   /// ball cuts are left out, and so is their area: see `clip`.
   [[nodiscard]] Submesh submesh(std::span<const VertexId> ids, Corners corners = Corners::All);
 
-  /// The part of the surface inside a ball: `ids` is the region of `center` and `radius` (see `RegionSearcher`).
+  /// The part of the surface inside a ball: `ids` is the region of `center` and `radius` (see `Searcher`).
   ///
   /// Faces with all corners in `ids` are whole. A face with only some is cut on its sides: where one leads from a
   /// vertex of `ids` to another one, it ends at the point of the rim (see `rim`). Two such points of a face are joined
@@ -88,7 +88,7 @@ class RegionMesher {
   /// nothing. Throws as `rim`.
   [[nodiscard]] ClippedMesh clip(std::span<const VertexId> ids, const SpacePoint& center, double radius);
 
-  /// Where the surface leaves a region: `ids` is the region of `center` and `radius` (see `RegionSearcher`).
+  /// Where the surface leaves a region: `ids` is the region of `center` and `radius` (see `Searcher`).
   ///
   /// A point of the rim lies on an edge from a vertex of `ids` to one that is not, where the edge leaves the ball: its
   /// distance from `center` is `radius` up to the rounding of its coordinates. If the outer end lies inside the ball,

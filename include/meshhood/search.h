@@ -12,11 +12,15 @@
 
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/metric.h"
 #include "meshhood/owner.h"
+#include "meshhood/start.h"
 
-/// Queries about the neighborhood of one vertex: the exact searcher, what all searchers have in common, and the folding
-/// of answers. Batches of many vertices are in batch.h.
+/// Queries about the neighborhood of one vertex or point: the exact searcher, what all searchers have in common, and
+/// the folding of answers. Batches of many vertices are in batch.h.
 namespace meshhood {
+
+struct SingleQueries;
 
 /// Consecutive vertices `begin .. end - 1` in the order of a searcher; its `permutation()` maps them to the caller's
 /// ids.
@@ -55,36 +59,61 @@ concept NeighborhoodSearcher = requires(S& searcher, const S& constant, VertexId
   { searcher.ranges(v, radius) } -> std::same_as<std::span<const VertexRange>>;
 };
 
-/// Finds exact neighborhoods by an `Index`: the part of the mesh inside the ball of `radius` around `v` that is
-/// connected to `v` within the ball. More precisely, a neighborhood is the component with `v` of the graph induced by
-/// the vertices in the ball. The result is the same set as that of `ReferenceSearcher`, on every processor.
+/// One step of a brush stroke: a start and a radius.
+struct Dab {
+  Start start;
+  double radius;
+};
+
+/// Answers questions about one vertex, or one point, at a time by an `Index`. A *start* is a vertex, or a point in
+/// space with the vertices from which the search spreads, its seeds (see `Start`). The *neighborhood* of a start and a
+/// radius depends on the metric:
 ///
-/// v       in [0, #V).
-/// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` is inside.
+/// - `Metric::Straight`: the vertices that are connected to a seed by a path of edges whose vertices, both ends
+///   included, all lie within the radius of the center. Around a vertex it is the component with the vertex of the
+///   graph induced by the vertices in the ball: the same set as that of `ReferenceSearcher`, on every processor.
+/// - `Metric::Path`: the vertices whose *path distance* from the vertex is at most the radius: the least length of a
+/// path
+///   of edges. The length of an edge is the distance of its ends (see `distance`); that of a path is the sum of those
+///   of its edges, added in double in the order of the path. The rounded sum never decreases if a summand grows, so the
+///   search finds the least sum to the last bit, as does the algorithm of Dijkstra (1959).
+/// - `Metric::Rings`: the vertices that at most `radius` edges, rounded down, separate from the vertex.
 ///
-/// An answer depends on the index, the vertex and the radius alone. Its ids are in index order: ascending places of the
+/// Walls of a masked index are not in its mesh; ignored vertices are passed, but belong to no answer.
+///
+/// start   a vertex in [0, #V); or, straight, a point.
+/// radius  >= 0 or infinite, in the unit of the positions, or a number of edges; a vertex at exactly `radius` is
+/// inside.
+///
+/// An answer depends on the index, the start and the radius alone. Its ids have no duplicates. Those of paths ascend by
+/// path distance, those at the same distance are in index order; all others are in index order: ascending places of the
 /// permutation of the index. If the mesh was renumbered by `reorder`, they ascend.
 ///
-/// The cost grows with the number of leaves that the surface of the ball intersects, not with the size of the result or
-/// the mesh; on folded surfaces it grows with the number of leaves of the result. Nothing is allocated once the buffers
-/// have grown.
+/// The cost of a ball around a vertex grows with the number of leaves that its surface intersects, not with the size of
+/// the result or the mesh; on folded surfaces, and from a point, with the number of leaves of the result. Paths take
+/// O(n log n) for a result of n vertices, and the first search of an index O(#V + #E): the index keeps the lengths of
+/// all edges for all searchers (80 bytes a vertex with six edges). Rings take O(n). Nothing is allocated once the
+/// buffers have grown.
 ///
-/// Use one object per thread: it owns scratch memory, 23 to 30 bytes per leaf. It shares the memory of the index, which
-/// may be moved, refitted or destroyed meanwhile: answers are those of the index as it was.
+/// Use one object per thread: it owns scratch memory, 23 to 30 bytes per leaf for balls around vertices, 64 for all
+/// else of the straight metric; 8 bytes a vertex for paths. Each part is made when it is first needed. It shares the
+/// memory of the index, which may be moved, refitted or destroyed meanwhile: answers are those of the index as it was.
 ///
-/// On a graph unlike a surface (with a vertex that has very many neighbors, or with random edges), the cost is that of
-/// `ReferenceSearcher`, and each searcher owns 20 bytes per vertex more (36 for double). All of them share a copy of
-/// the graph, which the index keeps: 8 bytes per vertex and 12 for each of its neighbors, which `Index::bytes` does not
-/// count. The query that makes it takes O(#V + #E).
+/// On a graph unlike a surface (with a vertex that has very many neighbors, or with random edges), the cost of a ball
+/// is that of `ReferenceSearcher`, and each searcher owns 20 bytes per vertex more (36 for double). All of them share a
+/// copy of the graph, which the index keeps: 8 bytes per vertex and 12 for each of its neighbors, which `Index::bytes`
+/// does not count. The query that makes it takes O(#V + #E).
 ///
-/// Throws Error{VertexOutOfRange, InvalidRadius}; arguments are then unchanged.
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed, the coordinate or the dab; arguments
+/// are then unchanged. A point as a start by paths or rings is an InvalidOption, because a point has no edges.
 class Searcher {
  public:
-  explicit Searcher(const Index& index);
-  explicit Searcher(const Index&&) = delete;
+  explicit Searcher(const Index& index, Metric metric = Metric::Straight);
+  explicit Searcher(const Index&&, Metric = Metric::Straight) = delete;
 
   /// Goes on with `index`: the answers are then those of a new searcher. After `refit_in_place` of the same index, it
-  /// keeps its scratch memory and takes O(1); on a graph unlike a surface, the next query takes O(#V + #E).
+  /// keeps its scratch memory and takes O(1); the next search by paths, or on a graph unlike a surface, takes
+  /// O(#V + #E).
   void rebind(const Index& index);
   void rebind(const Index&&) = delete;
 
@@ -96,30 +125,71 @@ class Searcher {
   [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
-  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
+  [[nodiscard]] std::vector<VertexId> neighborhood(const Start& start, double radius) {
     std::vector<VertexId> out;
-    neighborhood(v, radius, out);
+    neighborhood(start, radius, out);
     return out;
   }
 
-  /// out     replaced, its capacity reused: ids in index order, without duplicates, `v` included.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
+  /// out     replaced, its capacity reused. Empty if no seed lies in the ball (see `has_seed`), or if all are walls.
+  void neighborhood(const Start& start, double radius, std::vector<VertexId>& out);
 
-  /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
+  /// Also returns the distance of each vertex from the center (see `distance`), its path distance or its number of
+  /// edges, in the order of the ids.
+  void neighborhood(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
   /// The neighborhood as ranges of the index order, without copying ids. Ascending, with gaps between them, none empty;
   /// valid until the next call. See `visit` and `reduce`.
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) &;
+  [[nodiscard]] std::span<const VertexRange> ranges(const Start& start, double radius) &;
 
   /// The number of vertices of the neighborhood.
-  [[nodiscard]] std::size_t count(VertexId v, double radius);
+  [[nodiscard]] std::size_t count(const Start& start, double radius);
+
+  /// Whether a seed lies in the ball, as a vertex that is the start always does. If none does, the center is too far
+  /// from the mesh, and the neighborhood is empty. O(#seeds).
+  [[nodiscard]] bool has_seed(const Start& start, double radius) const;
+
+  /// The neighborhoods of one start for several radii, each vertex once. About as fast as the neighborhoods one by one
+  /// for balls around a vertex; else as that of the largest radius.
+  ///
+  /// radii   strictly ascending.
+  /// out     replaced: the neighborhood of the largest radius, ring by ring. Ring `i` has the vertices of the
+  ///         neighborhood of `radii[i]` that that of `radii[i - 1]` does not have. A near vertex may belong to a late
+  ///         ring if only the wider ball connects it. Each ring is in index order.
+  /// counts  replaced, one for each radius: the neighborhood of `radii[i]` is the first `counts[i]` ids of `out`.
+  void nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
+              std::vector<std::size_t>& counts);
+
+  /// Whether the neighborhood has vertex `w`. Costs at most as much as it, and less if the search reaches `w` early.
+  [[nodiscard]] bool contains(const Start& start, VertexId w, double radius);
+
+  /// The smallest radius whose neighborhood has vertex `w`; infinite if there is none. Straight, it is the minimum,
+  /// over all paths from a seed to `w`, of the largest distance between a vertex of the path and the center (a
+  /// bottleneck shortest path); else the path distance, or the number of edges.
+  ///
+  /// Costs about as much as the neighborhood of the result.
+  [[nodiscard]] double connecting_radius(const Start& start, VertexId w);
+
+  /// The `k` nearest connected vertices: the first `k`, ordered by connecting radius; straight, then by distance from
+  /// the center, then by id; else then by place in index order. So the answer for a smaller `k` is the beginning of
+  /// that for a larger one. Fewer than `k` if no more are connected.
+  ///
+  /// out     replaced: ids in that order.
+  /// radii   replaced: the connecting radius of each vertex.
+  /// O(k log k) on most surfaces.
+  void nearest_connected(const Start& start, std::size_t k, std::vector<VertexId>& out, std::vector<double>& radii);
+
+  /// The union of the neighborhoods of `dabs`, such as those of a brush stroke.
+  ///
+  /// out     replaced: ids in index order.
+  /// The cost is that of the single neighborhoods together.
+  void stroke(std::span<const Dab> dabs, std::vector<VertexId>& out);
 
  private:
   friend struct SearcherAccess;
 
-  struct State;
-  detail::Owner<State> state_;
+  Metric metric_;  // also of one that has been moved from, which can be bound again
+  detail::Owner<SingleQueries> queries_;
 };
 
 /// A searcher of any type, for a choice at run time: its answers, order and errors are those of the searcher that it is

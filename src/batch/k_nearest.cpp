@@ -3,27 +3,22 @@
 #include "meshhood/k_nearest.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "meshhood/error.h"
-#include "meshhood/region.h"
 
 #include "batch/size_limit.h"
 #include "exact/bound_index.h"
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
-#include "exact/query/path_search.h"
-#include "exact/query/region_state.h"
-#include "exact/query/ring_search.h"
-#include "exact/query/vertex_rings.h"
-#include "exact/search/vertex_bfs.h"
+#include "exact/query/length_search.h"
+#include "exact/query/straight_queries.h"
 #include "shared/parallel.h"
 #include "shared/text.h"
 
@@ -89,110 +84,54 @@ class NearestRows {
 };
 
 /// The vertices around one vertex by connecting radius.
-class StraightSearch {
+class StraightRowSearch {
  public:
-  StraightSearch(const Index& index, const NearestOptions& options) : searcher_(index), options_(&options) {}
+  StraightRowSearch(const Index& index, const NearestOptions& options)
+      : queries_(BoundIndex(index), IndexAccess::share_graph(index), best_isa()), radius_(options.radius) {}
 
   /// Calls `take(vertex, distance)` for the nearest vertices in order until it returns false. `areas`: not used.
   template <class Take>
   void run(VertexId v, std::size_t /*enough*/, double /*enough_area*/, std::span<const double> /*areas*/, Take&& take) {
-    RegionAccess::state(searcher_).for_each_nearest(v, options_->radius, take);
+    queries_.for_each_nearest(v, radius_, take);
   }
 
  private:
-  RegionSearcher searcher_;
-  const NearestOptions* options_;
+  StraightQueries queries_;
+  double radius_;
 };
 
-/// The same by path distance.
-class PathRowSearch {
+/// The same by path distance or number of edges.
+class LengthRowSearch {
  public:
-  PathRowSearch(const Index& index, const NearestOptions& options)
-      : index_(index), graph_(IndexAccess::share_graph(index)), paths_(*index_, *graph_), radius_(options.radius) {}
+  LengthRowSearch(const Index& index, const NearestOptions& options)
+      : index_(index),
+        graph_(IndexAccess::share_graph(index)),
+        search_(make_length_search(*index_, *graph_, options.metric, kernels(best_isa()))),
+        radius_(options.radius) {}
 
   /// The search ends when it has `enough` vertices, or more than `enough_area`.
   template <class Take>
   void run(VertexId v, std::size_t enough, double enough_area, std::span<const double> areas, Take&& take) {
-    const std::uint32_t slot = index_->slot[v];
     std::size_t count = 0;
     double area = 0;
-    paths_.run(index_->leaf_begin[leaf_of(slot)] + lane_of(slot), radius_, [&](std::span<const Path> found) {
-      for (const Path& path : found) {
-        if (index_->is_ignored_at(path.end)) continue;
-        ++count;
-        if (!areas.empty()) area += areas[index_->id(path.end)];
+    const auto is_enough = [&](std::span<const Path> found) {
+      count += found.size();
+      if (!areas.empty()) {
+        for (const Path& path : found) area += areas[index_->id(path.end)];
       }
       return count >= enough || area > enough_area * (1 + kAreaSlack);
-    });
-    for (const Path& path : paths_.found_in_order()) {
-      if (!index_->is_ignored_at(path.end) && !take(index_->id(path.end), path.length)) return;
+    };
+    search_->run(index_->slot[v], radius_, std::cref(is_enough));
+    for (const Path& path : search_->in_order()) {
+      if (!take(index_->id(path.end), path.length)) return;
     }
   }
 
  private:
   BoundIndex index_;
   std::shared_ptr<KeptGraph> graph_;
-  PathSearch paths_;
+  std::unique_ptr<LengthSearch> search_;
   double radius_;
-};
-
-/// The same by numbers of edges.
-class RingRowSearch {
- public:
-  RingRowSearch(const Index& index, const NearestOptions& options)
-      : index_(index),
-        graph_(IndexAccess::share_graph(index)),
-        rings_(*index_, kernels(best_isa())),
-        radius_(options.radius) {
-    if (is_unlike_a_surface(*index_)) by_vertex_.emplace(*index_, *graph_);
-  }
-
-  template <class Take>
-  void run(VertexId v, std::size_t /*enough*/, double /*enough_area*/, std::span<const double> /*areas*/, Take&& take) {
-    by_vertex_ ? run_by_vertex(v, take) : run_by_leaf(v, take);
-  }
-
- private:
-  /// With twice as many rings each time, so that all searches take at most about twice as long as the last.
-  template <class Take>
-  void run_by_vertex(VertexId v, Take& take) {
-    constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
-    const auto most = static_cast<std::uint32_t>(std::min(radius_, kMost));
-    std::size_t taken = 0;  // rings
-    for (std::uint32_t count = std::min(most, 1U);; count = count > most / 2 ? most : 2 * count) {
-      by_vertex_->run(index_->slot[v], count);
-      const std::vector<std::vector<std::uint32_t>> rings = by_vertex_->rings();
-      for (; taken < rings.size(); ++taken) {
-        for (const std::uint32_t place : rings[taken]) {
-          if (!take(index_->id(place), static_cast<double>(taken))) return;
-        }
-      }
-      if (count == most || rings.size() <= count) return;
-    }
-  }
-
-  template <class Take>
-  void run_by_leaf(VertexId v, Take& take) {
-    double edges = 0;
-    for (rings_.start(index_->slot[v]); edges <= radius_ && !rings_.ring().empty(); rings_.advance()) {
-      ring_.assign(rings_.ring().begin(), rings_.ring().end());
-      std::ranges::sort(ring_, {}, &LeafSubset::leaf);
-      for (const auto& [leaf, lanes] : ring_) {
-        for (LaneMask left = lanes & ~index_->ignored_lanes(leaf); left != 0; left &= left - 1) {
-          const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-          if (!take(index_->id(index_->leaf_begin[leaf] + lane), edges)) return;
-        }
-      }
-      ++edges;
-    }
-  }
-
-  BoundIndex index_;
-  std::shared_ptr<KeptGraph> graph_;
-  RingSearch rings_;
-  std::optional<VertexRings> by_vertex_;  // for a graph unlike a surface, instead of `rings_`
-  double radius_;
-  std::vector<LeafSubset> ring_;
 };
 
 /// Calls `f(search, row)` for all rows with a search of the metric.
@@ -200,14 +139,12 @@ template <class F>
 void for_each_row(const Index& index, NearestRows& rows, F&& f) {
   const NearestOptions& options = rows.options();
   if (options.metric == Metric::Straight) {
-    rows.for_each([&] { return std::make_unique<StraightSearch>(index, options); }, f);
-  } else if (options.metric == Metric::Rings) {
-    rows.for_each([&] { return std::make_unique<RingRowSearch>(index, options); }, f);
-  } else {
-    // Before the threads begin: each of them would make it.
-    static_cast<void>(IndexAccess::share_graph(index)->of(IndexAccess::view(index)));
-    rows.for_each([&] { return std::make_unique<PathRowSearch>(index, options); }, f);
+    rows.for_each([&] { return std::make_unique<StraightRowSearch>(index, options); }, f);
+    return;
   }
+  // Before the threads begin: each of them would make it.
+  if (options.metric == Metric::Path) static_cast<void>(IndexAccess::share_graph(index)->of(IndexAccess::view(index)));
+  rows.for_each([&] { return std::make_unique<LengthRowSearch>(index, options); }, f);
 }
 
 struct Disc {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "meshhood/batch.h"
-#include "meshhood/edge_search.h"
 #include "meshhood/error.h"
 #include "meshhood/reference.h"
 #include "meshhood/search.h"
@@ -30,8 +29,6 @@ static_assert(NeighborhoodSearcher<Searcher>);
 static_assert(NeighborhoodSearcher<paper::Searcher>);
 static_assert(NeighborhoodSearcher<ReferenceSearcher>);
 static_assert(NeighborhoodSearcher<BallSearcher>);
-static_assert(NeighborhoodSearcher<EdgeSearcher>);
-static_assert(NeighborhoodSearcher<RingSearcher>);
 static_assert(NeighborhoodSearcher<SpaceSearcher>);
 static_assert(NeighborhoodSearcher<AnySearcher>);
 
@@ -100,28 +97,21 @@ SearcherFactory factory_of(const Index& index) {
           .positions_together = kLeafCapacity};
 }
 
-SearcherFactory straight_factory(const Index& index) {
-  SearcherFactory factory = factory_of(index);
-  factory.has_metrics = true;
-  factory.make_searcher = [&index] { return AnySearcher(Searcher(index)); };
-  factory.positions_together = StraightRows::kGroupPositions;
-  factory.make_joint_search = [&index] { return std::make_unique<StraightRows>(index); };
-  return factory;
+std::unique_ptr<RowSearch> make_rows(const Index& index, Metric metric) {
+  switch (metric) {
+    case Metric::Path: return std::make_unique<PathRows>(index);
+    case Metric::Rings: return std::make_unique<RingRows>(index);
+    case Metric::Straight: break;
+  }
+  return std::make_unique<StraightRows>(index);
 }
 
-SearcherFactory path_factory(const Index& index) {
+SearcherFactory exact_factory(const Index& index, Metric metric) {
   SearcherFactory factory = factory_of(index);
   factory.has_metrics = true;
-  factory.make_searcher = [&index] { return AnySearcher(EdgeSearcher(index)); };
-  factory.make_joint_search = [&index] { return std::make_unique<PathRows>(index); };
-  return factory;
-}
-
-SearcherFactory ring_factory(const Index& index) {
-  SearcherFactory factory = factory_of(index);
-  factory.has_metrics = true;
-  factory.make_searcher = [&index] { return AnySearcher(RingSearcher(index)); };
-  factory.make_joint_search = [&index] { return std::make_unique<RingRows>(index); };
+  factory.make_searcher = [&index, metric] { return AnySearcher(Searcher(index, metric)); };
+  if (metric == Metric::Straight) factory.positions_together = StraightRows::kGroupPositions;
+  factory.make_joint_search = [&index, metric] { return make_rows(index, metric); };
   return factory;
 }
 
@@ -136,7 +126,7 @@ std::unique_ptr<BatchWorker> SearcherFactory::make_worker() const {
 
 SearchMethod::SearchMethod(std::shared_ptr<const SearcherFactory> searchers) : searchers_(std::move(searchers)) {}
 
-SearchMethod::SearchMethod(const Index& index) : SearchMethod(shared(straight_factory(index))) {}
+SearchMethod::SearchMethod(const Index& index) : SearchMethod(shared(exact_factory(index, Metric::Straight))) {}
 
 SearchMethod::SearchMethod(const paper::Index& index, const paper::QueryOptions& options)
     : SearchMethod(shared({.vertex_count = index.vertex_count(),
@@ -158,13 +148,7 @@ SearchMethod SearchMethod::by(Metric metric) const {
     if (metric == Metric::Straight) return *this;
     raise(ErrorCode::InvalidOption, "metric: expected Straight, because the method is not the exact one of an Index");
   }
-  const Index& index = *searchers_->of_slots;
-  switch (metric) {
-    case Metric::Path: return SearchMethod(shared(path_factory(index)));
-    case Metric::Rings: return SearchMethod(shared(ring_factory(index)));
-    case Metric::Straight: break;
-  }
-  return SearchMethod(index);
+  return SearchMethod(shared(exact_factory(*searchers_->of_slots, metric)));
 }
 
 SearchMethod SearchMethod::in_space(const Index& index) {

@@ -12,7 +12,7 @@
 
 namespace meshhood {
 
-/// The neighborhoods of a batch along the edges, as `EdgeSearcher` finds them one by one. The index must outlive it.
+/// The neighborhoods of a batch along the edges, as a `Searcher` finds them one by one. The index must outlive it.
 class PathRows final : public RowSearch {
  public:
   explicit PathRows(const Index& index, Isa isa = best_isa());

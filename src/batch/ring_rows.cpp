@@ -2,13 +2,9 @@
 #include "batch/ring_rows.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
-#include "base/ranges.h"
-#include "exact/index_access.h"
 #include "exact/search/vertex_bfs.h"
-#include "shared/distance.h"
 
 namespace meshhood {
 namespace {
@@ -21,76 +17,40 @@ std::uint32_t rings_of(double radius) {
 
 }  // namespace
 
-LeafRings::LeafRings(const Index& index)
-    : index_(&IndexAccess::view(index)),
+RingRows::RingRows(const Index& index)
+    : index_(IndexAccess::view(index)),
       graph_(IndexAccess::share_graph(index)),
-      packet_(IndexAccess::view(index), best_isa()) {
-  if (is_unlike_a_surface(IndexAccess::view(index))) by_vertex_.emplace(IndexAccess::view(index), *graph_);
+      packet_(index_, best_isa()),
+      writer_(index_, best_isa()) {
+  if (is_unlike_a_surface(index_)) by_vertex_.emplace(index_, *graph_);
 }
 
-void LeafRings::run(std::span<const BatchItem> items) {
+bool RingRows::run(std::span<const RowRun> runs) {
+  const std::span<const BatchItem> items = runs.front().items;
+  rows_ = static_cast<unsigned>(items.size());
   if (by_vertex_) {
     counts_[0] = by_vertex_->run(items.front().position, rings_of(items.front().radius));
-    return;
+    return true;
   }
   queries_.clear();
   for (const BatchItem& item : items) queries_.push_back({lane_of(item.position), rings_of(item.radius)});
   packet_.run(leaf_of(items.front().position), queries_);
   counts_ = packet_.counts();
-}
-
-std::span<const VertexId> RingSearcher::permutation() const {
-  const std::span<const VertexId> padded = index_->permutation;
-  return padded.empty() ? padded : padded.first(vertex_count());
-}
-
-void RingSearcher::run(VertexId v, double radius) {
-  index_.check_current();
-  check_query(v, vertex_count(), radius);
-  rings_.run(std::array{BatchItem{0, v, index_->slot[v], radius}});
-}
-
-std::vector<VertexId> RingSearcher::neighborhood(VertexId v, double radius) {
-  std::vector<VertexId> out;
-  neighborhood(v, radius, out);
-  return out;
-}
-
-void RingSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
-  std::vector<VertexId> ids;
-  run(v, radius);
-  rings_.for_each([&](std::size_t vertex, double) { ids.push_back(index_->id(vertex)); });
-  out = std::move(ids);
-}
-
-void RingSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
-  std::vector<VertexId> ids;
-  std::vector<double> edges_to;
-  run(v, radius);
-  rings_.for_each([&](std::size_t vertex, double edges) {
-    ids.push_back(index_->id(vertex));
-    edges_to.push_back(edges);
-  });
-  out = std::move(ids);
-  distances = std::move(edges_to);
-}
-
-std::size_t RingSearcher::count(VertexId v, double radius) {
-  run(v, radius);
-  return rings_.counts()[0];
-}
-
-std::span<const VertexRange> RingSearcher::ranges(VertexId v, double radius) {
-  ranges_.clear();
-  run(v, radius);
-  rings_.for_each([&](std::size_t vertex, double) { append_to(ranges_, static_cast<VertexId>(vertex)); });
-  return ranges_;
-}
-
-bool RingRows::run(std::span<const RowRun> runs) {
-  rows_ = static_cast<unsigned>(runs.front().items.size());
-  rings_.run(runs.front().items);
   return true;
+}
+
+template <class F>
+void RingRows::for_each(F&& f) {
+  if (by_vertex_) {
+    for (const std::uint32_t place : by_vertex_->places()) f(place, by_vertex_->edges_to(place));
+    return;
+  }
+  for (const auto& [leaves, queries, reached] : packet_.pieces()) {
+    packet_.select(leaves.begin);
+    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+      if (reached[lane] != 0) f(index_.leaf_begin[leaves.begin] + lane, packet_.at(lane)[0]);
+    }
+  }
 }
 
 bool RingRows::write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
@@ -103,9 +63,9 @@ bool RingRows::write(std::span<const BatchItem> items, const RowAnswers& answers
     }
     return true;
   }
-  const BatchMemory memory = receiver.memory(items.front().row, rings_.counts()[0]);
+  const BatchMemory memory = receiver.memory(items.front().row, counts_[0]);
   std::size_t next = 0;
-  rings_.for_each([&](std::size_t vertex, double edges) {
+  for_each([&](std::size_t vertex, double edges) {
     memory.ids[next] = index_.id(vertex);
     if (distances) memory.distances[next] = edges;
     ++next;

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "exact/index_access.h"
-#include "exact/search/searcher_state.h"
 
 namespace meshhood {
 namespace {
@@ -49,8 +48,8 @@ bool StraightRows::run(std::span<const RowRun> runs) {
     for (const BatchItem& item : items) queries_.push_back({lane_of(item.position), prepared(item.radius)});
     joint_->run(leaf_of_run(runs.front()), queries_);
   } else {
-    if (!searcher_) searcher_.emplace(index_);
-    SearcherAccess::state(*searcher_).search(items.front().vertex, items.front().radius);
+    if (!single_) single_.emplace(BoundIndex(index_), IndexAccess::share_graph(index_), best_isa());
+    single_->search(items.front().vertex, items.front().radius);
   }
   return true;
 }
@@ -82,15 +81,14 @@ const JointRadius& StraightRows::prepared(double radius) {
 
 const PerLane<std::uint64_t>& StraightRows::counts() {
   if (is_joint_) return joint_->counts();
-  counts_[0] = SearcherAccess::state(*searcher_).answer.count();
+  counts_[0] = single_->answer.count();
   return counts_;
 }
 
 std::span<const Piece> StraightRows::pieces() {
   if (is_joint_) return joint_->pieces();
-  SearcherAccess::State& state = SearcherAccess::state(*searcher_);
-  if (state.way == SearcherAccess::State::Way::VertexBfs) state.answer.align_to_leaves();
-  return pieces_of(state.answer);
+  if (single_->way == StraightSearch::Way::VertexBfs) single_->answer.align_to_leaves();
+  return pieces_of(single_->answer);
 }
 
 std::span<const Piece> StraightRows::pieces_of(VertexSet& found) {

@@ -5,18 +5,17 @@
 #include <span>
 #include <vector>
 
-#include "meshhood/search.h"
-
 #include "batch/row_search.h"
 #include "exact/joint/joint_search.h"
 #include "exact/joint/row_writer.h"
 #include "exact/layout.h"
+#include "exact/search/straight_search.h"
 #include "exact/vertex_set.h"
 
 namespace meshhood {
 
-/// The exact neighborhoods of a batch: the joint search for many rows of a leaf, and a `Searcher` for others. The index
-/// must outlive it.
+/// The exact neighborhoods of a batch: the joint search for many rows of a leaf, and a single search for others. The
+/// index must outlive it.
 class StraightRows final : public RowSearch {
  public:
   /// The positions of a group: rows that lie between two multiples of it should come in one chunk.
@@ -46,7 +45,7 @@ class StraightRows final : public RowSearch {
   JointRadius radius_;  // of the last row, because most batches have one radius
   RowWriter writer_;
   // Made by the first run that needs them:
-  std::optional<Searcher> searcher_;
+  std::optional<StraightSearch> single_;
   std::optional<JointSearch> joint_;
   // Of the last run:
   bool is_joint_ = false;

@@ -39,7 +39,7 @@ bool are_leaves_large(const IndexView& index) {
 }
 
 /// Searches around one packet at a time.
-class UnconnectedSearch : public VertexVisitor {
+class UnconnectedSearch {
  public:
   /// Borrows the index.
   UnconnectedSearch(const IndexView& index, Metric metric)

@@ -64,7 +64,7 @@ double DirectFit::set_points(std::uint32_t place) {
 }
 
 DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const TangentFrame& frame) {
-  if (!searcher_) searcher_ = SearchMethod(surface_->searched).by(metric_).make_searcher();
+  if (!searcher_) searcher_.emplace(surface_->searched, metric_);
   find_places(*searcher_, *surface_->index, place, radius, found_);
   const std::size_t inside = found_.size();
   const bool is_extended = inside < kFewestPoints;

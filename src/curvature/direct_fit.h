@@ -38,7 +38,7 @@ class DirectFit {
   const SurfaceState* surface_;
   Metric metric_;
   const CurvatureOptions* options_;
-  std::optional<AnySearcher> searcher_;
+  std::optional<Searcher> searcher_;
   std::vector<std::uint32_t> found_;  // places in index order
   std::vector<std::uint32_t> facing_;
   std::vector<Point> points_;  // relative to the query vertex

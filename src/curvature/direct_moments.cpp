@@ -30,7 +30,7 @@ void DirectMoments::set_units(const Point& center) {
 }
 
 void DirectMoments::sum(std::uint32_t place, double radius) {
-  if (!searcher_) searcher_ = SearchMethod(*searched_).by(source_.metric).make_searcher();
+  if (!searcher_) searcher_.emplace(*searched_, source_.metric);
   find_places(*searcher_, *source_.index, place, radius, found_);
   const Point center = offset(place, {0, 0, 0});
   set_units(center);

@@ -34,7 +34,7 @@ class DirectMoments {
 
   const Index* searched_;
   MomentSource source_;
-  std::optional<AnySearcher> searcher_;
+  std::optional<Searcher> searcher_;
   std::vector<std::uint32_t> found_;
   double scale_ = 1;
   int weight_exponent_ = 0;

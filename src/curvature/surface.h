@@ -67,7 +67,7 @@ struct CurvatureAccess {
 using SurfaceState = CurvatureAccess::State;
 
 /// The places in index order of the vertices of the neighborhood of the one at `place`. They ascend.
-inline void find_places(AnySearcher& searcher, const IndexView& index, std::uint32_t place, double radius,
+inline void find_places(Searcher& searcher, const IndexView& index, std::uint32_t place, double radius,
                         std::vector<std::uint32_t>& found) {
   found.clear();
   for (const VertexRange& range : searcher.ranges(index.id(place), radius)) {

@@ -113,6 +113,22 @@ void classify(const Group* groups, std::span<const std::uint32_t> list, const Tr
   }
 }
 
+unsigned box_squares(const BoxGroup& boxes, const FramePoint& center, float limit, BoxGroup::Row& squares) {
+  unsigned near = 0;
+  const hn::CappedTag<float, kFanOut> d;
+  const auto at = splat_point(d, center);
+  const auto outside = [d](auto below, auto above) HWY_ATTR { return hn::Max(hn::Max(below, above), hn::Zero(d)); };
+  for (std::size_t i = 0; i < kFanOut; i += kLanes<decltype(d)>) {
+    const auto below = difference(load_rows(d, boxes.low, i), at);
+    const auto above = difference(at, load_rows(d, boxes.high, i));
+    const Points<decltype(d)> gap{outside(below.x, above.x), outside(below.y, above.y), outside(below.z, above.z)};
+    const auto square = squared_length(gap);
+    hn::StoreU(square, d, &squares[i]);
+    near |= bits_of(d, hn::Le(square, hn::Set(d, limit))) << i;
+  }
+  return near;
+}
+
 VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
   const Ids d;
   for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Ids>) {
@@ -121,7 +137,8 @@ VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
   return out;
 }
 
-constexpr Kernels kBallKernels{within_float, within_exact<double>, cross_edges, reachable, classify, compress};
+constexpr Kernels kBallKernels{within_float, within_exact<double>, cross_edges, reachable,
+                               classify,     box_squares,          compress};
 
 }  // namespace
 }  // namespace meshhood::HWY_NAMESPACE

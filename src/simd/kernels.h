@@ -45,6 +45,10 @@ struct Kernels {
   void (*classify)(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball,
                    GroupContainment* out);
 
+  /// The squared distances of the boxes from `center`, in single precision; 0 inside. Returns a bit for each that is at
+  /// most `limit`.
+  unsigned (*box_squares)(const BoxGroup& boxes, const FramePoint& center, float limit, BoxGroup::Row& squares);
+
   /// Writes those of the 32 `ids` whose lane is set, in order, and returns the end of the output. May write up to 32
   /// ids beyond that end.
   VertexId* (*compress)(const VertexId* ids, LaneMask lanes, VertexId* out);

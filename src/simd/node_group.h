@@ -19,6 +19,18 @@ struct alignas(64) Group {
   Row radius;
 };
 
+/// Eight boxes side by side, in the frame.
+struct alignas(64) BoxGroup {
+  using Row = Group::Row;
+  struct Corners {
+    Row x;
+    Row y;
+    Row z;
+  };
+  Corners low;
+  Corners high;
+};
+
 /// The relation of the nodes of a group to a ball, one bit a node. A node with neither of the first two bits is outside
 /// the ball.
 struct GroupContainment {

@@ -137,7 +137,7 @@ TEST_P(Searchers, OfAMethodGiveTheAnswersOfTheSearcherThatItNames) {
     expect_same(index, Searcher(index), v, radius);
     expect_same({hierarchy, options}, paper::Searcher(hierarchy, options), v, radius);
     expect_same(SearchMethod::breadth_first(graph), ReferenceSearcher(graph), v, radius);
-    expect_same(SearchMethod(index).by(Metric::Path), EdgeSearcher(index), v, radius);
+    expect_same(SearchMethod(index).by(Metric::Path), Searcher(index, Metric::Path), v, radius);
     expect_same(SearchMethod::ball_scan(graph.positions), BallSearcher(graph.positions), v, radius);
     expect_same(SearchMethod::in_space(index), SpaceSearcher(index), v, radius);
   }

@@ -53,11 +53,11 @@ static_assert(HasPositions<const paper::Index&> && !HasPositions<paper::Index>);
 static_assert(HasPermutation<const Index&> && !HasPermutation<Index>);
 static_assert(HasPermutation<const paper::Index&> && !HasPermutation<paper::Index>);
 static_assert(HasPermutation<Searcher&> && !HasPermutation<Searcher>);
-static_assert(HasPermutation<EdgeSearcher&> && !HasPermutation<EdgeSearcher>);
+static_assert(HasPermutation<Searcher&> && !HasPermutation<Searcher>);
 static_assert(HasPermutation<AnySearcher&> && !HasPermutation<AnySearcher>);
 static_assert(HasPermutation<paper::Searcher&> && !HasPermutation<paper::Searcher>);
 static_assert(HasRanges<Searcher&> && !HasRanges<Searcher>);
-static_assert(HasRanges<EdgeSearcher&> && !HasRanges<EdgeSearcher>);
+static_assert(HasRanges<Searcher&> && !HasRanges<Searcher>);
 static_assert(HasRanges<AnySearcher&> && !HasRanges<AnySearcher>);
 static_assert(HasRanges<paper::Searcher&> && !HasRanges<paper::Searcher>);
 static_assert(HasRanges<ReferenceSearcher&> && !HasRanges<ReferenceSearcher>);
@@ -79,6 +79,16 @@ static_assert(kIsBorrowed<decltype(io::VertexProperty::values)>);
 static_assert(kIsBorrowed<decltype(io::PlyOptions::colors)>);
 static_assert(std::constructible_from<ValuesView, const std::vector<float>&>);
 static_assert(!std::constructible_from<ValuesView, std::vector<float>>);
+struct Handle {
+  explicit(false) operator VertexId() const { return 3; }
+};
+struct Coordinate {
+  explicit(false) operator float() const { return 3; }
+};
+static_assert(std::convertible_to<int, Start> && std::convertible_to<std::size_t, Start>);
+static_assert(std::convertible_to<Handle, Start>);
+static_assert(!std::constructible_from<Start, bool> && !std::constructible_from<Start, std::vector<bool>::reference>);
+static_assert(!std::constructible_from<Start, double> && !std::constructible_from<Start, Coordinate>);
 static_assert(std::constructible_from<Start, SpacePoint, const std::vector<VertexId>&>);
 static_assert(!std::constructible_from<Start, SpacePoint, std::vector<VertexId>>);
 static_assert(std::constructible_from<AdjacencyView, std::vector<EdgeOffset>&, std::vector<VertexId>&>);

@@ -12,10 +12,9 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/aggregate.h"
-#include "meshhood/edge_search.h"
 #include "meshhood/index.h"
 #include "meshhood/masks.h"
-#include "meshhood/region.h"
+#include "meshhood/search.h"
 
 #include "support/families.h"
 #include "support/family_name.h"
@@ -41,18 +40,12 @@ NearestRow nearest_of(const RegionOracle& oracle, const PlainStart& start, doubl
   return row;
 }
 
-NearestRow along_edges(EdgeSearcher& searcher, VertexId v, double radius) {
+NearestRow along_edges(Searcher& searcher, VertexId v, double radius) {
   NearestRow row;
-  searcher.neighborhood(v, radius, row.ids, row.distances);
-  return row;
-}
-
-NearestRow by_rings(EdgeSearcher& searcher, VertexId v, double radius) {
-  NearestRow row;
-  std::vector<std::size_t> counts;
-  searcher.rings(v, static_cast<std::size_t>(std::min(radius, 1e9)), row.ids, counts);
-  for (std::size_t ring = 0; ring < counts.size(); ++ring)
-    row.distances.resize(counts[ring], static_cast<double>(ring));
+  searcher.nearest_connected(v, searcher.vertex_count(), row.ids, row.distances);
+  const auto end = std::ranges::upper_bound(row.distances, radius);
+  row.ids.resize(static_cast<std::size_t>(end - row.distances.begin()));
+  row.distances.erase(end, row.distances.end());
   return row;
 }
 
@@ -100,7 +93,7 @@ TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
       for (const double radius : {kInfinity, metric == Metric::Rings ? 3.5 : 3 * edge, 0.0}) {
         const NearestOptions options{.metric = metric, .radius = radius, .threads = 2};
         const Index searched = masked(index, radius != 0 ? Masks{walls, ignored} : Masks{});
-        EdgeSearcher edges(searched);
+        Searcher edges(searched, metric);
         const std::size_t k = 1 + random.below(30);
         const double area = random.uniform(0.5, 6);
         const KNearest found = k_nearest(searched, some, k, options);
@@ -114,9 +107,8 @@ TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
           start.seeds = {some[i]};
           start.walls = radius != 0 ? walls : std::vector<std::uint8_t>(mesh.size());
           start.ignored = radius != 0 ? ignored : std::vector<std::uint8_t>(mesh.size());
-          NearestRow all = metric == Metric::Straight ? nearest_of(oracle, start, radius)
-                           : metric == Metric::Path   ? along_edges(edges, some[i], radius)
-                                                      : by_rings(edges, some[i], radius);
+          NearestRow all =
+              metric == Metric::Straight ? nearest_of(oracle, start, radius) : along_edges(edges, some[i], radius);
           std::size_t size = 0;
           for (double sum = 0; size < all.ids.size() && sum < area; ++size) sum += areas[all.ids[size]];
           const std::span<const VertexId> ids =
@@ -140,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(All, KNearestIn, testing::ValuesIn(families()), family_
 TEST(KNearest, OfAllVerticesAreTheRowsInTheirOrder) {
   const TestMesh mesh = bumpy_grid(30);
   const Index index = build(mesh.view());
-  RegionSearcher searcher(index);
+  Searcher searcher(index);
   const KNearest found = k_nearest(index, {}, 7, {.threads = 3});
   ASSERT_EQ(found.ids.size(), 7 * mesh.size());
   NearestRow expected;

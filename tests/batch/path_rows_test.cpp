@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Batches along the edges have the rows of `EdgeSearcher`, on every instruction set.
+// Batches along the edges have the rows of `Searcher`, on every instruction set.
 #include "batch/path_rows.h"
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/batch.h"
-#include "meshhood/edge_search.h"
 #include "meshhood/masks.h"
+#include "meshhood/search.h"
 
 #include "support/draw_start.h"
 #include "support/exact_answer.h"
@@ -34,7 +34,7 @@ TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
     limit_isa(available_isas()[seed % available_isas().size()]);
     const std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), random.below(2) * 9);
     const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), random.below(2) * 4);
-    EdgeSearcher searcher(index);
+    Searcher searcher(index, Metric::Path);
     std::vector<VertexId> ids;
     std::vector<double> lengths;
     double longest = 0;
@@ -48,7 +48,7 @@ TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
       radii.push_back(random.below(10) == 0 ? kInfinity : longest * random.uniform(0, 0.6));
     }
     const Index searched = masked(index, {walls, ignored});
-    EdgeSearcher masked_searcher(searched);
+    Searcher masked_searcher(searched, Metric::Path);
     const SearchMethod method = SearchMethod(searched).by(Metric::Path);
     const BatchQuery query{.vertices = vertices, .radius = radii};
     const unsigned threads = 1 + static_cast<unsigned>(seed % 2);

@@ -79,8 +79,8 @@ TEST(Index, ThatHasBeenMovedFromIsRefusedByEveryCallAndCanBeAssigned) {
   refuse([&] { index.refit_in_place(mesh.positions_view()); });
   refuse([&] { static_cast<void>(refit(index, mesh.positions_view())); });
   refuse([&] { static_cast<void>(Searcher(index)); });
-  refuse([&] { static_cast<void>(RegionSearcher(index)); });
-  refuse([&] { static_cast<void>(EdgeSearcher(index)); });
+  refuse([&] { static_cast<void>(Searcher(index)); });
+  refuse([&] { static_cast<void>(Searcher(index, Metric::Path)); });
   refuse([&] { static_cast<void>(nearest(index, {0, 0, 0})); });
   refuse([&] { static_cast<void>(counts(index, {.radius = 1.0})); });
   refuse([&] { static_cast<void>(quality(index)); });

@@ -17,7 +17,7 @@
 #include "meshhood/serialize.h"
 
 #include "exact/index_access.h"
-#include "exact/search/searcher_state.h"
+#include "exact/query/single_queries.h"
 #include "exact/search/vertex_bfs.h"
 #include "support/draw.h"
 #include "support/draw_start.h"

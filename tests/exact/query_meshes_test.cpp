@@ -11,10 +11,9 @@
 
 #include <gtest/gtest.h>
 
-#include "meshhood/edge_search.h"
 #include "meshhood/index.h"
 #include "meshhood/masks.h"
-#include "meshhood/region.h"
+#include "meshhood/search.h"
 
 #include "support/draw_start.h"
 #include "support/each_shared_mesh.h"
@@ -68,7 +67,7 @@ class Comparison {
     const DrawnStart drawn = draw_start_on_surface(random_, mesh_);
     const Start start = drawn.start();
     const Index searched = drawn.on(index_);
-    RegionSearcher regions(searched);
+    Searcher regions(searched);
     const std::vector<double> radii = draw_radii(drawn.plain);
     std::vector<VertexId> ids;
     std::vector<VertexId> nested;
@@ -76,7 +75,7 @@ class Comparison {
     regions.nested(start, radii, nested, counts);
     for (std::size_t i = 0; i < radii.size(); ++i) {
       const std::vector<VertexId> expected = oracle_.region(drawn.plain, radii[i]);
-      regions.region(start, radii[i], ids);
+      regions.neighborhood(start, radii[i], ids);
       ASSERT_EQ(sorted(ids), expected) << "radius " << radii[i];
       ASSERT_LE(counts[i], nested.size());
       ASSERT_EQ(sorted({nested.begin(), nested.begin() + static_cast<std::ptrdiff_t>(counts[i])}), expected)
@@ -100,7 +99,7 @@ class Comparison {
     expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
     std::vector<VertexId> ids;
     const Index searched = masked(index_, {.walls = drawn.front().plain.walls, .ignored = drawn.front().plain.ignored});
-    RegionSearcher(searched).stroke(dabs, ids);
+    Searcher(searched).stroke(dabs, ids);
     ASSERT_EQ(sorted(ids), expected);
   }
 
@@ -108,7 +107,7 @@ class Comparison {
     const DrawnStart drawn = draw_start_on_surface(random_, mesh_);
     const Start start = drawn.start();
     const Index searched = drawn.on(index_);
-    RegionSearcher regions(searched);
+    Searcher regions(searched);
     const double limit = 9 * mean_edge_;
     const std::vector<double> radii = oracle_.connecting_radii(drawn.plain, limit);
     std::vector<VertexId> near = oracle_.in_order(drawn.plain, radii);
@@ -139,7 +138,7 @@ class Comparison {
     std::vector<VertexId> ids;
     std::vector<double> lengths;
     const Index searched = drawn.on(index_);
-    EdgeSearcher edges(searched);
+    Searcher edges(searched, Metric::Path);
     edges.neighborhood(v, limit, ids, lengths);
     ASSERT_EQ(sorted(ids), finite(least, drawn.plain.ignored));
     ASSERT_TRUE(std::is_sorted(lengths.begin(), lengths.end()));
@@ -147,14 +146,9 @@ class Comparison {
 
     constexpr std::size_t kRings = 8;
     const auto hops = oracle_.path_lengths(drawn.plain, kRings, [](auto, auto) { return 1.0; });
-    std::vector<std::size_t> counts;
-    edges.rings(v, kRings, ids, counts);
+    Searcher(searched, Metric::Rings).neighborhood(v, kRings, ids, lengths);
     ASSERT_EQ(sorted(ids), finite(hops, drawn.plain.ignored));
-    for (std::size_t ring = 0; ring < counts.size(); ++ring) {
-      for (std::size_t i = ring == 0 ? 0 : counts[ring - 1]; i < counts[ring]; ++i) {
-        ASSERT_EQ(hops[ids[i]], static_cast<double>(ring)) << "vertex " << ids[i];
-      }
-    }
+    for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(hops[ids[i]], lengths[i]) << "vertex " << ids[i];
   }
 
   void expect_same_nearest() {
@@ -194,7 +188,7 @@ class Comparison {
       const DrawnStart drawn = draw_start_on_surface(random_, mesh_);
       const double radius = 8 * mean_edge_;
       const Index searched = drawn.on(index);
-      RegionSearcher(searched).region(drawn.start(), radius, ids);
+      Searcher(searched).neighborhood(drawn.start(), radius, ids);
       ASSERT_EQ(sorted(ids), oracle.region(drawn.plain, radius));
     }
   }

@@ -187,7 +187,7 @@ TEST(Refit, OfTheChangedVerticesHasTheNodesOfARefitOfAll) {
 std::vector<double> path_distances(const Index& index) {
   std::vector<VertexId> ids;
   std::vector<double> distances;
-  EdgeSearcher(index).neighborhood(0, kInfinity, ids, distances);
+  Searcher(index, Metric::Path).neighborhood(0, kInfinity, ids, distances);
   std::vector<double> result(index.vertex_count(), kInfinity);
   for (std::size_t i = 0; i < ids.size(); ++i) result[ids[i]] = distances[i];
   return result;
@@ -328,8 +328,8 @@ TEST_P(RefitFamilies, SearchersThatAreBoundAgainGiveTheAnswersOfNewOnes) {
   mesh.finish(mesh.single_precision);
   Index index = build(mesh.view());
   Searcher searcher(index);
-  RegionSearcher regions(index);
-  EdgeSearcher edges(index);
+  Searcher regions(index);
+  Searcher edges(index, Metric::Path);
   Random random(17);
   const double fixed = 0.4 * distance(mesh.positions_view(), 0, static_cast<VertexId>(mesh.size() / 2));
   std::vector<VertexId> changed;
@@ -352,9 +352,9 @@ TEST_P(RefitFamilies, SearchersThatAreBoundAgainGiveTheAnswersOfNewOnes) {
       const std::array seeds{w};
       const Start start({0, 0, 0}, seeds);
       EXPECT_EQ(searcher.neighborhood(v, radius), Searcher(index).neighborhood(v, radius));
-      EXPECT_EQ(regions.region(v, radius), Searcher(index).neighborhood(v, radius));
-      EXPECT_EQ(regions.region(start, radius), RegionSearcher(index).region(start, radius));
-      EXPECT_EQ(edges.neighborhood(v, radius), EdgeSearcher(index).neighborhood(v, radius));
+      EXPECT_EQ(regions.neighborhood(v, radius), Searcher(index).neighborhood(v, radius));
+      EXPECT_EQ(regions.neighborhood(start, radius), Searcher(index).neighborhood(start, radius));
+      EXPECT_EQ(edges.neighborhood(v, radius), Searcher(index, Metric::Path).neighborhood(v, radius));
     }
   }
 }
@@ -363,8 +363,8 @@ TEST(RefitInPlace, IsRefusedBySearchersThatAreNotBoundAgain) {
   const Sculpted sculpted;
   Index index = build(sculpted.mesh.view());
   Searcher searcher(index);
-  RegionSearcher regions(index);
-  EdgeSearcher edges(index);
+  Searcher regions(index);
+  Searcher edges(index, Metric::Path);
   const CurvatureIndex surface = CurvatureIndex::build(index, sculpted.mesh.view());
   index.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
   const char* const cause = "the index was refitted in place";
@@ -375,7 +375,7 @@ TEST(RefitInPlace, IsRefusedBySearchersThatAreNotBoundAgain) {
   expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(edges.count(0, 1)); });
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
-  expect_refused(ErrorCode::InvalidOption, cause, [&] { edges.rings(0, 1, ids, counts); });
+  expect_refused(ErrorCode::InvalidOption, cause, [&] { edges.nested(0, std::array{1.0}, ids, counts); });
   expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(curvatures(surface, {.radius = 2.0})); });
 }
 
@@ -426,8 +426,8 @@ TEST(Refit, LeavesSearchersOfTheOldStateWithTheOldAnswers) {
   Searcher old(index);
   index = refit(index, sculpted.moved.positions_view(), sculpted.changed);
   Searcher young(index);
-  RegionSearcher young_region(index);
-  EdgeSearcher young_edges(index);
+  Searcher young_region(index);
+  Searcher young_edges(index, Metric::Path);
   const double first_edge = distance(sculpted.moved.positions_view(), 0, 1);
   index = refit(index, sculpted.mesh.positions_view());  // the state of `young` has no index any more
   std::vector<VertexId> ids;
@@ -439,7 +439,7 @@ TEST(Refit, LeavesSearchersOfTheOldStateWithTheOldAnswers) {
       EXPECT_EQ(sorted(ids), before.exact(vertex, radius));
       young.neighborhood(vertex, radius, ids);
       EXPECT_EQ(sorted(ids), after.exact(vertex, radius));
-      young_region.region(vertex, radius, ids);
+      young_region.neighborhood(vertex, radius, ids);
       EXPECT_EQ(sorted(ids), after.exact(vertex, radius));
       differing += static_cast<std::size_t>(before.exact(vertex, radius) != after.exact(vertex, radius));
     }

@@ -15,8 +15,8 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/masks.h"
-#include "meshhood/region.h"
 #include "meshhood/reorder.h"
+#include "meshhood/search.h"
 #include "meshhood/serialize.h"
 
 #include "support/draw.h"
@@ -184,14 +184,14 @@ TEST_P(OneOrder, OfBatchesStreamsAndRegions) {
     }
     const std::vector<std::uint8_t> none(index.vertex_count());
     const Index searched = masked(index, {.walls = none});
-    std::array regions{RegionSearcher(index), RegionSearcher(searched)};
+    std::array regions{Searcher(index), Searcher(searched)};
     for (std::size_t i = 0; i < questions.asked.size(); ++i) {
       const auto& [v, radius] = questions.asked[i];
       Answer found;
-      regions[0].region(v, radius, found.ids, found.distances);
+      regions[0].neighborhood(v, radius, found.ids, found.distances);
       ASSERT_EQ(found, questions.answers[i]) << "region " << i;
       // A filter that excludes nothing, by the other search.
-      regions[1].region(v, radius, found.ids, found.distances);
+      regions[1].neighborhood(v, radius, found.ids, found.distances);
       ASSERT_EQ(found, questions.answers[i]) << "masked region " << i;
       const Dab dab{v, radius};
       regions[0].stroke(std::span(&dab, 1), found.ids);
@@ -207,7 +207,7 @@ TEST_P(OneOrder, OfNestedRadiiRingByRing) {
     const Oracle oracle(mesh);
     const std::vector<std::uint8_t> none(index.vertex_count());
     const Index searched = masked(index, {.walls = none});
-    std::array regions{RegionSearcher(index), RegionSearcher(searched)};
+    std::array regions{Searcher(index), Searcher(searched)};
     std::vector<VertexId> ids;
     std::vector<std::size_t> counts;
     for (std::size_t i = 0; i < questions.asked.size(); i += 7) {
@@ -216,7 +216,7 @@ TEST_P(OneOrder, OfNestedRadiiRingByRing) {
       for (const Asked& asked : questions.asked) radii.push_back(asked.radius);
       std::ranges::sort(radii);
       radii.erase(std::ranges::unique(radii).begin(), radii.end());
-      for (RegionSearcher& searcher : regions) {
+      for (Searcher& searcher : regions) {
         searcher.nested(v, radii, ids, counts);
         ASSERT_EQ(counts.size(), radii.size());
         std::vector<VertexId> before;
@@ -287,7 +287,7 @@ TEST(SearchOrder, OfAReorderedMeshIsAscending) {
   const TestMesh mesh = folded();
   const ReorderedMesh reordered = reorder(mesh.view());
   Searcher searcher(reordered.index);
-  RegionSearcher regions(reordered.index);
+  Searcher regions(reordered.index);
   Random random(6);
   std::vector<VertexId> ids;
   for (std::size_t i = 0; i < scaled(500, 50); ++i) {
@@ -295,7 +295,7 @@ TEST(SearchOrder, OfAReorderedMeshIsAscending) {
     const double radius = random.uniform(0, 60);
     searcher.neighborhood(v, radius, ids);
     ASSERT_TRUE(std::ranges::is_sorted(ids));
-    regions.region(v, radius, ids);
+    regions.neighborhood(v, radius, ids);
     ASSERT_TRUE(std::ranges::is_sorted(ids));
   }
 }

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "exact/search/searcher_state.h"
+#include "exact/query/single_queries.h"
 #include "support/outward_search.h"
 #include "support/sheets.h"
 

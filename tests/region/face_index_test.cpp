@@ -16,7 +16,7 @@
 
 #include "meshhood/index.h"
 #include "meshhood/refit.h"
-#include "meshhood/region.h"
+#include "meshhood/search.h"
 
 #include "base/vector.h"
 #include "exact/index_access.h"
@@ -295,8 +295,8 @@ TEST(FaceIndex, GivesTheStartOfARegion) {
   const TestMesh mesh = bumpy_grid(30);
   const Index index = build(mesh.view());
   const SurfacePoint hit = FaceIndex::build(index, mesh.view().faces).closest_point({10.3, 11.4, 2});
-  RegionSearcher searcher(index);
-  EXPECT_EQ(searcher.region(hit.start(), 3), searcher.region(Start(hit.point, hit.vertices), 3));
+  Searcher searcher(index);
+  EXPECT_EQ(searcher.neighborhood(hit.start(), 3), searcher.neighborhood(Start(hit.point, hit.vertices), 3));
   EXPECT_GT(searcher.count(hit.start(), 3), 10U);
 }
 

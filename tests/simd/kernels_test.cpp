@@ -143,6 +143,35 @@ TEST_P(EveryIsa, ClassifyComparesAllEightNodes) {
   EXPECT_GT(seen, 1000U);
 }
 
+TEST_P(EveryIsa, BoxSquaresMeasuresAllEightBoxes) {
+  std::size_t inside = 0;
+  for (std::size_t round = 0; round < 4000; ++round) {
+    BoxGroup boxes;
+    const auto fill = [&](BoxGroup::Row& low, BoxGroup::Row& high) {
+      for (std::size_t i = 0; i < kFanOut; ++i) {
+        low[i] = static_cast<float>(random.uniform(-1, 1));
+        high[i] = low[i] + static_cast<float>(random.uniform(0, 1));
+      }
+    };
+    fill(boxes.low.x, boxes.high.x);
+    fill(boxes.low.y, boxes.high.y);
+    fill(boxes.low.z, boxes.high.z);
+    const Point p{random.uniform(-1, 2), random.uniform(-1, 2), random.uniform(-1, 2)};
+    const FramePoint center = Frame{}.round(p);
+    const auto limit = static_cast<float>(random.uniform(0, 3));
+    BoxGroup::Row found;
+    BoxGroup::Row expected;
+    const unsigned near = tried.box_squares(boxes, center, limit, found);
+    ASSERT_EQ(near, plain.box_squares(boxes, center, limit, expected));
+    for (std::size_t i = 0; i < kFanOut; ++i) {
+      ASSERT_EQ(expected[i], found[i]);
+      ASSERT_EQ((near >> i & 1U) != 0, found[i] <= limit);
+      inside += static_cast<std::size_t>(found[i] == 0);
+    }
+  }
+  EXPECT_GT(inside, 100U);
+}
+
 TEST_P(EveryIsa, CompressKeepsTheOrder) {
   std::vector<VertexId> ids(kLeafCapacity);
   for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<VertexId>(100 + i);

@@ -31,8 +31,7 @@ NAMES = """
 namespace document {
 extern const meshhood::MeshView mesh;
 extern meshhood::Index index;
-extern meshhood::RegionSearcher searcher;
-extern meshhood::EdgeSearcher along;
+extern meshhood::Searcher searcher, along;
 extern std::vector<meshhood::VertexId> ids, changed;
 extern const meshhood::VertexId a, b, c, v, w;
 extern const double r;

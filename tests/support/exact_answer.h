@@ -16,7 +16,7 @@
 #include "meshhood/search.h"
 
 #include "exact/index_access.h"
-#include "exact/search/searcher_state.h"
+#include "exact/query/single_queries.h"
 
 namespace meshhood::test {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -60,6 +61,21 @@ inline GroupContainment classify_group(const Group& group, const TreeBall& ball)
 inline void classify(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball,
                      GroupContainment* out) {
   for (const std::uint32_t group : list) *out++ = classify_group(groups[group], ball);
+}
+
+inline unsigned box_squares(const BoxGroup& boxes, const FramePoint& center, float limit, BoxGroup::Row& squares) {
+  unsigned near = 0;
+  for (unsigned i = 0; i < kFanOut; ++i) {
+    const auto gap = [i](float at, const BoxGroup::Row& low, const BoxGroup::Row& high) {
+      return at < low[i] ? low[i] - at : std::max(at - high[i], 0.0F);
+    };
+    const float x = gap(center.x, boxes.low.x, boxes.high.x);
+    const float y = gap(center.y, boxes.low.y, boxes.high.y);
+    const float z = gap(center.z, boxes.low.z, boxes.high.z);
+    squares[i] = (x * x + y * y) + z * z;
+    near |= unsigned{squares[i] <= limit} << i;
+  }
+  return near;
 }
 
 inline VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
@@ -259,7 +275,8 @@ inline void convert_points(const float* xyz, unsigned size, const FloatCenter& c
 }  // namespace plain
 
 inline constexpr Kernels kPlainKernels{plain::within<float>, plain::within<double>, plain::cross_edges,
-                                       plain::reachable,     plain::classify,       plain::compress};
+                                       plain::reachable,     plain::classify,       plain::box_squares,
+                                       plain::compress};
 inline constexpr JointKernels kPlainJointKernels{plain::convert_points, plain::clear_words, plain::ball_words,
                                                  plain::spread_words,   plain::step_words,  plain::count_words,
                                                  plain::lanes_of,       plain::write_row};

@@ -49,7 +49,7 @@ function writeSources(bundler) {
     try {
       ${others}
       const index = new MeshIndex(Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 0, 0), Uint16Array.of(0, 1, 2, 1, 2, 3));
-      document.title = index.queryBall(0, 2, { sort: 'id' }).join();
+      document.title = index.neighborhood(0, 2, { sort: 'id' }).join();
     } catch (error) {
       document.title = String(error);
     }`);

@@ -88,7 +88,7 @@ test('smoothing is the mean by a Gaussian of the width', () => {
   assert.equal(smooth.length, signal.length);
   assert.deepEqual(smooth, index.aggregate(signal, 4 * 1.5784315224822145, { kernel: 'gaussian' }));
   const weight = (d) => Math.exp((-4 * Math.LN2 * d * d) / 16);
-  const { ids, distances } = index.queryBall(700, 4 * 1.5784315224822145, { distances: true });
+  const { ids, distances } = index.neighborhood(700, 4 * 1.5784315224822145, { distances: true });
   let [sum, weights] = [0, 0];
   ids.forEach((id, i) => { sum += weight(distances[i]) * signal[id]; weights += weight(distances[i]); });
   assert.ok(Math.abs(smooth[700] - sum / weights) < 1e-12);

@@ -106,44 +106,44 @@ test('numbers beyond 32 bits are not taken modulo 2^32', () => {
   for (const ddof of [TURN, TURN + 1, 2 ** 53, 1e300]) {
     assert.throws(() => variances(ddof), { code: 'InvalidOption', message: /^ddof is \d+, expected 0 or 1$/ });
   }
-  assert.deepEqual(index.queryRings(0, TURN + 1), index.queryRings(0, index.vertexCount));
+  assert.equal(index.count(0, TURN + 1, { metric: 'rings' }), index.count(0, index.vertexCount, { metric: 'rings' }));
   assert.deepEqual(index.nearestConnected(0, TURN + 1), index.nearestConnected(0, index.vertexCount));
   for (const v of [TURN, TURN + 1, 2 ** 53, 1e300, -TURN]) {
-    for (const ask of [() => index.queryBall(v, 1), () => index.queryRings(v, 1), () => index.queryRegion(v, 1),
+    for (const ask of [() => index.neighborhood(v, 1), () => index.nested(v, Float64Array.of(1)), () => index.count(v, 1),
       () => index.contains(0, v, 1), () => index.connectingRadius(v, 0)]) {
       assert.throws(ask, { code: 'VertexOutOfRange', message: /, but the mesh has 72 vertices$/ });
     }
   }
-  assert.throws(() => index.queryBall(1e300, 1), { message: 'vertex 1e+300, but the mesh has 72 vertices' });
+  assert.throws(() => index.neighborhood(1e300, 1), { message: 'vertex 1e+300, but the mesh has 72 vertices' });
 });
 
 test('numbers that are not finite, denormal or huge give a right answer or an error', () => {
   const index = build(plates(6));
-  const all = index.queryBall(0, Infinity, { sort: 'id' });
+  const all = index.neighborhood(0, Infinity, { sort: 'id' });
   assert.equal(all.length, index.vertexCount);
-  assert.deepEqual(index.queryBall(0, 1.7e308, { sort: 'id' }), all);
-  assert.deepEqual(index.queryBall(0, 5e-324), Uint32Array.of(0));
-  assert.deepEqual(index.queryBall(0, -0), Uint32Array.of(0));
+  assert.deepEqual(index.neighborhood(0, 1.7e308, { sort: 'id' }), all);
+  assert.deepEqual(index.neighborhood(0, 5e-324), Uint32Array.of(0));
+  assert.deepEqual(index.neighborhood(0, -0), Uint32Array.of(0));
   for (const x of [NaN, Infinity, -Infinity, 1e151]) {
     assert.throws(() => index.nearest([x, 0, 0]), MeshhoodError);
-    assert.throws(() => index.queryRegion([0, 0, x], 1), MeshhoodError);
+    assert.throws(() => index.neighborhood([0, 0, x], 1), MeshhoodError);
     assert.throws(() => index.refit(Float64Array.of(x)), MeshhoodError);
   }
   for (const r of [NaN, -1, -Infinity]) {
-    assert.throws(() => index.queryNested(0, Float64Array.of(r)), { code: 'InvalidRadius' });
+    assert.throws(() => index.nested(0, Float64Array.of(r)), { code: 'InvalidRadius' });
     assert.throws(() => index.aggregate(new Float64Array(72), r), { code: 'InvalidRadius' });
     assert.throws(() => index.curvature(r, { normals: new Float64Array(216) }), MeshhoodError);
   }
-  assert.deepEqual(index.queryBall(0, Infinity, { sort: 'id' }), all);
+  assert.deepEqual(index.neighborhood(0, Infinity, { sort: 'id' }), all);
 });
 
 test('the mesh without vertices answers nothing, and refuses the rest', () => {
   const index = new MeshIndex(new Float32Array(), new Uint32Array());
   assert.equal(index.vertexCount, 0);
-  assert.deepEqual(index.count(null, 1), new Uint32Array());
+  assert.deepEqual(index.counts(1), new Uint32Array());
   assert.deepEqual(index.aggregate(new Float64Array(), 1), new Float64Array());
   assert.throws(() => index.aggregate(new Float64Array(5), 1), { code: 'InvalidOption' });
-  assert.throws(() => index.queryBall(0, 1), { code: 'VertexOutOfRange' });
+  assert.throws(() => index.neighborhood(0, 1), { code: 'VertexOutOfRange' });
   assert.throws(() => index.nearest([0, 0, 0]), { code: 'VertexOutOfRange' });
-  assert.equal(index.count(null, 1).length, 0);
+  assert.equal(index.counts(1).length, 0);
 });

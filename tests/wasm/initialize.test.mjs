@@ -31,7 +31,7 @@ async function answerBy(source) {
     const file = ${JSON.stringify(file)};
     await initialize(${source});
     const index = new MeshIndex(Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 0, 0), Uint32Array.of(0, 1, 2, 1, 2, 3));
-    console.log(index.queryBall(0, 2, { sort: 'id' }).join());`;
+    console.log(index.neighborhood(0, 2, { sort: 'id' }).join());`;
   const { stdout } = await promisify(execFile)(process.execPath, ['--input-type=module', '--eval', program]);
   return stdout.trim();
 }

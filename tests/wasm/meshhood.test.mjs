@@ -36,12 +36,12 @@ for (const [name, mesh] of Object.entries(families)) {
       const radius = i % 3 === 0 ? distance(mesh.positions, v, Math.floor(rows.length * next())) : 6 * next();
       const expected = neighborhood(mesh.positions, rows, v, radius);
       found += expected.length;
-      assert.deepEqual(index.queryBall(v, radius, { sort: 'id' }), expected, `vertex ${v}, radius ${radius}`);
-      assert.deepEqual(index.queryBall(v, radius, { sort: 'id', method: 'bfs' }), expected);
+      assert.deepEqual(index.neighborhood(v, radius, { sort: 'id' }), expected, `vertex ${v}, radius ${radius}`);
+      assert.deepEqual(index.neighborhood(v, radius, { sort: 'id', method: 'bfs' }), expected);
       assert.equal(index.count(v, radius), expected.length);
-      assert.deepEqual(index.queryBall(v, radius, { method: 'ball' }), ball(mesh.positions, v, radius));
-      const all = new Set(index.viewBall(v, radius, { method: 'ball' }));
-      const paper = new Set(index.queryBall(v, radius, { method: 'paper' }));
+      assert.deepEqual(index.neighborhood(v, radius, { method: 'ball' }), ball(mesh.positions, v, radius));
+      const all = new Set(index.viewNeighborhood(v, radius, { method: 'ball' }));
+      const paper = new Set(index.neighborhood(v, radius, { method: 'paper' }));
       assert.ok(expected.every((w) => paper.has(w)));
       assert.ok([...paper].every((w) => all.has(w)));
     }
@@ -54,10 +54,10 @@ test('distances belong to their ids, in either order', () => {
   const mesh = families.roll;
   const index = build(mesh);
   for (const sort of [null, 'index', 'id', 'distance']) {
-    const { ids, distances } = index.queryBall(300, 4, { distances: true, sort });
+    const { ids, distances } = index.neighborhood(300, 4, { distances: true, sort });
     assert.ok(ids.length > 20);
     ids.forEach((w, i) => assert.equal(distances[i], distance(mesh.positions, 300, w)));
-    assert.deepEqual(index.queryBall(300, 4, { sort }), ids);
+    assert.deepEqual(index.neighborhood(300, 4, { sort }), ids);
   }
 });
 
@@ -71,14 +71,13 @@ test('exact answers are in index order, whatever was asked before', () => {
   for (let i = 0; i < scaled(300); ++i) {
     const v = Math.floor(index.vertexCount * next());
     const radius = 8 * next();
-    const ids = index.queryBall(v, radius);
+    const ids = index.neighborhood(v, radius);
     expectOrder(ids);
-    assert.deepEqual(index.viewBall(v, radius).slice(), ids);
-    assert.deepEqual(index.queryRegion(v, radius), ids);
-    assert.deepEqual(index.queryBall(Uint32Array.of(0, v, 5), radius).ids.slice(
+    assert.deepEqual(index.viewNeighborhood(v, radius).slice(), ids);
+    assert.deepEqual(index.neighborhoods(radius, { vertices: Uint32Array.of(0, v, 5) }).ids.slice(
       index.count(0, radius), index.count(0, radius) + ids.length), ids);
-    assert.deepEqual(fresh.queryBall(v, radius), ids);
-    const { counts, ids: rings } = index.queryNested(v, Float64Array.of(radius, 2 * radius + 1));
+    assert.deepEqual(fresh.neighborhood(v, radius), ids);
+    const { counts, ids: rings } = index.nested(v, Float64Array.of(radius, 2 * radius + 1));
     expectOrder(rings.slice(0, counts[0]));
     expectOrder(rings.slice(counts[0], counts[1]));
   }
@@ -90,24 +89,24 @@ test('a batch has the rows of single queries', () => {
   const vertices = Uint32Array.of(5, 300, 5, 0);
   const radii = Float64Array.of(1, 2.5, 0, Infinity);
   for (const method of ['exact', 'paper', 'bfs', 'ball']) {
-    const { offsets, ids, distances } = index.queryBall(vertices, radii, { method, sort: 'id', distances: true });
-    const counts = index.count(vertices, radii, { method });
+    const { offsets, ids, distances } = index.neighborhoods(radii, { vertices, method, sort: 'id', distances: true });
+    const counts = index.counts(radii, { vertices, method });
     vertices.forEach((v, row) => {
-      const single = index.queryBall(v, radii[row], { method, sort: 'id', distances: true });
+      const single = index.neighborhood(v, radii[row], { method, sort: 'id', distances: true });
       assert.deepEqual(ids.slice(offsets[row], offsets[row + 1]), single.ids);
       assert.deepEqual(distances.slice(offsets[row], offsets[row + 1]), single.distances);
       assert.equal(counts[row], single.ids.length);
     });
   }
-  const sizes = index.count(null, 2);
+  const sizes = index.counts(2);
   assert.equal(sizes.length, index.vertexCount);
   sizes.forEach((size, v) => assert.equal(size, index.count(v, 2)));
 });
 
 test('a view is the answer without a copy', () => {
   const index = build(families.roll);
-  const view = index.viewBall(100, 3);
-  assert.deepEqual(view.slice(), index.queryBall(100, 3));
+  const view = index.viewNeighborhood(100, 3);
+  assert.deepEqual(view.slice(), index.neighborhood(100, 3));
   assert.equal(view.buffer.byteLength, index.memoryBytes);
 });
 
@@ -115,9 +114,9 @@ test('radii in mean edge lengths', () => {
   const index = build(grid(20, 20, (row, column) => [2 * row, 2 * column, 0]));
   const edge = index.meanEdgeLength;
   assert.ok(edge > 2 && edge < 2 * Math.SQRT2);
-  assert.deepEqual(index.queryBall(210, 3, { unit: 'edge' }), index.queryBall(210, 3 * edge));
+  assert.deepEqual(index.neighborhood(210, 3, { unit: 'edge' }), index.neighborhood(210, 3 * edge));
   const points = new MeshIndex(new Float32Array(6), new Uint32Array());
-  assert.throws(() => points.queryBall(0, 1, { unit: 'edge' }), { message: /no edges of positive length/ });
+  assert.throws(() => points.neighborhood(0, 1, { unit: 'edge' }), { message: /no edges of positive length/ });
 });
 
 test('the golden index files load, and save to the same bytes', () => {
@@ -129,7 +128,7 @@ test('the golden index files load, and save to the same bytes', () => {
 test('an index of the golden file answers as recorded', () => {
   const index = MeshIndex.load(golden('float.mhi'));
   assert.equal(index.vertexCount, 370);
-  assert.deepEqual([...index.queryBall(100, 1.5, { sort: 'id' })], [81, 82, 83, 99, 100, 101, 117, 118, 119]);
+  assert.deepEqual([...index.neighborhood(100, 1.5, { sort: 'id' })], [81, 82, 83, 99, 100, 101, 117, 118, 119]);
   assert.equal(index.count(100, Infinity), 270);
 });
 
@@ -146,7 +145,7 @@ test('the same file gives the same index and the same answers as the command lin
   for (const method of ['exact', 'paper', 'bfs', 'ball']) {
     const { vertices } = JSON.parse(
       meshhood('query', 'roll.mhi', '-v', '500', '-r', '3.5', '--method', method, '--json'));
-    assert.deepEqual([...MeshIndex.load(saved).queryBall(500, 3.5, { method, sort: 'id' })], vertices);
+    assert.deepEqual([...MeshIndex.load(saved).neighborhood(500, 3.5, { method, sort: 'id' })], vertices);
   }
   write('page.mhi', index.save());
   assert.match(meshhood('check', 'page.mhi', '--mesh', 'roll.ply'), /\S/);
@@ -201,25 +200,25 @@ test('every damaged index file is refused, with the place of the damage', () => 
 
 test('a wrong argument gives the error of C++ and leaves the index usable', () => {
   const index = build(families.roll);
-  const expected = index.queryBall(7, 2);
+  const expected = index.neighborhood(7, 2);
   const vertices = index.vertexCount;
   for (const v of [vertices, -1, 2 ** 32, 2 ** 53]) {
     const message = `vertex ${v}, but the mesh has ${vertices} vertices`;
-    assert.throws(() => index.queryBall(v, 1), { code: 'VertexOutOfRange', message });
+    assert.throws(() => index.neighborhood(v, 1), { code: 'VertexOutOfRange', message });
     assert.throws(() => index.count(v, 1), { code: 'VertexOutOfRange', message });
   }
   for (const radius of [-1, NaN, -Infinity]) {
     const message = `radius ${String(radius).toLowerCase().replace('infinity', 'inf')}, expected a number >= 0`;
-    assert.throws(() => index.queryBall(7, radius), { code: 'InvalidRadius', message });
+    assert.throws(() => index.neighborhood(7, radius), { code: 'InvalidRadius', message });
     assert.throws(() => index.count(7, radius, { method: 'bfs' }), { code: 'InvalidRadius', message });
   }
-  assert.throws(() => index.queryBall(Uint32Array.of(1, vertices), 1), { code: 'VertexOutOfRange', message: /row 1/ });
-  assert.throws(() => index.queryBall(Uint32Array.of(1), Float64Array.of(1, 2)), { message: '2 radii for 1 rows' });
-  assert.throws(() => index.queryBall(1, 1, { method: 'best' }), { code: 'InvalidOption', message: /expected one of/ });
-  for (const v of [1.5, NaN, '1', undefined]) assert.throws(() => index.queryBall(v, 1), TypeError);
-  for (const radius of ['1', null, undefined]) assert.throws(() => index.viewBall(1, radius), TypeError);
-  assert.throws(() => index.queryBall([1, 2], 1), { name: 'TypeError', message: /^vertices: Array, expected Uint32Array/ });
-  assert.deepEqual(index.queryBall(7, 2), expected);
+  assert.throws(() => index.neighborhoods(1, { vertices: Uint32Array.of(1, vertices) }), { code: 'VertexOutOfRange', message: /row 1/ });
+  assert.throws(() => index.neighborhoods(Float64Array.of(1, 2), { vertices: Uint32Array.of(1) }), { message: '2 radii for 1 rows' });
+  assert.throws(() => index.neighborhood(1, 1, { method: 'best' }), { code: 'InvalidOption', message: /expected one of/ });
+  for (const v of [1.5, NaN, '1', undefined]) assert.throws(() => index.neighborhood(v, 1), TypeError);
+  for (const radius of ['1', null, undefined]) assert.throws(() => index.viewNeighborhood(1, radius), TypeError);
+  assert.throws(() => index.neighborhoods(1, { vertices: [1, 2] }), { name: 'TypeError', message: /^vertices: Array, expected Uint32Array/ });
+  assert.deepEqual(index.neighborhood(7, 2), expected);
 });
 
 test('arrays that are no mesh are refused in the words of C++', () => {
@@ -241,7 +240,7 @@ test('indices of 16 bits, as three.js makes them, give the same index', () => {
     const narrow = { ...mesh, corners: Uint16Array.from(mesh.corners), offsets: mesh.offsets && Uint16Array.from(mesh.offsets) };
     assert.deepEqual(build(narrow).save(), build(mesh).save());
     assert.deepEqual(build(mesh).curvature(3, { faces: narrow }), build(mesh).curvature(3, { faces: mesh }));
-    const ids = build(mesh).queryBall(7, 3);
+    const ids = build(mesh).neighborhood(7, 3);
     const regionsOf = ({ positions, corners, offsets }) => new RegionMesh(positions, corners, { offsets });
     assert.deepEqual(regionsOf(narrow).submesh(ids), regionsOf(mesh).submesh(ids));
   }
@@ -266,8 +265,8 @@ test('too little memory is an error and not a crash', () => {
     'property float z\nend_header\n';
   assert.throws(() => readMesh(new TextEncoder().encode(header), 'short.ply'), { code: 'MalformedFile' });
   const index = build(grid(300, 300, (row, column) => [row, column, 0]));
-  assert.throws(() => index.queryBall(null, Infinity, { method: 'bfs' }), { code: 'TooLarge', message: /^not enough memory/ });
-  assert.throws(() => index.queryBall(0, 1), /has been disposed/);
+  assert.throws(() => index.neighborhoods(Infinity, { method: 'bfs' }), { code: 'TooLarge', message: /^not enough memory/ });
+  assert.throws(() => index.neighborhood(0, 1), /has been disposed/);
 });
 
 test('a mesh of a million vertices takes less than 400 MB, with all methods in use', () => {
@@ -285,15 +284,15 @@ test('memory stays flat over many queries, refused ones included', () => {
   const runQuery = () => {
     const v = Math.floor(index.vertexCount * next());
     const radius = 5 * next();
-    for (const method of ['exact', 'paper']) index.queryBall(v, radius, { method, distances: true });
+    for (const method of ['exact', 'paper']) index.neighborhood(v, radius, { method, distances: true });
     index.count(v, radius, { method: 'bfs' });
-    assert.throws(() => index.queryBall(v + 1e6, radius), MeshhoodError);
+    assert.throws(() => index.neighborhood(v + 1e6, radius), MeshhoodError);
   };
   for (let i = 0; i < 1000; ++i) runQuery();
-  index.queryBall(0, Infinity, { distances: true });
+  index.neighborhood(0, Infinity, { distances: true });
   const before = index.memoryBytes;
   for (let i = 0; i < scaled(25_000); ++i) runQuery();
-  for (let i = 0; i < 100; ++i) index.queryBall(null, 3);
+  for (let i = 0; i < 100; ++i) index.neighborhoods(3);
   const grown = index.memoryBytes - before;
   console.log(`${before} bytes, ${grown} more after ${4 * scaled(25_000)} queries and 100 batches`);
   assert.ok(grown <= 2 ** 20);
@@ -305,5 +304,5 @@ test('a disposed index gives its memory back and refuses calls', () => {
   index.dispose();
   index.dispose();
   assert.equal(index.memoryBytes, 0);
-  assert.throws(() => index.queryBall(0, 1), /has been disposed/);
+  assert.throws(() => index.neighborhood(0, 1), /has been disposed/);
 });

@@ -21,16 +21,16 @@ const CALLS = {
   load: [(options) => MeshIndex.load(index.save(), options), 'progress'],
   refit: [(options) => index.refit(mesh.positions, options), 'changed'],
   refitInPlace: [(options) => index.refitInPlace(mesh.positions, options), 'changed'],
-  queryBall: [(options) => index.queryBall(5, 3, options), 'unit'],
-  batch: [(options) => index.queryBall(null, 3, options), 'distances'],
-  nearestUnconnected: [(options) => index.nearestUnconnected(null, 3, options), 'walls'],
-  queryKnn: [(options) => index.queryKnn(null, 3, options), 'weights'],
+  neighborhood: [(options) => index.neighborhood(5, 3, options), 'unit'],
+  neighborhoods: [(options) => index.neighborhoods(3, options), 'distances'],
+  nearestUnconnected: [(options) => index.nearestUnconnected(3, options), 'walls'],
+  kNearest: [(options) => index.kNearest(3, options), 'metric'],
+  discs: [(options) => index.discs(3, { faces: mesh, ...options }), 'weights'],
   closestPoint: [(options) => index.closestPoint([0, 0, 0], { ...options, faces: mesh }), 'faces'],
-  viewBall: [(options) => index.viewBall(5, 3, options), 'metric'],
+  viewNeighborhood: [(options) => index.viewNeighborhood(5, 3, options), 'metric'],
   count: [(options) => index.count(5, 3, options), 'method'],
-  queryRegion: [(options) => index.queryRegion(5, 3, options), 'ignored'],
-  queryNested: [(options) => index.queryNested(5, Float64Array.of(1, 2), options), 'walls'],
-  queryRings: [(options) => index.queryRings(5, 2, options), 'walls'],
+  counts: [(options) => index.counts(3, options), 'vertices'],
+  nested: [(options) => index.nested(5, Float64Array.of(1, 2), options), 'walls'],
   contains: [(options) => index.contains(5, 6, 2, options), 'seeds'],
   connectingRadius: [(options) => index.connectingRadius(5, 6, options), 'ignored'],
   nearestConnected: [(options) => index.nearestConnected(5, 6, options), 'walls'],
@@ -53,12 +53,12 @@ for (const [name, [call, known]] of Object.entries(CALLS)) {
 }
 
 test('options in other letters are named, too', () => {
-  assert.throws(() => index.queryBall(5, 3, { Sort: true }), { message: "unknown option 'Sort', did you mean 'sort'?" });
-  assert.throws(() => index.count(5, 3, { sort: true }), { message: "unknown option 'sort', expected one of method, metric, unit, scales, walls, ignored" });
+  assert.throws(() => index.neighborhood(5, 3, { Sort: true }), { message: "unknown option 'Sort', did you mean 'sort'?" });
+  assert.throws(() => index.count(5, 3, { sort: true }), { message: "unknown option 'sort', expected one of method, metric, unit, seeds, walls, ignored" });
 });
 
 test('options that are no object are refused', () => {
   for (const options of ['edge', null, 3, true]) {
-    assert.throws(() => index.queryBall(5, 3, options), { name: 'TypeError', message: `options: ${options}, expected an object` });
+    assert.throws(() => index.neighborhood(5, 3, options), { name: 'TypeError', message: `options: ${options}, expected an object` });
   }
 });

@@ -20,7 +20,7 @@ test('the packed package works in an empty project', () => {
     import { MeshIndex, initialize } from 'meshhood';
     await initialize();
     const index = new MeshIndex(Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 0, 0), Uint32Array.of(0, 1, 2, 1, 2, 3));
-    console.log(index.queryBall(0, 2, { sort: 'id' }).join());
+    console.log(index.neighborhood(0, 2, { sort: 'id' }).join());
   `);
   assert.equal(execFileSync('node', ['use.js'], { cwd: project, encoding: 'utf8' }), '0,1,2\n');
 });

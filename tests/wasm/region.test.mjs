@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Regions in the package for JavaScript: the answers of the command line, and those of definitions.
+// Starts of all kinds, and parts of meshes, in the package for JavaScript: the answers of the command line, and those of
+// definitions.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -25,7 +26,7 @@ const ignored = mask(every(5));
 write('walls.txt', `${every(7).join('\n')}\n`);
 write('ignored.txt', `${every(5).join('\n')}\n`);
 
-/** The region of a center, by the definition: breadth-first from the seeds; ascending. */
+/** The neighborhood of a center, by the definition: breadth-first from the seeds; ascending. */
 function region(center, seeds, radius, { walls, ignored } = {}) {
   const isOpen = (w) => !walls?.[w] && distance([...center, ...mesh.positions], 0, w + 1) <= radius;
   const rows = neighbors(mesh);
@@ -36,24 +37,23 @@ function region(center, seeds, radius, { walls, ignored } = {}) {
 
 const query = (...options) => JSON.parse(meshhood('query', 'roll.ply', ...options, '--json')).vertices;
 
-test('a region around a vertex with masks is that of the command line', () => {
-  const found = index.queryRegion(502, 5, { walls, ignored, sort: 'id' });
+test('a neighborhood of a vertex with masks is that of the command line', () => {
+  const found = index.neighborhood(502, 5, { walls, ignored, sort: 'id' });
   assert.deepEqual([...found], query('-v', '502', '-r', '5', '--walls', 'walls.txt', '--ignored', 'ignored.txt'));
   assert.ok(found.length > 20);
-  assert.deepEqual(index.queryRegion(502, 5, { sort: 'id' }), index.queryBall(502, 5, { sort: 'id' }));
 });
 
-test('a region around a point with seeds is that of the command line', () => {
+test('a neighborhood of a point with seeds is that of the command line', () => {
   const point = Array.from(mesh.positions.subarray(3 * 502, 3 * 503), (x) => x + 0.25);
   for (const seeds of [null, Uint32Array.of(500, 30)]) {
     const options = seeds === null ? [] : ['--seed', seeds.join()];
-    const found = index.queryRegion(point, 6, { seeds, sort: 'id' });
+    const found = index.neighborhood(point, 6, { seeds, sort: 'id' });
     assert.deepEqual([...found], query('--point', point.join(), '-r', '6', ...options));
     assert.ok(found.length > 20);
   }
 });
 
-test('random regions have the vertices of the definition, with their distances', () => {
+test('random neighborhoods of points have the vertices of the definition, with their distances', () => {
   const next = random(3);
   let found = 0;
   for (let i = 0; i < scaled(200); ++i) {
@@ -61,35 +61,70 @@ test('random regions have the vertices of the definition, with their distances',
     const seeds = Uint32Array.from({ length: 1 + Math.floor(4 * next()) }, () => Math.floor(vertices * next()));
     const masks = i % 2 === 0 ? {} : { walls, ignored };
     const radius = 12 * next();
-    const { ids, distances } = index.queryRegion(center, radius, { seeds, ...masks, sort: 'id', distances: true });
+    const { ids, distances } = index.neighborhood(center, radius, { seeds, ...masks, sort: 'id', distances: true });
     assert.deepEqual(ids, region(center, [...seeds], radius, masks));
+    assert.equal(index.count(center, radius, { seeds, ...masks }), ids.length);
+    assert.deepEqual(index.viewNeighborhood(center, radius, { seeds, ...masks }).slice().sort(), ids);
     ids.forEach((w, k) => assert.equal(distances[k], distance([...center, ...mesh.positions], 0, w + 1)));
     found += ids.length;
   }
-  console.log(`${found} vertices in ${scaled(200)} regions`);
+  console.log(`${found} vertices in ${scaled(200)} neighborhoods`);
   assert.ok(found > 10 * scaled(200));
 });
 
-test('nested radii have the regions of each radius', () => {
+test('nested radii have the neighborhoods of each radius', () => {
   const radii = Float64Array.of(1, 2.5, 4, 9);
-  const { counts, ids } = index.queryNested(333, radii, { walls });
+  const { counts, ids } = index.nested(333, radii, { walls });
   radii.forEach((radius, i) => {
-    assert.deepEqual(ids.slice(0, counts[i]).sort(), index.queryRegion(333, radius, { walls, sort: 'id' }));
+    assert.deepEqual(ids.slice(0, counts[i]).sort(), index.neighborhood(333, radius, { walls, sort: 'id' }));
   });
-  assert.throws(() => index.queryNested(333, Float64Array.of(2, 1)), { code: 'InvalidRadius', message: /more than 2/ });
+  assert.throws(() => index.nested(333, Float64Array.of(2, 1)), { code: 'InvalidRadius', message: /more than 2/ });
 });
 
+for (const metric of ['path', 'rings']) {
+  test(`nested radii by ${metric} have the neighborhoods of each radius, each ring in index order`, () => {
+    const place = new Uint32Array(vertices);
+    index.permutation.forEach((v, i) => { place[v] = i; });
+    const radii = Float64Array.of(0, 1.5, 2, 5.25);
+    const { counts, ids } = index.nested(333, radii, { metric, walls, ignored });
+    assert.equal(counts.length, 4);
+    assert.equal(counts[3], ids.length);
+    assert.ok(counts[0] < counts[1] && counts[2] < counts[3]);
+    radii.forEach((radius, i) => {
+      const expected = index.neighborhood(333, radius, { metric, walls, ignored, sort: 'id' });
+      assert.deepEqual(ids.slice(0, counts[i]).sort(), expected);
+      const ring = ids.slice(counts[i - 1] ?? 0, counts[i]);
+      assert.deepEqual(ring, ring.slice().sort((a, b) => place[a] - place[b]));
+    });
+    assert.deepEqual(index.nested(333, new Float64Array(), { metric }), { counts: new Uint32Array(), ids: new Uint32Array() });
+    for (const [wrong, message] of [[[2, 1], /value 1: radius 1, expected more than 2 before/], [[-1], /radius -1, expected a number >= 0/],
+      [[1, NaN], /value 1/], [[NaN], /value 0/], [[1, 1], /value 1/]]) {
+      assert.throws(() => index.nested(333, Float64Array.from(wrong), { metric }), { code: 'InvalidRadius', message });
+    }
+    const words = { metric, walls, ignored };
+    const near = index.nearestConnected(333, 20, words);
+    assert.deepEqual(near.radii, near.radii.slice().sort());
+    near.ids.forEach((w, i) => {
+      assert.equal(index.connectingRadius(333, w, words), near.radii[i]);
+      assert.ok(index.contains(333, w, near.radii[i], words));
+      if (near.radii[i] > 0) assert.ok(!index.contains(333, w, 0.999 * near.radii[i], words));
+    });
+    assert.deepEqual(near.ids, index.kNearest(20, { ...words, vertices: Uint32Array.of(333) }).ids);
+    assert.throws(() => index.nested([0, 0, 0], radii, { metric }), { code: 'InvalidOption', message: /^start: / });
+  });
+}
+
 test('rings of edges are those of the command line', () => {
-  const { counts, ids } = index.queryRings(333, 3);
+  const { counts, ids } = index.nested(333, Float64Array.of(0, 1, 2, 3), { metric: 'rings' });
   assert.deepEqual([...ids].sort((a, b) => a - b), query('-v', '333', '--metric', 'rings', '-r', '3'));
   assert.equal(counts.length, 4);
   assert.equal(counts[0], 1);
   assert.equal(counts[3], ids.length);
-  assert.equal(index.queryRings(333, 1e6).ids.length, index.count(333, Infinity));
+  assert.equal(index.nested(333, Float64Array.of(1e6), { metric: 'rings' }).ids.length, index.count(333, Infinity));
 });
 
 test('distances along edges are those of the command line', () => {
-  const { ids, distances } = index.queryBall(333, 4, { metric: 'path', distances: true });
+  const { ids, distances } = index.neighborhood(333, 4, { metric: 'path', distances: true });
   const lines = meshhood('query', 'roll.ply', '-v', '333', '-r', '4', '--metric', 'path', '--distances')
     .trimEnd().split('\n').map((line) => line.split(/\s+/));
   const byId = new Map(lines.map(([id, length]) => [Number(id), Number(length)]));
@@ -97,9 +132,9 @@ test('distances along edges are those of the command line', () => {
   ids.forEach((w, i) => assert.ok(Math.abs(byId.get(w) - distances[i]) < 1e-6));
   assert.deepEqual(distances, distances.slice().sort());
   assert.equal(index.count(333, 4, { metric: 'path' }), ids.length);
-  const rows = index.queryBall(Uint32Array.of(1, 333), 4, { metric: 'path' });
+  const rows = index.neighborhoods(4, { vertices: Uint32Array.of(1, 333), metric: 'path' });
   assert.deepEqual(rows.ids.slice(rows.offsets[1]), ids);
-  assert.throws(() => index.queryBall(1, 1, { metric: 'path', method: 'bfs' }), { code: 'InvalidOption' });
+  assert.throws(() => index.neighborhood(1, 1, { metric: 'path', method: 'bfs' }), { code: 'InvalidOption' });
 });
 
 test('connecting radii are those of the command line, and the least that contain the vertex', () => {
@@ -128,7 +163,7 @@ test('no search crosses an edge that was cut', () => {
   const flat = grid(4, 4, (row, column) => [row, column, 0]);
   const around = Uint32Array.of(0, 1, 4, 0); // all edges of vertex 0
   const cut = build(flat, { cut: around });
-  assert.deepEqual(cut.queryBall(0, 10), Uint32Array.of(0));
+  assert.deepEqual(cut.neighborhood(0, 10), Uint32Array.of(0));
   assert.equal(cut.count(1, 10), 15);
   assert.throws(() => build(flat, { cut: Uint32Array.of(0, 15) }), { code: 'InvalidOption', message: /not joined/ });
 });
@@ -140,15 +175,15 @@ test('a refitted index answers as a new one', () => {
     for (const v of [0, 333, 1000]) {
       for (const method of ['exact', 'bfs', 'paper', 'ball']) {
         assert.deepEqual(
-          refitted.queryBall(v, 4, { sort: 'id', method }), expected.queryBall(v, 4, { sort: 'id', method }));
+          refitted.neighborhood(v, 4, { sort: 'id', method }), expected.neighborhood(v, 4, { sort: 'id', method }));
       }
       const byPath = { metric: 'path', distances: true };
-      assert.deepEqual(refitted.queryBall(v, 4, byPath), expected.queryBall(v, 4, byPath));
+      assert.deepEqual(refitted.neighborhood(v, 4, byPath), expected.neighborhood(v, 4, byPath));
     }
   };
   const old = build(mesh);
-  for (const method of ['exact', 'bfs', 'paper', 'ball']) old.queryBall(0, 4, { method }); // what it makes is not kept
-  old.queryBall(0, 4, { metric: 'path' });
+  for (const method of ['exact', 'bfs', 'paper', 'ball']) old.neighborhood(0, 4, { method }); // what it makes is not kept
+  old.neighborhood(0, 4, { metric: 'path' });
   const refitted = old.refit(moved);
   expectSame(refitted);
   assert.ok(refitted.quality().gain > 0.5);
@@ -164,7 +199,7 @@ test('a refitted index answers as a new one', () => {
   assert.throws(() => old.refit(moved.subarray(3)), { code: 'InvalidMesh' });
   assert.throws(() => old.refit(moved, { changed: Uint32Array.of(vertices) }), { code: 'VertexOutOfRange' });
   assert.deepEqual(old.save(), index.save());
-  assert.deepEqual(old.queryBall(333, 4), index.queryBall(333, 4));
+  assert.deepEqual(old.neighborhood(333, 4), index.neighborhood(333, 4));
   old.dispose();
   expectSame(refitted);
   assert.throws(() => old.refit(moved), /has been disposed/);
@@ -173,7 +208,7 @@ test('a refitted index answers as a new one', () => {
 test('a refit in place gives the index that a refit gives, and keeps it after an error', () => {
   const moved = mesh.positions.map((x, i) => x + 0.3 * Math.sin(i));
   const moving = build(mesh);
-  for (const method of ['exact', 'bfs', 'paper', 'ball']) moving.queryBall(0, 4, { method }); // what it makes is not kept
+  for (const method of ['exact', 'bfs', 'paper', 'ball']) moving.neighborhood(0, 4, { method }); // what it makes is not kept
   assert.equal(moving.refitInPlace(moved), undefined);
   const expected = build(mesh).refit(moved);
   assert.deepEqual(moving.save(), expected.save());
@@ -183,12 +218,12 @@ test('a refit in place gives the index that a refit gives, and keeps it after an
   const partly = expected.refit(unread, { changed });
   assert.deepEqual(moving.save(), partly.save());
   for (const method of ['exact', 'bfs', 'paper', 'ball']) {
-    assert.deepEqual(moving.queryBall(333, 4, { method }), partly.queryBall(333, 4, { method }));
+    assert.deepEqual(moving.neighborhood(333, 4, { method }), partly.neighborhood(333, 4, { method }));
   }
   assert.throws(() => moving.refitInPlace(unread), { code: 'InvalidMesh', message: /vertex 3/ });
   assert.throws(() => moving.refitInPlace(moved, { changed: Uint32Array.of(vertices) }), { code: 'VertexOutOfRange' });
   assert.deepEqual(moving.save(), partly.save());
-  assert.deepEqual(moving.queryBall(333, 4), partly.queryBall(333, 4));
+  assert.deepEqual(moving.neighborhood(333, 4), partly.neighborhood(333, 4));
 });
 
 test('an animation of refits in place needs no more memory after its first frames', () => {
@@ -197,7 +232,7 @@ test('an animation of refits in place needs no more memory after its first frame
   let before = 0;
   for (let frame = 0; frame < 200; ++frame) {
     moving.refitInPlace(mesh.positions.map((x, i) => x + 0.1 * Math.sin(i + frame)), frame % 2 === 0 ? {} : { changed });
-    moving.queryBall(333, 4);
+    moving.neighborhood(333, 4);
     if (frame === 5) before = moving.memoryBytes;
   }
   console.log(`${before} bytes after some frames, ${moving.memoryBytes} after 200`);
@@ -211,7 +246,7 @@ test('an animation of many refits needs no more memory than its first', () => {
     const next = moving.refit(mesh.positions.map((x, i) => x + 0.1 * Math.sin(i + frame)));
     moving.dispose();
     moving = next;
-    moving.queryBall(333, 4);
+    moving.neighborhood(333, 4);
   }
   console.log(`${before} bytes after one refit, ${moving.memoryBytes} after 50 more`);
   assert.ok(moving.memoryBytes <= before + 2 ** 20);
@@ -222,7 +257,7 @@ test('the permutation has each vertex once', () => {
 });
 
 test('the mesh and the rim of a region are those of the command line', () => {
-  const ids = index.queryBall(502, 5);
+  const ids = index.neighborhood(502, 5);
   meshhood('region', 'roll.ply', '-v', '502', '-r', '5', '-o', 'part.ply', '--arrays', 'part.npz');
   const expected = readArrays('part.npz');
   const regions = new RegionMesh(mesh.positions, mesh.corners);
@@ -262,37 +297,41 @@ test('a part of polygons keeps its polygons', () => {
   assert.ok(part.faces.length > 5);
 });
 
-test('wrong arguments of regions give the errors of C++ and leave the index usable', () => {
+test('wrong arguments of searches from starts give the errors of C++ and leave the index usable', () => {
   const refuse = (call, expected) => assert.throws(call, expected);
-  refuse(() => index.queryRegion(vertices, 1), { code: 'VertexOutOfRange' });
-  refuse(() => index.queryRegion([0, 0, NaN], 1), { code: 'InvalidOption', message: /coordinate 2 is nan/ });
-  refuse(() => index.queryRegion([0, 0, 0], 1, { seeds: Uint32Array.of(vertices) }), { code: 'VertexOutOfRange' });
-  refuse(() => index.queryRegion(1, 1, { seeds: Uint32Array.of(1) }), { code: 'InvalidOption', message: /^seeds/ });
-  refuse(() => index.queryRegion(1, -1), { code: 'InvalidRadius' });
-  refuse(() => index.queryRegion(1, 1, { walls: new Uint8Array(3) }), { message: /^walls: 3 values/ });
-  refuse(() => index.queryRegion(1, 1, { walls: [1] }), TypeError);
-  refuse(() => index.queryRegion([1, 2], 1), TypeError);
-  refuse(() => index.queryRings(1, -1), TypeError);
+  refuse(() => index.neighborhood(vertices, 1), { code: 'VertexOutOfRange' });
+  refuse(() => index.neighborhood([0, 0, NaN], 1), { code: 'InvalidOption', message: /coordinate 2 is nan/ });
+  refuse(() => index.neighborhood([0, 0, 0], 1, { seeds: Uint32Array.of(vertices) }), { code: 'VertexOutOfRange' });
+  refuse(() => index.neighborhood(1, 1, { seeds: Uint32Array.of(1) }), { code: 'InvalidOption', message: /^seeds/ });
+  refuse(() => index.neighborhood(1, -1), { code: 'InvalidRadius' });
+  refuse(() => index.neighborhood(1, 1, { walls: new Uint8Array(3) }), { message: /^walls: 3 values/ });
+  refuse(() => index.neighborhood(1, 1, { walls: [1] }), TypeError);
+  for (const start of [[1, 2], Uint32Array.of(1, 2, 3), null]) {
+    refuse(() => index.neighborhood(start, 1), { name: 'TypeError', message: 'start: expected a vertex or three numbers' });
+  }
+  refuse(() => index.neighborhood([0, 0, 0], 1, { method: 'bfs' }), { code: 'InvalidOption', message: /^start: / });
+  refuse(() => index.count([0, 0, 0], 1, { metric: 'path' }), { code: 'InvalidOption', message: /^start: / });
+  refuse(() => index.count(1, 1, { seeds: Uint32Array.of(1) }), { code: 'InvalidOption', message: /^seeds/ });
   refuse(() => index.contains(1, vertices, 1), { code: 'VertexOutOfRange' });
   refuse(() => new MeshIndex(new Float32Array(), new Uint32Array()).nearest([0, 0, 0]), { code: 'VertexOutOfRange' });
   refuse(() => new RegionMesh(mesh.positions, Uint32Array.of(0, 1, vertices)), { code: 'InvalidMesh' });
   const regions = new RegionMesh(mesh.positions, mesh.corners);
   refuse(() => regions.faces(Uint32Array.of(vertices)), { code: 'VertexOutOfRange', message: /position 0/ });
   refuse(() => regions.rim(Uint32Array.of(1), vertices, 1), { code: 'VertexOutOfRange' });
-  assert.deepEqual(index.queryRegion(7, 2), index.queryBall(7, 2));
+  assert.deepEqual(index.neighborhood(7, 2), build(mesh).neighborhood(7, 2));
 });
 
 test('a point farther from the mesh than the radius causes one warning for each index', (context) => {
   const warn = context.mock.method(console, 'warn', () => {});
   const { positions, corners } = grid(5, 5, (row, column) => [row, column, 0]);
   const near = new MeshIndex(positions, corners);
-  assert.equal(near.queryRegion([2, 2, 3], 3).length, 1);
-  assert.equal(near.queryRegion([2, 2, 3], 3, { walls: new Uint8Array(25).fill(1) }).length, 0);
+  assert.equal(near.neighborhood([2, 2, 3], 3).length, 1);
+  assert.equal(near.neighborhood([2, 2, 3], 3, { walls: new Uint8Array(25).fill(1) }).length, 0);
   assert.equal(warn.mock.callCount(), 0);
-  assert.equal(near.queryRegion([2, 2, 3], 2.9).length, 0);
-  assert.equal(near.queryNested([2, 2, 3], Float64Array.of(1, 2.9)).ids.length, 0);
+  assert.equal(near.neighborhood([2, 2, 3], 2.9).length, 0);
+  assert.equal(near.nested([2, 2, 3], Float64Array.of(1, 2.9)).ids.length, 0);
   assert.equal(warn.mock.callCount(), 1);
   assert.match(warn.mock.calls[0].arguments[0], /farther than the radius/);
-  new MeshIndex(positions, corners).queryNested([2, 2, 3], Float64Array.of(1, 2.9));
+  new MeshIndex(positions, corners).nested([2, 2, 3], Float64Array.of(1, 2.9));
   assert.equal(warn.mock.callCount(), 2);
 });

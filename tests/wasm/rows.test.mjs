@@ -35,11 +35,11 @@ for (const metric of ['straight', 'path', 'rings']) {
   for (const sort of ['id', 'index', 'distance']) {
     test(`rows by ${metric}, sorted by ${sort}, are those of the command line`, () => {
       const expected = ofCommandLine('batch', 'hills.ply', '-r', '4', '--metric', metric, '--sort', sort, '--distances', ...ROWS);
-      const found = index.queryBall(vertices, 4, { metric, sort, walls, ignored, distances: true });
+      const found = index.neighborhoods(4, { vertices, metric, sort, walls, ignored, distances: true });
       assert.deepEqual(numbers(found.offsets), numbers(expected.indptr));
       assert.deepEqual(numbers(found.ids), numbers(expected.indices));
       assert.deepEqual(found.distances, expected.data);
-      assert.deepEqual(index.queryBall(vertices, 4, { metric, sort, walls, ignored }).ids, found.ids);
+      assert.deepEqual(index.neighborhoods(4, { vertices, metric, sort, walls, ignored }).ids, found.ids);
       assert.equal(found.offsets[3] - found.offsets[2], 0); // 387 is a wall
       assert.ok(found.ids.length > 50);
     });
@@ -48,20 +48,18 @@ for (const metric of ['straight', 'path', 'rings']) {
   test(`counts by ${metric} at several scales are those of the command line`, () => {
     const scales = Float64Array.of(3, 0, 5);
     const expected = ofCommandLine('batch', 'hills.ply', '-r', '3,0,5', '--metric', metric, '--count', ...ROWS);
-    const found = index.count(vertices, null, { metric, scales, walls, ignored });
+    const found = index.counts(null, { vertices, metric, scales, walls, ignored });
     assert.deepEqual(numbers(found), numbers(expected.count));
-    assert.deepEqual(numbers(index.count(400, null, { metric, scales, walls, ignored })), [0, 5, 10].map((i) => found[i]));
     assert.equal(index.count(400, 5, { metric, walls, ignored }), found[10]);
-    assert.deepEqual(index.count(vertices, Float64Array.of(5, 5, 5, 5, 3), { metric, walls, ignored }),
+    assert.deepEqual(index.counts(Float64Array.of(5, 5, 5, 5, 3), { vertices, metric, walls, ignored }),
       Uint32Array.of(...found.subarray(10, 14), found[4]));
   });
 }
 
-test('one vertex with masks is a row', () => {
-  const rows = index.queryBall(Uint32Array.of(400), 4, { walls, sort: 'distance', distances: true });
-  assert.deepEqual(index.queryBall(400, 4, { walls, sort: 'distance', distances: true }), { ids: rows.ids, distances: rows.distances });
-  assert.deepEqual(index.queryBall(400, 4, { walls }), index.queryRegion(400, 4, { walls }));
-  assert.equal(index.queryBall(387, 4, { walls }).length, 0);
+test('the neighborhood of one vertex with masks is a row', () => {
+  const rows = index.neighborhoods(4, { vertices: Uint32Array.of(400), walls, sort: 'distance', distances: true });
+  assert.deepEqual(index.neighborhood(400, 4, { walls, sort: 'distance', distances: true }), { ids: rows.ids, distances: rows.distances });
+  assert.equal(index.neighborhood(387, 4, { walls }).length, 0);
 });
 
 test('aggregates with masks, paths, scales and a radius for each row are those of the command line', () => {
@@ -98,7 +96,7 @@ test('masks whose content changes are other masks, and calls without have none',
   for (const v of [400, 401]) {
     barrier[v] = 1;
     assert.equal(index.count(v, 3, { walls: barrier }), 0);
-    assert.equal(index.queryBall(v, 3, { walls: barrier }).length, 0);
+    assert.equal(index.neighborhood(v, 3, { walls: barrier }).length, 0);
     assert.equal(index.count(400, 3), whole);
     barrier[v] = 0;
     assert.equal(index.count(v, 3, { walls: barrier }), index.count(v, 3));
@@ -114,7 +112,7 @@ test('the nearest unconnected vertices are those of the command line and of a sc
   write('plates.ply', toPly(sheets));
   const index = build(sheets);
   const expected = ofCommandLine('unconnected', 'plates.ply', '-r', '1.5');
-  const { ids, gaps } = index.nearestUnconnected(null, 1.5);
+  const { ids, gaps } = index.nearestUnconnected(1.5);
   assert.deepEqual(gaps, expected.gap);
   assert.deepEqual(numbers(ids).map((v) => (v === 2 ** 32 - 1 ? -1 : v)), numbers(expected.other));
   const rows = neighbors(sheets);
@@ -125,7 +123,7 @@ test('the nearest unconnected vertices are those of the command line and of a sc
   assert.ok(gaps.some(Number.isFinite));
   const other = new Uint8Array(index.vertexCount);
   other[ids[5]] = 1;
-  assert.ok(index.nearestUnconnected(Uint32Array.of(5), 1.5, { ignored: other }).ids[0] !== ids[5]);
+  assert.ok(index.nearestUnconnected(1.5, { vertices: Uint32Array.of(5), ignored: other }).ids[0] !== ids[5]);
 });
 
 test('features with masks and scales are those of the command line', () => {
@@ -145,7 +143,7 @@ test('features with masks and scales are those of the command line', () => {
 
 test('the nearest of many vertices are those of each, by connecting radius and by paths', () => {
   const k = 9;
-  const { ids, distances } = index.queryKnn(vertices, k, { walls, ignored });
+  const { ids, distances } = index.kNearest(k, { vertices, walls, ignored });
   vertices.forEach((v, row) => {
     const { ids: one, radii } = index.nearestConnected(v, k, { walls, ignored });
     assert.deepEqual([...ids.subarray(k * row, k * row + one.length)], [...one]);
@@ -153,29 +151,31 @@ test('the nearest of many vertices are those of each, by connecting radius and b
     for (let i = k * row + one.length; i < k * (row + 1); ++i) assert.deepEqual([ids[i], distances[i]], [2 ** 32 - 1, Infinity]);
   });
   assert.equal(ids[2 * k], 2 ** 32 - 1); // 387 is a wall
-  const paths = index.queryKnn(400, 20, { metric: 'path', walls });
-  const within = index.queryBall(400, paths.distances[19], { metric: 'path', walls, distances: true });
+  const one = Uint32Array.of(400);
+  const paths = index.kNearest(20, { vertices: one, metric: 'path', walls });
+  const within = index.neighborhood(400, paths.distances[19], { metric: 'path', walls, distances: true });
   assert.deepEqual([...paths.distances], [...within.distances.subarray(0, 20)]);
-  const short = index.queryKnn(400, 20, { metric: 'path', r: 1.5 });
-  assert.equal(short.distances.filter(Number.isFinite).length, index.queryBall(400, 1.5, { metric: 'path' }).length);
-  assert.equal(index.queryKnn(null, 2).ids.length, 2 * count);
+  const short = index.kNearest(20, { vertices: one, metric: 'path', r: 1.5 });
+  assert.equal(short.distances.filter(Number.isFinite).length, index.neighborhood(400, 1.5, { metric: 'path' }).length);
+  assert.equal(index.kNearest(2).ids.length, 2 * count);
+  assert.deepEqual([...index.kNearest(3, { vertices: one, metric: 'rings' }).distances], [0, 1, 1]);
+  assert.throws(() => index.kNearest(3, { r: -1 }), { code: 'InvalidRadius' });
+  assert.throws(() => index.kNearest(null), { name: 'TypeError', message: /^k: null, expected a whole number/ });
 });
 
 test('discs have the first of the nearest vertices whose areas reach a sum', () => {
   const ones = new Float64Array(count).fill(1);
-  const few = index.queryKnn(vertices, null, { until: 4.5, weights: ones });
+  const few = index.discs(4.5, { vertices, weights: ones });
   assert.deepEqual([...few.offsets], [0, 5, 10, 15, 20, 25]);
-  const { ids } = index.queryKnn(vertices, 5);
+  const { ids } = index.kNearest(5, { vertices });
   assert.deepEqual(few.ids, ids);
-  const disc = index.queryKnn(400, null, { until: 8, faces: mesh, metric: 'path' });
-  assert.deepEqual(disc.ids, index.queryKnn(400, disc.ids.length, { metric: 'path' }).ids);
+  const one = Uint32Array.of(400);
+  const disc = index.discs(8, { vertices: one, faces: mesh, metric: 'path' });
+  assert.deepEqual(disc.ids, index.kNearest(disc.ids.length, { vertices: one, metric: 'path' }).ids);
   assert.ok(disc.ids.length > 3 && disc.ids.length < 12);
-  assert.throws(() => index.queryKnn(400, 3, { until: 8 }), { name: 'TypeError', message: /^k: expected/ });
-  assert.throws(() => index.queryKnn(400, null), { name: 'TypeError', message: /^k: expected/ });
-  assert.throws(() => index.queryKnn(400, null, { until: 8 }), { code: 'InvalidOption', message: /^weights: 'area' needs/ });
-  assert.throws(() => index.queryKnn(400, null, { until: 0, weights: ones }), { code: 'InvalidOption', message: /^area: 0/ });
-  assert.deepEqual([...index.queryKnn(400, 3, { metric: 'rings' }).distances], [0, 1, 1]);
-  assert.throws(() => index.queryKnn(400, 3, { r: -1 }), { code: 'InvalidRadius' });
+  assert.throws(() => index.discs(null, { faces: mesh }), { name: 'TypeError', message: /^area null, expected a number/ });
+  assert.throws(() => index.discs(8), { code: 'InvalidOption', message: /^weights: 'area' needs/ });
+  assert.throws(() => index.discs(0, { weights: ones }), { code: 'InvalidOption', message: /^area: 0/ });
 });
 
 test('the closest point of the surface is that of the command line', () => {
@@ -185,21 +185,21 @@ test('the closest point of the surface is that of the command line', () => {
     assert.deepEqual({ ...found, vertices: [...found.vertices], weights: [...found.weights], point: [...found.point] }, expected);
   }
   const { point, vertices: seeds } = index.closestPoint([3.3, 4.2, 9], { faces: mesh });
-  assert.ok(index.queryRegion(point, 2, { seeds }).length > 5);
+  assert.ok(index.neighborhood(point, 2, { seeds }).length > 5);
   assert.throws(() => index.closestPoint([1, 2, 3]), { code: 'InvalidOption', message: /^faces: expected/ });
   assert.throws(() => index.closestPoint([1, 2, Infinity], { faces: mesh }), { code: 'InvalidOption' });
 });
 
 test('words that contradict each other are refused', () => {
   const scales = Float64Array.of(1, 2);
-  assert.throws(() => index.count(null, 1, { scales }), { name: 'TypeError', message: /^r: expected a radius/ });
-  assert.throws(() => index.count(null, null), { name: 'TypeError', message: /^r: expected a radius/ });
-  assert.throws(() => index.queryBall(null, null, { scales }), { name: 'TypeError', message: /^unknown option 'scales'/ });
-  assert.throws(() => index.count(null, Float64Array.of(1, 2)), { code: 'InvalidRadius' });
-  assert.throws(() => index.count(null, 1, { walls: new Uint8Array(3) }), { code: 'InvalidOption' });
-  assert.throws(() => index.count(null, 1, { walls: [1] }), TypeError);
-  assert.throws(() => index.count(null, 1, { walls, method: 'bfs' }), { code: 'InvalidOption' });
-  assert.throws(() => index.count(null, 1, { metric: 'rings', unit: 'edge' }), { code: 'InvalidOption', message: /^unit/ });
-  assert.throws(() => index.queryBall(5, 1, { sort: true }), { code: 'InvalidOption', message: /^sort: 'true'/ });
+  assert.throws(() => index.counts(1, { scales }), { name: 'TypeError', message: /^r: expected a radius/ });
+  assert.throws(() => index.counts(null), { name: 'TypeError', message: /^r: expected a radius/ });
+  assert.throws(() => index.neighborhoods(null, { scales }), { name: 'TypeError', message: /^unknown option 'scales'/ });
+  assert.throws(() => index.counts(Float64Array.of(1, 2)), { code: 'InvalidRadius' });
+  assert.throws(() => index.counts(1, { walls: new Uint8Array(3) }), { code: 'InvalidOption' });
+  assert.throws(() => index.counts(1, { walls: [1] }), TypeError);
+  assert.throws(() => index.counts(1, { walls, method: 'bfs' }), { code: 'InvalidOption' });
+  assert.throws(() => index.counts(1, { metric: 'rings', unit: 'edge' }), { code: 'InvalidOption', message: /^unit/ });
+  assert.throws(() => index.neighborhood(5, 1, { sort: true }), { code: 'InvalidOption', message: /^sort: 'true'/ });
   assert.equal(index.count(400, 0), 1);
 });

@@ -27,24 +27,26 @@ const USE = `
   const mesh: Mesh = readMesh(new Uint8Array(9), 'hand.ply', { precision: 'double' });
   const faces: Faces = { corners: Uint16Array.of(0, 1, 2) };
   const index: MeshIndex = new MeshIndex(mesh.positions, mesh.corners, { offsets: mesh.offsets });
-  const near: Uint32Array = index.queryBall(42, 1.5, { unit: 'edge' });
-  const rows: Rows = index.queryBall(null, 1.5);
+  const near: Uint32Array = index.neighborhood(42, 1.5, { unit: 'edge' });
+  const rows: Rows = index.neighborhoods(1.5);
   const scales = Float64Array.of(1, 2);
   const walls = new Uint8Array(index.vertexCount);
   const curvature: Curvature = index.curvature(null, { faces, scales, walls });
-  const counts: Uint32Array = index.count(null, null, { scales, metric: 'rings' });
-  const far: Rows & { distances: Float64Array } = index.queryBall(near, 2, { sort: 'distance', walls, distances: true });
-  const { ids, gaps } = index.nearestUnconnected(near, scales, { walls });
-  const lengths: Float64Array = index.queryKnn(near, 9, { metric: 'path', walls }).distances;
-  const discs: Rows = index.queryKnn(null, null, { until: 2, faces });
+  const counts: Uint32Array = index.counts(null, { scales, metric: 'rings' });
+  const far: Rows & { distances: Float64Array } = index.neighborhoods(2, { vertices: near, sort: 'distance', walls, distances: true });
+  const { ids, gaps } = index.nearestUnconnected(scales, { vertices: near, walls });
+  const lengths: Float64Array = index.kNearest(9, { vertices: near, metric: 'path', walls }).distances;
+  const discs: Rows = index.discs(2, { faces });
   const creases: Float64Array = index.features(null, { faces, scales, kinds: ['crease', 'area'] });
   const { vertices, point } = index.closestPoint([0, 0, 1], { faces });
-  index.queryRegion(point, 2, { seeds: vertices, sort: 'id' });
+  index.neighborhood(point, 2, { seeds: vertices, sort: 'id' });
+  const around: number = index.count(point, 2, { seeds: vertices, walls });
+  const lists: Uint32Array[] = [index.viewNeighborhood(42, 2), index.nested(42, scales, { metric: 'rings' }).counts];
   index.smooth(index.aggregate(gaps, scales, { metric: 'path' }), 3, { metric: 'path', walls });
   index.refitInPlace(mesh.positions, { changed: near });
   const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
   const codes: string[] = [new MeshhoodError().code];
-  export const used = [lengths, discs, creases, counts, far.distances, ids, rows.offsets, curvature.mean, part.vertices, codes];
+  export const used = [around, lists, lengths, discs, creases, counts, far.distances, ids, rows.offsets, curvature.mean, part.vertices, codes];
 `;
 
 for (const [name, options] of Object.entries({
@@ -59,7 +61,7 @@ test('unknown options and wrong types are errors of the compiler', () => {
   for (const wrong of ["{ units: 'edge' }", "{ unit: 'foot' }", "{ sort: 1 }", "{ metric: 'edges' }", "{ walls: [1] }"]) {
     const { status, stdout } = compile(`
       import type { MeshIndex } from 'meshhood';
-      export const near = (index: MeshIndex) => index.queryBall(5, 3, ${wrong});`, '--target', 'es2022');
+      export const near = (index: MeshIndex) => index.neighborhood(5, 3, ${wrong});`, '--target', 'es2022');
     assert.notEqual(status, 0, wrong);
     assert.match(stdout, /^use\.ts\(3,/, wrong);
   }

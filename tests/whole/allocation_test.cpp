@@ -17,7 +17,6 @@
 #include "meshhood/aggregate.h"
 #include "meshhood/batch.h"
 #include "meshhood/curvature.h"
-#include "meshhood/edge_search.h"
 #include "meshhood/face_graph.h"
 #include "meshhood/face_index.h"
 #include "meshhood/index.h"
@@ -26,7 +25,6 @@
 #include "meshhood/paper.h"
 #include "meshhood/reference.h"
 #include "meshhood/refit.h"
-#include "meshhood/region.h"
 #include "meshhood/region_mesh.h"
 #include "meshhood/reorder.h"
 #include "meshhood/search.h"
@@ -36,7 +34,7 @@
 #include "batch/batch.h"
 #include "batch/position_sort.h"
 #include "exact/build/node_parts.h"
-#include "exact/search/searcher_state.h"
+#include "exact/query/single_queries.h"
 #include "support/divided_nodes.h"
 #include "support/failing_allocations.h"
 #include "support/families.h"
@@ -215,37 +213,50 @@ TEST_P(Allocation, FailsInTheGraphOfAnOddMesh) {
 }
 
 TEST_P(Allocation, FailsInARegionSearch) {
-  expect_answered<RegionSearcher>(shortages, mesh, index,
-                                  [](RegionSearcher& s, VertexId v, double r, Answers& answers) {
-                                    s.region(v, r, answers.ids, answers.distances);
-                                  });
-  expect_answered<RegionSearcher>(
-      shortages, mesh, index, [](RegionSearcher& s, VertexId v, double r, Answers& answers) {
-        const std::vector<double> radii = r < kInfinity ? std::vector{r / 2, r + 1} : std::vector{1.0, r};
-        std::vector<std::size_t> counts;
-        s.nested(v, radii, answers.ids, counts);
-        answers.count = counts.front();
-      });
-  expect_answered<RegionSearcher>(shortages, mesh, index,
-                                  [](RegionSearcher& s, VertexId v, double r, Answers& answers) {
-                                    s.stroke(std::array{Dab{v, r}, Dab{VertexId{1}, r}}, answers.ids);
-                                  });
-  expect_answered<RegionSearcher>(shortages, mesh, index,
-                                  [](RegionSearcher& s, VertexId v, double r, Answers& answers) {
-                                    answers.count = static_cast<std::size_t>(s.connecting_radius(v, 2) <= r);
-                                  });
-  expect_answered<RegionSearcher>(shortages, mesh, index, [](RegionSearcher& s, VertexId v, double, Answers& answers) {
+  expect_answered<Searcher>(shortages, mesh, index, [](Searcher& s, VertexId v, double r, Answers& answers) {
+    s.neighborhood(v, r, answers.ids, answers.distances);
+  });
+  expect_answered<Searcher>(shortages, mesh, index, [](Searcher& s, VertexId v, double r, Answers& answers) {
+    const std::vector<double> radii = r < kInfinity ? std::vector{r / 2, r + 1} : std::vector{1.0, r};
+    std::vector<std::size_t> counts;
+    s.nested(v, radii, answers.ids, counts);
+    answers.count = counts.front();
+  });
+  expect_answered<Searcher>(shortages, mesh, index, [](Searcher& s, VertexId v, double r, Answers& answers) {
+    s.stroke(std::array{Dab{v, r}, Dab{VertexId{1}, r}}, answers.ids);
+  });
+  expect_answered<Searcher>(shortages, mesh, index, [](Searcher& s, VertexId v, double r, Answers& answers) {
+    answers.count = static_cast<std::size_t>(s.connecting_radius(v, 2) <= r);
+  });
+  expect_answered<Searcher>(shortages, mesh, index, [](Searcher& s, VertexId v, double, Answers& answers) {
+    s.nearest_connected(v, 60, answers.ids, answers.distances);
+  });
+}
+
+/// Makes it by paths or rings, as the functions above make a searcher: from one argument.
+struct PathSearcher : Searcher {
+  explicit PathSearcher(const Index& of) : Searcher(of, Metric::Path) {}
+};
+struct RingSearcher : Searcher {
+  explicit RingSearcher(const Index& of) : Searcher(of, Metric::Rings) {}
+};
+
+template <class Along>
+void expect_answered_along_edges(Shortages& shortages, const TestMesh& mesh, const Index& index) {
+  expect_queries<Along>(shortages, mesh, index);
+  expect_answered<Along>(shortages, mesh, index, [](Along& s, VertexId v, double, Answers& answers) {
+    std::vector<std::size_t> counts;
+    s.nested(v, std::array{1.0, 6.0}, answers.ids, counts);
+    answers.count = counts.back();
+  });
+  expect_answered<Along>(shortages, mesh, index, [](Along& s, VertexId v, double, Answers& answers) {
     s.nearest_connected(v, 60, answers.ids, answers.distances);
   });
 }
 
 TEST_P(Allocation, FailsInASearchAlongEdges) {
-  expect_queries<EdgeSearcher>(shortages, mesh, index);
-  expect_answered<EdgeSearcher>(shortages, mesh, index, [](EdgeSearcher& s, VertexId v, double, Answers& answers) {
-    std::vector<std::size_t> counts;
-    s.rings(v, 6, answers.ids, counts);
-    answers.count = counts.back();
-  });
+  expect_answered_along_edges<PathSearcher>(shortages, mesh, index);
+  expect_answered_along_edges<RingSearcher>(shortages, mesh, index);
 }
 
 TEST_P(Allocation, FailsInARegionMesh) {
@@ -287,8 +298,7 @@ void expect_constructed(Shortages& shortages, const From& from) {
 
 TEST_P(Allocation, FailsInTheConstructionOfASearcher) {
   expect_constructed<Searcher>(shortages, index);
-  expect_constructed<RegionSearcher>(shortages, index);
-  expect_constructed<EdgeSearcher>(shortages, index);
+  expect_constructed<PathSearcher>(shortages, index);
   expect_constructed<paper::Searcher>(shortages, paper_index);
   expect_constructed<ReferenceSearcher>(shortages, mesh.view());
 }

@@ -75,7 +75,7 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
     add_searcher(name + ": searcher", method.make_searcher());
   };
   add_searcher("Searcher", Searcher(index));
-  add_searcher("EdgeSearcher", EdgeSearcher(index));
+  add_searcher("Searcher by paths", Searcher(index, Metric::Path));
   const std::vector<std::pair<std::string, SearchMethod>> methods{{"straight", SearchMethod(index)},
                                                                   {"paths", SearchMethod(index).by(Metric::Path)},
                                                                   {"rings", SearchMethod(index).by(Metric::Rings)},
@@ -92,11 +92,23 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
     };
     add_searcher(name + ": searcher", SearchMethod(*with_walls).by(metric).make_searcher());
   }
-  const auto regions = kept(RegionSearcher(index));
-  all["RegionSearcher: region"] = [=] { return numbers(regions->region(v, kRadius)); };
-  const auto regions_with_walls = kept(RegionSearcher(*with_walls));
-  all["RegionSearcher: walls"] = [=] { return numbers(regions_with_walls->region(v, kRadius)); };
-  all["RegionSearcher: connecting radius"] = [=] { return Answer{regions->connecting_radius(v, 0)}; };
+  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
+    const auto searcher = kept(Searcher(index, metric));
+    const std::string name = "Searcher by metric " + std::to_string(static_cast<int>(metric));
+    all[name + ": connecting radius"] = [=] { return Answer{searcher->connecting_radius(v, 0)}; };
+    all[name + ": contains"] = [=] { return Answer{searcher->contains(v, 0, kRadius) ? 1.0 : 0.0}; };
+    all[name + ": nearest"] = [=] {
+      std::vector<VertexId> ids;
+      std::vector<double> radii;
+      searcher->nearest_connected(v, 20, ids, radii);
+      return numbers(radii);
+    };
+  }
+  const auto from_points = kept(Searcher(index));
+  all["Searcher: from a point"] = [=] {
+    const std::vector<VertexId> seeds{v};
+    return numbers(from_points->neighborhood({{4.2, 5.1, 0}, seeds}, 2 * kRadius));
+  };
   const auto faces = kept(FaceIndex::build(index, mesh.view().faces));
   all["FaceIndex"] = [=] { return Answer{faces->closest_point({3.2, 4.1, 7}).distance}; };
   const auto surface = kept(CurvatureIndex::build(index, mesh.view()));
@@ -188,18 +200,18 @@ TEST_F(Outlives, ARefittedIndexARefitOfItsOrigin) {
 
 TEST_F(Outlives, RebindMakesSearchersOfTheNewState) {
   Searcher searcher(index);
-  EdgeSearcher edges(index);
-  RegionSearcher regions(index);
+  Searcher edges(index, Metric::Path);
+  Searcher regions(index);
   index.refit_in_place(moved.positions_view());
   searcher.rebind(index);
   edges.rebind(index);
   regions.rebind(index);
   EXPECT_EQ(searcher.neighborhood(44, kRadius), Searcher(index).neighborhood(44, kRadius));
-  EXPECT_EQ(regions.region(44, kRadius), RegionSearcher(index).region(44, kRadius));
+  EXPECT_EQ(regions.neighborhood(44, kRadius), Searcher(index).neighborhood(44, kRadius));
   std::vector<VertexId> ids;
   std::vector<VertexId> expected;
   edges.neighborhood(44, kRadius, ids);
-  EdgeSearcher(index).neighborhood(44, kRadius, expected);
+  Searcher(index, Metric::Path).neighborhood(44, kRadius, expected);
   EXPECT_EQ(ids, expected);
 }
 
@@ -212,14 +224,13 @@ TEST(Rebind, RingsOfAHubAreThoseOfTheNewState) {
   }
   star = star.finish(false);
   Index index = build(star.view());
-  EdgeSearcher edges(index);
+  Searcher edges(index, Metric::Rings);
   std::vector<VertexId> before;
   std::vector<VertexId> after;
-  std::vector<std::size_t> sizes;
-  edges.rings(7, 1, before, sizes);
+  edges.neighborhood(7, 1, before);
   index.refit_in_place(star.positions_view());
   edges.rebind(index);
-  edges.rings(7, 1, after, sizes);
+  edges.neighborhood(7, 1, after);
   EXPECT_EQ(before, after);
 }
 
@@ -256,10 +267,8 @@ void expect_moved_from_refused(const std::string& name, Made made, const std::fu
 TEST_F(Outlives, WhatHasBeenMovedFromRefusesUntilItIsAssigned) {
   const auto find = [](auto& searcher) { static_cast<void>(searcher.count(44, kRadius)); };
   expect_moved_from_refused<Searcher>("Searcher", Searcher(index), find);
-  expect_moved_from_refused<EdgeSearcher>("EdgeSearcher", EdgeSearcher(index), find);
   expect_moved_from_refused<ReferenceSearcher>("ReferenceSearcher", ReferenceSearcher(mesh.view()), find);
   expect_moved_from_refused<AnySearcher>("AnySearcher", SearchMethod(index).make_searcher(), find);
-  expect_moved_from_refused<RegionSearcher>("RegionSearcher", RegionSearcher(index), find);
   const paper::Index approximate = paper::build(mesh.view());
   expect_moved_from_refused<paper::Searcher>("paper::Searcher", paper::Searcher(approximate), find);
   expect_moved_from_refused<paper::Index>("paper::Index", paper::build(mesh.view()),
@@ -282,30 +291,23 @@ TEST_F(Outlives, AMethodThatHasBeenMovedFromIsACopy) {
 }
 
 TEST_F(Outlives, ResultsInTheMemoryOfArguments) {
-  RegionSearcher regions(index);
+  Searcher regions(index);
   const SpacePoint center{4.2, 5.1, 0};
   const std::vector<VertexId> seeds{52, 64, 65};
   const std::vector<double> radii{0.0, 1.0, kRadius};
   std::vector<VertexId> ids = seeds;
-  const std::vector<VertexId> expected = regions.region(Start(center, seeds), kRadius);
-  EXPECT_TRUE(regions.region(Start(center, ids), kRadius, ids));
+  const std::vector<VertexId> expected = regions.neighborhood(Start(center, seeds), kRadius);
+  regions.neighborhood(Start(center, ids), kRadius, ids);
   EXPECT_EQ(ids, expected);
 
   std::vector<double> distances;
   ids = seeds;
-  EXPECT_TRUE(regions.region(Start(center, ids), kRadius, ids, distances));
+  regions.neighborhood(Start(center, ids), kRadius, ids, distances);
   EXPECT_EQ(ids, expected);
 
-  // Far from all seeds the answer is empty, and whether a seed lies in the ball is asked last.
-  ids = seeds;
-  EXPECT_FALSE(regions.region(Start(SpacePoint{100, 0, 0}, ids), kRadius, ids));
   ids = seeds;
   std::vector<std::size_t> sizes;
-  EXPECT_FALSE(regions.nested(Start(SpacePoint{100, 0, 0}, ids), radii, ids, sizes));
-  EXPECT_THAT(ids, testing::IsEmpty());
-
-  ids = seeds;
-  EXPECT_TRUE(regions.nested(Start(center, ids), radii, ids, sizes));
+  regions.nested(Start(center, ids), radii, ids, sizes);
   std::sort(ids.begin(), ids.end());
   std::vector<VertexId> sorted = expected;
   std::sort(sorted.begin(), sorted.end());
@@ -313,7 +315,7 @@ TEST_F(Outlives, ResultsInTheMemoryOfArguments) {
 
   ids = seeds;
   const Dab dab{Start(center, ids), kRadius};
-  EXPECT_TRUE(regions.stroke({&dab, 1}, ids));
+  regions.stroke({&dab, 1}, ids);
   EXPECT_EQ(ids, expected);
 
   std::vector<VertexId> nearest;

@@ -97,7 +97,7 @@ export class View {
   #colors: THREE.BufferAttribute | null = null;
   #answers: THREE.BufferAttribute | null = null;
   #areBalls = true; // the answers that are drawn
-  readonly #queryBall: Ball = { center: new THREE.Vector3(), radius: 0 };
+  readonly #answerBall: Ball = { center: new THREE.Vector3(), radius: 0 };
   #drawn: THREE.Mesh | THREE.Points | null = null;
   #edges: THREE.Mesh | null = null;
   #picker: Picker | null = null;
@@ -179,7 +179,7 @@ export class View {
     } else {
       this.#drawn = new THREE.Points(geometry, new THREE.PointsMaterial({ size: 2.5, sizeAttenuation: false, vertexColors: true }));
     }
-    drawAnswers(this.#drawn.material as THREE.Material, this.#queryBall);
+    drawAnswers(this.#drawn.material as THREE.Material, this.#answerBall);
     this.#scene.add(this.#drawn);
     this.#picker = new Picker(this.#drawn, tree);
     this.#marker.visible = this.#ball.visible = false;
@@ -215,8 +215,8 @@ export class View {
   /** The ball that the answers end at; points have no borders. */
   #placeBall(): void {
     const isMesh = this.#drawn instanceof THREE.Mesh;
-    this.#queryBall.radius = isMesh && this.#areBalls ? this.#radius / this.unit : -1;
-    if (this.#vertex >= 0) this.#queryBall.center.copy(this.position(this.#vertex));
+    this.#answerBall.radius = isMesh && this.#areBalls ? this.#radius / this.unit : -1;
+    if (this.#vertex >= 0) this.#answerBall.center.copy(this.position(this.#vertex));
   }
 
   setLook(look: Look): void {

@@ -160,7 +160,7 @@ async function forEachMethod(
 
 async function answer(query: Query): Promise<void> {
   await forEachMethod(query, (index, method) => {
-    const ids = index.queryBall(query.vertex, query.radius, { method });
+    const ids = index.neighborhood(query.vertex, query.radius, { method });
     reply({ kind: 'answer', id: query.id, method, ids }, [ids.buffer]);
   });
 }
@@ -174,7 +174,7 @@ const BATCH = 2; // milliseconds, as the clock of a browser is coarse
 /** Milliseconds for `runs` queries. */
 function duration(index: MeshIndex, query: Query, method: Method, runs: number): number {
   const begin = performance.now();
-  for (let run = 0; run < runs; ++run) index.viewBall(query.vertex, query.radius, { method });
+  for (let run = 0; run < runs; ++run) index.viewNeighborhood(query.vertex, query.radius, { method });
   return performance.now() - begin;
 }
 
@@ -230,7 +230,7 @@ async function forEachPart(stage: string, work: (index: MeshIndex, vertices: Uin
 async function computeCounts(radius: number): Promise<Uint32Array | null> {
   const all = new Uint32Array(index!.vertexCount);
   const isDone = await forEachPart('Counting all neighborhoods', (index, vertices) => {
-    const counts = index.count(vertices, radius);
+    const counts = index.counts(radius, { vertices });
     vertices.forEach((v, row) => (all[v] = counts[row]));
   });
   return isDone ? all : null;
@@ -265,7 +265,7 @@ async function compute(quantity: QuantityName, radius: number): Promise<void> {
 /** Always replies: the page waits for it. */
 function findNeighbors(vertex: number): void {
   const known = index !== null && vertex < index.vertexCount ? index : null;
-  const ids = known?.queryRings(vertex, 1).ids.filter((v) => v !== vertex) ?? new Uint32Array();
+  const ids = known?.neighborhood(vertex, 1, { metric: 'rings' }).filter((v) => v !== vertex) ?? new Uint32Array();
   reply({ kind: 'neighbors', vertex, ids }, [ids.buffer]);
 }
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, Optional, TypedDict, Union, over
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _convert
+from . import _convert, _core
 from ._held import Held
 from ._rows import check_unit, check_words, sort_of, sorted_rows
 from ._types import METRICS, Counts, Ids, Mask, Metric, Number, Reals, Sort, Unit
@@ -80,7 +80,7 @@ class Queries(Held):
                 raise ValueError(f"start: expected a vertex with metric={metric!r}, because a point has no edges")
             indices, distances = index._method(words).neighborhood_and_distances(int(first[0]), radius)
         else:
-            indices, distances, has_seed = index._queries.region(center, first, radius)
+            indices, distances, has_seed = index._queries.region(_core.Metric.straight, center, first, radius)
             _warn_unless(has_seed or not len(first), "start: the")
         if sort is not None:
             indices, distances = sorted_rows(self, sort, np.array([0, len(indices)]), indices, distances)
@@ -119,7 +119,7 @@ class Queries(Held):
             if seeds is None:
                 seeds = self._queries.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
             rows = _convert.seed_rows(seeds, len(centers), self._count)
-        indices, has_seeds = self._with_masks(walls, ignored)._queries.stroke(centers, rows, radii)
+        indices, has_seeds = self._with_masks(walls, ignored)._queries.stroke(_core.Metric.straight, centers, rows, radii)
         _warn_unless(has_seeds, "points: a")
         if by_id:
             indices.sort()
@@ -153,7 +153,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "query_ball(vertices, scales=radii)")
         values = _convert.ascending(radii, "radii") * self._scale(unit)
-        counts, indices, has_seed = self._with_masks(walls, ignored)._queries.nested(center, first, values)
+        counts, indices, has_seed = self._with_masks(walls, ignored)._queries.nested(_core.Metric.straight, center, first, values)
         _warn_unless(has_seed or not len(first), "start: the")
         return counts, indices
 
@@ -188,7 +188,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "a call for each")
         w, r = _convert.vertex(w, self._count, "w"), self._scale(unit) * _convert.radius(r)
-        return bool(self._with_masks(walls, ignored)._queries.contains(center, first, w, r))
+        return bool(self._with_masks(walls, ignored)._queries.contains(_core.Metric.straight, center, first, w, r))
 
     def connecting_radius(
         self,
@@ -210,7 +210,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "a call for each")
         w = _convert.vertex(w, self._count, "w")
-        return float(self._with_masks(walls, ignored)._queries.connecting_radius(center, first, w))
+        return float(self._with_masks(walls, ignored)._queries.connecting_radius(_core.Metric.straight, center, first, w))
 
     def nearest_connected(
         self,
@@ -232,7 +232,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "query_knn(vertices, k), or seeds= around a point")
         k = _convert.integer(k, "k", 1, 2**63 - 1)
-        indices, radii = self._with_masks(walls, ignored)._queries.nearest_connected(center, first, k)
+        indices, radii = self._with_masks(walls, ignored)._queries.nearest_connected(_core.Metric.straight, center, first, k)
         return indices, radii
 
     @overload

@@ -18,9 +18,9 @@ extern "C" {
 [[clang::export_name("aggregate")]] void aggregate(const VertexId* vertices, std::size_t vertex_count, double radius,
                                                    const double* radii, std::size_t radius_count, bool are_scales,
                                                    const double* values, std::size_t value_count, std::size_t channels,
-                                                   const double* weights, std::size_t weight_count,
-                                                   Reduce reduce, SmoothingKernel kernel, MissingValues missing,
-                                                   Nesting nesting, double ddof) {
+                                                   const double* weights, std::size_t weight_count, Reduce reduce,
+                                                   SmoothingKernel kernel, MissingValues missing, Nesting nesting,
+                                                   double ddof) {
   const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
   const BatchQuery query = rows.query();
   const SignalView signal{

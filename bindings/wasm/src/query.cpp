@@ -65,22 +65,6 @@ NearestOptions nearest_options(double radius) { return {.metric = row_metric, .r
 
 extern "C" {
 
-/// Returns the number of ids.
-[[clang::export_name("query")]] std::size_t query(MethodName method, VertexId v, double radius, bool with_distances) {
-  AnySearcher& searcher = workspace.method(method).searcher;
-  if (with_distances) {
-    searcher.neighborhood(v, radius, answer.ids, answer.reals);
-  } else {
-    answer.reals.clear();
-    searcher.neighborhood(v, radius, answer.ids);
-  }
-  return answer.ids.size();
-}
-
-[[clang::export_name("count")]] std::size_t count(MethodName method, VertexId v, double radius) {
-  return workspace.method(method).searcher.count(v, radius);
-}
-
 /// Puts the ids of the answer, and the distances, if there are any, into an order: each row by itself if the counts are
 /// its offsets.
 [[clang::export_name("sort_answer")]] void sort_answer(VertexOrder order, bool has_rows) {
@@ -93,7 +77,7 @@ extern "C" {
                                            const double* radii, std::size_t radius_count, bool are_scales,
                                            MethodName method, bool count_only, bool with_distances, bool by_id) {
   const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
-  const SearchMethod& search = workspace.method(method).search;
+  const SearchMethod& search = workspace.method(method);
   if (count_only) {
     const auto sizes = counts(search, rows.query());
     answer.counts.assign(sizes.begin(), sizes.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Regions: searches from any point, with masks. `start_at_...` comes first, and borrows its array for the calls that
-// follow; `search_by` comes first, too, and copies the masks.
+// Searches from one start, a vertex or a point, by a method or a metric and with masks. `start_at_...` comes first, and
+// borrows its array for the calls that follow; `search_by` comes first, too, and copies the masks.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -48,37 +48,47 @@ extern "C" {
   workspace.set_masks({walls, wall_count}, {ignored, ignored_count});
 }
 
-/// Whether a seed lies in the ball.
-[[clang::export_name("region")]] bool region(double radius, bool with_distances) {
-  if (with_distances) return workspace.regions().region(origin, radius, answer.ids, answer.reals);
-  answer.reals.clear();
-  return workspace.regions().region(origin, radius, answer.ids);
+/// By a method; the exact one searches by the metric, the others from a vertex. Returns whether a seed lies in the
+/// ball.
+[[clang::export_name("neighborhood")]] bool neighborhood(MethodName method, double radius, bool with_distances) {
+  const auto search = [&](auto& searcher, const auto& start) {
+    if (with_distances) return searcher.neighborhood(start, radius, answer.ids, answer.reals);
+    answer.reals.clear();
+    searcher.neighborhood(start, radius, answer.ids);
+  };
+  if (method != MethodName::Exact) {
+    search(workspace.searcher(method), origin.vertex());
+    return true;
+  }
+  Searcher& searcher = workspace.searcher(row_metric);
+  search(searcher, origin);
+  return searcher.has_seed(origin, radius);
 }
 
-/// The same of the largest ball.
+[[clang::export_name("count")]] std::size_t count(MethodName method, double radius) {
+  if (method == MethodName::Exact) return workspace.searcher(row_metric).count(origin, radius);
+  return workspace.searcher(method).count(origin.vertex(), radius);
+}
+
+/// Whether a seed lies in the largest ball.
 [[clang::export_name("nested")]] bool nested(const double* radii, std::size_t radius_count) {
-  const bool is_near = workspace.regions().nested(origin, std::span(radii, radius_count), answer.ids, region_sizes);
+  Searcher& searcher = workspace.searcher(row_metric);
+  searcher.nested(origin, std::span(radii, radius_count), answer.ids, region_sizes);
   answer_sizes();
-  return is_near;
-}
-
-/// Of the vertex `v`; not of the start.
-[[clang::export_name("rings")]] void rings(VertexId v, double k) {
-  workspace.edges().rings(v, to_size(k), answer.ids, region_sizes);
-  answer_sizes();
+  return radius_count == 0 || searcher.has_seed(origin, radii[radius_count - 1]);
 }
 
 [[clang::export_name("contains")]] bool contains(VertexId w, double radius) {
-  return workspace.regions().contains(origin, w, radius);
+  return workspace.searcher(row_metric).contains(origin, w, radius);
 }
 
 [[clang::export_name("connecting_radius")]] double connecting_radius(VertexId w) {
-  return workspace.regions().connecting_radius(origin, w);
+  return workspace.searcher(row_metric).connecting_radius(origin, w);
 }
 
 [[clang::export_name("nearest_connected")]] void nearest_connected(double k) {
   const std::size_t most = std::min(to_size(k), workspace.index().vertex_count());
-  workspace.regions().nearest_connected(origin, most, answer.ids, answer.reals);
+  workspace.searcher(row_metric).nearest_connected(origin, most, answer.ids, answer.reals);
 }
 
 /// Returns the vertex; the first real of the answer is its distance.

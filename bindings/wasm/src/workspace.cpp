@@ -89,31 +89,28 @@ SearchMethod Workspace::make_method(MethodName name) {
     case MethodName::Paper: return paper_index();
     case MethodName::Bfs: return SearchMethod::breadth_first(graph().view());
     case MethodName::Ball: return SearchMethod::ball_scan(graph().view().positions);
-    case MethodName::Path: return SearchMethod(searched()).by(Metric::Path);
-    case MethodName::Rings: return SearchMethod(searched()).by(Metric::Rings);
   }
   __builtin_unreachable();
 }
 
-Method& Workspace::method(MethodName name) {
+Method& Workspace::kept_method(MethodName name) {
   std::optional<Method>& method = searches().methods[static_cast<std::size_t>(name)];
-  if (!method) {
-    const SearchMethod search = make_method(name);
-    method.emplace(Method{.search = search, .searcher = search.make_searcher()});
-  }
+  if (!method) method.emplace(Method{.search = make_method(name), .searcher = {}});
   return *method;
 }
 
-RegionSearcher& Workspace::regions() {
-  std::optional<RegionSearcher>& regions = searches().regions;
-  if (!regions) regions.emplace(searched());
-  return *regions;
+const SearchMethod& Workspace::method(MethodName name) { return kept_method(name).search; }
+
+AnySearcher& Workspace::searcher(MethodName name) {
+  Method& method = kept_method(name);
+  if (!method.searcher) method.searcher = method.search.make_searcher();
+  return *method.searcher;
 }
 
-EdgeSearcher& Workspace::edges() {
-  std::optional<EdgeSearcher>& edges = searches().edges;
-  if (!edges) edges.emplace(searched());
-  return *edges;
+Searcher& Workspace::searcher(Metric metric) {
+  std::optional<Searcher>& searcher = searches().by_metric[static_cast<std::size_t>(metric)];
+  if (!searcher) searcher.emplace(searched(), metric);
+  return *searcher;
 }
 
 void Workspace::use_faces(const FacesView& faces, const Fingerprint& content) {

@@ -15,23 +15,21 @@
 
 namespace meshhood::wasm {
 
-/// The numbers are part of the interface with JavaScript. `Path` and
-/// `Rings` search the exact index by these metrics.
-enum class MethodName : std::uint8_t { Exact, Paper, Bfs, Ball, Path, Rings };
+/// The numbers are part of the interface with JavaScript.
+enum class MethodName : std::uint8_t { Exact, Paper, Bfs, Ball };
 
-inline constexpr std::size_t kMethodCount = 6;
+inline constexpr std::size_t kMethodCount = 4;
 
-/// A method, and a searcher for single queries.
+/// A method, and a searcher for single queries, made when it is first used; those of the exact method are `by_metric`.
 struct Method {
   SearchMethod search;
-  AnySearcher searcher;
+  std::optional<AnySearcher> searcher;
 };
 
 /// The searches of an index, each made when it is first used.
 struct Searches {
   std::array<std::optional<Method>, kMethodCount> methods;  // by their names
-  std::optional<RegionSearcher> regions;
-  std::optional<EdgeSearcher> edges;
+  std::array<std::optional<Searcher>, 3> by_metric;
 };
 
 /// One mesh, its index, and what the methods need besides: the graph, the paper's index, searchers. Each part is made
@@ -71,9 +69,9 @@ class Workspace {
 
   // With the masks:
 
-  [[nodiscard]] Method& method(MethodName name);
-  [[nodiscard]] RegionSearcher& regions();
-  [[nodiscard]] EdgeSearcher& edges();
+  [[nodiscard]] const SearchMethod& method(MethodName name);
+  [[nodiscard]] AnySearcher& searcher(MethodName name);
+  [[nodiscard]] Searcher& searcher(Metric metric);
 
   /// Makes the normals from faces; nothing is done if `content`, a hash of the faces, is that of the faces before.
   /// Throws as `CurvatureIndex::build`.
@@ -98,6 +96,7 @@ class Workspace {
   void forget_derived();
   [[nodiscard]] const paper::Index& paper_index();
   [[nodiscard]] SearchMethod make_method(MethodName name);
+  [[nodiscard]] Method& kept_method(MethodName name);
   [[nodiscard]] Searches& searches() { return has_masks_ ? masked_searches_ : searches_; }
 
   io::Mesh mesh_;

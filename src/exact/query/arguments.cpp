@@ -34,6 +34,16 @@ void check_start(const Start& start, std::size_t vertices, std::string_view wher
   }
 }
 
+void check_ascending(std::span<const double> radii) {
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const std::string where = "radii: value " + std::to_string(i) + ": ";
+    check_radius(radii[i], where);
+    if (i == 0 || radii[i - 1] < radii[i]) continue;
+    raise(ErrorCode::InvalidRadius,
+          where + "radius " + to_text(radii[i]) + ", expected more than " + to_text(radii[i - 1]) + " before it");
+  }
+}
+
 Point position_of(const IndexView& index, VertexId v) {
   const std::uint32_t slot = index.slot[v];
   return index.position(leaf_of(slot), lane_of(slot));

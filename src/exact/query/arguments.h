@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string_view>
 
 #include "meshhood/start.h"
@@ -21,6 +22,9 @@ void check_vertex(VertexId v, std::size_t vertices, std::string_view name);
 
 /// Error{InvalidOption, VertexOutOfRange}.
 void check_start(const Start& start, std::size_t vertices, std::string_view where);
+
+/// Error{InvalidRadius} unless the radii are valid and strictly ascend.
+void check_ascending(std::span<const double> radii);
 
 /// The position of a vertex.
 [[nodiscard]] Point position_of(const IndexView& index, VertexId v);

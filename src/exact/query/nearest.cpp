@@ -18,7 +18,7 @@
 namespace meshhood {
 namespace {
 
-class NearestSearch : public VertexVisitor {
+class NearestSearch {
  public:
   NearestSearch(const IndexView& index, const Point& p) : index_(&index), center_(index.frame, p) {}
 
@@ -28,6 +28,8 @@ class NearestSearch : public VertexVisitor {
   }
 
   [[nodiscard]] double reach() const { return distance_; }
+
+  [[nodiscard]] static bool wants(NodeId /*node*/) { return true; }
 
   void visit_leaf(LeafId leaf) {
     for (std::size_t v = index_->leaf_begin[leaf]; v < index_->leaf_begin[leaf + 1]; ++v) {

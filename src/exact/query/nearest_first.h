@@ -13,27 +13,17 @@
 
 namespace meshhood {
 
-/// What `NearestFirst` asks of a visitor, for one that looks for vertices. A visitor also has
-///
-///     double reach() const;        // what is farther from the center does not matter; never grows
-///     void visit_leaf(LeafId);
-struct VertexVisitor {
-  /// How far what belongs to a node lies outside its bounding sphere, at most, in the frame; of a node, and of a sphere
-  /// of the tree over the root groups.
-  [[nodiscard]] float overhang(NodeId /*node*/) const { return 0; }
-  [[nodiscard]] float root_overhang(std::size_t /*level*/, std::size_t /*number*/) const { return 0; }
-
-  /// Whether anything below the node matters.
-  [[nodiscard]] bool wants(NodeId /*node*/) const { return true; }
-};
-
 /// A reach from a center that covers everything within `distance` of a point, if `distance` already includes that from
 /// the point to the center: the three distances are each rounded a few times by 2^-53 of their size, or of 2^-537 where
 /// squares underflow.
 [[nodiscard]] inline double reach_of(double distance) { return distance * (1 + 1e-14) + 0x1p-500; }
 
 /// Visits the leaves of an index around a center, connected or not: depth first through the tree, the nearest node of a
-/// group first. A node is skipped if it is farther away than the visitor still reaches.
+/// group first. A node is skipped if it is farther away than the visitor still reaches. A visitor has
+///
+///     double reach() const;           // what is farther from the center does not matter; never grows
+///     bool wants(NodeId node) const;  // whether anything below the node matters
+///     void visit_leaf(LeafId leaf);
 template <class Visitor>
 class NearestFirst {
  public:
@@ -46,7 +36,7 @@ class NearestFirst {
 
  private:
   struct Child {
-    double low;  // of the distances of what belongs to it
+    double low;  // of the distances of its vertices
     std::size_t place;
   };
 
@@ -54,9 +44,7 @@ class NearestFirst {
   void visit_roots(std::size_t level, std::size_t first) {
     const RootTree& roots = index_->roots;
     const std::span<const FrameSphere> spheres = std::span(roots.levels[level]).subspan(first);
-    const auto sphere_at = [&](std::size_t i) {
-      return enlarged(spheres[i], visitor_->root_overhang(level, first + i));
-    };
+    const auto sphere_at = [&](std::size_t i) { return spheres[i]; };
     visit_in_order(spheres.size(), sphere_at, [&](std::size_t i) {
       if (level == 0) {
         visit_group(roots.groups[first + i]);
@@ -68,12 +56,9 @@ class NearestFirst {
 
   void visit_group(std::size_t group) {
     const GroupRecord& record = index_->records[group];
-    const auto node_at = [&](std::size_t i) { return static_cast<NodeId>(group * kFanOut + i); };
-    const auto sphere_at = [&](std::size_t i) {
-      return enlarged(sphere_of(index_->groups[group], i), visitor_->overhang(node_at(i)));
-    };
+    const auto sphere_at = [&](std::size_t i) { return sphere_of(index_->groups[group], i); };
     visit_in_order(record.nodes, sphere_at, [&](std::size_t i) {
-      const NodeId node = node_at(i);
+      const auto node = static_cast<NodeId>(group * kFanOut + i);
       if (!visitor_->wants(node)) return;
       if (node < index_->leaf_count()) {
         visitor_->visit_leaf(node);
@@ -99,11 +84,6 @@ class NearestFirst {
       if (child.low > visitor_->reach()) return;
       visit(child.place);
     }
-  }
-
-  static FrameSphere enlarged(FrameSphere sphere, float overhang) {
-    if (overhang != 0) sphere.radius = next_above(static_cast<double>(sphere.radius) + static_cast<double>(overhang));
-    return sphere;
   }
 
   const IndexView* index_;

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/index.h"
-#include "meshhood/region.h"
+#include "meshhood/search.h"
 #include "meshhood/start.h"
 
 #include "support/draw_start.h"
@@ -81,14 +81,14 @@ TEST(Nearest, RefusesAPointThatIsNotFiniteAndAMeshWithoutVertices) {
 TEST(StartNearest, HasTheNearestVertexAsItsOnlySeed) {
   const TestMesh mesh = bumpy_grid(30);
   const Index index = build(mesh.view());
-  RegionSearcher searcher(index);
+  Searcher searcher(index);
   for (const SpacePoint& p : {SpacePoint{3.2, 4.1, 0.5}, SpacePoint{28, 28, -1}, SpacePoint{-50, 0, 0}}) {
     const std::array seed{nearest(index, p).vertex};
     const Start start = Start::nearest(index, p);
     const Start copy = start;  // NOLINT(performance-unnecessary-copy-initialization): a copy has a seed of its own
     EXPECT_EQ(copy.center(), p);
     EXPECT_THAT(copy.seeds(), testing::ElementsAre(seed[0]));
-    EXPECT_EQ(searcher.region(Start::nearest(index, p), 4), searcher.region(Start(p, seed), 4));
+    EXPECT_EQ(searcher.neighborhood(Start::nearest(index, p), 4), searcher.neighborhood(Start(p, seed), 4));
     EXPECT_EQ(searcher.count(Start::nearest(index, p), 4) == 0, p[0] < 0);
   }
 }

@@ -3,9 +3,6 @@
 
 #include <memory>
 #include <utility>
-#include <vector>
-
-#include "meshhood/search.h"
 
 #include "exact/bound_index.h"
 #include "exact/layout.h"
@@ -19,8 +16,8 @@
 
 namespace meshhood {
 
-/// The scratch memory of a searcher, and the outline of a query.
-struct Searcher::State {
+/// The exact neighborhood of a vertex: the outline of the query, and its scratch memory.
+struct StraightSearch {
   BoundIndex index;
   std::shared_ptr<KeptGraph> graph;  // of odd graphs
   const Kernels* kernels;
@@ -32,7 +29,7 @@ struct Searcher::State {
   Component component;
   VertexSet answer;
 
-  State(BoundIndex bound, std::shared_ptr<KeptGraph> kept, Isa isa)
+  StraightSearch(BoundIndex bound, std::shared_ptr<KeptGraph> kept, Isa isa)
       : index(std::move(bound)),
         graph(std::move(kept)),
         kernels(&meshhood::kernels(isa)),
@@ -54,26 +51,12 @@ struct Searcher::State {
   enum class Way { VertexBfs, Wall, Alone, LeafBfs, Component };
   Way way = Way::VertexBfs;  // of the last query, for tests and benchmarks
 
-  [[nodiscard]] Point center_of(VertexId v) const {
-    const std::uint32_t slot = index->slot[v];
-    return index->position(leaf_of(slot), lane_of(slot));
-  }
-
  private:
   void find(VertexId v, std::uint32_t slot);
   [[nodiscard]] bool is_alone(std::uint32_t slot) const;
   [[nodiscard]] bool is_tiny() const;
   [[nodiscard]] bool is_small(const Leaf& home) const;
   [[nodiscard]] bool is_mostly_open() const;
-};
-
-/// Access to the parts of a searcher, for the batch and for tests.
-struct SearcherAccess {
-  using State = Searcher::State;
-  static Searcher::State& state(Searcher& searcher) { return *searcher.state_; }
-  static void set_isa(Searcher& searcher, Isa isa) {
-    searcher.state_ = std::make_unique<Searcher::State>(searcher.state_->index, searcher.state_->graph, isa);
-  }
 };
 
 }  // namespace meshhood

@@ -5,22 +5,19 @@
 //
 // Small balls are searched leaf by leaf along the edges of the mesh, and odd graphs vertex by vertex: both are plain
 // breadth-first searches.
+#include "exact/search/straight_search.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <variant>
 
-#include "meshhood/search.h"
-
-#include "exact/index_access.h"
 #include "exact/neighbors.h"
-#include "exact/search/searcher_state.h"
-#include "exact/vertex_set.h"
 #include "shared/distance.h"
 
 namespace meshhood {
 
-void Searcher::State::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) {
+void StraightSearch::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) {
   index = std::move(bound);
   graph = std::move(kept);
   bounds = RadiusBounds(index->frame, 0);
@@ -28,7 +25,7 @@ void Searcher::State::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) 
   vertex_bfs = VertexBfs(*index, *graph);
 }
 
-void Searcher::State::search(VertexId v, double radius) {
+void StraightSearch::search(VertexId v, double radius) {
   index.check_current();
   // A call for valid arguments would take a tenth of the shortest queries.
   if (v >= index->vertex_count() || !(radius >= 0)) check_query(v, index->vertex_count(), radius);
@@ -46,7 +43,7 @@ void Searcher::State::search(VertexId v, double radius) {
   }
 }
 
-void Searcher::State::find(VertexId v, std::uint32_t slot) {
+void StraightSearch::find(VertexId v, std::uint32_t slot) {
   if (is_odd) {
     way = Way::VertexBfs;
     vertex_bfs.run(v, bounds.leaf.squared_radius, answer);
@@ -77,13 +74,13 @@ void Searcher::State::find(VertexId v, std::uint32_t slot) {
 }
 
 /// Whether the answer may well be the query vertex alone.
-bool Searcher::State::is_tiny() const {
+bool StraightSearch::is_tiny() const {
   constexpr double kMeanLeafRadii = 0.4;  // chosen
   return bounds.radius_in_frame < kMeanLeafRadii * index->tree[0].mean_radius;
 }
 
 /// Whether few leaves lie inside the ball, so that a search over leaves takes no longer than `Reach`.
-bool Searcher::State::is_small(const Leaf& home) const {
+bool StraightSearch::is_small(const Leaf& home) const {
   constexpr double kLeafRadii = 4.5;  // chosen
   // Where the mesh is finer than elsewhere, its leaves are smaller. A leaf much larger than others says nothing.
   const double radius = std::min(static_cast<double>(home.bounds.radius), index->tree[0].mean_radius);
@@ -92,11 +89,11 @@ bool Searcher::State::is_small(const Leaf& home) const {
 
 /// Whether the marks have left most of the surface open. Then most of what was reached is likely not connected with the
 /// query vertex, and a search over as many leaves as are open takes less time than to unite what is open.
-bool Searcher::State::is_mostly_open() const { return 2 * component.open_leaves() > reach.surface_leaves().size(); }
+bool StraightSearch::is_mostly_open() const { return 2 * component.open_leaves() > reach.surface_leaves().size(); }
 
 /// Whether no neighbor of the vertex at a slot, the center of the ball, is in the ball. With walls the answer may be
 /// false although it is so.
-bool Searcher::State::is_alone(std::uint32_t slot) const {
+bool StraightSearch::is_alone(std::uint32_t slot) const {
   const Point center = index->position(leaf_of(slot), lane_of(slot));
   return std::visit(
       [&](auto xyz) {
@@ -107,48 +104,6 @@ bool Searcher::State::is_alone(std::uint32_t slot) const {
         return result;
       },
       index->positions);
-}
-
-Searcher::Searcher(const Index& index)
-    : state_(std::make_unique<State>(BoundIndex(index), IndexAccess::share_graph(index), best_isa())) {}
-
-void Searcher::rebind(const Index& index) {
-  if (state_ && state_->index.is_of(index)) {
-    state_->rebind(BoundIndex(index), IndexAccess::share_graph(index));
-  } else {
-    *this = Searcher(index);
-  }
-}
-
-std::size_t Searcher::vertex_count() const { return state_->index->vertex_count(); }
-
-std::span<const VertexId> Searcher::permutation() const& {
-  const std::span<const VertexId> padded = state_->index->permutation;
-  return padded.empty() ? padded : padded.first(vertex_count());
-}
-
-void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
-  state_->search(v, radius);
-  replace_ids(state_->answer, *state_->index, *state_->kernels, out);
-}
-
-void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
-  state_->search(v, radius);
-  // Before `out` changes: if this throws, neither has changed.
-  distances.reserve(state_->answer.count());
-  replace_ids(state_->answer, *state_->index, *state_->kernels, out);
-  distances.resize(out.size());
-  write_distances(state_->answer, *state_->index, state_->center_of(v), distances.data());
-}
-
-std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) & {
-  state_->search(v, radius);
-  return state_->answer.ranges();
-}
-
-std::size_t Searcher::count(VertexId v, double radius) {
-  state_->search(v, radius);
-  return state_->answer.count();
 }
 
 }  // namespace meshhood

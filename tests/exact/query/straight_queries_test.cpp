@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Regions, nested radii, membership, connecting radii and strokes, against the plain searches of the oracle on small
 // meshes of every kind.
-#include "meshhood/region.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +16,7 @@
 #include "meshhood/masks.h"
 #include "meshhood/search.h"
 
-#include "exact/query/region_state.h"
+#include "exact/query/single_queries.h"
 #include "support/draw_start.h"
 #include "support/exact_answer.h"
 #include "support/families.h"
@@ -33,9 +32,9 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-RegionSearcher region_searcher(const Index& index, Isa isa) {
-  RegionSearcher searcher(index);
-  RegionAccess::set_isa(searcher, isa);
+Searcher region_searcher(const Index& index, Isa isa) {
+  Searcher searcher(index);
+  SearcherAccess::set_isa(searcher, isa);
   return searcher;
 }
 
@@ -78,16 +77,16 @@ std::vector<double> radii_of(const RegionOracle& oracle, const PlainStart& start
 TEST_P(Regions, AreThoseOfAPlainSearch) {
   for_each_case(12, [](const TestMesh& mesh, const RegionOracle& oracle, const Index& index, Isa isa, Random& random) {
     const DrawnStart drawn = draw_start(random, mesh);
-    RegionSearcher searcher = region_searcher(drawn.on(index), isa);
+    Searcher searcher = region_searcher(drawn.on(index), isa);
     for (const double radius : radii_of(oracle, drawn.plain, random)) {
       const std::vector<VertexId> expected = oracle.region(drawn.plain, radius);
       std::vector<VertexId> ids;
       std::vector<double> distances;
-      searcher.region(drawn.start(), radius, ids, distances);
+      searcher.neighborhood(drawn.start(), radius, ids, distances);
       ASSERT_EQ(distances.size(), ids.size());
       for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(distances[i], oracle.distance(drawn.plain, ids[i]));
       ASSERT_EQ(sorted(ids), expected) << "radius " << radius;
-      searcher.region(drawn.start(), radius, ids);
+      searcher.neighborhood(drawn.start(), radius, ids);
       ASSERT_EQ(sorted(ids), expected) << "radius " << radius;
       ASSERT_EQ(searcher.count(drawn.start(), radius), expected.size());
     }
@@ -97,7 +96,7 @@ TEST_P(Regions, AreThoseOfAPlainSearch) {
 TEST_P(Regions, OfNestedRadiiAreThoseOfOneRadiusEach) {
   for_each_case(8, [](const TestMesh& mesh, const RegionOracle& oracle, const Index& index, Isa isa, Random& random) {
     const DrawnStart drawn = draw_start(random, mesh);
-    RegionSearcher searcher = region_searcher(drawn.on(index), isa);
+    Searcher searcher = region_searcher(drawn.on(index), isa);
     std::vector<double> radii = radii_of(oracle, drawn.plain, random);
     std::sort(radii.begin(), radii.end());
     radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
@@ -117,7 +116,7 @@ TEST_P(Regions, OfNestedRadiiAreThoseOfOneRadiusEach) {
 TEST_P(Regions, ContainAVertexFromItsConnectingRadiusOn) {
   for_each_case(8, [](const TestMesh& mesh, const RegionOracle& oracle, const Index& index, Isa isa, Random& random) {
     const DrawnStart drawn = draw_start(random, mesh);
-    RegionSearcher searcher = region_searcher(drawn.on(index), isa);
+    Searcher searcher = region_searcher(drawn.on(index), isa);
     const std::vector<double> expected = oracle.connecting_radii(drawn.plain);
     for (int i = 0; i < 6; ++i) {
       const auto w = static_cast<VertexId>(random.below(mesh.size()));
@@ -133,7 +132,7 @@ TEST_P(Regions, ContainAVertexFromItsConnectingRadiusOn) {
 TEST_P(Regions, GrowByTheNearestConnectedVertices) {
   for_each_case(6, [](const TestMesh& mesh, const RegionOracle& oracle, const Index& index, Isa isa, Random& random) {
     const DrawnStart drawn = draw_start(random, mesh);
-    RegionSearcher searcher = region_searcher(drawn.on(index), isa);
+    Searcher searcher = region_searcher(drawn.on(index), isa);
     const std::vector<double> radii = oracle.connecting_radii(drawn.plain);
     std::vector<std::uint32_t> expected = oracle.in_order(drawn.plain, radii);
     const std::size_t k = random.below(4) == 0 ? mesh.size() + 1 : random.below(mesh.size() + 1);
@@ -186,50 +185,47 @@ TestMesh folded_sheet() {
 TEST(Region, OfAPointOnAFaceWhoseCornersAreOutsideIsEmpty) {
   const TestMesh mesh = make_grid(5, 5, false);
   const Index index = build(mesh.view());
-  RegionSearcher searcher(index);
+  Searcher searcher(index);
   const std::array<VertexId, 3> corners{0, 1, 6};
   const SpacePoint middle = point_on_face(index, corners, std::array{0.4, 0.3, 0.3});
   std::vector<VertexId> ids{7};
-  EXPECT_FALSE(searcher.region({middle, corners}, 0.2, ids));
+  searcher.neighborhood({middle, corners}, 0.2, ids);
   EXPECT_THAT(ids, IsEmpty());
-  EXPECT_TRUE(searcher.region({middle, corners}, 0.9, ids));
+  searcher.neighborhood({middle, corners}, 0.9, ids);
   EXPECT_THAT(ids, testing::Not(IsEmpty()));
 }
 
 TEST(Region, SaysWhetherASeedLiesInTheBall) {
   const TestMesh mesh = make_grid(5, 5, false);
   const Index index = build(mesh.view());
-  RegionSearcher searcher(index);
+  Searcher searcher(index);
   const SpacePoint above{2, 2, 3};
   const std::array<VertexId, 2> seeds{0, 12};  // 12 at exactly 3, and 0 farther
   const Start start(above, seeds);
+  EXPECT_TRUE(searcher.has_seed(start, 3));
+  EXPECT_FALSE(searcher.has_seed(start, 2.9));
+  EXPECT_FALSE(searcher.has_seed({above, {}}, 100)) << "no seeds";
   std::vector<VertexId> ids;
-  std::vector<double> distances;
   std::vector<std::size_t> counts;
-  EXPECT_TRUE(searcher.region(start, 3, ids, distances));
-  EXPECT_TRUE(searcher.nested(start, std::array{1.0, 3.0}, ids, counts));
+  searcher.nested(start, std::array{1.0, 3.0}, ids, counts);
   EXPECT_THAT(counts, testing::ElementsAre(0, 1));
-  EXPECT_FALSE(searcher.region(start, 2.9, ids, distances));
-  EXPECT_FALSE(searcher.nested(start, std::array{1.0, 2.9}, ids, counts));
-  EXPECT_TRUE(searcher.nested(start, {}, ids, counts));
-  EXPECT_FALSE(searcher.region({above, {}}, 100, ids)) << "no seeds";
 
   // A vertex always lies in its ball. A wall does, too, although nothing is found.
   std::vector<std::uint8_t> walls(25);
   walls[12] = 1;
-  EXPECT_TRUE(region_searcher(masked(index, {.walls = walls}), best_isa()).region(VertexId{12}, 0, ids));
-  EXPECT_TRUE(region_searcher(masked(index, {.walls = walls}), best_isa()).region(start, 3, ids));
-  EXPECT_THAT(ids, IsEmpty());
+  Searcher with_wall = region_searcher(masked(index, {.walls = walls}), best_isa());
+  EXPECT_TRUE(with_wall.has_seed(12, 0));
+  EXPECT_TRUE(with_wall.has_seed(start, 3));
+  EXPECT_EQ(with_wall.count(12, 0) + with_wall.count(start, 3), 0U);
 
-  EXPECT_TRUE(searcher.stroke(std::array{Dab{start, 3}, Dab{VertexId{0}, 0}}, ids));
-  EXPECT_FALSE(searcher.stroke(std::array{Dab{start, 2.9}, Dab{VertexId{0}, 0}}, ids));
+  searcher.stroke(std::array{Dab{start, 2.9}, Dab{0, 0}}, ids);
   EXPECT_THAT(ids, testing::ElementsAre(0));
 }
 
 TEST(Region, WithoutSeedsIsEmpty) {
   const TestMesh mesh = make_grid(5, 5, false);
   const Index index = build(mesh.view());
-  RegionSearcher searcher(index);
+  Searcher searcher(index);
   EXPECT_EQ(searcher.count({{1, 1, 0}, {}}, 10), 0U);
   EXPECT_EQ(searcher.connecting_radius({{1, 1, 0}, {}}, 0), kInfinity);
 }
@@ -237,7 +233,7 @@ TEST(Region, WithoutSeedsIsEmpty) {
 TEST(Region, KeepsAVertexThatOnlyAWiderBallConnectsForALaterRing) {
   const TestMesh mesh = folded_sheet();
   const Index index = build(mesh.view());
-  RegionSearcher searcher(index);
+  Searcher searcher(index);
   const VertexId above_start = 4 * 19;  // 0.5 above vertex 0
   EXPECT_EQ(searcher.connecting_radius(VertexId{0}, above_start), std::sqrt(81 + 0.25));
   std::vector<VertexId> ids;
@@ -251,7 +247,7 @@ TEST(Region, KeepsAVertexThatOnlyAWiderBallConnectsForALaterRing) {
 TEST(Region, HasItsOwnRingsAfterThoseOfAnotherVertex) {
   const TestMesh mesh = make_grid(20, 20, true);
   const Index index = build(mesh.view());
-  RegionSearcher searcher(index);
+  Searcher searcher(index);
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
   for (const VertexId v : {210U, 211U, 210U}) {
@@ -263,7 +259,7 @@ TEST(Region, HasItsOwnRingsAfterThoseOfAnotherVertex) {
 TEST(Region, EndsAtWallsAndPassesIgnoredVertices) {
   const TestMesh mesh = make_grid(9, 3, true);
   const Index index = build(mesh.view());
-  RegionSearcher searcher(index);
+  Searcher searcher(index);
   std::vector<std::uint8_t> row(mesh.size());
   for (VertexId v = 12; v < 15; ++v) row[v] = 1;  // the fifth of nine rows of three
   const std::vector<bool> bits(row.begin(), row.end());
@@ -279,13 +275,13 @@ TEST(Region, EndsAtWallsAndPassesIgnoredVertices) {
 TEST(Region, RefusesInvalidArguments) {
   const TestMesh mesh = make_grid(3, 3, true);
   const Index index = build(mesh.view());
-  RegionSearcher searcher(index);
+  Searcher searcher(index);
   std::vector<VertexId> ids{1, 2};
   std::vector<std::size_t> counts{5};
   const std::vector<VertexId> seeds{0, 9};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto search = [&](const Start& start, double radius) {
-    return [&, start, radius] { searcher.region(start, radius, ids); };
+    return [&, start, radius] { searcher.neighborhood(start, radius, ids); };
   };
   expect_refused(ErrorCode::VertexOutOfRange, "vertex 9", search(VertexId{9}, 1));
   expect_refused(ErrorCode::VertexOutOfRange, "seed 1: vertex 9", search({{0, 0, 0}, seeds}, 1));

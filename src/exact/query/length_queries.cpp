@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// The answers of the metrics that sum lengths along edges. A neighborhood has the vertices whose length is at most the
+// radius, so all calls are cuts of one list.
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "exact/query/length_search.h"
+#include "exact/query/single_queries.h"
+#include "shared/distance.h"
+
+namespace meshhood {
+namespace {
+
+struct LengthQueries final : SingleQueries {
+  using SingleQueries::SingleQueries;
+
+  void rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) override {
+    SingleQueries::rebind(std::move(bound), std::move(kept));
+    search_.reset();  // it has lengths of edges
+  }
+
+  VertexSet& search(const Start& start, double radius) override {
+    subsets_.clear();
+    run_checked(start, radius).collect(subsets_);
+    answer.assign(subsets_);
+    return answer;
+  }
+
+  std::size_t count(const Start& start, double radius) override { return run_checked(start, radius).found().size(); }
+
+  void list(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>* distances) override {
+    // Rings are found leaf by leaf; to sort their vertices one by one takes longer than the search.
+    if (metric == Metric::Rings && distances == nullptr) {
+      return replace_ids(search(start, radius), *index, *kernels, out);
+    }
+    const std::span<const Path> found = in_order_of_ids(run_checked(start, radius));
+    out.reserve(found.size());
+    if (distances != nullptr) distances->reserve(found.size());
+    out.clear();
+    if (distances != nullptr) distances->clear();
+    for (const Path& path : found) {
+      out.push_back(index->id(path.end));
+      if (distances != nullptr) distances->push_back(path.length);
+    }
+  }
+
+  void collect(const Start& start, double radius, std::vector<LeafSubset>& found) override {
+    run(start, radius).collect(found);
+  }
+
+  void nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& ids,
+              std::vector<std::size_t>& sizes) override {
+    const std::span<const Path> found = run(start, radii.back()).in_order();
+    sorted_.assign(found.begin(), found.end());
+    auto begin = sorted_.begin();
+    for (const double radius : radii) {
+      const auto end = std::find_if(begin, sorted_.end(), [&](const Path& path) { return path.length > radius; });
+      std::sort(begin, end, is_before);
+      for (; begin != end; ++begin) ids.push_back(index->id(begin->end));
+      sizes.push_back(ids.size());
+    }
+  }
+
+  bool contains(const Start& start, VertexId w, double radius) override {
+    return length_to(w, start, radius) != kNoRadius;
+  }
+
+  double connecting_radius(const Start& start, VertexId w) override { return length_to(w, start, kNoRadius); }
+
+  void nearest(const Start& start, std::size_t k, std::vector<VertexId>& ids, std::vector<double>& radii) override {
+    std::size_t count = 0;
+    const std::span<const Path> found =
+        run(start, kNoRadius, [&](std::span<const Path> next) { return (count += next.size()) >= k; }).in_order();
+    for (const Path& path : found.first(std::min(k, found.size()))) {
+      ids.push_back(index->id(path.end));
+      radii.push_back(path.length);
+    }
+  }
+
+ private:
+  static bool is_before(const Path& a, const Path& b) { return a.end < b.end; }
+
+  LengthSearch& run(const Start& start, double radius, const LengthSearch::IsEnough& is_enough = {}) {
+    if (!search_) search_ = make_length_search(*index, *graph, metric, *kernels);
+    search_->run(index->slot[start.vertex()], radius, is_enough);
+    return *search_;
+  }
+
+  LengthSearch& run_checked(const Start& start, double radius) {
+    check(start);
+    check_radius(radius);
+    return run(start, radius);
+  }
+
+  /// Those of paths ascend by length, those of rings are in index order.
+  std::span<const Path> in_order_of_ids(LengthSearch& search) {
+    if (metric == Metric::Path) return search.in_order();
+    const std::span<const Path> found = search.found();
+    sorted_.assign(found.begin(), found.end());
+    std::ranges::sort(sorted_, is_before);
+    return sorted_;
+  }
+
+  /// Infinite if it is more than `radius`.
+  double length_to(VertexId w, const Start& start, double radius) {
+    const std::uint32_t slot = index->slot[w];
+    const std::uint32_t place = index->leaf_begin[leaf_of(slot)] + lane_of(slot);
+    double length = kNoRadius;
+    run(start, radius, [&](std::span<const Path> next) {
+      for (const Path& path : next) {
+        if (path.end == place) length = path.length;
+      }
+      return length != kNoRadius;
+    });
+    return length;
+  }
+
+  std::unique_ptr<LengthSearch> search_;  // made by the first query: for paths it needs the lengths of all edges
+  std::vector<LeafSubset> subsets_;       // scratch
+  std::vector<Path> sorted_;              // scratch
+};
+
+}  // namespace
+
+std::unique_ptr<SingleQueries> make_length_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph, Metric metric,
+                                                   Isa isa) {
+  return std::make_unique<LengthQueries>(std::move(index), std::move(graph), metric, isa);
+}
+
+}  // namespace meshhood

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "meshhood/metric.h"
+
+#include "exact/layout.h"
+#include "exact/query/path_queue.h"
+#include "exact/vertex_set.h"
+#include "exact/weighted_graph.h"
+#include "simd/kernels.h"
+
+namespace meshhood {
+
+/// The vertices around one vertex by path distance or by number of edges: for each the length, and its place in index
+/// order. Walls are not passed, ignored vertices are passed and left out. One object a thread.
+class LengthSearch {
+ public:
+  /// Gets the vertices that were found since its last call, and returns whether they are enough. All that are nearer
+  /// than one of them have then been found.
+  using IsEnough = std::function<bool(std::span<const Path>)>;
+
+  explicit LengthSearch(const IndexView& index) : index_(&index) {}
+  LengthSearch(const LengthSearch&) = delete;
+  LengthSearch& operator=(const LengthSearch&) = delete;
+  virtual ~LengthSearch() = default;
+
+  /// Finds the vertices whose length from the vertex at `slot` is at most `radius`, or `is_enough` of them.
+  virtual void run(std::uint32_t slot, double radius, const IsEnough& is_enough) = 0;
+
+  // Of the last run, valid until the next:
+
+  /// In no stated order.
+  [[nodiscard]] virtual std::span<const Path> found() = 0;
+
+  /// Ascending by length, then by place.
+  [[nodiscard]] virtual std::span<const Path> in_order() = 0;
+
+  /// Adds them to `subsets`, in no stated order.
+  virtual void collect(std::vector<LeafSubset>& subsets);
+
+ protected:
+  const IndexView* index_;
+};
+
+/// `metric` is not straight. For paths, O(#V) here, and O(#V + #E) for the first search of an index. What it is made
+/// from must outlive it.
+[[nodiscard]] std::unique_ptr<LengthSearch> make_length_search(const IndexView& index, KeptGraph& graph, Metric metric,
+                                                               const Kernels& kernels);
+
+}  // namespace meshhood

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// A searcher: the arguments of its calls, and their results. What answers them is one of two: `StraightQueries` or
+// `LengthQueries`.
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "meshhood/error.h"
+#include "meshhood/search.h"
+
+#include "exact/index_access.h"
+#include "exact/query/arguments.h"
+#include "exact/query/single_queries.h"
+#include "exact/query/straight_queries.h"
+#include "shared/distance.h"
+
+namespace meshhood {
+namespace {
+
+std::unique_ptr<SingleQueries> make_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph, Metric metric,
+                                            Isa isa) {
+  if (metric != Metric::Straight) return make_length_queries(std::move(index), std::move(graph), metric, isa);
+  return std::make_unique<StraightQueries>(std::move(index), std::move(graph), isa);
+}
+
+}  // namespace
+
+void SingleQueries::check(const Start& start, std::string_view where) const {
+  index.check_current();
+  check_start(start, index->vertex_count(), where);
+  if (metric == Metric::Straight || !start.center()) return;
+  raise(ErrorCode::InvalidOption,
+        std::string(where) + "start: expected a vertex by path or rings, because a point has no edges");
+}
+
+void SingleQueries::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) {
+  index = std::move(bound);
+  graph = std::move(kept);
+}
+
+Searcher::Searcher(const Index& index, Metric metric)
+    : metric_(metric), queries_(make_queries(BoundIndex(index), IndexAccess::share_graph(index), metric, best_isa())) {}
+
+void Searcher::rebind(const Index& index) {
+  if (queries_ && queries_->index.is_of(index)) {
+    queries_->rebind(BoundIndex(index), IndexAccess::share_graph(index));
+  } else {
+    *this = Searcher(index, metric_);
+  }
+}
+
+std::size_t Searcher::vertex_count() const { return queries_->index->vertex_count(); }
+
+std::span<const VertexId> Searcher::permutation() const& {
+  const std::span<const VertexId> padded = queries_->index->permutation;
+  return padded.empty() ? padded : padded.first(vertex_count());
+}
+
+void Searcher::neighborhood(const Start& start, double radius, std::vector<VertexId>& out) {
+  queries_->list(start, radius, out, nullptr);
+}
+
+void Searcher::neighborhood(const Start& start, double radius, std::vector<VertexId>& out,
+                            std::vector<double>& distances) {
+  queries_->list(start, radius, out, &distances);
+}
+
+std::span<const VertexRange> Searcher::ranges(const Start& start, double radius) & {
+  return queries_->search(start, radius).ranges();
+}
+
+std::size_t Searcher::count(const Start& start, double radius) { return queries_->count(start, radius); }
+
+bool Searcher::has_seed(const Start& start, double radius) const {
+  queries_->check(start);
+  check_radius(radius);
+  if (!start.center()) return true;
+  const SpacePoint& p = *start.center();
+  const SearchBall ball({p[0], p[1], p[2]}, radius);
+  return std::ranges::any_of(start.seeds(),
+                             [&](VertexId seed) { return ball.contains(position_of(*queries_->index, seed)); });
+}
+
+// Results may be the seeds, or what is borrowed by them: they change last.
+
+void Searcher::stroke(std::span<const Dab> dabs, std::vector<VertexId>& out) {
+  SingleQueries& queries = *queries_;
+  for (std::size_t i = 0; i < dabs.size(); ++i) {
+    const std::string where = "dab " + std::to_string(i) + ": ";
+    queries.check(dabs[i].start, where);
+    check_radius(dabs[i].radius, where);
+  }
+  std::vector<LeafSubset> found;
+  for (const Dab& dab : dabs) queries.collect(dab.start, dab.radius, found);
+  queries.answer.assign(found);
+  replace_ids(queries.answer, *queries.index, *queries.kernels, out);
+}
+
+void Searcher::nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
+                      std::vector<std::size_t>& counts) {
+  queries_->check(start);
+  check_ascending(radii);
+  std::vector<VertexId> ids;
+  std::vector<std::size_t> sizes;
+  sizes.reserve(radii.size());
+  if (!radii.empty()) queries_->nested(start, radii, ids, sizes);
+  out = std::move(ids);
+  counts = std::move(sizes);
+}
+
+bool Searcher::contains(const Start& start, VertexId w, double radius) {
+  queries_->check(start);
+  check_vertex(w, vertex_count(), "vertex");
+  check_radius(radius);
+  return queries_->contains(start, w, radius);
+}
+
+double Searcher::connecting_radius(const Start& start, VertexId w) {
+  queries_->check(start);
+  check_vertex(w, vertex_count(), "vertex");
+  return queries_->connecting_radius(start, w);
+}
+
+void Searcher::nearest_connected(const Start& start, std::size_t k, std::vector<VertexId>& out,
+                                 std::vector<double>& radii) {
+  queries_->check(start);
+  std::vector<VertexId> ids;
+  std::vector<double> found_radii;
+  if (k > 0) queries_->nearest(start, k, ids, found_radii);
+  out = std::move(ids);
+  radii = std::move(found_radii);
+}
+
+StraightSearch& SearcherAccess::state(Searcher& searcher) {
+  return static_cast<StraightQueries&>(*searcher.queries_).neighborhoods();
+}
+
+void SearcherAccess::set_isa(Searcher& searcher, Isa isa) {
+  const SingleQueries& queries = *searcher.queries_;
+  searcher.queries_ = make_queries(queries.index, queries.graph, queries.metric, isa);
+}
+
+}  // namespace meshhood

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "exact/query/straight_queries.h"
+
+#include "exact/query/arguments.h"
+
+namespace meshhood {
+namespace {
+
+/// Whether one search answers a query: the start is a vertex.
+bool is_neighborhood(const Start& start) { return !start.center(); }
+
+bool is_ignored(const IndexView& index, std::uint32_t slot) {
+  return (index.ignored_lanes(leaf_of(slot)) >> lane_of(slot) & 1U) != 0;
+}
+
+}  // namespace
+
+void StraightQueries::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) {
+  SingleQueries::rebind(std::move(bound), std::move(kept));
+  if (neighborhoods_) neighborhoods_->rebind(index, graph);
+}
+
+Point StraightQueries::center_of(const Start& start) const {
+  if (is_neighborhood(start)) return position_of(*index, start.vertex());
+  const SpacePoint& p = *start.center();
+  return {p[0], p[1], p[2]};
+}
+
+Flood& StraightQueries::begin(const Start& start) {
+  if (!flood_) flood_.emplace(*index, *kernels);
+  flood_->start(center_of(start));
+  for (const VertexId seed : start.seeds()) flood_->add_seed(index->slot[seed]);
+  return *flood_;
+}
+
+void StraightQueries::add_reached(std::size_t skip, std::vector<LeafSubset>& found) const {
+  for (const LeafSubset& subset : flood_->reached().subspan(skip)) {
+    const LaneMask lanes = subset.lanes & ~index->ignored_lanes(subset.leaf);
+    if (lanes != 0) found.push_back({subset.leaf, lanes});
+  }
+}
+
+VertexSet& StraightQueries::search(const Start& start, double radius) {
+  if (is_neighborhood(start)) {
+    neighborhoods().search(start.vertex(), radius);  // which checks the arguments
+    return neighborhoods_->answer;
+  }
+  check(start);
+  check_radius(radius);
+  found_.clear();
+  collect(start, radius, found_);
+  answer.assign(found_);
+  return answer;
+}
+
+void StraightQueries::list(const Start& start, double radius, std::vector<VertexId>& out,
+                           std::vector<double>* distances) {
+  const VertexSet& found = search(start, radius);
+  const Point center = distances != nullptr ? center_of(start) : Point{};
+  if (distances != nullptr) distances->reserve(found.count());  // before `out` changes
+  replace_ids(found, *index, *kernels, out);
+  if (distances == nullptr) return;
+  distances->resize(out.size());
+  write_distances(found, *index, center, distances->data());
+}
+
+void StraightQueries::collect(const Start& start, double radius, std::vector<LeafSubset>& found) {
+  begin(start).grow(radius);
+  add_reached(0, found);
+}
+
+void StraightQueries::nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& ids,
+                             std::vector<std::size_t>& sizes) {
+  const auto append_answer = [&] {
+    append_ids(answer, *index, *kernels, ids);
+    sizes.push_back(ids.size());
+  };
+  if (is_neighborhood(start)) {
+    VertexSet before(*index);
+    for (const double radius : radii) {
+      VertexSet& found = search(start, radius);
+      answer.assign_difference(found, before);
+      append_answer();
+      std::swap(before, found);
+    }
+    return;
+  }
+  Flood& flood = begin(start);
+  for (const double radius : radii) {
+    const std::size_t before = flood.reached().size();
+    flood.grow(radius);
+    found_.clear();
+    add_reached(before, found_);
+    answer.assign(found_);
+    append_answer();
+  }
+}
+
+bool StraightQueries::contains(const Start& start, VertexId w, double radius) {
+  const std::uint32_t slot = index->slot[w];
+  if (!(squared_distance(position_of(*index, w), center_of(start)) <= squared_radius(radius))) return false;
+  if (is_ignored(*index, slot)) return false;
+  Flood& flood = begin(start);
+  flood.grow(radius, slot);
+  return flood.has_reached(slot);
+}
+
+double StraightQueries::connecting_radius(const Start& start, VertexId w) {
+  const std::uint32_t slot = index->slot[w];
+  if (is_ignored(*index, slot)) return kNoRadius;
+  // No smaller ball holds `w` itself.
+  double radius = std::sqrt(squared_distance(position_of(*index, w), center_of(start)));
+  Flood& flood = begin(start);
+  flood.grow(radius, slot);
+  while (!flood.has_reached(slot)) {
+    radius = flood.next_radius();
+    if (radius == kNoRadius) return kNoRadius;
+    flood.grow(radius, slot);
+  }
+  return radius;
+}
+
+void StraightQueries::nearest(const Start& start, std::size_t k, std::vector<VertexId>& ids,
+                              std::vector<double>& radii) {
+  for_each_nearest(start, kNoRadius, [&](VertexId vertex, double radius) {
+    ids.push_back(vertex);
+    radii.push_back(radius);
+    return ids.size() < k;
+  });
+}
+
+}  // namespace meshhood

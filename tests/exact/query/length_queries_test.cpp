@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// The answers by path distance and by number of edges, against the relaxation of all edges until nothing changes.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/index.h"
+#include "meshhood/masks.h"
+#include "meshhood/search.h"
+
+#include "support/draw_start.h"
+#include "support/exact_answer.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/oracle.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+#include "support/sorted.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::ElementsAre;
+
+/// The least length of a path to each vertex, by the algorithm of Bellman and Ford. `length(v, w)` is that of an edge.
+template <class Length>
+std::vector<double> path_distances(const Oracle& graph, std::uint32_t v, const std::vector<std::uint8_t>& walls,
+                                   Length&& length) {
+  std::vector<double> least(graph.size(), kInfinity);
+  if (walls[v] != 0) return least;
+  least[v] = 0;
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (std::uint32_t a = 0; a < graph.size(); ++a) {
+      if (least[a] == kInfinity) continue;
+      for (const std::uint32_t b : graph.neighbors(a)) {
+        const double through = least[a] + length(a, b);
+        if (walls[b] != 0 || !(through < least[b])) continue;
+        least[b] = through;
+        has_changed = true;
+      }
+    }
+  }
+  return least;
+}
+
+/// One vertex, its masks, and the length from it to each vertex.
+struct Case {
+  const Oracle& graph;
+  Searcher& searcher;
+  Metric metric;
+  VertexId v;
+  std::vector<std::uint8_t> walls;
+  std::vector<std::uint8_t> ignored;
+  std::vector<double> least;
+
+  /// The vertices of the neighborhood, ascending.
+  [[nodiscard]] std::vector<VertexId> within(double radius) const {
+    std::vector<VertexId> ids;
+    for (VertexId w = 0; w < least.size(); ++w) {
+      if (least[w] <= radius && least[w] < kInfinity && ignored[w] == 0) ids.push_back(w);
+    }
+    return ids;
+  }
+};
+
+class AlongEdges : public testing::TestWithParam<Family> {
+ protected:
+  template <class F>
+  void for_each_case(std::size_t cases, F&& f) {
+    std::size_t count = 0;
+    for (const std::size_t vertices : {1U, 2U, 30U, 150U, 500U}) {
+      const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
+      if (mesh.size() == 0) continue;
+      SCOPED_TRACE(mesh.name);
+      const Index index = build(mesh.view());
+      const Oracle graph(mesh);
+      std::array searchers{Searcher(index, Metric::Path), Searcher(index, Metric::Rings)};
+      Random random(vertices);
+      for (std::size_t i = 0; i < scaled(2 * cases, 4) && !HasFailure(); ++i, ++count) {
+        const Metric metric = i % 2 == 0 ? Metric::Path : Metric::Rings;
+        const bool has_masks = random.below(2) == 0;
+        Case one{graph,
+                 searchers[i % 2],
+                 metric,
+                 static_cast<VertexId>(random.below(mesh.size())),
+                 draw_mask(random, mesh.size(), has_masks ? 6 : 0),
+                 draw_mask(random, mesh.size(), has_masks ? 3 : 0),
+                 {}};
+        one.least = path_distances(graph, one.v, one.walls, [&](std::size_t a, std::size_t b) {
+          return metric == Metric::Path ? graph.distance(a, b) : 1;
+        });
+        const Index searched = masked(index, has_masks ? Masks{.walls = one.walls, .ignored = one.ignored} : Masks{});
+        one.searcher.rebind(searched);
+        f(one, random);
+      }
+    }
+    std::printf("%s: %zu cases\n", std::string(GetParam().name).c_str(), count);
+  }
+};
+
+/// Zero, infinity, and the length to a vertex with its neighboring numbers.
+std::vector<double> radii_of(const Case& one, Random& random) {
+  std::vector<double> radii = around(one.least[random.below(one.least.size())]);
+  radii.insert(radii.end(), {0, kInfinity});
+  std::ranges::sort(radii);
+  std::erase_if(radii, [](double radius) { return radius < 0; });
+  radii.erase(std::ranges::unique(radii).begin(), radii.end());
+  return radii;
+}
+
+TEST_P(AlongEdges, LengthsAreTheLeast) {
+  for_each_case(8, [](Case& one, Random& random) {
+    for (const double radius : radii_of(one, random)) {
+      const std::vector<VertexId> expected = one.within(radius);
+      std::vector<VertexId> ids;
+      std::vector<double> distances;
+      one.searcher.neighborhood(one.v, radius, ids, distances);
+      ASSERT_EQ(distances.size(), ids.size());
+      if (one.metric == Metric::Path) {
+        ASSERT_TRUE(std::ranges::is_sorted(distances));
+      }
+      for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(distances[i], one.least[ids[i]]) << "vertex " << ids[i];
+      ASSERT_EQ(sorted(ids), expected) << "radius " << radius;
+      std::vector<VertexId> alone;
+      one.searcher.neighborhood(one.v, radius, alone);
+      ASSERT_EQ(alone, ids) << "radius " << radius;
+      ASSERT_EQ(one.searcher.count(one.v, radius), expected.size());
+      ASSERT_TRUE(one.searcher.has_seed(one.v, radius));
+      std::vector<VertexId> in_ranges;
+      for (const VertexRange& range : one.searcher.ranges(one.v, radius)) {
+        for (VertexId i = range.begin; i < range.end; ++i) in_ranges.push_back(one.searcher.permutation()[i]);
+      }
+      if (one.metric == Metric::Rings) {
+        ASSERT_EQ(in_ranges, ids) << "in index order";
+      }
+      ASSERT_EQ(sorted(in_ranges), expected);
+      const Dab dab{one.v, radius};
+      one.searcher.stroke({&dab, 1}, ids);
+      ASSERT_EQ(ids, in_ranges);
+    }
+  });
+}
+
+TEST_P(AlongEdges, NestedRadiiAreThoseOfOneRadiusEach) {
+  for_each_case(8, [](Case& one, Random& random) {
+    const std::vector<double> radii = radii_of(one, random);
+    std::vector<VertexId> ids;
+    std::vector<std::size_t> counts;
+    one.searcher.nested(one.v, radii, ids, counts);
+    ASSERT_EQ(counts.size(), radii.size());
+    ASSERT_EQ(counts.back(), ids.size());
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      ASSERT_LE(counts[i], ids.size());
+      const auto end = ids.begin() + static_cast<std::ptrdiff_t>(counts[i]);
+      ASSERT_EQ(sorted({ids.begin(), end}), one.within(radii[i])) << "radius " << radii[i];
+    }
+  });
+}
+
+TEST_P(AlongEdges, ConnectingRadiiAreLengths) {
+  for_each_case(8, [](Case& one, Random& random) {
+    const auto w = static_cast<VertexId>(random.below(one.least.size()));
+    const double length = one.ignored[w] != 0 ? kInfinity : one.least[w];
+    ASSERT_EQ(one.searcher.connecting_radius(one.v, w), length);
+    ASSERT_EQ(one.searcher.contains(one.v, w, length), length < kInfinity);
+    ASSERT_EQ(one.searcher.contains(one.v, w, kInfinity), length < kInfinity);
+    if (length > 0) {
+      ASSERT_FALSE(one.searcher.contains(one.v, w, std::nextafter(length, 0)));
+    }
+    std::vector<VertexId> all;
+    std::vector<double> lengths;
+    one.searcher.nearest_connected(one.v, one.least.size() + 1, all, lengths);
+    ASSERT_EQ(sorted(all), one.within(kInfinity));
+    ASSERT_TRUE(std::ranges::is_sorted(lengths));
+    for (std::size_t i = 0; i < all.size(); ++i) ASSERT_EQ(lengths[i], one.least[all[i]]);
+    const std::size_t k = random.below(all.size() + 1);
+    std::vector<VertexId> some;
+    one.searcher.nearest_connected(one.v, k, some, lengths);
+    ASSERT_EQ(some, std::vector(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k)));
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, AlongEdges, testing::ValuesIn(families()), family_name);
+
+TEST(EdgeSearch, MeasuresThePathAroundACorner) {
+  const TestMesh mesh = make_grid(4, 4, true);
+  const Index index = build(mesh.view());
+  Searcher searcher(index, Metric::Path);
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  searcher.neighborhood(0, 2, ids, distances);
+  EXPECT_THAT(sorted(ids), ElementsAre(0, 1, 2, 4, 5, 8));
+  EXPECT_EQ(distances.back(), 2);
+}
+
+TEST(EdgeSearch, PassesFromRingToRing) {
+  const TestMesh mesh = make_grid(4, 4, true);
+  const Index index = build(mesh.view());
+  std::vector<VertexId> ids;
+  std::vector<std::size_t> counts;
+  Searcher(index, Metric::Rings).nested(0, std::array{0.0, 1.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0}, ids, counts);
+  EXPECT_THAT(counts, ElementsAre(1, 3, 6, 10, 13, 15, 16, 16));
+}
+
+TEST(EdgeSearch, RefusesInvalidArguments) {
+  const TestMesh mesh = make_grid(3, 3, true);
+  const Index index = build(mesh.view());
+  for (const Metric metric : {Metric::Path, Metric::Rings}) {
+    Searcher searcher(index, metric);
+    std::vector<VertexId> ids{7};
+    std::vector<std::size_t> counts{7};
+    expect_refused(ErrorCode::VertexOutOfRange, "vertex 9", [&] { searcher.neighborhood(9, 1, ids); });
+    expect_refused(ErrorCode::InvalidRadius, "radius nan",
+                   [&] { searcher.neighborhood(0, std::numeric_limits<double>::quiet_NaN(), ids); });
+    expect_refused(ErrorCode::VertexOutOfRange, "vertex 9", [&] { searcher.nested(9, std::array{1.0}, ids, counts); });
+    expect_refused(ErrorCode::InvalidOption, "a point has no edges",
+                   [&] { searcher.neighborhood({{0, 0, 0}, {}}, 1, ids); });
+    expect_refused(ErrorCode::InvalidOption, "dab 1: start: expected a vertex",
+                   [&] { searcher.stroke(std::array{Dab{0, 1}, Dab{{{0, 0, 0}, {}}, 1}}, ids); });
+    EXPECT_THAT(ids, ElementsAre(7));
+    EXPECT_THAT(counts, ElementsAre(7));
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::test

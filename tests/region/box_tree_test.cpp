@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The search of a tree of boxes, against a scan of all of them in long double.
+#include "region/box_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/vector.h"
+#include "support/random.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+using Long = long double;
+
+Long distance_of(const Box& box, const Point& p) {
+  const auto gap = [](double low, double at, double high) {
+    return std::max(
+        {static_cast<Long>(low) - static_cast<Long>(at), static_cast<Long>(at) - static_cast<Long>(high), Long{0}});
+  };
+  const Long x = gap(box.low.x, p.x, box.high.x);
+  const Long y = gap(box.low.y, p.y, box.high.y);
+  const Long z = gap(box.low.z, p.z, box.high.z);
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+Point random_point(Random& random, double extent) {
+  return {random.uniform(-extent, extent), random.uniform(-extent, extent), random.uniform(-extent, extent)};
+}
+
+class TreeOf : public testing::TestWithParam<std::size_t> {
+ protected:
+  TreeOf() {
+    for (Box& box : boxes) {
+      box.add(random_point(random, 1));
+      const Point p = box.low;
+      const double size = std::ldexp(1.0, -static_cast<int>(random.below(40)));
+      box.add({std::clamp(p.x + size, -1.0, 1.0), std::clamp(p.y + size, -1.0, 1.0), std::clamp(p.z, -1.0, 1.0)});
+    }
+    tree.build(boxes.size(), [&](std::size_t i) { return boxes[i]; });
+  }
+
+  Random random{GetParam()};
+  std::vector<Box> boxes{GetParam()};
+  BoxTree tree;
+};
+
+TEST_P(TreeOf, VisitsEveryBoxWithinReachOnce) {
+  std::size_t skipped = 0;
+  for (std::size_t round = 0; round < scaled(200, 40); ++round) {
+    // Beside a box, where the rounding of the center matters, or far from all.
+    const double size = std::ldexp(1.0, static_cast<int>(random.below(100)) - 50);
+    const Box& beside = boxes[random.below(boxes.size())];
+    const Point center = beside.high + random_point(random, size);
+    const Long reach = distance_of(round % 2 == 0 ? beside : boxes[random.below(boxes.size())], center);  // a tie
+    std::vector<int> visits(boxes.size(), 0);
+    tree.search(center, [&] { return static_cast<double>(reach); }, [&](std::size_t i) { ++visits[i]; });
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      ASSERT_LE(visits[i], 1);
+      ASSERT_TRUE(visits[i] == 1 || distance_of(boxes[i], center) > reach) << i;
+      skipped += static_cast<std::size_t>(visits[i] == 0);
+    }
+  }
+  EXPECT_TRUE(skipped > 0 || boxes.size() == 1);
+}
+
+TEST_P(TreeOf, FindsTheNearestBoxByAShrinkingReach) {
+  std::size_t visits = 0;
+  const std::size_t rounds = scaled(200, 40);
+  for (std::size_t round = 0; round < rounds; ++round) {
+    const Point center = random_point(random, 2);
+    Long expected = std::numeric_limits<Long>::infinity();
+    for (const Box& box : boxes) expected = std::min(expected, distance_of(box, center));
+    Long nearest = std::numeric_limits<Long>::infinity();
+    tree.search(
+        center, [&] { return static_cast<double>(nearest) * (1 + 1e-15); },
+        [&](std::size_t i) {
+          nearest = std::min(nearest, distance_of(boxes[i], center));
+          ++visits;
+        });
+    ASSERT_EQ(nearest, expected);
+  }
+  EXPECT_LE(visits, rounds * (boxes.size() / 4 + 8));
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, TreeOf, testing::Values(1, 2, 7, 8, 9, 64, 65, 600, 5000));
+
+}  // namespace
+}  // namespace meshhood::test
