@@ -92,6 +92,15 @@ std::optional<std::string_view> Positions::append(std::string_view token) {
 
 template std::optional<std::string_view> Positions::append_as(double source);
 
+template <class Real>
+void Positions::append(const PlainBlock<Real>& block) {
+  append(std::span<const Real>(block.positions));
+  note(block.float_keeps);
+}
+
+template void Positions::append(const PlainBlock<float>& block);
+template void Positions::append(const PlainBlock<double>& block);
+
 void Positions::reorder_last(const std::array<std::size_t, 3>& ranks) {
   const auto visitor = [&ranks](auto& xyz) {
     const auto last = xyz.end() - 3;
@@ -116,12 +125,6 @@ void Faces::end_face(std::uint64_t corners) {
   }
   if (!offsets_.empty()) offsets_.push_back(offsets_.back() + corners);
   ++size_;
-}
-
-void PlainFaces::clear() {
-  corners.clear();
-  sizes.clear();
-  are_triangles = true;
 }
 
 void Faces::append(const PlainFaces& faces) {

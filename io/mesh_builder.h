@@ -36,6 +36,30 @@ void append_many(std::vector<T>& array, std::span<const T> more) {
   array.insert(array.end(), more.begin(), more.end());
 }
 
+/// Faces of few corners.
+struct PlainFaces {
+  std::vector<std::uint32_t> corners;  ///< face after face
+  std::vector<std::uint8_t> sizes;     ///< the number of corners of each face
+  bool are_triangles = true;
+
+  void end_face(std::size_t size) {
+    sizes.push_back(static_cast<std::uint8_t>(size));
+    are_triangles = are_triangles && size == 3;
+  }
+};
+
+/// What rows of a file hold (see `PlainRows`).
+template <class Real>
+struct PlainBlock {
+  std::size_t rows = 0;
+  std::vector<Real> positions;
+  PlainFaces faces;
+  bool float_keeps = false;      ///< all coordinates; only found out if it is true at first
+  std::size_t most_missing = 0;  ///< how many vertices must precede, so that no face names one that follows it
+
+  [[nodiscard]] std::size_t vertex_count() const { return positions.size() / 3; }
+};
+
 /// What a file says about the type of its coordinates.
 enum class Declared { Float, FloatInText, Double, Nothing };
 
@@ -64,6 +88,9 @@ class Positions {
     append_many(std::get<std::vector<Real>>(xyz_), scalars);
   }
 
+  template <class Real>
+  void append(const PlainBlock<Real>& block);
+
   /// Sorts the last three coordinates into the order x, y, z. They were appended in ascending order of `ranks`, which
   /// has one value for each of x, y, z.
   void reorder_last(const std::array<std::size_t, 3>& ranks);
@@ -84,19 +111,6 @@ class Positions {
 
 /// 'x', 'y' or 'z': the axis of coordinate `scalar` in a list of positions.
 [[nodiscard]] inline char axis(std::uint64_t scalar) { return "xyz"[scalar % 3]; }
-
-/// Faces of few corners.
-struct PlainFaces {
-  std::vector<std::uint32_t> corners;  ///< face after face
-  std::vector<std::uint8_t> sizes;     ///< the number of corners of each face
-  bool are_triangles = true;
-
-  void clear();
-  void end_face(std::size_t size) {
-    sizes.push_back(static_cast<std::uint8_t>(size));
-    are_triangles = are_triangles && size == 3;
-  }
-};
 
 /// Faces in order. Offsets are stored from the first face on that is not a triangle.
 class Faces {

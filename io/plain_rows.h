@@ -8,37 +8,33 @@
 #include <utility>
 #include <vector>
 
+#include "io/mesh_builder.h"
 #include "io/readers.h"
 #include "io/text.h"
 #include "shared/parallel.h"
 
 namespace meshhood::io {
 
-/// The place of the first row that begins at `place` or later: after a line end, or at the end of `text`.
-[[nodiscard]] inline std::size_t next_line_of(std::string_view text, std::size_t place) {
-  const auto end = text.find('\n', place);
-  return end == std::string_view::npos ? text.size() : end + 1;
-}
-
 /// Takes rows in the form that nearly all files have from the front of a text, in blocks that threads parse together.
 /// It stops at the first row that is not *plain*. The reader of the format reads that row; it decides what a file means
 /// and what is wrong with it. A plain row must mean the same to both.
 ///
-/// `Rows` are the rows of a block:
+/// `Row` is the form of a row:
 ///
-///     static constexpr std::uint64_t kLines;        // of a row
-///     static std::size_t split(text, place);        // where a row begins, at `place` or later; may be wrong
-///     const char* take(const char* row, const char* end);
-///                                                   // the end of the row, or null, without a trace, if it is not
-///                                                   plain
-///     std::size_t size() const;
-///     void clear();
-template <class Rows>
+///     static constexpr std::uint64_t kLines;           // of a row
+///     static constexpr std::string_view kInLastLine;   // of the row: what is in no other
+///     const char* take(const char* at, const char* end, PlainBlock<Real>& block) const;
+///                                                      // appends a row; its end, or null if it is not plain
+template <class Real, class Row>
 class PlainRows {
  public:
-  /// empty   what blocks begin with.
-  PlainRows(Text& text, const ReaderOptions& options, Rows empty)
-      : text_(text), empty_(std::move(empty)), block_bytes_(options.block_bytes), task_(options.threads, kSilent, 0) {}
+  /// is_open   whether to find out if float keeps the coordinates.
+  PlainRows(Text& text, const ReaderOptions& options, const Row& row, bool is_open = false)
+      : text_(text),
+        row_(row),
+        is_open_(is_open),
+        block_bytes_(options.block_bytes),
+        task_(options.threads, kSilent, 0) {}
 
   /// Passes plain rows to `append`, up to `most` of them. If it refuses rows by false, the reader reads the rest of
   /// their block.
@@ -47,14 +43,14 @@ class PlainRows {
     while (most != 0 && text_.at_line_end()) {
       text_.finish_line();
       Block* const block = block_at(text_.input().offset(), most);
-      if (block == nullptr || block->rows.size() == 0) return;
-      if (!append(std::as_const(block->rows))) {
+      if (block == nullptr || block->content.rows == 0) return;
+      if (!append(std::as_const(block->content))) {
         block->is_refused = true;
         return;
       }
-      most -= block->rows.size();
+      most -= block->content.rows;
       block->begin += block->taken;
-      text_.skip_lines(block->taken, Rows::kLines * block->rows.size());
+      text_.skip_lines(block->taken, Row::kLines * block->content.rows);
       block->is_parsed = false;
       if (block->begin != block->end) return;
     }
@@ -63,9 +59,9 @@ class PlainRows {
  private:
   /// Of the file, from one byte to another.
   struct Block {
-    std::uint64_t begin;
-    std::uint64_t end;
-    Rows rows;
+    std::uint64_t begin = 0;
+    std::uint64_t end = 0;
+    PlainBlock<Real> content;
     std::size_t taken = 0;  // bytes of the rows
     bool is_parsed = false;
     bool is_refused = false;
@@ -80,11 +76,44 @@ class PlainRows {
     if (front_ == used_ && !parse_window(most)) return nullptr;
     Block& block = blocks_[front_];
     if (block.is_refused) return nullptr;
-    if (!block.is_parsed || block.begin != place || block.rows.size() > most) {
+    if (!block.is_parsed || block.begin != place || block.content.rows > most) {
       block.begin = place;
       parse(block, text_.input().ahead(static_cast<std::size_t>(block.end - place)), most);
     }
     return &block;
+  }
+
+  /// How much a block holds.
+  struct Extent {
+    std::size_t rows = 0;
+    std::size_t scalars = 0;
+    std::size_t faces = 0;
+    std::size_t corners = 0;
+    bool are_triangles = true;
+    bool float_keeps = false;
+    std::size_t most_missing = 0;
+  };
+
+  static Extent extent(const PlainBlock<Real>& block) {
+    const PlainFaces& faces = block.faces;
+    return {block.rows,          block.positions.size(), faces.sizes.size(), faces.corners.size(),
+            faces.are_triangles, block.float_keeps,      block.most_missing};
+  }
+
+  static void cut(PlainBlock<Real>& block, const Extent& extent) {
+    block.rows = extent.rows;
+    block.positions.resize(extent.scalars);
+    block.faces.sizes.resize(extent.faces);
+    block.faces.corners.resize(extent.corners);
+    block.faces.are_triangles = extent.are_triangles;
+    block.float_keeps = extent.float_keeps;
+    block.most_missing = extent.most_missing;
+  }
+
+  /// Where a row probably begins, at `place` or later.
+  static std::size_t next_row(std::string_view text, std::size_t place) {
+    const auto end = text.find('\n', text.find(Row::kInLastLine, place));
+    return end == std::string_view::npos ? text.size() : end + 1;
   }
 
   bool parse_window(std::uint64_t most) {
@@ -95,8 +124,8 @@ class PlainRows {
     searched_ = offset + window.size();
     window = window.substr(0, window.rfind('\n') + 1);
     for (std::size_t begin = 0; begin != window.size();) {
-      const std::size_t end = Rows::split(window, std::min(begin + block_bytes_, window.size()) - 1);
-      if (used_ == blocks_.size()) blocks_.push_back({0, 0, empty_});
+      const std::size_t end = next_row(window, std::min(begin + block_bytes_, window.size()) - 1);
+      if (used_ == blocks_.size()) blocks_.emplace_back();
       Block& block = blocks_[used_++];
       block.begin = offset + begin;
       block.end = offset + end;
@@ -109,13 +138,19 @@ class PlainRows {
     return used_ != 0;
   }
 
-  static void parse(Block& block, std::string_view text, std::uint64_t most) {
-    block.rows.clear();
+  void parse(Block& block, std::string_view text, std::uint64_t most) const {
+    PlainBlock<Real>& content = block.content;
+    cut(content, {.float_keeps = is_open_});
     const char* at = text.data();
     const char* const end = at + static_cast<std::size_t>(block.end - block.begin);
-    while (at != end && block.rows.size() < most) {
-      const char* const next = block.rows.take(at, end);
-      if (next == nullptr) break;
+    while (at != end && content.rows < most) {
+      const Extent before = extent(content);
+      const char* const next = row_.take(at, end, content);
+      if (next == nullptr) {
+        cut(content, before);
+        break;
+      }
+      ++content.rows;
       at = next;
     }
     block.taken = static_cast<std::size_t>(at - text.data());
@@ -123,7 +158,8 @@ class PlainRows {
   }
 
   Text& text_;
-  Rows empty_;
+  Row row_;
+  bool is_open_;
   std::size_t block_bytes_;
   TaskContext task_;
   std::vector<Block> blocks_;  // of the last window; the first `used_` of them, of which those before `front_` are over

@@ -14,7 +14,7 @@
 
 /// Text in the form that programs write: blanks are spaces and tabs, and numbers are digits. Each function takes a
 /// place in a text that ends with a line end, and returns the place after what it has read, or null if that is not
-/// plain.
+/// plain. Null stays null.
 namespace meshhood::io::plain {
 
 [[nodiscard]] inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
@@ -27,6 +27,7 @@ namespace meshhood::io::plain {
 
 /// Past blanks and the end of the line.
 [[nodiscard]] inline const char* take_line_end(const char* at) {
+  if (at == nullptr) return at;
   at = skip_blanks(at);
   if (*at == '\r') ++at;
   return *at == '\n' ? at + 1 : nullptr;
@@ -37,6 +38,7 @@ namespace meshhood::io::plain {
 /// A number that ends with its token, whatever its size.
 template <class Real>
 [[nodiscard]] const char* take_number(const char* at, const char* end, Real& value) {
+  if (at == nullptr) return at;
   const auto [after, error] = fast_float::from_chars(skip_blanks(at), end, value);
   return error == std::errc() && ends_token(after) ? after : nullptr;
 }
@@ -50,6 +52,7 @@ template <class Real>
 
 /// The same, with a look at how the number is written: `keeps` becomes false unless float keeps it (see `float_keeps`).
 [[nodiscard]] inline const char* take_coordinate(const char* at, const char* end, double& value, bool& keeps) {
+  if (at == nullptr) return at;
   at = skip_blanks(at);
   Decimal decimal;
   const char* after = keeps ? take_decimal(at, decimal) : nullptr;
@@ -83,12 +86,13 @@ template <class Real>
 
 /// The same, where the token ends.
 [[nodiscard]] inline const char* take_integer(const char* at, std::uint32_t& value) {
-  const char* const after = take_digits(skip_blanks(at), value);
+  const char* const after = at == nullptr ? at : take_digits(skip_blanks(at), value);
   return after != nullptr && ends_token(after) ? after : nullptr;
 }
 
 /// A token of any printable characters.
 [[nodiscard]] inline const char* skip_token(const char* at) {
+  if (at == nullptr) return at;
   const char* const begin = skip_blanks(at);
   at = begin;
   while ('!' <= *at && *at <= '~') ++at;

@@ -2,6 +2,9 @@
 #include "io/ply_rows.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -9,8 +12,8 @@
 #include <vector>
 
 #include "io/plain_elements.h"
-#include "io/plain_ply_bytes.h"
 #include "io/plain_rows.h"
+#include "shared/distance.h"
 
 namespace meshhood::io {
 namespace {
@@ -27,110 +30,94 @@ uint64_t largest(PlyType type) {
   return (uint64_t{1} << (8 * size_of(type) - (is_signed ? 1 : 0))) - 1;
 }
 
-/// Rows that are a line each.
-template <class Rows, class Target>
-class TextRows final : public PlyRows {
- public:
-  TextRows(Text& text, const ReaderOptions& options, Rows empty, Target& target)
-      : plain_(text, options, std::move(empty)), target_(target) {}
-
-  uint64_t take(uint64_t most) override {
+/// Rows that are a line each. `append` receives them in blocks.
+template <class Real, class Row, class Append>
+PlyRows text_rows(Text& text, const ReaderOptions& options, const Row& row, Append append) {
+  const auto plain = std::make_shared<PlainRows<Real, Row>>(text, options, row);
+  return [plain, append](uint64_t most) {
     uint64_t taken = 0;
-    plain_.take(most, [&](const Rows& rows) {
-      target_.append(rows.content());
-      taken += rows.size();
+    plain->take(most, [&](const PlainBlock<Real>& block) {
+      append(block);
+      taken += block.rows;
       return true;
     });
     return taken;
-  }
-
- private:
-  PlainRows<Rows> plain_;
-  Target& target_;
-};
-
-/// Rows of bytes.
-class BinaryRows : public PlyRows {
- public:
-  BinaryRows(InputBuffer& input, const ReaderOptions& options) : input_(input), block_bytes_(options.block_bytes) {}
-
-  uint64_t take(uint64_t most) final {
-    uint64_t sum = 0;
-    while (sum < most) {
-      const auto [bytes, rows] = take_some(input_.ahead(1).substr(0, block_bytes_), most - sum);
-      if (rows == 0) break;
-      input_.skip(bytes);
-      sum += rows;
-    }
-    return sum;
-  }
-
- protected:
-  struct Taken {
-    std::size_t bytes = 0;
-    uint64_t rows = 0;
   };
-
-  /// Appends rows from the front of `bytes`, up to `most`.
-  virtual Taken take_some(std::string_view bytes, uint64_t most) = 0;
-
- private:
-  InputBuffer& input_;
-  std::size_t block_bytes_;
-};
-
-template <class Real>
-class BinaryVertices final : public BinaryRows {
- public:
-  BinaryVertices(InputBuffer& input, const ReaderOptions& options, std::size_t stride,
-                 const std::array<std::size_t, 3>& offsets, Positions& positions)
-      : BinaryRows(input, options), stride_(stride), offsets_(offsets), positions_(positions) {}
-
- private:
-  Taken take_some(std::string_view bytes, uint64_t most) override {
-    const std::size_t taken = take_vertices(bytes, stride_, offsets_, most, block_);
-    positions_.append(std::span<const Real>(block_));
-    return {taken, block_.size() / 3};
-  }
-
-  std::size_t stride_;
-  std::array<std::size_t, 3> offsets_;
-  Positions& positions_;
-  std::vector<Real> block_;
-};
-
-class BinaryFaces final : public BinaryRows {
- public:
-  BinaryFaces(InputBuffer& input, const ReaderOptions& options, std::uint32_t end, Faces& faces)
-      : BinaryRows(input, options), end_(end), faces_(faces) {}
-
- private:
-  Taken take_some(std::string_view bytes, uint64_t most) override {
-    if (bytes.empty()) return {};
-    constexpr std::integral_constant<std::size_t, 3> kTriangle;
-    const std::size_t count = static_cast<unsigned char>(bytes[0]);
-    const std::size_t taken = count == kTriangle ? take_faces(bytes, kTriangle, end_, most, block_)
-                                                 : take_faces(bytes, count, end_, most, block_);
-    const std::size_t rows = taken / (1 + sizeof(std::uint32_t) * count);
-    faces_.append(rows, block_);
-    return {taken, rows};
-  }
-
-  std::uint32_t end_;
-  Faces& faces_;
-  std::vector<std::uint32_t> block_;
-};
-
-template <class Real>
-std::unique_ptr<PlyRows> text_vertices(Text& text, const ReaderOptions& options, const VertexRow& row,
-                                       Positions& positions) {
-  using Rows = PlainVertexRows<Real>;
-  return std::make_unique<TextRows<Rows, Positions>>(text, options, Rows(row), positions);
 }
 
 template <class Real>
-std::unique_ptr<PlyRows> binary_vertices(InputBuffer& input, const ReaderOptions& options, const PlyElement& element,
-                                         const std::array<std::size_t, 3>& axes, Positions& positions) {
+PlyRows text_vertices(Text& text, const ReaderOptions& options, const VertexRow& row, Positions& positions) {
+  return text_rows<Real>(text, options, row, [&positions](const PlainBlock<Real>& block) { positions.append(block); });
+}
+
+// In a binary file, plain rows are in the byte order of the processor. The next two functions take rows from the front
+// of `bytes` as long as they are complete and valid, into an array that they replace, and return how many bytes they
+// took.
+
+/// Rows of `stride` bytes, with coordinates of the type `Real` at `offsets`.
+template <class Real>
+std::size_t take_vertices(std::string_view bytes, std::size_t stride, const std::array<std::size_t, 3>& offsets,
+                          std::uint64_t most, std::vector<Real>& positions) {
+  const auto rows = static_cast<std::size_t>(std::min<std::uint64_t>(most, bytes.size() / stride));
+  positions.resize(3 * rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    bool are_valid = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Real& coordinate = positions[3 * row + axis];
+      std::memcpy(&coordinate, bytes.data() + row * stride + offsets[axis], sizeof(Real));
+      are_valid = are_valid && double{std::abs(coordinate)} <= kLargestCoordinate;
+    }
+    if (!are_valid) {
+      positions.resize(3 * row);
+      return row * stride;
+    }
+  }
+  return rows * stride;
+}
+
+/// Rows of a byte, which is `count`, and as many indices of 32 bits, each smaller than `end`. A `count` known to the
+/// compiler is faster.
+template <class Count>
+std::size_t take_faces(std::string_view bytes, Count count, std::uint32_t end, std::uint64_t most,
+                       std::vector<std::uint32_t>& corners) {
+  const std::size_t stride = 1 + sizeof(std::uint32_t) * std::size_t{count};
+  const auto rows = static_cast<std::size_t>(std::min<std::uint64_t>(most, bytes.size() / stride));
+  corners.resize(rows * count);
+  std::size_t row = 0;
+  for (; row < rows; ++row) {
+    const char* const from = bytes.data() + row * stride;
+    if (static_cast<unsigned char>(*from) != count) break;
+    std::uint32_t* const to = corners.data() + row * count;
+    if (count != 0) std::memcpy(to, from + 1, stride - 1);
+    if (std::any_of(to, to + count, [end](std::uint32_t index) { return index >= end; })) break;
+  }
+  corners.resize(row * count);
+  return row * stride;
+}
+
+struct Taken {
+  std::size_t bytes = 0;
+  uint64_t rows = 0;
+};
+
+/// Rows of bytes. `take_some` appends rows from the front of some bytes, up to a number of rows.
+template <class TakeSome>
+PlyRows binary_rows(InputBuffer& input, const ReaderOptions& options, TakeSome take_some) {
+  return [&input, block_bytes = options.block_bytes, take_some](uint64_t most) mutable {
+    uint64_t sum = 0;
+    while (sum < most) {
+      const Taken taken = take_some(input.ahead(1).substr(0, block_bytes), most - sum);
+      if (taken.rows == 0) break;
+      input.skip(taken.bytes);
+      sum += taken.rows;
+    }
+    return sum;
+  };
+}
+
+template <class Real>
+PlyRows binary_vertices(InputBuffer& input, const ReaderOptions& options, const PlyElement& element,
+                        const std::array<std::size_t, 3>& axes, Positions& positions) {
   constexpr PlyType kType = std::is_same_v<Real, float> ? PlyType::Float32 : PlyType::Float64;
   std::array<std::size_t, 3> offsets = {};
   std::size_t stride = 0;
@@ -141,47 +128,63 @@ std::unique_ptr<PlyRows> binary_vertices(InputBuffer& input, const ReaderOptions
     stride += size_of(element.properties[i].type);
   }
   const auto is_other = [&](std::size_t axis) { return element.properties[axis].type != kType; };
-  if (std::any_of(axes.begin(), axes.end(), is_other)) return nullptr;
-  return std::make_unique<BinaryVertices<Real>>(input, options, stride, offsets, positions);
+  if (std::any_of(axes.begin(), axes.end(), is_other)) return {};
+  const auto take_some = [=, &positions, xyz = std::vector<Real>()](std::string_view bytes, uint64_t most) mutable {
+    const std::size_t taken = take_vertices(bytes, stride, offsets, most, xyz);
+    positions.append(std::span<const Real>(xyz));
+    return Taken{taken, xyz.size() / 3};
+  };
+  return binary_rows(input, options, take_some);
 }
 
 }  // namespace
 
-std::unique_ptr<PlyRows> vertex_rows(Text& text, const ReaderOptions& options, const PlyElement& element,
-                                     const std::array<std::size_t, 3>& axes, Positions& positions) {
-  if (!are_single(element.properties)) return nullptr;
+PlyRows vertex_rows(Text& text, const ReaderOptions& options, const PlyElement& element,
+                    const std::array<std::size_t, 3>& axes, Positions& positions) {
+  if (!are_single(element.properties)) return {};
   const VertexRow row{element.properties.size(), axes};
   if (positions.are_double()) return text_vertices<double>(text, options, row, positions);
   return text_vertices<float>(text, options, row, positions);
 }
 
-std::unique_ptr<PlyRows> face_rows(Text& text, const ReaderOptions& options, const PlyElement& element,
-                                   std::size_t list, std::uint64_t vertices, Faces& faces) {
+PlyRows face_rows(Text& text, const ReaderOptions& options, const PlyElement& element, std::size_t list,
+                  std::uint64_t vertices, Faces& faces) {
   constexpr uint64_t kMostCount = 255;
   const std::span<const PlyProperty> properties = element.properties;
-  if (!are_single(properties.first(list)) || !are_single(properties.subspan(list + 1))) return nullptr;
+  if (!are_single(properties.first(list)) || !are_single(properties.subspan(list + 1))) return {};
   const FaceRow row{.before = list,
                     .after = properties.size() - list - 1,
                     .most_count = std::min(kMostCount, largest(properties[list].count_type)),
                     .end = std::min(vertices, largest(properties[list].type) + 1)};
-  return std::make_unique<TextRows<PlainFaceRows, Faces>>(text, options, PlainFaceRows(row), faces);
+  return text_rows<float>(text, options, row, [&faces](const PlainBlock<float>& block) { faces.append(block.faces); });
 }
 
-std::unique_ptr<PlyRows> vertex_rows(InputBuffer& input, const ReaderOptions& options, const PlyElement& element,
-                                     const std::array<std::size_t, 3>& axes, Positions& positions) {
-  if (!are_single(element.properties)) return nullptr;
+PlyRows vertex_rows(InputBuffer& input, const ReaderOptions& options, const PlyElement& element,
+                    const std::array<std::size_t, 3>& axes, Positions& positions) {
+  if (!are_single(element.properties)) return {};
   if (positions.are_double()) return binary_vertices<double>(input, options, element, axes, positions);
   return binary_vertices<float>(input, options, element, axes, positions);
 }
 
-std::unique_ptr<PlyRows> face_rows(InputBuffer& input, const ReaderOptions& options, const PlyElement& element,
-                                   std::size_t list, std::uint64_t vertices, Faces& faces) {
+PlyRows face_rows(InputBuffer& input, const ReaderOptions& options, const PlyElement& element, std::size_t list,
+                  std::uint64_t vertices, Faces& faces) {
   const PlyProperty& property = element.properties[list];
   const bool is_usual = element.properties.size() == 1 && property.count_type == PlyType::Uint8 &&
                         (property.type == PlyType::Int32 || property.type == PlyType::Uint32);
-  if (!is_usual) return nullptr;
+  if (!is_usual) return {};
   const auto end = static_cast<std::uint32_t>(std::min(vertices, largest(property.type)));
-  return std::make_unique<BinaryFaces>(input, options, end, faces);
+  const auto take_some = [end, &faces, corners = std::vector<std::uint32_t>()](std::string_view bytes,
+                                                                               uint64_t most) mutable -> Taken {
+    if (bytes.empty()) return {};
+    constexpr std::integral_constant<std::size_t, 3> kTriangle;
+    const std::size_t count = static_cast<unsigned char>(bytes[0]);
+    const std::size_t taken = count == kTriangle ? take_faces(bytes, kTriangle, end, most, corners)
+                                                 : take_faces(bytes, count, end, most, corners);
+    const std::size_t rows = taken / (1 + sizeof(std::uint32_t) * count);
+    faces.append(rows, corners);
+    return {taken, rows};
+  };
+  return binary_rows(input, options, take_some);
 }
 
 }  // namespace meshhood::io

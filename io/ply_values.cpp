@@ -47,13 +47,12 @@ class TextValues final : public PlyValues {
   TextValues(InputBuffer& input, const PlyHeader& header, ReaderOptions options)
       : text_(input, {.lines_before = header.lines}), header_(header), options_(std::move(options)) {}
 
-  std::unique_ptr<PlyRows> vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
-                                       Positions& positions) override {
+  PlyRows vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
+                      Positions& positions) override {
     return io::vertex_rows(text_, options_, element, axes, positions);
   }
 
-  std::unique_ptr<PlyRows> face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices,
-                                     Faces& faces) override {
+  PlyRows face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices, Faces& faces) override {
     return io::face_rows(text_, options_, element, list, vertices, faces);
   }
 
@@ -176,14 +175,13 @@ class BinaryValues final : public PlyValues {
   BinaryValues(InputBuffer& input, bool big_endian, ReaderOptions options)
       : input_(input), options_(std::move(options)), swaps_(big_endian != (std::endian::native == std::endian::big)) {}
 
-  std::unique_ptr<PlyRows> vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
-                                       Positions& positions) override {
-    return swaps_ ? nullptr : io::vertex_rows(input_, options_, element, axes, positions);
+  PlyRows vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
+                      Positions& positions) override {
+    return swaps_ ? PlyRows() : io::vertex_rows(input_, options_, element, axes, positions);
   }
 
-  std::unique_ptr<PlyRows> face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices,
-                                     Faces& faces) override {
-    return swaps_ ? nullptr : io::face_rows(input_, options_, element, list, vertices, faces);
+  PlyRows face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices, Faces& faces) override {
+    return swaps_ ? PlyRows() : io::face_rows(input_, options_, element, list, vertices, faces);
   }
 
   Problem take_coordinate(PlyType type, Positions& positions) override {

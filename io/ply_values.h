@@ -42,12 +42,11 @@ class PlyValues {
   [[nodiscard]] virtual Problem take_integer(PlyType type, std::int64_t& value) = 0;
 
   /// For the vertices, with the properties x, y, z at `axes`, and for the faces, with the vertices in the property
-  /// `list` and every index below `vertices`. Null if no row is plain. Both borrow their arguments.
-  [[nodiscard]] virtual std::unique_ptr<PlyRows> vertex_rows(const PlyElement& element,
-                                                             const std::array<std::size_t, 3>& axes,
-                                                             Positions& positions) = 0;
-  [[nodiscard]] virtual std::unique_ptr<PlyRows> face_rows(const PlyElement& element, std::size_t list,
-                                                           std::uint64_t vertices, Faces& faces) = 0;
+  /// `list` and every index below `vertices`. Empty if no row is plain. Both borrow their arguments.
+  [[nodiscard]] virtual PlyRows vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
+                                            Positions& positions) = 0;
+  [[nodiscard]] virtual PlyRows face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices,
+                                          Faces& faces) = 0;
 
   /// Skips `count` values.
   [[nodiscard]] virtual Problem skip(PlyType type, std::uint64_t count) = 0;

@@ -6,8 +6,8 @@
 
 #include "io/mesh_builder.h"
 #include "io/number.h"
-#include "io/plain_obj.h"
 #include "io/plain_rows.h"
+#include "io/plain_text.h"
 #include "io/readers.h"
 #include "io/text.h"
 
@@ -32,6 +32,70 @@ bool contains(const Words& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+// A plain row: a vertex of three coordinates with or without a color, a face whose indices are positive, a texture
+// coordinate or a normal.
+struct ObjRow {
+  static constexpr uint64_t kLines = 1;
+  static constexpr std::string_view kInLastLine = "";
+
+  template <class Real>
+  const char* take(const char* row, const char* end, PlainBlock<Real>& block) const {
+    if (row[0] == 'v' && plain::is_blank(row[1])) return take_vertex(row + 1, end, block);
+    if (row[0] == 'f' && plain::is_blank(row[1])) return take_face(row + 1, block.vertex_count(), block);
+    const bool is_other = row[0] == 'v' && (row[1] == 't' || row[1] == 'n') && plain::is_blank(row[2]);
+    return is_other ? skip_numbers(row + 2) : nullptr;
+  }
+
+ private:
+  template <class Real>
+  static const char* take_vertex(const char* at, const char* end, PlainBlock<Real>& block) {
+    std::array<Real, 3> position = {};
+    for (Real& coordinate : position) at = plain::take_coordinate(at, end, coordinate, block.float_keeps);
+    block.positions.insert(block.positions.end(), position.begin(), position.end());
+    const char* const after = plain::take_line_end(at);
+    if (after != nullptr) return after;
+    double color = 0;
+    for (int i = 0; i < 3; ++i) at = plain::take_number(at, end, color);
+    return plain::take_line_end(at);
+  }
+
+  template <class Real>
+  static const char* take_face(const char* at, std::size_t vertices, PlainBlock<Real>& block) {
+    constexpr std::size_t kMostCorners = 255;
+    for (std::size_t corners = 1; corners <= kMostCorners; ++corners) {
+      std::uint32_t index = 0;
+      at = take_corner(plain::skip_blanks(at), index);
+      if (at == nullptr || index == 0) return nullptr;
+      block.faces.corners.push_back(index - 1);
+      if (index > vertices) block.most_missing = std::max(block.most_missing, index - vertices);
+      if (const char* const after = plain::take_line_end(at)) {
+        block.faces.end_face(corners);
+        return after;
+      }
+    }
+    return nullptr;
+  }
+
+  // `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+  static const char* take_corner(const char* at, std::uint32_t& index) {
+    at = plain::take_digits(at, index);
+    for (int i = 0; i < 2 && at != nullptr && *at == '/'; ++i) {
+      ++at;
+      std::uint32_t other = 0;
+      if (plain::is_digit(*at)) at = plain::take_digits(at, other);
+    }
+    return at != nullptr && plain::ends_token(at) ? at : nullptr;
+  }
+
+  static const char* skip_numbers(const char* at) {
+    const auto may_be_in_number = [](char c) {
+      return plain::is_blank(c) || plain::is_digit(c) || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
+    };
+    while (may_be_in_number(*at)) ++at;
+    return plain::take_line_end(at);
+  }
+};
+
 class ObjReader {
  public:
   ObjReader(InputBuffer& input, const ReaderOptions& options)
@@ -47,10 +111,10 @@ class ObjReader {
  private:
   template <class Real>
   void read_all() {
-    PlainRows plain(text_, options_, PlainObj<Real>(builder_.positions.are_open()));
+    PlainRows<Real, ObjRow> plain(text_, options_, {}, builder_.positions.are_open());
     constexpr auto kAny = std::numeric_limits<uint64_t>::max();
     do {
-      plain.take(kAny, [this](const PlainObj<Real>& rows) { return append(rows); });
+      plain.take(kAny, [this](const PlainBlock<Real>& block) { return append(block); });
     } while (read_line());
   }
 
@@ -61,13 +125,12 @@ class ObjReader {
   }
 
   template <class Real>
-  bool append(const PlainObj<Real>& rows) {
+  bool append(const PlainBlock<Real>& block) {
     const auto before = builder_.positions.vertex_count();
-    if (rows.most_missing() > before || before + rows.vertex_count() > kMaxVertices) return false;
+    if (block.most_missing > before || before + block.vertex_count() > kMaxVertices) return false;
     is_obj_ = true;
-    builder_.positions.append(rows.positions());
-    builder_.positions.note(rows.float_keeps());
-    builder_.faces.append(rows.faces());
+    builder_.positions.append(block);
+    builder_.faces.append(block.faces);
     return true;
   }
 

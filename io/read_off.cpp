@@ -104,11 +104,9 @@ class OffReader {
 
   template <class Real>
   void read_vertices() {
-    PlainRows plain(text_, options_,
-                    PlainVertexRows<Real>({.values = 3, .axes = {0, 1, 2}, .is_open = builder_.positions.are_open()}));
-    const auto append = [this](const PlainVertexRows<Real>& rows) {
-      builder_.positions.append(rows.content());
-      builder_.positions.note(rows.float_keeps());
+    PlainRows<Real, VertexRow> plain(text_, options_, {.values = 3, .axes = {0, 1, 2}}, builder_.positions.are_open());
+    const auto append = [this](const PlainBlock<Real>& block) {
+      builder_.positions.append(block);
       return true;
     };
     for (;;) {
@@ -121,10 +119,10 @@ class OffReader {
 
   void read_faces() {
     constexpr uint64_t kMostCorners = 255;
-    PlainRows plain(text_, options_,
-                    PlainFaceRows({.before = 0, .after = 0, .most_count = kMostCorners, .end = vertices_}));
-    const auto append = [this](const PlainFaceRows& rows) {
-      builder_.faces.append(rows.content());
+    PlainRows<float, FaceRow> plain(text_, options_,
+                                    {.before = 0, .after = 0, .most_count = kMostCorners, .end = vertices_});
+    const auto append = [this](const PlainBlock<float>& block) {
+      builder_.faces.append(block.faces);
       return true;
     };
     for (;;) {

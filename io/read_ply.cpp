@@ -154,9 +154,9 @@ class PlyReader {
 
   // The rows of the element: those that `plain` takes, and `read_row` for each of the others.
   template <class ReadRow>
-  void read_rows(const std::unique_ptr<PlyRows>& plain, ReadRow&& read_row) {
+  void read_rows(const PlyRows& plain, ReadRow&& read_row) {
     for (; row_ < element_->count; ++row_) {
-      if (plain) row_ += plain->take(element_->count - row_);
+      if (plain) row_ += plain(element_->count - row_);
       if (row_ == element_->count) return;
       read_row();
       if (values_->end_row(*element_, row_)) {
@@ -171,7 +171,7 @@ class PlyReader {
   }
 
   // Calls `read_list` for the list of vertices in each row of the element, except in those that `plain` takes.
-  void read_lists(const std::unique_ptr<PlyRows>& plain, void (PlyReader::*read_list)(uint64_t corners)) {
+  void read_lists(const PlyRows& plain, void (PlyReader::*read_list)(uint64_t corners)) {
     if (element_->count == 0 && !find_list()) return;
     const std::size_t list = list_property();
     property_ = &element_->properties[list];

@@ -7,7 +7,7 @@
 
 #include "io/float_keeps.h"
 #include "io/plain_rows.h"
-#include "io/plain_stl.h"
+#include "io/plain_text.h"
 #include "io/text.h"
 
 namespace meshhood::io {
@@ -20,14 +20,46 @@ bool is_word(std::string_view token, std::string_view lower_case) {
                     [](char a, char b) { return (('A' <= a && a <= 'Z') ? a - 'A' + 'a' : a) == b; });
 }
 
+// A plain facet: seven lines of lower-case words and single blanks, three corners at different positions.
+struct FacetRow {
+  static constexpr uint64_t kLines = 7;
+  static constexpr std::string_view kInLastLine = "endfacet";
+
+  template <class Real>
+  const char* take(const char* at, const char* end, PlainBlock<Real>& block) const {
+    std::array<typename VertexWelder<Real>::Point, 3> facet = {};
+    at = take_words(at, end, "facet normal ");
+    for (int i = 0; i < 3; ++i) at = plain::skip_token(at);
+    at = take_line(plain::take_line_end(at), end, "outer loop");
+    for (auto& corner : facet) {
+      at = take_words(at, end, "vertex ");
+      for (Real& coordinate : corner) at = plain::take_coordinate(at, end, coordinate, block.float_keeps);
+      at = plain::take_line_end(at);
+      block.positions.insert(block.positions.end(), corner.begin(), corner.end());
+    }
+    at = take_line(take_line(at, end, "endloop"), end, "endfacet");
+    const auto& [a, b, c] = facet;
+    return at == nullptr || a == b || b == c || c == a ? nullptr : at;
+  }
+
+ private:
+  static const char* take_words(const char* at, const char* end, std::string_view words) {
+    if (at == nullptr || at == end) return nullptr;
+    at = plain::skip_blanks(at);
+    const std::string_view rest(at, static_cast<std::size_t>(end - at));
+    return rest.starts_with(words) ? at + words.size() : nullptr;
+  }
+
+  static const char* take_line(const char* at, const char* end, std::string_view words) {
+    return plain::take_line_end(take_words(at, end, words));
+  }
+};
+
 template <class Real>
 class StlText {
  public:
   StlText(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder, VertexWelder<Real>& weld)
-      : text_(input, {}),
-        plain_(text_, options, PlainStl<Real>(builder.positions.are_open())),
-        builder_(builder),
-        weld_(weld) {}
+      : text_(input, {}), plain_(text_, options, {}, builder.positions.are_open()), builder_(builder), weld_(weld) {}
 
   void read() {
     if (!is_word(text_.token(), "solid")) text_.malformed("expected 'solid'");
@@ -45,13 +77,12 @@ class StlText {
 
  private:
   void take_plain_facets() {
-    plain_.take(std::numeric_limits<uint64_t>::max(), [this](const PlainStl<Real>& rows) {
-      for (const auto& corners : rows.facets()) {
-        for (const auto& corner : corners) weld_.append(corner);
-        builder_.faces.end_face(3);
-      }
-      builder_.positions.note(rows.float_keeps());
-      facets_ += rows.size();
+    plain_.take(std::numeric_limits<uint64_t>::max(), [this](const PlainBlock<Real>& block) {
+      const auto& xyz = block.positions;
+      for (std::size_t i = 0; i < xyz.size(); i += 3) weld_.append({xyz[i], xyz[i + 1], xyz[i + 2]});
+      for (std::size_t i = 0; i < block.rows; ++i) builder_.faces.end_face(3);
+      builder_.positions.note(block.float_keeps);
+      facets_ += block.rows;
       return true;
     });
   }
@@ -139,7 +170,7 @@ class StlText {
   }
 
   Text text_;
-  PlainRows<PlainStl<Real>> plain_;
+  PlainRows<Real, FacetRow> plain_;
   MeshBuilder& builder_;
   VertexWelder<Real>& weld_;
   std::array<typename VertexWelder<Real>::Point, 3> first_ = {};
