@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import hashlib
 import weakref
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
@@ -49,10 +48,9 @@ class Held:
         self._queries = _core.queries(exact)
         self._count = exact.vertex_count
 
-    def _method(self, words: Mapping[str, Any]) -> Any:
-        """The method that the words name."""
-        method = words.get("method", "exact")
-        metric = _convert.choice(words.get("metric", "straight"), "metric", METRICS)
+    def _method(self, method: Any, metric: Any) -> Any:
+        """What answers the queries of these arguments."""
+        metric = _convert.choice(metric, "metric", METRICS)
         if metric != "straight":
             if method != "exact":
                 raise ValueError(f"method: {method!r}, expected 'exact' with metric={metric!r}")
@@ -64,10 +62,12 @@ class Held:
                 raise
             raise TypeError(f"method: expected a name or a Paper, not {type(method).__name__}") from None
 
-    def _scale(self, unit: Any) -> float:
+    def _scale(self, unit: Any, metric: str = "straight") -> float:
         """The factor from `unit` to the unit of the positions."""
         if unit == "mesh":
             return 1.0
+        if metric == "rings":
+            raise ValueError("unit: expected 'mesh' with metric='rings', whose radii are numbers of edges")
         _convert.choice(unit, "unit", ("mesh", "edge"))
         length = self._methods.mean_edge_length
         if length == 0:

@@ -21,7 +21,7 @@ class Submesh(NamedTuple):
     """Some faces of a mesh, as a mesh of their own.
 
     >>> index = meshhood.MeshIndex(V, F)
-    >>> part = index.submesh(index.query_ball(42, 0.5))
+    >>> part = index.submesh(index.neighborhood(42, 0.5))
     >>> np.array_equal(part.V, V[part.vertices]) and np.array_equal(part.vertices[part.F], F[part.faces])
     True
     """
@@ -41,7 +41,7 @@ class RimLine(NamedTuple):
     """A polyline along which a surface leaves a ball.
 
     >>> index = meshhood.MeshIndex(V, F)
-    >>> line = index.rim(index.query_ball(42, 0.5), 42, 0.5)[0]
+    >>> line = index.rim(index.neighborhood(42, 0.5), 42, 0.5)[0]
     >>> np.allclose(np.linalg.norm(line.points - V[42], axis=1), 0.5)
     True
     """
@@ -61,7 +61,7 @@ class RegionMesh:
     the element.
 
     >>> mesher = meshhood.RegionMesh(V, F)
-    >>> part = mesher.submesh(meshhood.MeshIndex(V, F).query_ball(42, 0.5))
+    >>> part = mesher.submesh(meshhood.MeshIndex(V, F).neighborhood(42, 0.5))
     """
 
     def __init__(self, V: Any, F: Any = None) -> None:
@@ -93,7 +93,7 @@ class RegionMesh:
             (offsets, corners), and a face of which the ball has several parts occurs several times. What of a face lies
             in the ball without a corner in `ids` is left out.
 
-        >>> mesher, ids = meshhood.RegionMesh(V, F), meshhood.MeshIndex(V, F).query_ball(42, 0.5)
+        >>> mesher, ids = meshhood.RegionMesh(V, F), meshhood.MeshIndex(V, F).neighborhood(42, 0.5)
         >>> mesher.submesh(ids).area < mesher.submesh(ids, clip=(42, 0.5)).area < mesher.submesh(ids, "any").area
         True
         """
@@ -106,14 +106,14 @@ class RegionMesh:
     def rim(self, ids: ArrayLike, start: Any, r: Any) -> list[RimLine]:
         """Where the surface leaves a region: polylines whose points lie on edges, at the distance `r` from `start`.
 
-        ids : the region of `start` and `r` (see `MeshIndex.query_region`).
+        ids : the region of `start` and `r` (see `MeshIndex.neighborhood`).
         start : the center of the ball, a vertex or a point in space (3 numbers).
 
         On a manifold mesh without border all polylines are closed. The others end at the border of the mesh, or where
         three or more of them meet. If the faces are consistently oriented, the region lies to the left. If an edge
         leads from the region to a wall inside the ball, the point on this edge is the wall.
 
-        >>> ids = meshhood.MeshIndex(V, F).query_ball(42, 0.5)
+        >>> ids = meshhood.MeshIndex(V, F).neighborhood(42, 0.5)
         >>> [line.closed for line in meshhood.RegionMesh(V, F).rim(ids, 42, 0.5)]
         [True]
         """
@@ -159,7 +159,7 @@ class Regions(Held):
         F : other faces than those that the index keeps.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> ids = index.query_ball(42, 0.5)
+        >>> ids = index.neighborhood(42, 0.5)
         >>> part = index.submesh(ids)
         >>> len(part.V) == len(part.vertices)
         True
@@ -172,7 +172,7 @@ class Regions(Held):
         """Where the surface leaves a region: see `RegionMesh.rim`.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> [line.closed for line in index.rim(index.query_ball(42, 0.5), 42, 0.5)]
+        >>> [line.closed for line in index.rim(index.neighborhood(42, 0.5), 42, 0.5)]
         [True]
         """
         return self._region_mesh(F).rim(ids, start, r)
