@@ -32,7 +32,7 @@ def mean_by_matrix(index, values, rows, piece, r, workers):
     means = np.empty(len(rows))
     for begin in range(0, len(rows), piece):
         part = rows[begin : begin + piece]
-        indptr, indices = index.query_ball(part, r, workers=workers)
+        indptr, indices = index.neighborhoods(r, part, workers=workers)
         matrix = csr_array((np.ones(len(indices)), indices, indptr), shape=(len(part), len(values)))
         means[begin : begin + piece] = matrix @ values / np.diff(indptr)
     return means
@@ -49,7 +49,7 @@ def seconds(work, workers):
 def rows_of(index, r, workers):
     """Vertices in index order, and the mean size of their neighborhoods."""
     sample = index.permutation[:: max(1, len(index) // 2000)]
-    size = index.count(sample, r, workers=workers).mean()
+    size = index.counts(r, sample, workers=workers).mean()
     return index.permutation[: max(1000, int(MOST_ENTRIES / size))], size
 
 
@@ -86,7 +86,7 @@ def smooth(name, index, workers):
                     for k, (r, kernel) in enumerate(kernels):
                         took[i, k] = seconds(lambda: index.aggregate(values, r, kernel=kernel, **words), workers)[0]  # noqa: B023
                 ours, near, same = 1e6 * np.median(took, axis=0) / len(index)
-                sizes = [index.count(None, r, **words).mean() for r in (gaussian, biweight)]
+                sizes = [index.counts(r, **words).mean() for r in (gaussian, biweight)]
                 edges = fwhm / index.mean_edge_length
                 row = f"{name} | {channels} | {metric} | {edges:.0f} | {sizes[0]:.0f} | {sizes[1]:.0f}"
                 print(f"| {row} | {ours:.2f} | {near:.2f} | {ours / near:.2f} | {ours / same:.2f} |", flush=True)

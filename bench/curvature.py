@@ -60,7 +60,7 @@ def measure_radius(name, mesh, index, edges):
     import numpy as np
 
     sample = index.permutation[:: max(1, len(index) // 1000)]
-    found = float(index.count(sample, edges, unit="edge").mean())
+    found = float(index.counts(edges, sample, unit="edge").mean())
     wanted = min(len(index), int(max(SECONDS / (LIBIGL_COST * found + 1e-5), 0.6 * found)))
     if wanted * min(wanted, found) * LIBIGL_COST > MOST_SECONDS:
         return None

@@ -9,7 +9,7 @@ import numpy as np
 
 def microseconds(index, vertices, radius):
     begin = time.thread_time()
-    rows = index.query_ball(vertices, radius, workers=1)
+    rows = index.neighborhoods(radius, vertices, workers=1)
     took = time.thread_time() - begin
     del rows
     return 1e6 * took / len(vertices)

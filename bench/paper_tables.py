@@ -54,9 +54,9 @@ def account(meshhood, mesh, radius, workers):
     begin = time.perf_counter()
     index = meshhood.MeshIndex(*mesh, workers=workers)
     built = time.perf_counter()
-    listed = sum(len(chunk.indices) for chunk in index.iter_neighborhoods(None, radius, chunk=1024, workers=workers))
+    listed = sum(len(chunk.indices) for chunk in index.iter_neighborhoods(radius, chunk=1024, workers=workers))
     listed_at = time.perf_counter()
-    counted = int(index.count(None, radius, workers=workers).sum())
+    counted = int(index.counts(radius, workers=workers).sum())
     end = time.perf_counter()
     if listed != counted:
         raise SystemExit(f"bench: {listed} ids listed, but {counted} counted")

@@ -36,14 +36,14 @@ def milliseconds(f):
 def main(path, *radii):
     V, F = meshhood.read_mesh(path)
     index, graph = meshhood.MeshIndex(V, F), lengths(V, F)
-    index.query_ball(0, 0, metric="path")
+    index.neighborhood(0, 0, metric="path")
     print(f"{path}: {len(V)} vertices")
     print(f"{'edges':>6} {'vertices':>9} {'meshhood ms':>12} {'SciPy ms':>9} {'ratio':>7} difference")
     for edges in map(float, radii or (2, 10, 20, 65)):
         r = edges * index.mean_edge_length
         ours, theirs, sizes, difference = [], [], [], 0.0
         for v in np.linspace(0, len(V) - 1, QUERIES).astype(int):
-            spent, (ids, found) = milliseconds(lambda: index.query_ball(v, r, metric="path", return_distance=True))
+            spent, (ids, found) = milliseconds(lambda: index.neighborhood(v, r, metric="path", return_distance=True))
             ours.append(spent)
             spent, expected = milliseconds(lambda: dijkstra(graph, indices=v, limit=r))
             theirs.append(spent)

@@ -53,7 +53,7 @@ def draw(picture):
     plotter = pyvista.Plotter(off_screen=True, window_size=PIXELS)
     plotter.background_color = "white"
     meshhood.plot_neighborhood(index, v, radius, positions, faces, legend=False, plotter=plotter)
-    look(plotter, middle(positions[index.query_ball(v, radius, method="ball")]), radius, picture)
+    look(plotter, middle(positions[index.neighborhood(v, radius, method="ball")]), radius, picture)
     folder = places.PAGES if picture.letter == SHOWN else places.RESULTS
     folder.mkdir(parents=True, exist_ok=True)
     plotter.screenshot(folder / f"figure4{picture.letter}.png")

@@ -45,9 +45,9 @@ def print_calls(index, v, r):
 
     def calls():
         for _ in range(CALLS):
-            index.query_ball(v, r)
+            index.neighborhood(v, r)
 
-    call, query = medians(calls, lambda: index.count(rows, r, workers=1))
+    call, query = medians(calls, lambda: index.counts(r, rows, workers=1))
     count = index.count(v, r)
     print(f"{r:4.0f} {count:9d} {call:8.2f} {query:9.2f} {call - query:12.2f} {call / query:13.2f}")
 
@@ -58,11 +58,11 @@ def print_batch(index, v, r):
 
     def batches():
         for _ in range(CALLS):
-            index.query_ball(one, r, workers=1)
+            index.neighborhood(one, r)
 
-    batch, query = medians(batches, lambda: index.count(rows, r, workers=1))
+    batch, query = medians(batches, lambda: index.counts(r, rows, workers=1))
     start = time.perf_counter()
-    index.query_ball(everything, r, workers=1)
+    index.neighborhoods(r, everything, workers=1)
     whole = (time.perf_counter() - start) * 1e6
     beside = batch - query
     print(f"a batch has an overhead of {beside:.1f} us: {beside / whole:.5%} of a batch of all {len(index)} vertices")
@@ -73,11 +73,11 @@ def print_rows(index, v, r):
     rows = np.arange(v, v + CALLS)
 
     def kept():
-        for chunk in index.iter_neighborhoods(rows, r, chunk=CHUNK, workers=1):
+        for chunk in index.iter_neighborhoods(r, rows, chunk=CHUNK, workers=1):
             del chunk
 
-    ids, counted = medians(kept, lambda: index.count(rows, r, workers=1))
-    count = index.count(rows, r).mean()
+    ids, counted = medians(kept, lambda: index.counts(r, rows, workers=1))
+    count = index.counts(r, rows).mean()
     print(f"a row of {count:.0f} ids takes {ids:.1f} us in chunks of {CHUNK}, {counted:.1f} us if it is only counted")
 
 

@@ -31,7 +31,7 @@ def verify(mesh, folder):
     index = meshhood.MeshIndex(*meshhood.read_mesh(mesh))
     edge = index.mean_edge_length
     sample = np.sort(np.random.default_rng(1).choice(len(index), min(20_000, len(index)), replace=False))
-    counts = {r: index.count(None, r * edge) for r in (5, 10)}
+    counts = {r: index.counts(r * edge) for r in (5, 10)}
     print(f"{Path(mesh).name}: {len(index)} vertices, halo {halo} edges")
     print("| parts | vertices with halos | partition, s | counts that differ | samples | ids that differ |")
     print("|--:|--:|--:|--:|--:|--:|")
@@ -39,7 +39,7 @@ def verify(mesh, folder):
         start = time.monotonic()
         parts = meshhood.partition(mesh, folder / f"{number}", parts=number, halo=halo, unit="edge", memory="4GiB")
         seconds = time.monotonic() - start
-        wrong = sum(int((parts.count(r, unit="edge").compute() != expected).sum()) for r, expected in counts.items())
+        wrong = sum(int((parts.counts(r, unit="edge").compute() != expected).sum()) for r, expected in counts.items())
         samples, wrong_ids = compare_ids(parts, index, sample)
         total = sum(size.vertices for size in parts.sizes)
         print(
@@ -55,8 +55,8 @@ def compare_ids(parts, index, sample):
     for number in range(len(parts)):
         part = parts.open(number)
         numbers = part.owned[np.isin(part.vertices[part.owned], sample)]
-        for chunk in part.index.iter_neighborhoods(numbers, parts.halo, chunk=500, sort="id"):
-            expected = index.query_ball(part.vertices[chunk.vertices], parts.halo, sort="id")
+        for chunk in part.index.iter_neighborhoods(parts.halo, numbers, chunk=500, sort="id"):
+            expected = index.neighborhoods(parts.halo, part.vertices[chunk.vertices], sort="id")
             same = np.array_equal(chunk.indptr, expected[0])
             found = part.vertices[chunk.indices]
             wrong += np.count_nonzero(found != expected[1]) if same else len(found)
@@ -91,7 +91,7 @@ def grow(count, folder, vertices_per_part, memory):
 
 
 def _counts(radius, part, index, owned):
-    return index.count(owned, radius, workers=1)
+    return index.counts(radius, owned, workers=1)
 
 
 def _mean_positions(radius, positions, part, index, owned):

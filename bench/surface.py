@@ -44,7 +44,7 @@ def compare_mesh(path):
     for k in (10, 100):
         knn = least_time(lambda k=k: tree.query(V, k, workers=-1))
         for metric in ("straight", "path"):
-            ours = least_time(lambda k=k, metric=metric: index.query_knn(None, k, metric=metric))
+            ours = least_time(lambda k=k, metric=metric: index.k_nearest(k, metric=metric))
             print_row(f"query_knn, {len(V)} vertices, k = {k}, {metric}", ours, knn, "cKDTree.query")
     random = np.random.default_rng(2)
     faces = random.integers(len(F), size=100_000)

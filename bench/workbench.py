@@ -49,7 +49,7 @@ def weights_by_distance(V, index, folder, fwhm):
     theirs = workbench(folder, impulse, fwhm)[0][:, 0]
     columns = [index.smoothing_matrix(fwhm, weights="area", metric=metric) for metric in ("straight", "path")]
     ours = [matrix.tocsc()[:, [v]].toarray()[:, 0] for matrix in columns]
-    ids, lengths = index.query_ball(v, 3 * fwhm, metric="path", return_distance=True)
+    ids, lengths = index.neighborhood(v, 3 * fwhm, metric="path", return_distance=True)
     path = np.full(len(V), np.inf)
     path[ids] = lengths
     deviation = fwhm / np.sqrt(8 * np.log(2))

@@ -34,7 +34,7 @@ def evidence(first, second):
 def searchlight(index, radius, values):
     """Per vertex, the mean of `values` over its neighborhood; memory does not grow with the mesh."""
     result = np.empty(len(index))
-    for part in index.iter_neighborhoods(None, radius, chunk=10_000):
+    for part in index.iter_neighborhoods(radius, chunk=10_000):
         result[part.vertices] = np.add.reduceat(values[part.indices], part.indptr[:-1]) / np.diff(part.indptr)
     return result
 
@@ -45,11 +45,11 @@ def main():
     index = meshhood.MeshIndex(V, F)
     rng = np.random.default_rng(7)
     center = int(rng.integers(len(index)))
-    patch = index.query_ball(center, radius)
+    patch = index.neighborhood(center, radius)
     peak = int(searchlight(index, radius, evidence(*trials(len(index), patch, rng))).argmax())
 
     sample = rng.integers(len(index), size=50)
-    inside, ball = (index.count(sample, radius, method=method).sum() for method in ("exact", "ball"))
+    inside, ball = (index.counts(radius, sample, method=method).sum() for method in ("exact", "ball"))
     print(f"effect around vertex {center}, found at vertex {peak}, {np.linalg.norm(V[peak] - V[center]):.1f} mm away")
     print(f"of the vertices in a ball, {1 - inside / ball:.0%} are on other folds")
     if peak not in patch:

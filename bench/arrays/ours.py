@@ -16,10 +16,10 @@ class Meshhood(Tool):
         return meshhood.MeshIndex(self.V, self.F, workers=self.threads)
 
     def counts(self, index, scale):
-        return index.count(None, scale.radius, workers=self.threads)
+        return index.counts(scale.radius, workers=self.threads)
 
     def ids(self, index, scale):
-        return index.query_ball(None, scale.radius, workers=self.threads)
+        return index.neighborhoods(scale.radius, workers=self.threads)
 
     def mean(self, index, scale):
         return index.aggregate(self.signal, scale.radius, workers=self.threads)
@@ -34,10 +34,10 @@ class MeshhoodRings(Meshhood):
     questions = ("counts", "ids")
 
     def counts(self, index, scale):
-        return index.count(None, scale.edges, metric="rings", workers=self.threads)
+        return index.counts(scale.edges, metric="rings", workers=self.threads)
 
     def ids(self, index, scale):
-        return index.query_ball(None, scale.edges, metric="rings", workers=self.threads)
+        return index.neighborhoods(scale.edges, metric="rings", workers=self.threads)
 
 
 class BreadthFirst(Tool):

@@ -62,4 +62,4 @@ def at_radius(contestants, exact, radius, block_seconds):
 
 def judgement(exact, vertices, radius):
     return Judged(vertices.astype(np.int32),
-                  [set(exact.query_ball(v, radius, method="bfs").tolist()) for v in vertices])
+                  [set(exact.neighborhood(v, radius, method="bfs").tolist()) for v in vertices])

@@ -20,7 +20,7 @@ class MeshhoodBatch(Meshhood):
     method = "exact"
 
     def query(self, vertices, radius):
-        return self.index.query_ball(vertices, radius, method=self.method, workers=self.threads)
+        return self.index.neighborhoods(radius, vertices, method=self.method, workers=self.threads)
 
     def rows(self, answer, vertices):
         return rows_of(*answer, range(len(vertices)))
@@ -33,7 +33,7 @@ class MeshhoodAll(Meshhood):
     largest_answer = 1_000_000_000
 
     def query(self, vertices, radius):
-        return self.index.query_ball(None, radius, workers=self.threads)
+        return self.index.neighborhoods(radius, workers=self.threads)
 
     def rows(self, answer, vertices):
         return rows_of(*answer, vertices)
@@ -55,7 +55,7 @@ class MeshhoodCount(Meshhood):
     answers = "how many"
 
     def query(self, vertices, radius):
-        return self.index.count(vertices, radius, workers=self.threads)
+        return self.index.counts(radius, vertices, workers=self.threads)
 
     def rows(self, answer, vertices):
         return None
@@ -66,4 +66,4 @@ class MeshhoodCalls(OneByOne, Meshhood):
     remark = "one thread in any case"
 
     def neighborhood(self, v, radius):
-        return self.index.query_ball(v, radius)
+        return self.index.neighborhood(v, radius)

@@ -16,11 +16,11 @@ subprocess.run(["meshhood", "generate", "book", "--vertices", "40000", "-o", "bo
 V, F = meshhood.read_mesh("book.ply")
 index = meshhood.MeshIndex(V, F)
 stroke = np.array([(x, 0, 35 + 18 * np.sin(x / 6)) for x in np.linspace(20, 60, 50)])  # on the page at y = 0
-near = [index.query_ball(v, 4.0, method="ball") for v in index.nearest(stroke)[0]]
+near = [index.neighborhood(v, 4.0, method="ball") for v in index.nearest(stroke)[0]]
 page = np.round(np.arctan2(V[:, 1], V[:, 0]) / np.arctan2(V[:, 1], V[:, 0]).max() * 7)
 
 plotter = pyvista.Plotter(shape=(1, 2), window_size=(1100, 320))
-for i, ids in enumerate([index.query_stroke(stroke, 4.0), np.concatenate(near)]):
+for i, ids in enumerate([index.stroke(stroke, 4.0), np.concatenate(near)]):
     plotter.subplot(0, i)
     painted = np.isin(np.arange(len(V)), ids) * 1.0
     apart = pyvista.PolyData.from_regular_faces(V + page[:, None] * (0, 45, 0), F[np.ptp(page[F], axis=1) == 0])

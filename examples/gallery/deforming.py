@@ -19,8 +19,8 @@ plotter = pyvista.Plotter(shape=(2, 2), window_size=(1000, 860))
 for i, turn in enumerate([0.05, 0.6, 1.6, 2.6]):
     index = index.refit(rolled(turn)[0])
     label = np.zeros(len(index))
-    label[index.query_ball(v, 14.0, method="ball")] = 1
-    label[index.query_ball(v, 14.0)] = 2
+    label[index.neighborhood(v, 14.0, method="ball")] = 1
+    label[index.neighborhood(v, 14.0)] = 2
     plotter.subplot(i // 2, i % 2)
     mesh = pyvista.PolyData.from_regular_faces(index.positions, F)
     plotter.add_mesh(mesh, scalars=label, cmap=["lightgray", "#0072B2", "#009E73"], show_scalar_bar=False)

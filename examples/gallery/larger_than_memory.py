@@ -16,7 +16,7 @@ import pyvista
 subprocess.run(["meshhood", "generate", "scroll", "--vertices", "60000", "-o", "scroll.ply"], check=True)
 parts = meshhood.partition("scroll.ply", "scroll.parts", parts=8, halo=10, unit="edge", memory="256MiB")
 owner = parts.map(lambda part, index, owned: np.full(len(owned), part.number), 0).compute()
-counts = parts.count(10, unit="edge").compute()
+counts = parts.counts(10, unit="edge").compute()
 
 V, F = meshhood.read_mesh("scroll.ply")
 plotter = pyvista.Plotter(shape=(1, 2), window_size=(1000, 440))

@@ -16,7 +16,7 @@ subprocess.run(["meshhood", "generate", "knot", "--vertices", "20000", "-o", "kn
 V, F = meshhood.read_mesh("knot.ply")
 index, radius = meshhood.MeshIndex(V, F), 14.0
 face, barycentric, point = index.closest_point(V[F[16495]].mean(axis=0) + (0.3, -0.2, 0.5))
-ids = index.query_region(point, radius, face=face)
+ids = index.neighborhood(point, radius, face=face)
 patch = index.submesh(ids, clip=(point, radius))
 
 plotter, toward = pyvista.Plotter(), np.array([0.06, -0.06, 0.11])  # nearer to the camera, so that colors cover gray

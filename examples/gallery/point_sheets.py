@@ -19,8 +19,8 @@ index = meshhood.MeshIndex.from_points(P, link=1.3)
 
 middle = index.nearest([30, 30, 0])[0]
 label = np.zeros(len(P))
-label[index.query_ball(middle, 8.0, method="ball")] = 1
-label[index.query_ball(middle, 8.0)] = 2
+label[index.neighborhood(middle, 8.0, method="ball")] = 1
+label[index.neighborhood(middle, 8.0)] = 2
 cut = pyvista.PolyData(P[P[:, 1] > 30])  # cut through the middle, to look between the sheets
 cut.plot(scalars=label[P[:, 1] > 30], cmap=["lightgray", "#0072B2", "#009E73"], point_size=16, show_scalar_bar=False,
          render_points_as_spheres=True, cpos=[(30, -8, 12), P[middle], (0, 0, 1)])  # fmt: skip

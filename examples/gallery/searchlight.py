@@ -16,7 +16,7 @@ V, F = cortex()
 random = np.random.default_rng(7)
 index, wall = meshhood.MeshIndex(V, F), V[:, 0] < V[5456, 0] - 20
 hemisphere = np.flatnonzero((V[:, 2] > 10) & ~wall)
-patch = index.query_ball(5456, 8.0)
+patch = index.neighborhood(5456, 8.0)
 first, second = random.normal(size=(2, 2, 20, len(V)))  # half, trial, vertex
 second[..., patch] += random.choice([-0.3, 0.3], size=len(patch))
 lights = index.radius_neighbors_graph(8.0, vertices=hemisphere, metric="path", walls=wall)

@@ -16,7 +16,7 @@ V, F = cortex()
 index = meshhood.MeshIndex(V, F)
 wall = np.linalg.norm(V - V[5456] - (-24, 2, 0), axis=1) < 8
 values = np.random.default_rng(1).normal(0, 0.5, len(V)) + 5 * wall
-values[index.query_ball(5456, 8.0)] += 1
+values[index.neighborhood(5456, 8.0)] += 1
 smooth = index.smooth(values, fwhm=6.0, metric="path", walls=wall)
 d = KDTree(V).sparse_distance_matrix(KDTree(V), 9.47, output_type="coo_matrix")  # the same kernel in space
 d.data = 0.5 ** ((d.data / 3) ** 2)

@@ -15,7 +15,7 @@ from made_meshes import bowl
 
 V, F = bowl()
 index = meshhood.MeshIndex(V, F)
-other, gap = index.nearest_unconnected(None, 7.0)
+other, gap = index.nearest_unconnected(7.0)
 
 mesh = pyvista.PolyData.from_regular_faces(V, F)
 mesh["mm"] = np.where(other >= 0, gap, np.nan)

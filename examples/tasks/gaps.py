@@ -3,4 +3,4 @@ import sys, meshhood  # noqa: E401
 V, F = meshhood.read_mesh(sys.argv[1])
 
 index = meshhood.MeshIndex(V, F)
-result = index.nearest_unconnected(None, 3.0)
+result = index.nearest_unconnected(3.0)

@@ -4,4 +4,4 @@ V, F = meshhood.read_mesh(sys.argv[1])
 edge = meshhood.MeshIndex(V, F).mean_edge_length
 
 index = meshhood.MeshIndex.from_points(V, link=2 * edge)
-result = index.count(None, 4 * edge)
+result = index.counts(4 * edge)

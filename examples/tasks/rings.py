@@ -3,4 +3,4 @@ import sys, meshhood  # noqa: E401
 V, F = meshhood.read_mesh(sys.argv[1])
 
 index = meshhood.MeshIndex(V, F)
-result = index.query_ball(None, 3, metric="rings")
+result = index.neighborhoods(3, metric="rings")

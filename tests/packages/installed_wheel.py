@@ -84,14 +84,14 @@ def check_answers(folder):
         index = meshhood.MeshIndex(positions, F)
         for r in (0.0, 1.5, 4.0, 9.0):
             vertices = random.choice(len(V), 40, replace=False)
-            indptr, indices = index.query_ball(vertices, r)
+            indptr, indices = index.neighborhoods(r, vertices)
             for row, v in enumerate(vertices):
                 expected = breadth_first(positions.astype(float), neighbors, v, r)
                 assert sorted(indices[indptr[row] : indptr[row + 1]].tolist()) == expected, (kind, v, r)
-                assert sorted(index.query_ball(v, r).tolist()) == expected, (kind, v, r)
+                assert sorted(index.neighborhood(v, r).tolist()) == expected, (kind, v, r)
                 sizes.append(len(expected))
     index = meshhood.MeshIndex(V, F)
-    assert (meshhood.load(saved).count(None, 4.0) == index.count(None, 4.0)).all()
+    assert (meshhood.load(saved).counts(4.0) == index.counts(4.0)).all()
     assert np.isfinite(index.curvature(3.0).k1).all()
     assert np.allclose(index.smooth(np.ones(len(V)), fwhm=3.0), 1.0)
     assert "meshhood-mesh" in meshhood.view(V, F, v=5, r=3.0).html
@@ -111,7 +111,7 @@ def check_command(folder, kernels):
     run("batch", "scroll.ply", "-r", "5", "--unit", "edge", "-o", "scroll.npz", "--order", "vertex")
     V, F = meshhood.read_mesh(folder / "scroll.ply")[:2]
     rows = np.load(folder / "scroll.npz")
-    indptr, indices = meshhood.MeshIndex(V, F).query_ball(None, 5, unit="edge")
+    indptr, indices = meshhood.MeshIndex(V, F).neighborhoods(5, unit="edge")
     assert (rows["indptr"] == indptr).all()
     assert sorted(rows["indices"][: indptr[1]]) == sorted(indices[: indptr[1]])
     assert "vertices" in json.loads(run("info", "scroll.ply", "--json"))

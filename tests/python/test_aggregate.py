@@ -122,7 +122,7 @@ def test_smooth(plates):
 def test_smooth_is_a_gaussian_of_the_width(plates, metric):
     _, _, _, index, values = plates
     kept = np.arange(len(index)) % 5 > 0
-    ids, distances = index.query_ball(20, 3 * 2.0, metric=metric, ignored=~kept, return_distance=True)
+    ids, distances = index.neighborhood(20, 3 * 2.0, metric=metric, ignored=~kept, return_distance=True)
     deviation = 2.0 / np.sqrt(8 * np.log(2))
     weights = np.exp(-((distances / deviation) ** 2) / 2)
     weights[weights < 1 / 1000] = 0  # where the ball is larger, it has the same part of this plate

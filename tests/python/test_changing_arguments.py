@@ -28,12 +28,12 @@ def run(program):
 
 
 @pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("name", ("query_ball", "count"))
+@pytest.mark.parametrize("name", ("neighborhoods", "counts"))
 @pytest.mark.parametrize("which", ("v", "r"))
 def test_a_progress_function_may_write_to_the_arguments(method, name, which):
     run(f"""
 v, r = np.arange(len(index), dtype=np.int32), np.full(len(index), 3.0)
-call = lambda **options: getattr(index, {name!r})(v, r, method={method!r}, **options)
+call = lambda **options: getattr(index, {name!r})(r, v, method={method!r}, **options)
 wanted = call()
 written = {which}
 value = {{"v": -2**31, "r": np.nan}}[{which!r}]
@@ -65,7 +65,7 @@ def numbers(result):
     if hasattr(result, "tocsr"):
         return result.indptr, result.indices, result.data
     if isinstance(result, meshhood.MeshIndex):
-        return [result.positions, *result.query_ball(None, 2.0)]
+        return [result.positions, *result.neighborhoods(2.0)]
     return result if isinstance(result, tuple) else (result,)
 """
 
@@ -74,9 +74,9 @@ FILTERED = "scales=r, walls=walls, ignored=ignored, progress=p"
 FILTER = {"r": "r", "walls": "walls", "ignored": "ignored"}
 
 CALLS = {
-    "query_ball": ("index.query_ball(v, r, progress=p)", {"v": "vertices", "r": "radii"}),
-    "count": ("index.count(v, r, progress=p)", {"v": "vertices", "r": "radii"}),
-    "along edges": ("index.query_ball(v, r, metric='path', progress=p)", {"v": "vertices", "r": "radii"}),
+    "neighborhoods": ("index.neighborhoods(r, v)", {"v": "vertices", "r": "radii"}),
+    "counts": ("index.counts(r, v)", {"v": "vertices", "r": "radii"}),
+    "along edges": ("index.neighborhoods(r, v, metric='path')", {"v": "vertices", "r": "radii"}),
     "aggregate": (
         "index.aggregate(values, scales=r, weights=weights, vertices=v, progress=p)",
         {"values": "values", "r": "r", "weights": "weights", "v": "vertices"},
@@ -111,10 +111,10 @@ CALLS = {
     "build": ("meshhood.MeshIndex(V, F, cut=cut, progress=p)", {"V": "V", "F": "F", "cut": "cut"}),
     "refit": ("index.refit(moved, progress=p)", {"moved": "moved"}),
     "refit of some": ("index.refit(moved, changed, progress=p)", {"moved": "moved", "changed": "changed"}),
-    "query_ball with masks": (f"index.query_ball(v, {FILTERED})", {"v": "vertices", **FILTER}),
-    "count with masks": (f"index.count(v, {FILTERED})", {"v": "vertices", **FILTER}),
-    "along edges with masks": (f"index.query_ball(v, metric='path', {FILTERED})", {"v": "vertices", **FILTER}),
-    "rings with masks": (f"index.query_ball(v, metric='rings', {FILTERED})", {"v": "vertices", **FILTER}),
+    "neighborhoods with masks": (f"index.neighborhoods(vertices=v, {FILTERED})", {"v": "vertices", **FILTER}),
+    "counts with masks": (f"index.counts(vertices=v, {FILTERED})", {"v": "vertices", **FILTER}),
+    "along edges with masks": (f"index.neighborhoods(vertices=v, {FILTERED}, metric='path')", {"v": "vertices", **FILTER}),
+    "rings with masks": (f"index.neighborhoods(vertices=v, {FILTERED}, metric='rings')", {"v": "vertices", **FILTER}),
     "graph with masks": (f"index.radius_neighbors_graph(vertices=v, {FILTERED})", {"v": "vertices", **FILTER}),
     "aggregate with masks": (f"index.aggregate(values, {FILTERED})", {"values": "values", **FILTER}),
     "aggregate along edges": (
@@ -140,19 +140,19 @@ CALLS = {
     ),
     "features with masks": (f"index.features(F=F, kinds=('crease', 'area'), {FILTERED})", {"F": "F", **FILTER}),
     "nearest unconnected": (
-        "index.nearest_unconnected(v, r, walls=walls, ignored=ignored, progress=p)",
+        "index.nearest_unconnected(r, v, walls=walls, ignored=ignored, progress=p)",
         {"v": "vertices", "r": "radii", "walls": "walls", "ignored": "ignored"},
     ),
     "k nearest": (
-        "index.query_knn(v, 9, walls=walls, ignored=ignored, progress=p)",
+        "index.k_nearest(9, v, walls=walls, ignored=ignored, progress=p)",
         {"v": "vertices", "walls": "walls", "ignored": "ignored"},
     ),
     "k nearest along edges": (
-        "index.query_knn(v, 9, metric='path', walls=walls, ignored=ignored, progress=p)",
+        "index.k_nearest(9, v, metric='path', walls=walls, ignored=ignored, progress=p)",
         {"v": "vertices", "walls": "walls", "ignored": "ignored"},
     ),
     "discs": (
-        "index.query_knn(v, until=9.0, weights=weights, walls=walls, ignored=ignored, progress=p)",
+        "index.discs(9.0, v, weights=weights, walls=walls, ignored=ignored, progress=p)",
         {"v": "vertices", "weights": "weights", "walls": "walls", "ignored": "ignored"},
     ),
     "closest points": ("index.closest_point(q, F=F, progress=p)", {"q": "points", "F": "F"}),
@@ -211,14 +211,14 @@ for name in names:
 def test_the_allocation_of_a_result_may_write_to_the_arguments(which):
     run(f"""
 v, r = np.arange(len(index), dtype=np.int32), np.full(len(index), 3.0)
-wanted = index.query_ball(v, r, return_distance=True)
+wanted = index.neighborhoods(r, v, return_distance=True)
 empty, written = np.empty, []
 def write(*arguments, **options):
     {which}[:] = -1
     written.append(1)
     return empty(*arguments, **options)
 np.empty = write
-got = index.query_ball(v, r, return_distance=True)
+got = index.neighborhoods(r, v, return_distance=True)
 assert written
 for one, other in zip(got, wanted):
     np.testing.assert_array_equal(one, other)
@@ -242,7 +242,7 @@ for _ in range({times}):
 def test_a_thread_may_write_to_the_vertices(method):
     run(f"""
 written, values = np.arange(len(index), dtype=np.int32), (0, 2**31 - 1, -1)
-call = lambda: index.query_ball(written, 2.0, method={method!r})
+call = lambda: index.neighborhoods(2.0, written, method={method!r})
 """ + WRITES.format(times=TIMES))
 
 
@@ -311,9 +311,9 @@ call = lambda: pickle.loads(pickled, buffers=sent).aggregate(np.ones(len(index))
 def test_chunks_are_those_of_the_arguments_at_the_call(method):
     index = meshhood.MeshIndex(*meshes.two_plates(12))
     v, r = np.arange(100, dtype=np.int32), np.linspace(0, 3, 100)
-    wanted = index.query_ball(v, r, method=method)
+    wanted = index.neighborhoods(r, v, method=method)
     rows = []
-    parts = index.iter_neighborhoods(v, r, chunk=9, method=method)
+    parts = index.iter_neighborhoods(r, v, chunk=9, method=method)
     v[:50] = -1
     for part in parts:
         rows.append(part)
@@ -325,8 +325,8 @@ def test_chunks_are_those_of_the_arguments_at_the_call(method):
 def test_chunks_are_those_of_the_masks_at_the_call():
     index = meshhood.MeshIndex(*meshes.two_plates(12))
     masks = {"walls": np.arange(len(index)) % 5 == 0, "ignored": np.arange(len(index)) % 3 == 0}
-    wanted = index.query_ball(None, 2.0, **masks)
-    parts = index.iter_neighborhoods(None, 2.0, chunk=9, **masks)
+    wanted = index.neighborhoods(2.0, **masks)
+    parts = index.iter_neighborhoods(2.0, chunk=9, **masks)
     for mask in masks.values():
         mask[:] = True
     np.testing.assert_array_equal(np.concatenate([part.indices for part in parts]), wanted[1])
@@ -335,12 +335,12 @@ def test_chunks_are_those_of_the_masks_at_the_call():
 def test_the_arguments_of_chunks_are_checked_at_the_call():
     index = meshhood.MeshIndex(*meshes.two_plates(5))
     for arguments, options, error in (
-        (([50], 1.0), {}, ValueError),
-        (([0], -1.0), {}, ValueError),
-        (([0], 1.0), {"workers": 0}, ValueError),
-        (([0], 1.0), {"method": "fast"}, ValueError),
-        (([0], 1.0), {"unit": "mile"}, ValueError),
-        (([0], 1.0), {"order": "file"}, ValueError),
+        ((1.0, [50]), {}, ValueError),
+        ((-1.0, [0]), {}, ValueError),
+        ((1.0, [0]), {"workers": 0}, ValueError),
+        ((1.0, [0]), {"method": "fast"}, ValueError),
+        ((1.0, [0]), {"unit": "mile"}, ValueError),
+        ((1.0, [0]), {"order": "file"}, ValueError),
     ):
         with pytest.raises(error):
             index.iter_neighborhoods(*arguments, **options)

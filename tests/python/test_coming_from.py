@@ -31,7 +31,7 @@ def common():
     sphere = trimesh.creation.icosphere(subdivisions=3)
     V, F = np.array(sphere.vertices), np.array(sphere.faces, np.int64)
     index = meshhood.MeshIndex(V, F)
-    ids = index.query_ball(42, 0.4)
+    ids = index.neighborhood(42, 0.4)
     return {
         **{"meshhood": meshhood, "MeshIndex": meshhood.MeshIndex, "np": np, "sphere": sphere},
         **{"V": V, "F": F, "P": V, "index": index, "ids": ids, "near": ids},

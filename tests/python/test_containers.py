@@ -13,7 +13,7 @@ F = meshes.triangles(QUADS)
 ENDS = QUADS.ravel(), np.roll(QUADS, -1, axis=1).ravel()
 SHAPE = (len(V), len(V))
 KINDS = (csr_array, csc_array, bsr_array, coo_array, dia_array, dok_array, lil_array)
-WANTED = meshhood.MeshIndex(V, QUADS).query_ball(None, 1.5, sort="id")[1]
+WANTED = meshhood.MeshIndex(V, QUADS).neighborhoods(1.5, sort="id")[1]
 
 
 def graph(kind):
@@ -23,7 +23,7 @@ def graph(kind):
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_sparse_format_is_read(kind):
     index = meshhood.MeshIndex(V, graph(kind))
-    np.testing.assert_array_equal(index.query_ball(None, 1.5, sort="id")[1], WANTED)
+    np.testing.assert_array_equal(index.neighborhoods(1.5, sort="id")[1], WANTED)
 
 
 def test_blocks_are_read():
@@ -33,7 +33,7 @@ def test_blocks_are_read():
     rows, columns = blocks.tocoo().coords  # a block stores all of its entries
     wanted = meshhood.MeshIndex(V, coo_array((np.ones(len(rows)), (rows, columns)), shape=SHAPE))
     got = meshhood.MeshIndex(V, blocks)
-    np.testing.assert_array_equal(got.query_ball(None, 1.5, sort="id")[1], wanted.query_ball(None, 1.5, sort="id")[1])
+    np.testing.assert_array_equal(got.neighborhoods(1.5, sort="id")[1], wanted.neighborhoods(1.5, sort="id")[1])
 
 
 def set_value(name, at, value):
@@ -148,7 +148,7 @@ def test_a_memory_map_may_be_replaced_after_the_call(tmp_path):
     index = meshhood.MeshIndex(mapped, QUADS)
     mapped[:] = np.nan
     (tmp_path / "V.npy").write_bytes(b"")
-    np.testing.assert_array_equal(index.query_ball(None, 1.5, sort="id")[1], WANTED)
+    np.testing.assert_array_equal(index.neighborhoods(1.5, sort="id")[1], WANTED)
 
 
 def soup(V, F):
@@ -165,7 +165,7 @@ def test_an_unwelded_mesh_causes_a_warning_whose_advice_welds_it(faces):
     exec(str(caught[0].message).split("Weld the mesh first: ")[1], names)
     welded = meshhood.MeshIndex(names["V"], names["F"])  # no warning
     assert len(welded) == len(V)
-    assert welded.count(None, np.inf).min() == len(V)
+    assert welded.counts(np.inf).min() == len(V)
 
 
 def test_quads_that_are_split_but_not_welded_cause_a_warning():

@@ -77,23 +77,23 @@ def test_parts_describe_the_mesh(parts, index):
 
 @pytest.mark.parametrize("r", (0, 1, 1.5, 4.25, HALO))
 def test_counts_are_those_of_one_index(parts, index, r):
-    counts = parts.count(r)
+    counts = parts.counts(r)
     assert counts.shape == (len(index),)
-    np.testing.assert_array_equal(counts.compute(), index.count(None, r))
+    np.testing.assert_array_equal(counts.compute(), index.counts(r))
 
 
 def test_counts_in_the_order_of_the_parts(parts, index):
-    counts = parts.count(2, unit="edge", order="parts")
+    counts = parts.counts(2, unit="edge", order="parts")
     assert counts.chunks == (tuple(size.owned for size in parts.sizes),)
     ids = parts.ids().compute()
     assert sorted(ids) == list(range(len(index)))
-    np.testing.assert_array_equal(counts.compute(), index.count(ids, 2, unit="edge"))
+    np.testing.assert_array_equal(counts.compute(), index.counts(2, ids, unit="edge"))
 
 
 def test_a_radius_above_the_halo_is_refused_naming_the_required_halo(parts, tmp_path):
     wider = np.nextafter(HALO, 10)
     for call in (
-        lambda: parts.count(wider),
+        lambda: parts.counts(wider),
         lambda: parts.map(len, wider),
         lambda: parts.neighborhoods(wider, tmp_path / "out"),
         lambda: parts.write(len, wider, tmp_path / "out"),
@@ -105,7 +105,7 @@ def test_a_radius_above_the_halo_is_refused_naming_the_required_halo(parts, tmp_
 
 def sum_of_x(part, index, owned):
     x = index.positions[:, 0].astype(np.float64)
-    indptr, indices = index.query_ball(owned, HALO, sort="id", workers=1)
+    indptr, indices = index.neighborhoods(HALO, owned, sort="id", workers=1)
     return np.add.reduceat(x[indices], indptr[:-1])
 
 
@@ -215,7 +215,7 @@ def test_neighborhoods_are_those_of_one_index(parts, index, tmp_path, format):
         vertices, indptr, indices, distances = (
             np.asarray(found[name]) for name in ("vertices", "indptr", "indices", "distances")
         )
-        expected = index.query_ball(vertices, 3.5, sort="id", return_distance=True)
+        expected = index.neighborhoods(3.5, vertices, sort="id", return_distance=True)
         for one, other in zip((indptr, indices, distances), expected):
             np.testing.assert_array_equal(one, other)
         rows += len(vertices)
@@ -317,7 +317,7 @@ def test_partition_reads_arrays(mesh, index, tmp_path):
     assert len(parts) == -(-len(V) // 1000)
     assert parts.halo == 3 * index.mean_edge_length
     np.testing.assert_array_equal(
-        parts.count(3, unit="edge").compute(), index.count(None, 3, unit="edge")
+        parts.counts(3, unit="edge").compute(), index.counts(3, unit="edge")
     )
 
 
@@ -400,7 +400,7 @@ def client():
 
 
 def test_a_cluster_of_processes_gives_the_same(parts, index, client, tmp_path):
-    np.testing.assert_array_equal(parts.count(HALO).compute(), index.count(None, HALO))
+    np.testing.assert_array_equal(parts.counts(HALO).compute(), index.counts(HALO))
     paths = parts.neighborhoods(2, tmp_path / "out")
     vertices = np.concatenate([np.load(path)["vertices"] for path in paths])
     assert sorted(vertices) == list(range(len(index)))
@@ -416,7 +416,7 @@ def slow_count(folder, part, index, owned):
     """Writes which process computes the part, and leaves time to kill it."""
     with open(os.path.join(folder, f"{part.number}-{os.getpid()}"), "w"):
         time.sleep(0.3)
-    return index.count(owned, 3, workers=1)
+    return index.counts(3, owned, workers=1)
 
 
 class SlowCount:
@@ -443,7 +443,7 @@ def test_a_worker_that_is_killed_loses_only_its_parts(parts, index, client, tmp_
     counts = np.empty(len(index), int)
     for number, path in enumerate(paths):
         counts[parts.open(number).vertices[parts.open(number).owned]] = np.load(path)
-    np.testing.assert_array_equal(counts, index.count(None, 3))
+    np.testing.assert_array_equal(counts, index.counts(3))
     tries = [name.split("-") for name in os.listdir(begun)]
     by_others = [number for number, pid in tries if int(pid) != killed[0]]
     assert len(by_others) == len(set(by_others)), "parts of other workers are not computed again"
@@ -473,7 +473,7 @@ def test_parts_that_replace_others_are_used(mesh, index, tmp_path, how, where, r
     for n, halo in REPLACED:
         for file, whole in zip(files, (index, other)):
             parts = partition_again(file, tmp_path / "parts", n, halo, how)
-            np.testing.assert_array_equal(parts.count(halo).compute(), whole.count(None, halo))
+            np.testing.assert_array_equal(parts.counts(halo).compute(), whole.counts(halo))
             maxima = parts.aggregate(values, halo, "max").compute()
             np.testing.assert_array_equal(maxima, whole.aggregate(values, halo, "max"))
             corners = np.bincount(F.ravel(), minlength=len(V))
@@ -486,13 +486,13 @@ def test_parts_that_were_replaced_are_right_or_refused(mesh, tmp_path, how):
     file = write_ply(tmp_path / "mesh.ply", V, F)
     old = partition_again(file, tmp_path / "parts", 4, 3.0, how)
     part = old.open(1)
-    counts = part.index.count(part.owned, 3.0)
+    counts = part.index.counts(3.0, part.owned)
     new = partition_again(file, tmp_path / "parts", 3, HALO, how)
     with pytest.raises(ValueError, match="other parts have replaced those that were opened"):
         old.open(2)
     with pytest.raises(ValueError, match="other parts have replaced those that were opened"):
         old.count(3.0).compute()
-    np.testing.assert_array_equal(part.index.count(part.owned, 3.0), counts)
+    np.testing.assert_array_equal(part.index.counts(3.0, part.owned), counts)
     with pytest.raises(ValueError, match="part-00001/face_corners.npy"):
         part.mesh
     shutil.rmtree(tmp_path / "parts")
@@ -556,7 +556,7 @@ def test_a_part_that_is_emptied_while_it_is_opened_is_refused(folder, tmp_path, 
 
 
 def mean_count(index):
-    return np.array([index.count(None, 2, workers=1).mean()])
+    return np.array([index.counts(2, workers=1).mean()])
 
 
 def test_map_meshes_takes_meshes_and_indexes(tmp_path):

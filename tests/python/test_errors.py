@@ -165,14 +165,14 @@ def test_arguments_that_are_not_paths_are_refused(call, path):
     ),
 )
 def test_every_method_and_function_gives_the_same_error(v, r, options):
-    calls = INDEX.query_ball, INDEX.count, INDEX.iter_neighborhoods
-    errors = [raised(call, v, r, method=method, **options) for call in calls for method in METHODS]
+    calls = INDEX.neighborhoods, INDEX.counts, INDEX.iter_neighborhoods
+    errors = [raised(call, r, v, method=method, **options) for call in calls for method in METHODS]
     assert len({(type(error), str(error)) for error in errors}) == 1, errors
 
 
 @pytest.mark.parametrize(("v", "r"), ((50, 1.0), (-1, 1.0), (0, -1.0), (0, float("nan")), (True, 1.0), (0, True), (0, [1.0])))
 def test_every_method_and_function_gives_the_same_error_for_one_vertex(v, r):
-    calls = INDEX.query_ball, INDEX.count
+    calls = INDEX.neighborhood, INDEX.count
     errors = [raised(call, v, r, method=method) for call in calls for method in METHODS]
     assert len({(type(error), str(error)) for error in errors}) == 1, errors
 
@@ -191,7 +191,7 @@ def test_a_result_that_cannot_fit_is_refused_before_its_rows_are_counted(monkeyp
     for options in ({"max_bytes": 10**9}, {}):
         monkeypatch.setattr(_convert, "free_bytes", lambda: 10**9)
         with pytest.raises(MemoryError, match="exceeds max_bytes, 1000000000; iter_neighborhoods"):
-            index.query_ball(None, np.inf, **options, progress=lambda done, total: reports.append(done / total))
+            index.neighborhoods(np.inf, progress=lambda done, total: reports.append(done / total), **options)
         with pytest.raises(MemoryError, match="exceeds max_bytes, 1000000000; iter_neighborhoods"):
             index.radius_neighbors_graph(np.inf, **options)
     print(f"refused after {max(reports):.2%} of the work")
@@ -200,12 +200,12 @@ def test_a_result_that_cannot_fit_is_refused_before_its_rows_are_counted(monkeyp
 
 @pytest.mark.parametrize("method", METHODS)
 def test_a_result_of_just_the_limit_is_returned(method):
-    wanted = INDEX.query_ball(None, 2.0, return_distance=True, method=method)
+    wanted = INDEX.neighborhoods(2.0, return_distance=True, method=method)
     size = len(wanted[1]) * 12
-    got = INDEX.query_ball(None, 2.0, return_distance=True, method=method, max_bytes=size)
+    got = INDEX.neighborhoods(2.0, return_distance=True, method=method, max_bytes=size)
     np.testing.assert_array_equal(got[1], wanted[1])
     with pytest.raises(MemoryError, match="max_bytes"):
-        INDEX.query_ball(None, 2.0, return_distance=True, method=method, max_bytes=size - 1)
+        INDEX.neighborhoods(2.0, return_distance=True, method=method, max_bytes=size - 1)
 
 
 NAMES = [name for name in dir(meshhood.MeshIndex) if not name.startswith("_")]
@@ -224,28 +224,29 @@ def test_the_class_can_be_used_as_others():
     from abc import ABC
 
     class Abstract(meshhood.MeshIndex, ABC):
-        def query_ball(self, *arguments, **words):
-            return super().query_ball(*arguments, **words)
+        def neighborhood(self, *arguments, **words):
+            return super().neighborhood(*arguments, **words)
 
     index = Abstract(*meshes.two_plates(5))
-    wanted = INDEX.query_ball(3, 2.0)
-    for found in (index.query_ball(3, 2.0), Abstract.query_ball(index, 3, 2.0), meshhood.MeshIndex.query_ball(index, 3, 2.0)):
+    wanted = INDEX.neighborhood(3, 2.0)
+    by_class = (cls.neighborhood(index, 3, 2.0) for cls in (Abstract, meshhood.MeshIndex))
+    for found in (index.neighborhood(3, 2.0), *by_class):
         np.testing.assert_array_equal(found, wanted)
 
 
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     (
-        (lambda: INDEX.query_ball(3), TypeError, "r: missing"),
-        (lambda: INDEX.query_ball([3]), TypeError, "r: missing"),
-        (lambda: INDEX.count(3), TypeError, "r: missing"),
+        (lambda: INDEX.neighborhood(3, None), TypeError, "r: missing"),
+        (lambda: INDEX.neighborhoods(vertices=[3]), TypeError, "r: missing"),
+        (lambda: INDEX.count(3, None), TypeError, "r: missing"),
+        (lambda: INDEX.neighborhoods(2.0, 3), TypeError, r"vertices: one vertex, .* neighborhood\(start, r\)"),
         (lambda: INDEX.curvature(), TypeError, "r: missing"),
         (lambda: INDEX.curvature(1.0, scales=[1.0]), TypeError, "r: given, but so are scales"),
         (lambda: INDEX.smooth(np.ones(50)), TypeError, "fwhm: missing"),
         (lambda: INDEX.smooth(np.ones(50), 1.0, scales=[1.0]), TypeError, "fwhm: given, but so are scales"),
         (lambda: INDEX.smoothing_matrix(), TypeError, "fwhm: missing"),
         (lambda: INDEX.smooth(np.ones(50), 1.0, weights=-np.ones(50)), ValueError, "weights: vertex 0: -1.0"),
-        (lambda: INDEX.radius_neighbors_graph(1.0, sort="distance"), ValueError, "sort: 'distance', expected None or 'id'"),
         (lambda: meshhood.MeshIndex("hand.stl"), TypeError, r"V: a path, .* read_mesh\(path\)"),
         (lambda: meshhood.MeshIndex("hand.stl", [[0, 1, 2]]), TypeError, r"V: a path, .* read_mesh\(path\)"),
         (lambda: INDEX.refit("hand.stl"), TypeError, r"V: a path, .* read_mesh\(path\)"),

@@ -42,7 +42,7 @@ import numpy as np
 def ids(part, index, owned):
     return np.repeat(part.vertices[owned], 20)[:, None].reshape(len(owned), 20)
 def counts(index):
-    return index.count(None, 1.0, workers=1)
+    return index.counts(1.0, workers=1)
 place = pathlib.Path(tempfile.mkdtemp())
 V, F = meshes.two_plates(30)
 index, smaller = meshhood.MeshIndex(V, F), meshhood.MeshIndex(*meshes.two_plates(3))

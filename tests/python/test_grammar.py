@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""One grammar: every call on many vertices takes every word, and the result is that of the same words put together by
-hand. test_words.py looks at single words more closely."""
+"""One grammar: every call on many vertices takes every argument, and the result is that of the same arguments put together by
+hand. test_words.py looks at single arguments more closely."""
 
 import meshes
 import meshhood
@@ -32,11 +32,11 @@ def dense(indptr, ids, distances, words):
 
 
 def listed(index, r=None, vertices=None, **words):
-    return dense(*index.query_ball(vertices, r, return_distance=True, **words), words)
+    return dense(*index.neighborhoods(r, vertices, return_distance=True, **words), words)
 
 
 def iterated(index, r=None, vertices=None, **words):
-    parts = list(index.iter_neighborhoods(vertices, r, chunk=50, return_distance=True, **words))
+    parts = list(index.iter_neighborhoods(r, vertices, chunk=50, return_distance=True, **words))
     indptr = np.cumsum([0, *np.concatenate([np.diff(part.indptr) for part in parts])])
     return dense(indptr, np.concatenate([p.indices for p in parts]), np.concatenate([p.distances for p in parts]), words)
 
@@ -61,7 +61,7 @@ def columns(found):
     return np.concatenate([np.asarray(part, float).reshape(*found[0].shape, -1) for part in found], axis=axes)
 
 
-LISTS = {"query_ball": listed, "iter_neighborhoods": iterated, "radius_neighbors_graph": graph}
+LISTS = {"neighborhoods": listed, "iter_neighborhoods": iterated, "radius_neighbors_graph": graph}
 VALUES_OVER = {
     "aggregate": lambda index, r=None, **words: index.aggregate(VALUES, r, "sum", **words),
     "smooth": lambda index, r=None, **words: index.smooth(VALUES, r, **words),
@@ -74,7 +74,7 @@ SHAPE = {
     "principal_components": lambda index, r=None, **words: columns(index.principal_components(r, **words)),
     "features": lambda index, r=None, **words: index.features(r, kinds=("crease", "area"), **words),
 }
-COUNTS = {"count": lambda index, r=None, vertices=None, **words: index.count(vertices, r, **words)}
+COUNTS = {"counts": lambda index, r=None, vertices=None, **words: index.counts(r, vertices, **words)}
 CALLS = {**LISTS, **COUNTS, **VALUES_OVER, **SHAPE}
 EACH = pytest.mark.parametrize("name", CALLS)
 
@@ -126,7 +126,7 @@ def test_ignored(name):
     lists[:, IGNORED] = 0
     if name in LISTS:
         return np.testing.assert_array_equal(found, lists)
-    if name == "count":
+    if name == "counts":
         return np.testing.assert_array_equal(found, (lists > 0).sum(axis=1))
     if name == "aggregate":
         return close(found, (lists > 0) @ VALUES)
@@ -148,9 +148,9 @@ def lists_by(metric, r):
     lists = np.zeros((COUNT, COUNT))
     for v in range(COUNT):
         if metric == "path":
-            ids, lengths = INDEX.query_region(v, r, return_distance=True, metric="path", walls=WALLS, ignored=IGNORED)
+            ids, lengths = INDEX.neighborhood(v, r, return_distance=True, metric="path", walls=WALLS, ignored=IGNORED)
         else:
-            counts, ids = INDEX.query_rings(v, int(r), walls=WALLS, ignored=IGNORED)
+            counts, ids = INDEX.nested(v, range(int(r) + 1), metric="rings", walls=WALLS, ignored=IGNORED)
             lengths = np.repeat(np.arange(len(counts)), np.diff(counts, prepend=0))
         lists[v, ids] = 1 + lengths
     return lists
@@ -165,7 +165,7 @@ def test_metric(name, metric):
     with np.errstate(invalid="ignore"):
         mean = weights / weights.sum(axis=1, keepdims=True)
     wanted = {
-        "count": lambda: (lists > 0).sum(axis=1),
+        "counts": lambda: (lists > 0).sum(axis=1),
         "aggregate": lambda: (lists > 0) @ VALUES,
         "smooth": lambda: mean @ VALUES,
         "smoothing_matrix": lambda: np.nan_to_num(mean),
@@ -212,10 +212,12 @@ def test_unit(name):
 def test_workers_and_progress(name):
     reports = []
     words = {"walls": WALLS, "scales": [1.5, 2.5]}
-    found = CALLS[name](INDEX, workers=3, progress=lambda done, total: reports.append((done, total)), **words)
-    np.testing.assert_array_equal(found, CALLS[name](INDEX, workers=1, **words))
-    if name != "iter_neighborhoods":  # whose caller sees how far it is
+    if name == "iter_neighborhoods":  # whose caller sees how far it is
+        found = CALLS[name](INDEX, workers=3, **words)
+    else:
+        found = CALLS[name](INDEX, workers=3, progress=lambda done, total: reports.append((done, total)), **words)
         assert reports[-1][0] == reports[-1][1] > 0 and reports == sorted(reports)
+    np.testing.assert_array_equal(found, CALLS[name](INDEX, workers=1, **words))
 
 
 @pytest.mark.parametrize("name", (*LISTS, *VALUES_OVER))
@@ -235,24 +237,24 @@ def test_dtype_of_the_shape(name):
 
 
 @pytest.mark.parametrize("sort", ("index", "id", "distance"))
-@pytest.mark.parametrize("name", ("query_ball", "iter_neighborhoods"))
+@pytest.mark.parametrize("name", ("neighborhoods", "iter_neighborhoods"))
 def test_sort(name, sort):
     place = np.argsort(INDEX.permutation)
     words = {"walls": WALLS, "return_distance": True, "sort": sort}
-    if name == "query_ball":
-        indptr, ids, distances = INDEX.query_ball(None, R, **words)
+    if name == "neighborhoods":
+        indptr, ids, distances = INDEX.neighborhoods(R, **words)
     else:
-        ((_, indptr, ids, distances),) = INDEX.iter_neighborhoods(None, R, chunk=COUNT, **words)
+        ((_, indptr, ids, distances),) = INDEX.iter_neighborhoods(R, chunk=COUNT, **words)
     for begin, end in zip(indptr[:-1], indptr[1:]):
         keys = {"id": ids, "index": place[ids], "distance": distances}[sort][begin:end]
         assert list(keys) == sorted(keys)
 
 
 def test_nearest_vertices_take_the_words_too():
-    """`query_knn` and `nearest_unconnected` have rows, metrics, masks, units and workers."""
+    """`k_nearest` and `nearest_unconnected` have rows, metrics, masks, units and workers."""
     for call in (
-        lambda **words: INDEX.query_knn(words.pop("vertices", None), 9, **words)[1],
-        lambda **words: INDEX.nearest_unconnected(words.pop("vertices", None), words.pop("r", 0.5), **words)[1],
+        lambda **words: INDEX.k_nearest(9, words.pop("vertices", None), **words)[1],
+        lambda **words: INDEX.nearest_unconnected(words.pop("r", 0.5), words.pop("vertices", None), **words)[1],
     ):
         whole = call(walls=WALLS, ignored=IGNORED, workers=1)
         np.testing.assert_array_equal(call(vertices=[5, 3, 3], walls=WALLS, ignored=IGNORED, workers=2), whole[[5, 3, 3]])
@@ -261,5 +263,3 @@ def test_nearest_vertices_take_the_words_too():
         np.testing.assert_array_equal(call(r=0.5, unit="edge"), call(r=0.5 * edge))
         with pytest.raises(ValueError, match="metric: 'ring', expected 'straight'"):
             call(metric="ring")
-        with pytest.raises(TypeError, match="wall: no argument of this call"):
-            call(wall=WALLS)

@@ -13,7 +13,7 @@ R = 1.5
 
 
 def answers(index):
-    return [a.tolist() for a in index.query_ball(None, R, sort="id")]
+    return [a.tolist() for a in index.neighborhoods(R, sort="id")]
 
 
 TRIANGLES = answers(meshhood.MeshIndex(V, F))
@@ -107,12 +107,12 @@ def test_nothing(faces):
     empty = meshhood.MeshIndex(np.zeros((0, 3)), faces)
     assert len(empty) == 0
     assert empty.permutation.shape == (0,)
-    assert [len(a) for a in empty.query_ball(None, 1.0, return_distance=True)] == [1, 0, 0]
-    assert empty.count([], 1.0).shape == (0,)
+    assert [len(a) for a in empty.neighborhoods(1.0, return_distance=True)] == [1, 0, 0]
+    assert empty.counts(1.0, []).shape == (0,)
     assert empty.radius_neighbors_graph(1.0).shape == (0, 0)
-    assert list(empty.iter_neighborhoods(None, 1.0)) == []
+    assert list(empty.iter_neighborhoods(1.0)) == []
     lonely = meshhood.MeshIndex(V, faces)
-    np.testing.assert_array_equal(lonely.query_ball(3, np.inf), [3])
+    np.testing.assert_array_equal(lonely.neighborhood(3, np.inf), [3])
 
 
 def with_value(array, at, value):
@@ -171,16 +171,16 @@ INDEX = meshhood.MeshIndex(V, F)
 @pytest.mark.parametrize(
     ("v", "r", "error", "message"),
     (
-        (36, 1, ValueError, "vertices: vertex 36, but the mesh has 36"),
-        (-1, 1, ValueError, "vertices: vertex -1"),
-        (2**70, 1, ValueError, "vertices: vertex 1180591620717411303424"),
-        (1.0, 1, TypeError, "vertices: .*float"),
+        (36, 1, ValueError, "start: vertex 36, but the mesh has 36"),
+        (-1, 1, ValueError, "start: vertex -1"),
+        (2**70, 1, ValueError, "start: vertex 1180591620717411303424"),
+        (1.0, 1, TypeError, "start: .*float"),
         ([0, 1, 36], 1, ValueError, "vertices: row 2: vertex 36"),
         (np.array([0, 2**32], np.uint64), 1, ValueError, "vertices: row 1: vertex 4294967296"),
         ([0.0], 1, TypeError, "vertices: .*float64"),
-        (True, 1, TypeError, "vertices: .*bool"),
-        (np.True_, 1, TypeError, "vertices: .*bool"),
-        (np.array(True), 1, TypeError, "vertices: "),
+        (True, 1, TypeError, "start: .*bool"),
+        (np.True_, 1, TypeError, "start: .*bool"),
+        (np.array(True), 1, TypeError, "start: "),
         ([0, True], 1, TypeError, "vertices: .*bool"),
         ([True], 1, ValueError, r"vertices: a bool mask of shape \(1,\), expected \(36,\)"),
         (np.ones((len(V), 1), bool), 1, ValueError, r"vertices: a bool mask of shape \(36, 1\)"),
@@ -203,19 +203,18 @@ INDEX = meshhood.MeshIndex(V, F)
 )
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
 def test_refused_queries(v, r, error, message, method):
-    calls = [INDEX.query_ball, INDEX.count]
-    if np.ndim(v):
-        calls.append(INDEX.iter_neighborhoods)
-    for call in calls:
+    of_one = INDEX.neighborhood, INDEX.count
+    of_many = INDEX.neighborhoods, INDEX.counts, INDEX.iter_neighborhoods
+    for call in of_many if np.ndim(v) else of_one:
         with pytest.raises(error, match=message):
-            call(v, r, method=method)
+            call(*((r, v) if call in of_many else (v, r)), method=method)
 
 
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     (
-        (lambda: INDEX.query_ball(0, 1, method="fast"), ValueError, "method: 'fast'"),
-        (lambda: INDEX.query_ball(0, 1, method=["exact"]), TypeError, "method: .*list"),
+        (lambda: INDEX.neighborhood(0, 1, method="fast"), ValueError, "method: 'fast'"),
+        (lambda: INDEX.neighborhood(0, 1, method=["exact"]), TypeError, "method: .*list"),
         (lambda: meshhood.Paper(levels=0), ValueError, "levels: 0, expected 1 to 64"),
         (lambda: meshhood.Paper(levels=65), ValueError, "levels: 65"),
         (lambda: meshhood.Paper(levels=2.0), TypeError, "levels: .*float"),
@@ -226,12 +225,12 @@ def test_refused_queries(v, r, error, message, method):
         (lambda: meshhood.Paper(radius_ratio=0), ValueError, "radius_ratio: 0.0, expected .* > 0"),
         (lambda: meshhood.Paper(radius_ratio=np.nan), ValueError, "radius_ratio: nan"),
         (lambda: meshhood.Paper(radius_ratio="10"), TypeError, "radius_ratio: .*<U2"),
-        (lambda: INDEX.query_ball([0], 1, workers=0), ValueError, "workers: 0"),
-        (lambda: INDEX.query_ball([0], 1, workers=1.5), TypeError, "workers: .*float"),
-        (lambda: INDEX.query_ball([0], 1, workers=True), TypeError, "workers: .*bool"),
-        (lambda: INDEX.query_ball([0], 1, progress=3), TypeError, "progress: .*int"),
+        (lambda: INDEX.neighborhoods(1, [0], workers=0), ValueError, "workers: 0"),
+        (lambda: INDEX.neighborhoods(1, [0], workers=1.5), TypeError, "workers: .*float"),
+        (lambda: INDEX.neighborhoods(1, [0], workers=True), TypeError, "workers: .*bool"),
+        (lambda: INDEX.neighborhoods(1, [0], progress=3), TypeError, "progress: .*int"),
         (lambda: INDEX.radius_neighbors_graph(1, mode="far"), ValueError, "mode: 'far'"),
-        (lambda: INDEX.iter_neighborhoods(None, 1, chunk=0), ValueError, "chunk: 0"),
+        (lambda: INDEX.iter_neighborhoods(1, chunk=0), ValueError, "chunk: 0"),
         (lambda: meshhood.MeshIndex(V, F, workers=5000), ValueError, "workers: 5000"),
     ),
 )

@@ -33,7 +33,7 @@ def curvature(index, r, **options):
 def without_end(index, method="exact", progress=None):
     """Batches without a receiver, in little memory."""
     while True:
-        index.count(None, SIDE / 3.0, method=method, progress=progress)
+        index.counts(SIDE / 3.0, method=method, progress=progress)
 
 
 def again_and_again(call):
@@ -180,8 +180,8 @@ def check_reports(call):
 
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
 def test_progress_of_a_batch(index, method):
-    check_reports(lambda watch: index.query_ball(range(100), 3.0, method=method, progress=watch))
-    check_reports(lambda watch: index.count(range(100), 3.0, method=method, progress=watch))
+    check_reports(lambda watch: index.neighborhoods(3.0, range(100), method=method, progress=watch))
+    check_reports(lambda watch: index.counts(3.0, range(100), method=method, progress=watch))
 
 
 @pytest.mark.parametrize("call", (aggregate, curvature))
@@ -199,7 +199,7 @@ def test_an_exception_of_progress_ends_the_call(index, method):
         raise LookupError("enough")
 
     with pytest.raises(LookupError, match="enough"):
-        index.query_ball(None, 1.0, method=method, progress=enough)
+        index.neighborhoods(1.0, method=method, progress=enough)
     with pytest.raises(LookupError, match="enough"):
         meshhood.MeshIndex(*meshes.two_plates(20), progress=enough)
     assert index.count(0, 0.0, method=method) == 1
@@ -207,7 +207,7 @@ def test_an_exception_of_progress_ends_the_call(index, method):
 
 def test_progress_bar(index, capsys):
     pytest.importorskip("tqdm")
-    index.query_ball(range(100), 1.0, progress=True)
+    index.neighborhoods(1.0, range(100), progress=True)
     assert "100" in capsys.readouterr().err
 
 

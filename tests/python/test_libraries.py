@@ -9,11 +9,11 @@ import pytest
 V, QUADS = meshes.grid(8)
 V[:, 2] = V[:, 0] * V[:, 1] / 16
 F = meshes.triangles(QUADS)
-WANTED = meshhood.MeshIndex(V, F).query_ball(None, 2.0, sort="id")[1]
+WANTED = meshhood.MeshIndex(V, F).neighborhoods(2.0, sort="id")[1]
 
 
 def expect_same(index):
-    np.testing.assert_array_equal(index.query_ball(None, 2.0, sort="id")[1], WANTED)
+    np.testing.assert_array_equal(index.neighborhoods(2.0, sort="id")[1], WANTED)
 
 
 def test_arrays_of_igl_in_either_order_are_read():
@@ -51,8 +51,8 @@ def test_other_arrays_are_read_in_place_of_every_array(kind):
     expect_same(index.refit(kind(V)))
     expect_same(index.refit(kind(V), kind(np.arange(9))))
     rows = np.array([3, 9, 27])
-    counts = index.count(kind(rows), kind(np.array([1.0, 2.0, 3.0])))
-    np.testing.assert_array_equal(counts, index.count(rows, [1.0, 2.0, 3.0]))
+    counts = index.counts(kind(np.array([1.0, 2.0, 3.0])), kind(rows))
+    np.testing.assert_array_equal(counts, index.counts([1.0, 2.0, 3.0], rows))
 
 
 class OnAnotherDevice(WithDlpack):

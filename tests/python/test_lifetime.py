@@ -19,7 +19,7 @@ def make():
 def test_results_outlive_the_index():
     index = make()
     permutation = index.permutation
-    ids = index.query_ball(5, 3.0)
+    ids = index.neighborhood(5, 3.0)
     kept = ids.copy(), permutation.copy()
     del index
     gc.collect()
@@ -37,9 +37,9 @@ def test_arrays_that_are_not_copied_are_read_only():
 
 def test_answers_belong_to_the_caller():
     index = make()
-    before = index.query_ball(5, 3.0).copy()
-    index.query_ball(5, 3.0)[:] = 0
-    np.testing.assert_array_equal(index.query_ball(5, 3.0), before)
+    before = index.neighborhood(5, 3.0).copy()
+    index.neighborhood(5, 3.0)[:] = 0
+    np.testing.assert_array_equal(index.neighborhood(5, 3.0), before)
 
 
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
@@ -47,17 +47,17 @@ def test_arrays_may_change_after_the_index_is_made(method):
     V, F = meshes.two_plates(20)
     index, untouched = meshhood.MeshIndex(V, F), make()
     V[:], F[:] = 0, 0
-    np.testing.assert_array_equal(index.query_ball(5, 3.0, method=method), untouched.query_ball(5, 3.0, method=method))
+    np.testing.assert_array_equal(index.neighborhood(5, 3.0, method=method), untouched.neighborhood(5, 3.0, method=method))
 
 
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
 def test_threads_may_share_an_index(method):
     index = make()
-    wanted = [index.query_ball(v, 4.0, sort="id", method=method) for v in range(len(index))]
+    wanted = [index.neighborhood(v, 4.0, sort="id", method=method) for v in range(len(index))]
     shared = make()  # which has made neither searchers nor the index of the paper yet
 
     def run_query(v):
-        return shared.query_ball(v, 4.0, sort="id", method=method)
+        return shared.neighborhood(v, 4.0, sort="id", method=method)
 
     with ThreadPoolExecutor(4) as pool:
         for got, want in zip(pool.map(run_query, range(len(index))), wanted):
@@ -68,10 +68,10 @@ def test_an_index_works_in_a_forked_child():
     if "fork" not in multiprocessing.get_all_start_methods():
         pytest.skip("no fork here")
     index = make()
-    wanted = index.query_ball(None, 4.0)[1]
+    wanted = index.neighborhoods(4.0)[1]
 
     def run_query(answers):
-        answers.put(index.query_ball(None, 4.0, workers=2)[1])
+        answers.put(index.neighborhoods(4.0, workers=2)[1])
 
     context = multiprocessing.get_context("fork")
     answers = context.SimpleQueue()

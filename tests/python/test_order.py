@@ -38,7 +38,7 @@ def same(got, wanted):
 
 
 def ask(index, rows):
-    return [index.query_ball(v, r, return_distance=True) for v, r in rows]
+    return [index.neighborhood(v, r, return_distance=True) for v, r in rows]
 
 
 def test_of_queries_in_any_order(case):
@@ -46,20 +46,20 @@ def test_of_queries_in_any_order(case):
     random = np.random.default_rng(5)
     for order in (range(len(rows)), range(len(rows) - 1, -1, -1), *(random.permutation(len(rows)) for _ in range(3))):
         for i in order:
-            assert same(index.query_ball(*rows[i], return_distance=True), wanted[i]), rows[i]
+            assert same(index.neighborhood(*rows[i], return_distance=True), wanted[i]), rows[i]
 
 
 def test_of_a_new_index_for_each_query(case):
     V, F, _, rows, wanted = case
     for row, want in list(zip(rows, wanted))[::9]:
-        assert same(meshhood.MeshIndex(V, F).query_ball(*row, return_distance=True), want), row
+        assert same(meshhood.MeshIndex(V, F).neighborhood(*row, return_distance=True), want), row
 
 
 @pytest.mark.parametrize("workers", (1, 2))
 def test_of_many_queries_in_one_call(case, workers):
     _, _, index, rows, wanted = case
     v, r = np.array([v for v, _ in rows]), np.array([r for _, r in rows])
-    indptr, indices, distances = index.query_ball(v, r, return_distance=True, workers=workers)
+    indptr, indices, distances = index.neighborhoods(r, v, return_distance=True)
     for i, want in enumerate(wanted):
         part = slice(indptr[i], indptr[i + 1])
         assert same((indices[part], distances[part]), want), rows[i]
@@ -71,7 +71,7 @@ def test_of_chunks(case, order):
     answers = {(v, r): want for (v, r), want in zip(rows, wanted)}
     vertices = sorted({v for v, _ in rows})
     for r in RADII:
-        for chunk in index.iter_neighborhoods(vertices, r, chunk=3, order=order, return_distance=True):
+        for chunk in index.iter_neighborhoods(r, vertices, chunk=3, order=order, return_distance=True):
             for i, v in enumerate(chunk.vertices):
                 part = slice(chunk.indptr[i], chunk.indptr[i + 1])
                 assert same((chunk.indices[part], chunk.distances[part]), answers[int(v), r]), (v, r)
@@ -82,11 +82,11 @@ def test_of_regions_and_of_rings_of_nested_radii(case):
     open_mesh = np.zeros(len(V), bool)
     answers = {(v, r): want for (v, r), want in zip(rows, wanted)}
     for (v, r), want in answers.items():
-        assert same(index.query_region(v, r, return_distance=True), want), (v, r)
-        assert same(index.query_region(v, r, walls=open_mesh, return_distance=True), want), (v, r)
+        assert same(index.neighborhood(v, r, return_distance=True), want), (v, r)
+        assert same(index.neighborhood(v, r, walls=open_mesh, return_distance=True), want), (v, r)
     for v in sorted({v for v, _ in rows}):
         for walls in (None, open_mesh):
-            counts, indices = index.query_nested(v, RADII, walls=walls)
+            counts, indices = index.nested(v, RADII, walls=walls)
             begin, before = 0, np.zeros(0, int)
             for r, end in zip(RADII, counts):
                 ids = answers[v, r][0]
@@ -97,7 +97,7 @@ def test_of_regions_and_of_rings_of_nested_radii(case):
 def test_sorted_answers_ascend(case):
     _, _, index, rows, wanted = case
     for (v, r), want in zip(rows, wanted):
-        np.testing.assert_array_equal(index.query_ball(v, r, sort="id"), np.sort(want[0]))
+        np.testing.assert_array_equal(index.neighborhood(v, r, sort="id"), np.sort(want[0]))
 
 
 def test_of_threads(case):

@@ -25,13 +25,14 @@ ARGUMENTS = {
     "r": 2.0,
     "fwhm": 2.0,
     "k": 3,
+    "area": 3.0,
     "v": 42,
     "w": 44,
     "start": 42,
     "radii": [1.0, 2.0],
     "points": V[:4] + np.float32(0.1),
     "q": V[:4] + np.float32(0.1),
-    "ids": meshhood.MeshIndex(V, F).query_ball(42, 2.0),
+    "ids": meshhood.MeshIndex(V, F).neighborhood(42, 2.0),
     "values": RANDOM.normal(size=(COUNT, 2)),
     "V": V,
     "P": V,
@@ -48,7 +49,7 @@ def values_of(answer):
     if hasattr(answer, "indptr") and not isinstance(answer, tuple):
         return values_of((answer.indptr, answer.indices, answer.data))
     if isinstance(answer, meshhood.MeshIndex):
-        return values_of((answer.positions, answer.count(None, 2.0)))
+        return values_of((answer.positions, answer.counts(2.0)))
     if isinstance(answer, (tuple, list)) or inspect.isgenerator(answer):
         return [values_of(part) for part in answer]
     assert answer is None or isinstance(answer, (bool, int, float, str)), type(answer)
@@ -121,13 +122,9 @@ def test_what_was_made_with_other_masks(name, tmp_path):
 @pytest.mark.parametrize("name", [name for name in NAMES if takes(name, "F")])
 def test_what_was_made_with_other_faces(name, tmp_path):
     index, changing = meshhood.MeshIndex(V, F), F.copy()
-    by_area = {"weights": "area"} if takes(name, "weights") and name != "query_knn" else {}
-    if name == "query_knn":
-        by_area = {"until": 3.0}
+    by_area = {"weights": "area"} if takes(name, "weights") else {}
 
     def answer(of, **words):
-        if name == "query_knn":
-            return values_of(of.query_knn(ARGUMENTS["vertices"], **by_area, **words))
         return values_of(made(of, name, tmp_path, **by_area, **words))
 
     whole = answer(index)
@@ -153,7 +150,7 @@ def test_what_was_made_from_a_file_that_is_replaced(name, tmp_path):
 
 
 def total(part, index, owned):
-    return index.count(owned, 1.0, workers=1)
+    return index.counts(1.0, owned, workers=1)
 
 
 def of_parts(parts, name, to):

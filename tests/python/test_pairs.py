@@ -98,7 +98,7 @@ OPTIONS = {
     "degree": {"4": 4},
     "kinds": {"three": ("mean", "area", "height"), "names": "k1"},
     "k": {"9": 9},
-    "until": {"area": 8.0},
+    "area": {"9": 9.0},
     "fill": {"-2": -2},
 }
 # What else an option needs to have an effect.
@@ -107,7 +107,7 @@ WITH = {
     "nesting": {"scales": SCALES},
     "F": {"weights": "area"},
     "kernel": {},
-    "weights": {"until": 8.0},
+    "weights": {},
 }
 # Options that decide how an answer is found or given, not what it is.
 HOW = ("workers", "progress", "max_bytes", "chunk", "order", "F")
@@ -121,12 +121,7 @@ class Call:
 
     def parameters(self):
         method = getattr(meshhood.MeshIndex, self.name)
-        names = [p.name for p in inspect.signature(method).parameters.values() if p.kind != p.VAR_KEYWORD]
-        if any(p.kind == p.VAR_KEYWORD for p in inspect.signature(method).parameters.values()):
-            with pytest.raises(TypeError, match="no_such_word: no argument of this call; it takes ") as refused:
-                self.ask(INDEX, {"no_such_word": None, self.radius: R})
-            names += str(refused.value).split("it takes ")[1].split(", ")
-        return [name for name in names if name not in ("self", "values")]
+        return [name for name in inspect.signature(method).parameters if name not in ("self", "values")]
 
     def words(self, *options):
         words = dict(itertools.chain.from_iterable(WITH.get(name, {}).items() for name, _ in options))
@@ -134,19 +129,13 @@ class Call:
         words |= dict(options)
         if not ({self.radius, "scales"} & set(words)) and not words.get("scales"):
             words[self.radius] = R
-        if self.name == "query_knn" and not ({"k", "until"} & set(words)):
-            words["k"] = 7
+        words = {**{"k_nearest": {"k": 7}, "discs": {"area": 8.0}}.get(self.name, {}), **words}
         if words.get("metric") == "rings" and not callable(words.get(self.radius)) and self.radius in words:
             words[self.radius] = 3
         return {name: value(words) if callable(value) and name != "dtype" else value for name, value in words.items()}
 
     def ask(self, index, words):
-        positional = {"query_ball", "count", "iter_neighborhoods", "query_knn", "nearest_unconnected"}
-        if self.name in positional:
-            words = dict(words)
-            answer = getattr(index, self.name)(words.pop("vertices", None), **words)
-        else:
-            answer = getattr(index, self.name)(*self.given.values(), **words)
+        answer = getattr(index, self.name)(*self.given.values(), **words)
         return list(answer) if self.name == "iter_neighborhoods" else answer
 
 
@@ -155,9 +144,6 @@ def lists(answer, words):
         parts = [lists((part.indptr, part.indices, *([] if part.distances is None else [part.distances])), {})
                  for part in answer]  # fmt: skip
         return list(itertools.chain.from_iterable(parts))
-    single = np.ndim(words.get("vertices", ROWS)) == 0 and words.get("vertices") is not None and "scales" not in words
-    if single:
-        return [answer if isinstance(answer, tuple) else (answer,)]
     indptr, *columns = answer
     return [tuple(column[a:b] for column in columns) for a, b in zip(indptr[:-1], indptr[1:])]
 
@@ -172,15 +158,11 @@ def columns(answer, words):
     return list(zip(*(np.reshape(array, (-1, *np.shape(array)[axes:])) for array in arrays)))
 
 
-def nearest(answer, words):
-    return lists(answer, {}) if "until" in words else columns(answer, words)
-
-
 CALLS = [
-    Call("query_ball", lists),
+    Call("neighborhoods", lists),
     Call("iter_neighborhoods", lists),
     Call("radius_neighbors_graph", matrix),
-    Call("count", columns),
+    Call("counts", columns),
     Call("aggregate", columns, values=VALUES),
     Call("smooth", columns, "fwhm", values=VALUES),
     Call("smoothing_matrix", matrix, "fwhm"),
@@ -189,7 +171,8 @@ CALLS = [
     Call("moments", columns),
     Call("principal_components", columns),
     Call("features", columns),
-    Call("query_knn", nearest),
+    Call("k_nearest", columns),
+    Call("discs", lists),
     Call("nearest_unconnected", columns),
 ]
 
@@ -288,7 +271,7 @@ def by_hand(call, words, v, radius):
         order = np.argsort(distances[keep], kind="stable")[:1]
         found = (ids[keep][order], distances[keep][order]) if len(order) and not plain.walls[v] else ([-1], [np.inf])
         return found[0][0], found[1][0]
-    if call.name == "query_knn":
+    if call.name in ("k_nearest", "discs"):
         return nearest_by_hand(words, v, radius)
     largest = max(words["scales"]) * (radius / radius) if words.get("nesting") == "patch" else radius
     if words.get("nesting") == "patch" and "unit" in words:
@@ -297,13 +280,13 @@ def by_hand(call, words, v, radius):
     if found is None:
         return ()
     ids, distances = (column[found[1] <= radius] for column in found)
-    if call.name in ("query_ball", "iter_neighborhoods"):
+    if call.name in ("neighborhoods", "iter_neighborhoods"):
         keys = {"index": PLACE[ids], "distance": distances}.get(words.get("sort"), ids)
         order = np.lexsort([ids, keys])
         return (ids[order], distances[order]) if words.get("return_distance") else (ids[order],)
     if call.name == "radius_neighbors_graph":
         return ids, distances if words.get("mode") == "distance" else np.ones(len(ids))
-    if call.name == "count":
+    if call.name == "counts":
         return (len(ids),)
     if call.name == "aggregate":
         return (reduced(words, ids, distances, radius),)
@@ -329,8 +312,8 @@ def nearest_by_hand(words, v, radius):
     straight = metric == "straight"
     ids, keys = plain.connecting(plain.V[v], [v], radius) if straight else getattr(plain, metric)(int(v), radius)
     order = np.lexsort([ids, plain.distances_of(ids, int(v)), keys] if straight else [PLACE[ids], keys])
-    if "until" in words:
-        needed = 1 + np.searchsorted(np.cumsum(weights_of({"weights": "area", **words})[ids[order]]), words["until"])
+    if "area" in words:
+        needed = 1 + np.searchsorted(np.cumsum(weights_of({"weights": "area", **words})[ids[order]]), words["area"])
         return ids[order[:needed]], keys[order[:needed]]
     k, missing = words["k"], max(0, words["k"] - len(ids))
     fill = np.full(missing, words.get("fill", -1))
@@ -339,7 +322,7 @@ def nearest_by_hand(words, v, radius):
 
 def check_by_hand(call, words, v, radius, found):
     wanted = by_hand(call, words, v, radius)
-    if call.name in ("query_ball", "iter_neighborhoods") and wanted and "sort" not in words:
+    if call.name in ("neighborhoods", "iter_neighborhoods") and wanted and "sort" not in words:
         found = [column[np.argsort(found[0])] for column in found]
     for a, b in zip(found, wanted):
         a = a[: np.size(b)] if call.name == "moments" else a
@@ -369,8 +352,8 @@ def check(call, words, answer, random, rows):
             continue
         check_plain(call, words, v, radius, found[k])
         by_hand += check_by_hand(call, words, v, radius, found[k])
-    # Iterators have no progress, and neither have one vertex and one radius.
-    if "progress" in words and call.name != "iter_neighborhoods" and (len(found) > 1 or words["progress"].total):
+    # One vertex and one radius have no progress.
+    if "progress" in words and (len(found) > 1 or words["progress"].total):
         assert words["progress"].last == words["progress"].total
     return by_hand
 
@@ -427,7 +410,8 @@ def test_pairs_of_options_for_all_vertices(call):
 def test_a_wrong_value_is_refused_by_name(call):
     """Also for one vertex, and whatever else is given."""
     flags = ("return_distance", "filter")  # anything is true or false
-    for option, vertex in itertools.product(call.parameters(), (None, 4711)):
+    one = [4711] if call.name == "neighborhoods" else 4711
+    for option, vertex in itertools.product(call.parameters(), (None, one)):
         if option in flags or (option in WITH and option != "kernel"):
             continue
         words = call.words(("vertices", vertex), (option, object()))
@@ -457,8 +441,10 @@ OPTIONS_OF_START = {
     "walls": {"mask": WALLS},
     "ignored": {"mask": IGNORED},
     "sort": {"id": "id", "index": "index", "distance": "distance"},
-    "metric": {"path": "path"},
+    "metric": {"path": "path", "rings": "rings"},
     "unit": {"edge": "edge"},
+    "method": {"bfs": "bfs", "ball": "ball"},
+    "dtype": {"single": np.float32},
 }
 
 
@@ -474,21 +460,35 @@ def region_by_hand(words, start, r):
 def check_region(words, start, answer):
     r = R * (INDEX.mean_edge_length if "unit" in words else 1)
     plain, center, seeds = region_by_hand(words, start, r)
-    ids, distances = plain.path(start, r) if "metric" in words else plain.region(center, seeds, r)
+    how = words.get("method", words.get("metric", "straight"))
+    is_region = how in ("straight", "bfs")
+    ids, distances = plain.region(center, seeds, r) if is_region else getattr(plain, how)(start, r)
     found = answer if isinstance(answer, tuple) else (answer,)
-    place = {"id": ids, "distance": distances}.get(words.get("sort", "distance" if "metric" in words else "index"), PLACE[ids])
+    if "sort" not in words and how == "bfs":  # an order of its own
+        found = [column[np.argsort(PLACE[found[0]])] for column in found]
+    place = {"id": ids, "distance": distances}.get(words.get("sort", "distance" if how == "path" else "index"), PLACE[ids])
     order = np.lexsort([ids, place])
     np.testing.assert_array_equal(found[0], ids[order])
     if "return_distance" in words:
-        np.testing.assert_allclose(found[1], distances[order], rtol=1e-12)
+        np.testing.assert_allclose(found[1], distances[order], rtol=1e-6 if "dtype" in words else 1e-12)
+
+
+def check_count(words, start, answer):
+    plain, center, seeds = region_by_hand(words, start, R)
+    how, r = words.get("method", words.get("metric", "straight")), R * (INDEX.mean_edge_length if "unit" in words else 1)
+    wanted = plain.region(center, seeds, r) if how in ("straight", "bfs") else getattr(plain, how)(start, r)
+    assert type(answer) is int and answer == len(wanted[0])
 
 
 def check_nested(words, start, answer):
     counts, ids = answer
-    for r, count in zip((1.4, 2.3), counts):
+    for r, begin, end in zip((1.4, 2.3), (0, *counts), counts):
         r *= INDEX.mean_edge_length if "unit" in words else 1
         plain, center, seeds = region_by_hand(words, start, r)
-        np.testing.assert_array_equal(np.sort(ids[:count]), plain.region(center, seeds, r)[0])
+        by_metric = getattr(plain, words["metric"])(start, r) if "metric" in words else plain.region(center, seeds, r)
+        np.testing.assert_array_equal(np.sort(ids[:end]), by_metric[0])
+        assert np.all(np.diff(PLACE[ids[begin:end]]) > 0)
+    assert len(ids) == counts[-1]
 
 
 def check_contains(words, start, answer):
@@ -512,13 +512,6 @@ def check_nearest(words, start, answer):
         np.testing.assert_array_equal(found, wanted)
 
 
-def check_rings(words, start, answer):
-    counts, ids = answer
-    wanted, rings = PLAIN["walls" in words, "ignored" in words].rings(start, 3)
-    for ring, count in enumerate(counts):
-        np.testing.assert_array_equal(np.sort(ids[:count]), wanted[rings <= ring])
-
-
 def near_of(start):
     """A vertex near the start."""
     distances = PLAIN[False, False].distances(V[start] if np.ndim(start) == 0 else start)
@@ -526,33 +519,25 @@ def near_of(start):
 
 
 CALLS_OF_START = {
-    "query_region": (lambda start, **words: INDEX.query_region(start, R, **words), check_region),
-    "query_nested": (lambda start, **words: INDEX.query_nested(start, [1.4, 2.3], **words), check_nested),
+    "neighborhood": (lambda start, **words: INDEX.neighborhood(start, R, **words), check_region),
+    "count": (lambda start, **words: INDEX.count(start, R, **words), check_count),
+    "nested": (lambda start, **words: INDEX.nested(start, [1.4, 2.3], **words), check_nested),
     "contains": (lambda start, **words: INDEX.contains(start, near_of(start), R, **words), check_contains),
     "connecting_radius": (lambda start, **words: INDEX.connecting_radius(start, near_of(start), **words), check_connecting),
     "nearest_connected": (lambda start, **words: INDEX.nearest_connected(start, 9, **words), check_nearest),
-    "query_rings": (lambda start, **words: INDEX.query_rings(start, 3, **words), check_rings),
 }
 
 
-def keywords_of(method, ask, *required):
-    """The options of a call; `ask` is refused the word that no call has."""
-    parameters = inspect.signature(method).parameters.values()
-    names = [p.name for p in parameters if p.kind != p.VAR_KEYWORD and p.name != "self" and p.default is not p.empty]
-    if any(p.kind == p.VAR_KEYWORD for p in parameters):
-        with pytest.raises(TypeError, match="no_such_word: no argument of this call; it takes ") as refused:
-            ask(no_such_word=None)
-        names += str(refused.value).split("it takes ")[1].split(", ")
-    return names
+def keywords_of(method):
+    """The options of a call."""
+    return [p.name for p in inspect.signature(method).parameters.values() if p.default is not p.empty]
 
 
 @pytest.mark.filterwarnings("ignore:start. the point is farther")
-@pytest.mark.parametrize(
-    ("name", "kind"), [pair for pair in itertools.product(CALLS_OF_START, STARTS) if pair != ("query_rings", "point")]
-)
+@pytest.mark.parametrize(("name", "kind"), list(itertools.product(CALLS_OF_START, STARTS)))
 def test_pairs_of_options_for_one_start(name, kind):
     call, by_hand = CALLS_OF_START[name]
-    names = keywords_of(getattr(meshhood.MeshIndex, name), lambda **words: call(4711, **words))
+    names = keywords_of(getattr(meshhood.MeshIndex, name))
     options = options_of(name, names, OPTIONS_OF_START)
 
     def ask(*given):
@@ -577,12 +562,12 @@ def test_pairs_of_options_of_a_stroke():
         **{name: OPTIONS_OF_START[name] for name in ("seeds", "face", "walls", "ignored", "unit")},
         "sort": {"id": "id"},
     }
-    names = keywords_of(meshhood.MeshIndex.query_stroke, None)
+    names = keywords_of(meshhood.MeshIndex.stroke)
     assert set(names) | {"r"} == set(options)
 
     def ask(*given):
         words = {name: np.array([value(p) for p in POINTS]) if callable(value) else value for name, value in given}
-        return words, INDEX.query_stroke(POINTS, **{"r": R, **words})
+        return words, INDEX.stroke(POINTS, **{"r": R, **words})
 
     def check_stroke(words, answer):
         unit, found = INDEX.mean_edge_length if "unit" in words else 1, set()
@@ -594,12 +579,12 @@ def test_pairs_of_options_of_a_stroke():
         np.testing.assert_array_equal(answer, ids if "sort" in words else ids[np.argsort(PLACE[ids])])
         return 1
 
-    check_pairs("query_stroke", options, ask, check_stroke)
+    check_pairs("stroke", options, ask, check_stroke)
 
 
 # Calls of which only `HOW` has options, or whose options change the answer by themselves.
 POLYGONS = (np.arange(0, 3 * len(F) + 1, 3), F.ravel())
-REGION = INDEX.query_ball(4711, 3.0)
+REGION = INDEX.neighborhood(4711, 3.0)
 HOW_ELSE = ("F", "workers", "progress", "max_edges", "keep_faces", "mmap", "trusted", "memory", "resume", "faces", "order",
             "vertices_per_part", "parts")  # fmt: skip
 OPTIONS_ELSE = {
@@ -639,7 +624,7 @@ OPTIONS_ELSE = {
 
 
 def counts_of(index):
-    return index.count(None, R), index.n_vertices
+    return index.counts(R), index.n_vertices
 
 
 def saved(folder, mmap=False, trusted=False, progress=None, **words):
@@ -657,7 +642,7 @@ def partitioned(folder, parts=None, vertices_per_part=None, **words):
     parts = 3 if parts is None and vertices_per_part is None else parts
     made = meshhood.partition((folder / "V.npy", folder / "F.npy"), folder / "parts", halo=2.6, parts=parts,
                               vertices_per_part=vertices_per_part, **words)  # fmt: skip
-    return made.count(R).compute(), made.n_vertices
+    return made.counts(R).compute(), made.n_vertices
 
 
 CALLS_ELSE = {
@@ -682,7 +667,7 @@ CALLS_ELSE = {
 }
 # Calls without options, and those of which other tests ask for all that they have.
 WITHOUT_PAIRS = {
-    "nearest", "quality", "query_stroke", "rim", "geometric_radii", "open_parts", "persistence", "show_config",
+    "nearest", "quality", "stroke", "rim", "geometric_radii", "open_parts", "persistence", "show_config",
     "smoothing_radius", "plot_neighborhood", "view", "open", "ids", "masked",
 }  # fmt: skip
 
@@ -695,13 +680,13 @@ def parts(tmp_path_factory):
     return meshhood.partition((folder / "V.npy", folder / "F.npy"), folder / "parts", parts=2, halo=3.0)
 
 
-@pytest.mark.parametrize("name", ("count", "aggregate", "curvature"))
+@pytest.mark.parametrize("name", ("counts", "aggregate", "curvature"))
 def test_pairs_of_options_of_parts(name, parts):
     """Against those of one index."""
     import dask
 
     given, in_order = {"values": VALUES} if name == "aggregate" else {}, parts.ids().compute()
-    names = keywords_of(getattr(meshhood.distributed.Parts, name), None)
+    names = keywords_of(getattr(meshhood.distributed.Parts, name))
     options = options_of(f"Parts.{name}", [word for word in names if word != "r"], OPTIONS_ELSE)
 
     def ask(*chosen):
@@ -730,7 +715,7 @@ def flat(answer):
 def test_options_of_how_do_not_change_an_answer(method, tmp_path):
     """Whatever else is given."""
     call, number = CALLS_ELSE[method], itertools.count()
-    names = keywords_of(method.__init__ if inspect.isclass(method) else method, None)
+    names = keywords_of(method.__init__ if inspect.isclass(method) else method)
     options = options_of(method.__qualname__, names, OPTIONS_ELSE)
 
     def ask(*given):

@@ -96,7 +96,7 @@ def test_any_ids_and_metrics_are_drawn():
     index = meshhood.MeshIndex(V, F)
     walls = V[:, 0] > 6
     for words, entries in (
-        ({"ids": index.query_ball(55, 2.0)}, 3),
+        ({"ids": index.neighborhood(55, 2.0)}, 3),
         ({"ids": V[:, 0] > 4}, 3),
         ({"r": 3.0, "metric": "path"}, 5),
         ({"r": 3.0, "walls": walls}, 5),

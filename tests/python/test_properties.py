@@ -41,34 +41,34 @@ def test_radii_in_edges_are_multiples_of_the_mean_edge_length(method):
     unit = index.mean_edge_length
     for r in (0, 1, 2.5, np.inf):
         np.testing.assert_array_equal(
-            index.query_ball(30, r, unit="edge", method=method, sort="id"),
-            index.query_ball(30, r * unit, method=method, sort="id"),
+            index.neighborhood(30, r, unit="edge", method=method, sort="id"),
+            index.neighborhood(30, r * unit, method=method, sort="id"),
         )
     radii = np.linspace(0, 4, len(V))
     np.testing.assert_array_equal(
-        index.count(None, radii, unit="edge", method=method),
-        index.count(None, unit * radii, method=method),
+        index.counts(radii, unit="edge", method=method),
+        index.counts(unit * radii, method=method),
     )
 
 
 def test_radii_in_edges_need_edges():
     index = meshhood.MeshIndex(V, np.zeros((0, 3), int))
     with pytest.raises(ValueError, match="unit: 'edge', but the mesh has no edges of positive length"):
-        index.query_ball(0, 1, unit="edge")
+        index.neighborhood(0, 1, unit="edge")
     with pytest.raises(ValueError, match="unit: 'inch', expected 'mesh' or 'edge'"):
-        index.query_ball(0, 1, unit="inch")
+        index.neighborhood(0, 1, unit="inch")
 
 
 def test_a_bool_mask_selects_rows():
     index = meshhood.MeshIndex(V, F)
     for mask in (V[:, 0] > 3, np.zeros(len(V), bool), np.ones(len(V), bool)):
-        wanted = index.query_ball(np.flatnonzero(mask), 2.0, sort="id")
-        for got in (index.query_ball(mask, 2.0, sort="id"), index.query_ball(mask.tolist(), 2.0, sort="id")):
+        wanted = index.neighborhoods(2.0, np.flatnonzero(mask), sort="id")
+        for got in (index.neighborhoods(2.0, mask, sort="id"), index.neighborhoods(2.0, mask.tolist(), sort="id")):
             np.testing.assert_array_equal(got[0], wanted[0])
             np.testing.assert_array_equal(got[1], wanted[1])
-        np.testing.assert_array_equal(index.count(mask, 2.0), np.diff(wanted[0]))
+        np.testing.assert_array_equal(index.counts(2.0, mask), np.diff(wanted[0]))
     with pytest.raises(ValueError, match=r"vertices: a bool mask of shape \(80,\), expected \(81,\)"):
-        index.query_ball(np.ones(80, bool), 1.0)
+        index.neighborhoods(1.0, np.ones(80, bool))
 
 
 class Named(meshhood.MeshIndex):
@@ -87,7 +87,7 @@ def test_a_pickled_subclass_keeps_its_class_and_attributes(protocol):
     named.notes = ["left"]
     got = pickle.loads(pickle.dumps(named, protocol))
     assert type(got) is Named and got.name == "hand" and got.notes == ["left"]
-    np.testing.assert_array_equal(got.query_ball(40, 2.0, sort="id"), named.query_ball(40, 2.0, sort="id"))
+    np.testing.assert_array_equal(got.neighborhood(40, 2.0, sort="id"), named.neighborhood(40, 2.0, sort="id"))
     slotted = Slotted(V, F)
     slotted.color, slotted.extra = "red", 7
     got = pickle.loads(pickle.dumps(slotted, protocol))

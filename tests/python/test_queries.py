@@ -48,7 +48,7 @@ def test_region_of_a_point_on_a_face_is_that_of_scipy(mesh):
     random = np.random.default_rng(1)
     for p, face in random_starts(V, F, random, 40):
         for r in (0.3, 1.0, 2.5, 7.0):
-            found, lengths = index.query_region(p, r, seeds=face, sort="id", return_distance=True)
+            found, lengths = index.neighborhood(p, r, seeds=face, sort="id", return_distance=True)
             np.testing.assert_array_equal(found, region(V, graph, p, face, r))
             np.testing.assert_array_equal(lengths, distances(V, p)[found])
 
@@ -56,7 +56,7 @@ def test_region_of_a_point_on_a_face_is_that_of_scipy(mesh):
 def test_region_of_a_vertex_is_its_neighborhood(mesh):
     V, _, index, _ = mesh
     for v in range(0, len(V), 17):
-        np.testing.assert_array_equal(index.query_region(v, 3.0, sort="id"), index.query_ball(v, 3.0, sort="id"))
+        np.testing.assert_array_equal(index.neighborhood(v, 3.0, sort="id"), index.neighborhood(v, 3.0, sort="id"))
 
 
 def test_walls_are_not_passed_and_ignored_vertices_are(mesh):
@@ -64,7 +64,7 @@ def test_walls_are_not_passed_and_ignored_vertices_are(mesh):
     random = np.random.default_rng(2)
     for p, face in random_starts(V, F, random, 30):
         walls, ignored = random.random(len(V)) < 0.2, random.random(len(V)) < 0.3
-        found = index.query_region(p, 4.0, seeds=face, walls=walls, ignored=ignored, sort="id")
+        found = index.neighborhood(p, 4.0, seeds=face, walls=walls, ignored=ignored, sort="id")
         np.testing.assert_array_equal(found, region(V, graph, p, face, 4.0, walls, ignored))
 
 
@@ -73,7 +73,7 @@ def test_seeds_are_by_default_the_nearest_vertex(mesh):
     p = V[30] + [0.2, 0.1, 0]
     vertex, distance = index.nearest(p)
     assert vertex == np.argmin(distances(V, p)) and distance == distances(V, p).min()
-    np.testing.assert_array_equal(index.query_region(p, 3, sort="id"), region(V, graph, p, [vertex], 3))
+    np.testing.assert_array_equal(index.neighborhood(p, 3, sort="id"), region(V, graph, p, [vertex], 3))
     for none in ([], np.empty((0, 3))):
         assert [len(found) for found in index.nearest(none)] == [0, 0]
     vertices, _ = index.nearest(V[:50])
@@ -86,17 +86,17 @@ def test_stroke_is_the_union_of_its_regions(mesh):
     points = np.array([p for p, _ in starts])
     seeds = np.array([face for _, face in starts])
     parts = [region(V, graph, p, face, 1.5) for p, face in starts]
-    found = index.query_stroke(points, 1.5, seeds=seeds, sort="id")
+    found = index.stroke(points, 1.5, seeds=seeds, sort="id")
     np.testing.assert_array_equal(found, np.unique(np.concatenate(parts)))
-    parts = [index.query_region(p, 1.5) for p in points]
-    np.testing.assert_array_equal(index.query_stroke(points, 1.5, sort="id"), np.unique(np.concatenate(parts)))
-    assert len(index.query_stroke(np.empty((0, 3)), 1.5)) == 0
+    parts = [index.neighborhood(p, 1.5) for p in points]
+    np.testing.assert_array_equal(index.stroke(points, 1.5, sort="id"), np.unique(np.concatenate(parts)))
+    assert len(index.stroke(np.empty((0, 3)), 1.5)) == 0
 
 
 def test_nested_radii_give_each_region(mesh):
     V, _, index, graph = mesh
     radii = [0, 1, 1.5, 4, 9, np.inf]
-    counts, ids = index.query_nested(5, radii)
+    counts, ids = index.nested(5, radii)
     for r, count in zip(radii, counts):
         np.testing.assert_array_equal(np.sort(ids[:count]), region(V, graph, V[5], [5], r))
 
@@ -118,7 +118,7 @@ def test_nearest_connected_vertices_ascend_by_connecting_radius(mesh):
     assert len(ids) == len(set(ids)) == 40 and ids[0] == 7
     assert (np.diff(radii) >= 0).all()
     assert [index.connecting_radius(7, w) for w in ids] == list(radii)
-    nearer = index.query_region(7, np.nextafter(radii[-1], 0))
+    nearer = index.neighborhood(7, np.nextafter(radii[-1], 0))
     assert set(nearer) <= set(ids)
 
 
@@ -134,7 +134,7 @@ def test_path_distances_are_those_of_scipy_to_the_last_bit(mesh):
     matrix = lengths_graph(V, graph)
     for v in (0, 77):
         expected = dijkstra(matrix, directed=False, indices=v, limit=6)
-        ids, lengths = index.query_ball(v, 6, metric="path", return_distance=True)
+        ids, lengths = index.neighborhood(v, 6, metric="path", return_distance=True)
         np.testing.assert_array_equal(np.sort(ids), np.flatnonzero(np.isfinite(expected)))
         np.testing.assert_array_equal(lengths, expected[ids])
         assert (np.diff(lengths) >= 0).all()
@@ -151,10 +151,10 @@ def test_paths_do_not_pass_walls(mesh):
         expected = np.full(len(V), np.inf)
         expected[free] = dijkstra(matrix, directed=False, indices=np.searchsorted(free, v), limit=5)
         options = {"metric": "path", "walls": walls, "ignored": ignored, "return_distance": True}
-        ids, lengths = index.query_region(v, 5, **options)
+        ids, lengths = index.neighborhood(v, 5, **options)
         np.testing.assert_array_equal(np.sort(ids), np.flatnonzero(np.isfinite(expected) & ~ignored))
         np.testing.assert_array_equal(lengths, expected[ids])
-        by_id, lengths = index.query_region(v, 5, sort="id", **options)
+        by_id, lengths = index.neighborhood(v, 5, sort="id", **options)
         np.testing.assert_array_equal(by_id, np.sort(ids))
         np.testing.assert_array_equal(lengths, expected[by_id])
 
@@ -162,18 +162,18 @@ def test_paths_do_not_pass_walls(mesh):
 def test_batch_along_edges_has_the_rows_of_single_queries(mesh):
     _, _, index, _ = mesh
     rows = [3, 50, 3, 99]
-    indptr, indices, lengths = index.query_ball(rows, 3, metric="path", return_distance=True, sort="id")
+    indptr, indices, lengths = index.neighborhoods(3, rows, metric="path", return_distance=True, sort="id")
     for i, v in enumerate(rows):
-        ids, expected = index.query_ball(v, 3, metric="path", return_distance=True, sort="id")
+        ids, expected = index.neighborhood(v, 3, metric="path", return_distance=True, sort="id")
         np.testing.assert_array_equal(indices[indptr[i] : indptr[i + 1]], ids)
         np.testing.assert_array_equal(lengths[indptr[i] : indptr[i + 1]], expected)
-    np.testing.assert_array_equal(index.count(rows, 3, metric="path"), np.diff(indptr))
+    np.testing.assert_array_equal(index.counts(3, rows, metric="path"), np.diff(indptr))
 
 
 def test_rings_count_edges(mesh):
     _, _, index, graph = mesh
     hops = dijkstra(graph, directed=False, unweighted=True, indices=20)
-    counts, ids = index.query_rings(20, 4)
+    counts, ids = index.nested(20, range(5), metric="rings")
     for i, count in enumerate(counts):
         np.testing.assert_array_equal(np.sort(ids[:count]), np.flatnonzero(hops <= i))
 
@@ -182,14 +182,14 @@ def test_cut_edges_are_not_crossed():
     V, quads = grid(6)
     cut = [(12 + i, 18 + i) for i in range(6)]
     index = meshhood.MeshIndex(V, quads, cut=cut)
-    assert len(index.query_ball(0, np.inf)) == 18
-    assert len(meshhood.MeshIndex(V, quads).query_ball(0, np.inf)) == 36
+    assert len(index.neighborhood(0, np.inf)) == 18
+    assert len(meshhood.MeshIndex(V, quads).neighborhood(0, np.inf)) == 36
 
 
 def test_faces_and_submesh_of_a_region(mesh):
     V, F, index, _ = mesh
     mesher = meshhood.RegionMesh(V, F)
-    ids = index.query_ball(5, 3.2)
+    ids = index.neighborhood(5, 3.2)
     inside = np.isin(F, ids)
     np.testing.assert_array_equal(mesher.faces(ids), np.flatnonzero(inside.all(axis=1)))
     np.testing.assert_array_equal(mesher.faces(ids, "any"), np.flatnonzero(inside.any(axis=1)))
@@ -201,7 +201,7 @@ def test_faces_and_submesh_of_a_region(mesh):
 def test_rim_lies_at_the_radius(mesh):
     V, F, index, _ = mesh
     p, face = next(random_starts(V, F, np.random.default_rng(8), 1))
-    lines = meshhood.RegionMesh(V, F).rim(index.query_region(p, 2.7, seeds=face), p, 2.7)
+    lines = meshhood.RegionMesh(V, F).rim(index.neighborhood(p, 2.7, seeds=face), p, 2.7)
     assert lines
     for line in lines:
         np.testing.assert_allclose(np.linalg.norm(line.points - p, axis=1), 2.7, rtol=1e-12)
@@ -212,7 +212,7 @@ def test_rim_of_polygons_on_a_sheet_is_one_loop():
     V, quads = grid(12)
     index = meshhood.MeshIndex(V, quads)
     center = 6 * 12 + 6
-    (line,) = meshhood.RegionMesh(V, quads).rim(index.query_ball(center, 3.3), center, 3.3)
+    (line,) = meshhood.RegionMesh(V, quads).rim(index.neighborhood(center, 3.3), center, 3.3)
     assert line.closed
 
 
@@ -222,38 +222,38 @@ def test_rims_on_a_scan_are_loops_where_the_mesh_is_closed(tmp_path):
     mesher = meshhood.RegionMesh(V, F)
     r = 12 * index.mean_edge_length
     for v in range(0, len(V), 4321):
-        lines = mesher.rim(index.query_ball(v, r), v, r)
+        lines = mesher.rim(index.neighborhood(v, r), v, r)
         assert lines and all(line.closed for line in lines)
 
 
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda i: i.query_region([0.0, 0.0], 1), r"start: expected 3 numbers"),
-        (lambda i: i.query_region(np.zeros((2, 3)), 1), r"start: expected a vertex or 3 numbers"),
-        (lambda i: i.query_region([0, np.nan, 0], 1), r"start: row 0: coordinate 1 is nan"),
-        (lambda i: i.query_region(144, 1), r"start: vertex 144, but the mesh has 36 vertices"),
-        (lambda i: i.query_region(3, 1, seeds=[3]), r"seeds: expected None"),
-        (lambda i: i.query_region([0.0, 0.0, 0.0], 1, seeds=[0, 36]), r"seeds: row 1: vertex 36"),
-        (lambda i: i.query_region(0, -1), r"r: radius -1"),
-        (lambda i: i.query_region(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
-        (lambda i: i.query_region([0.0, 0.0, 0.0], 1, metric="path"), r"start: expected a vertex with metric='path'"),
-        (lambda i: i.query_region(0, 1, walls=np.zeros(36)), r"walls: expected integers, not float64"),
-        (lambda i: i.query_region(0, 1, ignored=np.zeros(35, bool)), r"ignored: a bool mask of shape \(35,\)"),
-        (lambda i: i.query_stroke([[0, 0, 0]], 1, seeds=[[0], [1]]), r"seeds: expected \(1,\) or \(1, k\)"),
-        (lambda i: i.query_stroke([[0, 0, 0]], [1, 2]), r"r: expected one number, or one for each of 1 rows"),
-        (lambda i: i.query_nested(0, [1, 1]), r"radii: value 1: radius 1.0, expected more than 1.0"),
-        (lambda i: i.query_nested(0, [np.nan]), r"radii: value 0: radius nan"),
+        (lambda i: i.neighborhood([0.0, 0.0], 1), r"start: expected 3 numbers"),
+        (lambda i: i.neighborhood(np.zeros((2, 3)), 1), r"start: expected a vertex or 3 numbers"),
+        (lambda i: i.neighborhood([0, np.nan, 0], 1), r"start: row 0: coordinate 1 is nan"),
+        (lambda i: i.neighborhood(144, 1), r"start: vertex 144, but the mesh has 36 vertices"),
+        (lambda i: i.neighborhood(3, 1, seeds=[3]), r"seeds: expected None"),
+        (lambda i: i.neighborhood([0.0, 0.0, 0.0], 1, seeds=[0, 36]), r"seeds: row 1: vertex 36"),
+        (lambda i: i.neighborhood(0, -1), r"r: radius -1"),
+        (lambda i: i.neighborhood(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
+        (lambda i: i.neighborhood([0.0, 0.0, 0.0], 1, metric="path"), r"start: expected a vertex with metric='path'"),
+        (lambda i: i.neighborhood(0, 1, walls=np.zeros(36)), r"walls: expected integers, not float64"),
+        (lambda i: i.neighborhood(0, 1, ignored=np.zeros(35, bool)), r"ignored: a bool mask of shape \(35,\)"),
+        (lambda i: i.stroke([[0, 0, 0]], 1, seeds=[[0], [1]]), r"seeds: expected \(1,\) or \(1, k\)"),
+        (lambda i: i.stroke([[0, 0, 0]], [1, 2]), r"r: expected one number, or one for each of 1 rows"),
+        (lambda i: i.nested(0, [1, 1]), r"radii: value 1: radius 1.0, expected more than 1.0"),
+        (lambda i: i.nested(0, [np.nan]), r"radii: value 0: radius nan"),
         (lambda i: i.contains(0, 36, 1), r"w: vertex 36"),
         (lambda i: i.connecting_radius(0, -1), r"w: vertex -1"),
         (lambda i: i.nearest_connected(0, -1), r"k: -1"),
-        (lambda i: i.query_rings(36, 1), r"v: vertex 36"),
+        (lambda i: i.nested(36, range(2), metric="rings"), r"start: vertex 36"),
         (lambda i: i.nearest([1, 2]), r"points: expected 3 numbers"),
         (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], [], 1), r"start: expected a vertex or 3 numbers, not .* \(0,\)"),
         (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], np.zeros((4, 3)), 1), r"start: expected a vertex .* \(4, 3\)"),
-        (lambda i: i.query_region(np.zeros((1, 3)), 1), r"start: expected a vertex or 3 numbers, not .* \(1, 3\)"),
-        (lambda i: i.query_ball(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
-        (lambda i: i.query_ball(0, 1, metric="path", method="bfs"), r"method: 'bfs', expected 'exact'"),
+        (lambda i: i.neighborhood(np.zeros((1, 3)), 1), r"start: expected a vertex or 3 numbers, not .* \(1, 3\)"),
+        (lambda i: i.neighborhood(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
+        (lambda i: i.neighborhood(0, 1, metric="path", method="bfs"), r"method: 'bfs', expected 'exact'"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 1), (0, 8)]), r"cut: edge 1: vertices 0 and 8"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 9)]), r"^cut: edge 0: vertex 9, but the mesh has 9 vertices"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[0, 1]), r"cut: expected an array \(n, 2\)"),
@@ -276,14 +276,14 @@ def test_a_point_farther_from_the_mesh_than_the_radius_causes_a_warning():
     index = meshhood.MeshIndex(V, quads)
     above = [2.0, 2.0, 3.0]
     for ask in (
-        lambda r: index.query_region(above, r),
-        lambda r: index.query_region(above, r, seeds=[0, 12]),
-        lambda r: index.query_nested(above, [0.5, r])[1],
-        lambda r: index.query_stroke([above], r),
+        lambda r: index.neighborhood(above, r),
+        lambda r: index.neighborhood(above, r, seeds=[0, 12]),
+        lambda r: index.nested(above, [0.5, r])[1],
+        lambda r: index.stroke([above], r),
     ):
         with pytest.warns(UserWarning, match=FAR) as caught:
             assert len(ask(2.9)) == 0
         assert caught[0].filename == __file__
         assert 12 in ask(3.0)  # at exactly 3; no warning
-    assert len(index.query_region(above, 3.0, walls=np.ones(25, bool))) == 0  # no warning: a wall lies in the ball
-    assert len(index.query_region(above, 1.0, seeds=np.empty(0, int))) == 0  # no seed is far
+    assert len(index.neighborhood(above, 3.0, walls=np.ones(25, bool))) == 0  # no warning: a wall lies in the ball
+    assert len(index.neighborhood(above, 1.0, seeds=np.empty(0, int))) == 0  # no seed is far

@@ -33,10 +33,10 @@ def test_one_vertex(plates, method, r):
     V, _, edges, index = plates
     for v in range(0, len(V), 17):
         wanted = expected(V, edges, method, v, r)
-        ids, distances = index.query_ball(v, r, return_distance=True, method=method)
+        ids, distances = index.neighborhood(v, r, return_distance=True, method=method)
         np.testing.assert_array_equal(np.sort(ids), wanted)
         np.testing.assert_array_equal(distances, oracle.distances(V, v)[ids])
-        np.testing.assert_array_equal(index.query_ball(v, r, sort="id", method=method), wanted)
+        np.testing.assert_array_equal(index.neighborhood(v, r, sort="id", method=method), wanted)
         assert index.count(v, r, method=method) == len(wanted)
 
 
@@ -44,7 +44,7 @@ def test_one_vertex(plates, method, r):
 def test_paper_lies_between_exact_and_ball(plates, r):
     V, _, edges, index = plates
     for v in range(0, len(V), 17):
-        ids = index.query_ball(v, r, method="paper")
+        ids = index.neighborhood(v, r, method="paper")
         assert set(oracle.neighborhood(V, edges, v, r)) <= set(ids) <= set(oracle.ball(V, v, r))
 
 
@@ -54,15 +54,15 @@ def test_paper_with_other_parameters():
     single_vertices = meshhood.Paper(levels=1)
     # One cluster that holds all makes each answer the ball; single vertices make it exact.
     for paper, method in ((one_cluster, "ball"), (single_vertices, "exact"), (meshhood.Paper(), "paper")):
-        for got, want in zip(*(index.query_ball(None, 2.5, sort="id", method=m) for m in (paper, method))):
+        for got, want in zip(*(index.neighborhoods(2.5, sort="id", method=m) for m in (paper, method))):
             np.testing.assert_array_equal(got, want)
-    exact, ball = (index.count(None, 2.5, method=method) for method in ("exact", "ball"))
+    exact, ball = (index.counts(2.5, method=method) for method in ("exact", "ball"))
     assert (exact < ball).any()
 
 
 def test_a_larger_radius_ratio_adds_fewer_vertices():
     index = meshhood.MeshIndex(*meshes.folded(40))
-    few, many = (index.count(None, 12.0, method=meshhood.Paper(radius_ratio=ratio)).sum() for ratio in (100, 1))
+    few, many = (index.counts(12.0, method=meshhood.Paper(radius_ratio=ratio)).sum() for ratio in (100, 1))
     assert few < many
 
 
@@ -73,17 +73,17 @@ def test_many_vertices_are_one_after_the_other(plates, method, workers):
     v = np.array([5, 200, 5, 0, 287])
     r = np.array([1.0, 2.0, 0.0, np.inf, 3.5])
     options = {"return_distance": True, "sort": "id", "method": method}
-    indptr, indices, distances = index.query_ball(v, r, workers=workers, **options)
-    singles = [index.query_ball(*query, **options) for query in zip(v, r)]
+    indptr, indices, distances = index.neighborhoods(r, v, **options)
+    singles = [index.neighborhood(*query, **options) for query in zip(v, r)]
     for ids, far, single in zip(rows(indptr, indices), rows(indptr, distances), singles):
         np.testing.assert_array_equal(ids, single[0])
         np.testing.assert_array_equal(far, single[1])
-    np.testing.assert_array_equal(np.diff(indptr), index.count(v, r, workers=workers, method=method))
+    np.testing.assert_array_equal(np.diff(indptr), index.counts(r, v, method=method))
 
 
 def test_all_vertices(plates):
     V, _, edges, index = plates
-    indptr, indices = index.query_ball(None, 2.5, sort="id")
+    indptr, indices = index.neighborhoods(2.5, sort="id")
     assert len(indptr) == len(V) + 1
     for v, ids in enumerate(rows(indptr, indices)):
         np.testing.assert_array_equal(ids, oracle.neighborhood(V, edges, v, 2.5))
@@ -109,27 +109,27 @@ def test_graph_with_a_radius_for_each_vertex(plates):
     index = plates[3]
     r = np.linspace(0, 4, len(index))
     graph = index.radius_neighbors_graph(r)
-    np.testing.assert_array_equal(np.diff(graph.indptr), index.count(None, r))
+    np.testing.assert_array_equal(np.diff(graph.indptr), index.counts(r))
 
 
 @pytest.mark.parametrize("chunk", (1, 100, 10_000))
 def test_chunks_are_the_rows(plates, chunk):
     index = plates[3]
     r = np.linspace(0, 4, len(index))
-    parts = list(index.iter_neighborhoods(None, r, chunk=chunk, return_distance=True))
+    parts = list(index.iter_neighborhoods(r, chunk=chunk, return_distance=True))
     np.testing.assert_array_equal(np.concatenate([p.vertices for p in parts]), np.arange(len(index)))
     assert all(len(p.vertices) <= chunk for p in parts)
-    indptr, _, distances = index.query_ball(None, r, return_distance=True)
+    indptr, _, distances = index.neighborhoods(r, return_distance=True)
     np.testing.assert_array_equal(np.concatenate([np.diff(p.indptr) for p in parts]), np.diff(indptr))
     np.testing.assert_array_equal(np.sort(np.concatenate([p.distances for p in parts])), np.sort(distances))
 
 
 def test_chunks_of_some_vertices(plates):
     index = plates[3]
-    parts = list(index.iter_neighborhoods([7, 3, 9], 1.0, chunk=2, sort="id"))
+    parts = list(index.iter_neighborhoods(1.0, [7, 3, 9], chunk=2, sort="id"))
     assert [list(p.vertices) for p in parts] == [[7, 3], [9]]
     assert parts[0].distances is None
-    np.testing.assert_array_equal(parts[1].indices, index.query_ball(9, 1.0, sort="id"))
+    np.testing.assert_array_equal(parts[1].indices, index.neighborhood(9, 1.0, sort="id"))
 
 
 @pytest.mark.parametrize("method", ("exact", "bfs"))
@@ -137,11 +137,11 @@ def test_chunks_in_index_order_are_the_rows(plates, method):
     index = plates[3]
     v = np.random.default_rng(5).integers(0, len(index), 300)  # some of them more than once
     r = np.linspace(0, 4, len(v))
-    parts = list(index.iter_neighborhoods(v, r, chunk=70, order="index", sort="id", method=method))
+    parts = list(index.iter_neighborhoods(r, v, chunk=70, order="index", sort="id", method=method))
     place = np.argsort(index.permutation)
     order = np.argsort(place[v], kind="stable")
     np.testing.assert_array_equal(np.concatenate([p.vertices for p in parts]), v[order])
-    indptr, indices = index.query_ball(v[order], r[order], sort="id", method=method)
+    indptr, indices = index.neighborhoods(r[order], v[order], sort="id", method=method)
     np.testing.assert_array_equal(np.concatenate([np.diff(p.indptr) for p in parts]), np.diff(indptr))
     np.testing.assert_array_equal(np.concatenate([p.indices for p in parts]), indices)
 
@@ -149,16 +149,16 @@ def test_chunks_in_index_order_are_the_rows(plates, method):
 def test_all_vertices_in_index_order(plates):
     index = plates[3]
     r = np.linspace(0, 4, len(index))
-    (part,) = index.iter_neighborhoods(None, r, chunk=len(index), order="index")
+    (part,) = index.iter_neighborhoods(r, chunk=len(index), order="index")
     np.testing.assert_array_equal(part.vertices, index.permutation)
-    np.testing.assert_array_equal(np.diff(part.indptr), index.count(None, r)[index.permutation])
+    np.testing.assert_array_equal(np.diff(part.indptr), index.counts(r)[index.permutation])
 
 
 def test_index_does_not_depend_on_workers():
     V, F = meshes.two_plates(60)
     one, many = (meshhood.MeshIndex(V, F, workers=workers) for workers in (1, 4))
     np.testing.assert_array_equal(one.permutation, many.permutation)
-    for a, b in zip(one.query_ball(None, 3.0, workers=1), many.query_ball(None, 3.0, workers=4)):
+    for a, b in zip(one.neighborhoods(3.0, workers=1), many.neighborhoods(3.0, workers=4)):
         np.testing.assert_array_equal(a, b)
 
 
@@ -192,4 +192,4 @@ def test_random_meshes(mesh, r):
     edges = oracle.graph(len(V), faces)
     wanted = np.concatenate([oracle.neighborhood(V, edges, v, r) for v in range(len(V))])
     for method in ("exact", "bfs"):
-        np.testing.assert_array_equal(index.query_ball(None, r, sort="id", method=method)[1], wanted)
+        np.testing.assert_array_equal(index.neighborhoods(r, sort="id", method=method)[1], wanted)

@@ -48,7 +48,7 @@ def interrupted(exact):
     os.kill(os.getpid(), signal.SIGUSR1)
     return graph(exact)
 _core.graph = interrupted
-index.query_ball(0, 2.0, method={made!r})
+index.neighborhood(0, 2.0, method={made!r})
 assert len(answers) == 1 and answers[0] == index.count(0, 2.0, method={other!r})
 """)
 
@@ -68,7 +68,7 @@ def slow(exact):
     forked.wait()
     return graph(exact)
 _core.graph = slow
-thread = threading.Thread(target=lambda: index.query_ball(0, 2.0, method="paper"))
+thread = threading.Thread(target=lambda: index.neighborhood(0, 2.0, method="paper"))
 thread.start()
 making.wait()
 child = os.fork()
@@ -85,8 +85,8 @@ assert os.waitpid(child, 0)[1] == 0
 @pytest.mark.parametrize(
     "call",
     [
-        "index.count(None, 3.0, workers=3, progress=progress)",
-        "index.query_ball(None, 3.0, workers=3, progress=progress)",
+        "index.counts(3.0, workers=3, progress=progress)",
+        "index.neighborhoods(3.0, workers=3, progress=progress)",
         "index.curvature(3.0, workers=3, progress=progress)",
         "meshhood.MeshIndex(*meshes.two_plates(60), workers=3, progress=progress)",
     ],
@@ -108,7 +108,7 @@ try:
 except KeyboardInterrupt:
     ended = False
 if 0 in children:
-    index.count(None, 2.0, workers=2)  # another call starts threads of its own
+    index.counts(2.0, workers=2)  # another call starts threads of its own
     os._exit(0)
 assert ended and children
 for child in children:
@@ -126,15 +126,15 @@ wanted = index.count(5, 3.0, method={method!r})
 stop = threading.Event()
 def run_query():
     while not stop.is_set():
-        index.query_ball(5, 3.0, method={method!r})
-        index.query_ball(range(20), 3.0, method={method!r}, workers=2)
+        index.neighborhood(5, 3.0, method={method!r})
+        index.neighborhoods(3.0, range(20), method={method!r}, workers=2)
 threads = [threading.Thread(target=run_query) for _ in range(3)]
 for thread in threads:
     thread.start()
 for _ in range(50):
     child = os.fork()
     if child == 0:
-        answers = index.count(5, 3.0, method={method!r}), *index.count([5, 5], 3.0, workers=2)
+        answers = index.count(5, 3.0, method={method!r}), *index.counts(3.0, [5, 5], workers=2)
         os._exit(0 if answers[0] == wanted else 1)
     assert os.waitpid(child, 0)[1] == 0
 stop.set()
@@ -174,7 +174,7 @@ def test_a_progress_function_may_sum_over_neighborhoods_of_the_same_index(call):
     V, F = meshes.two_plates(12)
     index = meshhood.MeshIndex(V, F)
     wanted, inner = eval(SUMS[call]), []
-    got = index.query_ball(None, 2.5, progress=lambda done, total: inner.append(eval(SUMS[call], {"index": index, "F": F})))
+    got = index.neighborhoods(2.5, progress=lambda done, total: inner.append(eval(SUMS[call], {"index": index, "F": F})))
     assert len(got[0]) == len(V) + 1
     assert len(inner) >= 2
     for answer in inner:
@@ -184,15 +184,15 @@ def test_a_progress_function_may_sum_over_neighborhoods_of_the_same_index(call):
 @pytest.mark.parametrize("method", METHODS)
 def test_a_progress_function_may_query_the_same_index(method):
     index = meshhood.MeshIndex(*meshes.two_plates(12))
-    wanted = index.query_ball(None, 2.5, method=method)
+    wanted = index.neighborhoods(2.5, method=method)
     inner = []
 
     def query(done, total):
         for other in METHODS:
-            inner.append(index.query_ball(None, 2.5, method=other)[1] if other == method else 0)
-            index.query_ball(3, 2.5, method=other)
+            inner.append(index.neighborhoods(2.5, method=other)[1] if other == method else 0)
+            index.neighborhood(3, 2.5, method=other)
 
-    got = index.query_ball(None, 2.5, method=method, progress=query)
+    got = index.neighborhoods(2.5, method=method, progress=query)
     np.testing.assert_array_equal(got[1], wanted[1])
     assert sum(isinstance(answer, np.ndarray) for answer in inner) >= 2
     for answer in inner:
@@ -224,7 +224,7 @@ def test_threads_that_make_the_same_method_make_it_once():
 
     def run_query():
         start.wait()
-        index.query_ball(0, 1.0, method="paper")
+        index.neighborhood(0, 1.0, method="paper")
         made.append(index._methods["paper"])
 
     threads = [threading.Thread(target=run_query) for _ in range(4)]
@@ -242,7 +242,7 @@ def test_a_signal_during_a_batch_may_query(tmp_path):
     answers = []
     old = signal.signal(signal.SIGUSR1, lambda number, frame: answers.append(index.count(0, 2.0, method="bfs")))
     try:
-        index.query_ball(None, 3.0, progress=lambda done, total: signal.raise_signal(signal.SIGUSR1))
+        index.neighborhoods(3.0, progress=lambda done, total: signal.raise_signal(signal.SIGUSR1))
     finally:
         signal.signal(signal.SIGUSR1, old)
     assert len(answers) >= 2
@@ -256,7 +256,7 @@ def test_a_child_that_was_forked_by_multiprocessing_may_make_every_method():
 import multiprocessing
 index = meshhood.MeshIndex(*meshes.two_plates(12))
 def count(method):
-    return index.count(None, 2.0, method=method).sum()
+    return index.counts(2.0, method=method).sum()
 with multiprocessing.get_context("fork").Pool(2) as pool:
     counts = pool.map(count, ["exact", "paper", "bfs", "ball"])
 assert counts[0] == counts[2] <= counts[1] <= counts[3]

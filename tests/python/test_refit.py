@@ -29,7 +29,7 @@ def expect_answers_of(index, V, F, radii=(0.25, 1.0, 2.5, 7.0)):
     edges = oracle.triangle_graph(len(V), F)
     for v in range(0, len(V), 97):
         for r in (*radii, oracle.distances(V, v)[(7 * v + 11) % len(V)]):
-            np.testing.assert_array_equal(index.query_ball(v, r, sort="id"), oracle.neighborhood(V, edges, v, r))
+            np.testing.assert_array_equal(index.neighborhood(v, r, sort="id"), oracle.neighborhood(V, edges, v, r))
 
 
 def test_answers_are_those_of_the_moved_mesh(mesh):
@@ -67,19 +67,19 @@ def test_rows_of_other_vertices_are_not_read(mesh):
 def test_every_method_unit_and_property_belongs_to_the_moved_mesh(mesh):
     V, F = mesh
     index = meshhood.MeshIndex(V, F)
-    index.count(None, 2.0, method="bfs")
-    index.count(None, 2.0, method="paper")
+    index.counts(2.0, method="bfs")
+    index.counts(2.0, method="paper")
     moved = (2 * V).astype(V.dtype)
     twice = index.refit(moved)
     np.testing.assert_array_equal(twice.positions, moved)
     assert twice.mean_edge_length == pytest.approx(2 * index.mean_edge_length)
     for method in ("exact", "bfs", "ball", "paper"):
         np.testing.assert_array_equal(
-            twice.count(None, 4.0, method=method), index.count(None, 2.0, method=method)
+            twice.counts(4.0, method=method), index.counts(2.0, method=method)
         )
         np.testing.assert_array_equal(
-            twice.query_ball(7, 3, unit="edge", method=method, sort="id"),
-            index.query_ball(7, 3, unit="edge", method=method, sort="id"),
+            twice.neighborhood(7, 3, unit="edge", method=method, sort="id"),
+            index.neighborhood(7, 3, unit="edge", method=method, sort="id"),
         )
     np.testing.assert_array_equal(index.positions, V)
 
@@ -102,13 +102,13 @@ def test_other_threads_search_the_old_index_meanwhile(mesh):
     moved = bent(V, 4)
     index = meshhood.MeshIndex(V, F)
     shared = {"index": index}
-    wanted = {id(index): index.count(None, 2.0)}
+    wanted = {id(index): index.counts(2.0)}
     kept, wrong, stop = [index], [], threading.Event()
 
     def search():
         while not stop.is_set():
             current = shared["index"]
-            if not np.array_equal(current.count(None, 2.0, workers=1), wanted[id(current)]):
+            if not np.array_equal(current.counts(2.0, workers=1), wanted[id(current)]):
                 wrong.append(current)
 
     threads = [threading.Thread(target=search) for _ in range(3)]
@@ -116,7 +116,7 @@ def test_other_threads_search_the_old_index_meanwhile(mesh):
         thread.start()
     for step in range(12):
         following = kept[-1].refit(moved if step % 2 == 0 else V)
-        wanted[id(following)] = wanted[id(index)] if step % 2 else following.count(None, 2.0, method="bfs")
+        wanted[id(following)] = wanted[id(index)] if step % 2 else following.counts(2.0, method="bfs")
         kept.append(following)
         shared["index"] = following
     stop.set()

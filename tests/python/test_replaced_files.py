@@ -22,11 +22,11 @@ SIDES = (12, 20)
 MESHES = [meshes.two_plates(side) for side in SIDES]
 INDEXES = [meshhood.MeshIndex(V, F) for V, F in MESHES]
 # Of meshes of different sizes, so that the total shows the state.
-COUNTS = {len(index): index.count(None, HALO) for index in INDEXES}
+COUNTS = {len(index): index.counts(HALO) for index in INDEXES}
 
 
 def check(index):
-    np.testing.assert_array_equal(index.count(None, HALO, workers=1), COUNTS[len(index)])
+    np.testing.assert_array_equal(index.counts(HALO, workers=1), COUNTS[len(index)])
     return len(index)
 
 
@@ -104,7 +104,7 @@ def test_parts_that_are_replaced_all_the_time(tmp_path, writer):
             part = parts.open(number)
             time.sleep(random.random() / 100)
             assert part.mesh.faces.max() < len(part.vertices)
-            found[part.vertices[part.owned]] = part.index.count(part.owned, HALO, workers=1)
+            found[part.vertices[part.owned]] = part.index.counts(HALO, part.owned, workers=1)
         return found
 
     while sum(outcomes.values()) < PART_READS or outcomes["answered"] < PART_READS // 4:
@@ -221,4 +221,4 @@ def test_a_mesh_file_that_is_replaced_is_read_again(tmp_path):
 
 
 def counts_of(index):
-    return index.count(None, HALO, workers=1)
+    return index.counts(HALO, workers=1)

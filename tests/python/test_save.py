@@ -36,7 +36,7 @@ def assert_same(one, other):
     assert len(one) == len(other)
     np.testing.assert_array_equal(one.permutation, other.permutation)
     for method in METHODS:
-        for a, b in zip(*(i.query_ball(None, 3.5, return_distance=True, method=method) for i in (one, other))):
+        for a, b in zip(*(i.neighborhoods(3.5, return_distance=True, method=method) for i in (one, other))):
             np.testing.assert_array_equal(a, b)
     assert (one.radius_neighbors_graph(2.0) != other.radius_neighbors_graph(2.0)).nnz == 0
 
@@ -97,7 +97,7 @@ def test_tiny_meshes(V, tmp_path):
     index.save(tmp_path / "small")
     for other in (meshhood.load(tmp_path / "small"), pickle.loads(pickle.dumps(index))):
         assert len(other) == len(V)
-        np.testing.assert_array_equal(other.query_ball(None, 1.0)[1], np.arange(len(V)))
+        np.testing.assert_array_equal(other.neighborhoods(1.0)[1], np.arange(len(V)))
 
 
 @pytest.mark.parametrize("mmap", (False, True))
@@ -162,8 +162,8 @@ def test_indexes_saved_by_the_cpp_library_are_loaded(file):
     index = meshhood.load(file)
     np.testing.assert_array_equal(np.sort(index.permutation), np.arange(len(index)))
     for v in range(0, len(index), 7):
-        ids = index.query_ball(v, 1.0, sort="id")
-        np.testing.assert_array_equal(ids, index.query_ball(v, 1.0, sort="id", method="bfs"))
+        ids = index.neighborhood(v, 1.0, sort="id")
+        np.testing.assert_array_equal(ids, index.neighborhood(v, 1.0, sort="id", method="bfs"))
 
 
 def test_progress_of_loading(file):
@@ -235,12 +235,12 @@ def test_a_copy_is_the_index_itself(index):
 
 
 def run_query(index, v):
-    return index.query_ball(v, 3.5)
+    return index.neighborhood(v, 3.5)
 
 
 @pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())
 def test_other_processes_may_query(index, method):
-    wanted = [index.query_ball(v, 3.5) for v in range(5)]
+    wanted = [index.neighborhood(v, 3.5) for v in range(5)]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # of forking where there are threads
         pool = concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context(method))
@@ -265,7 +265,7 @@ def test_processes_may_share_a_file(index, file):
     context = multiprocessing.get_context("spawn")
     with concurrent.futures.ProcessPoolExecutor(2, context, initializer=map_index, initargs=(file,)) as pool:
         for v, got in enumerate(pool.map(query_mapped, range(5))):
-            np.testing.assert_array_equal(got, index.query_ball(v, 3.5))
+            np.testing.assert_array_equal(got, index.neighborhood(v, 3.5))
 
 
 class Mine(meshhood.MeshIndex):

@@ -22,7 +22,7 @@ def test_exact_equals_scipy(name, tmp_path):
     found = 0
     for r in length * np.array(EDGES):
         for method in ("exact", "bfs"):
-            indptr, indices = index.query_ball(rows, r, sort="id", method=method)
+            indptr, indices = index.neighborhoods(r, rows, sort="id", method=method)
             for v, ids in zip(rows, np.split(indices, indptr[1:-1])):
                 np.testing.assert_array_equal(ids, oracle.neighborhood(V, edges, v, r))
         found += len(indices)

@@ -28,27 +28,27 @@ def unconnected(V, edges, v, r):
 @pytest.mark.parametrize("r", [0.1, 0.25, 1.0, 3.5, np.inf])
 def test_nearest_unconnected_is_that_of_a_scan(mesh, r):
     V, _, index, edges = mesh
-    other, gap = index.nearest_unconnected(None, r)
+    other, gap = index.nearest_unconnected(r)
     assert other.dtype == np.int32 and gap.dtype == np.float64
     for v in range(0, len(V), 5):
         assert (other[v], gap[v]) == unconnected(V, edges, v, r)
     some = [7, 3, 3]
-    np.testing.assert_array_equal(index.nearest_unconnected(some, r, workers=1)[0], other[some])
+    np.testing.assert_array_equal(index.nearest_unconnected(r, some, workers=1)[0], other[some])
 
 
 def test_nearest_unconnected_takes_a_mask_radii_and_a_unit(mesh):
     V, _, index, _ = mesh
     rows = np.zeros(len(V), bool)
     rows[[4, 9]] = True
-    other, gap = index.nearest_unconnected(rows, [0.1, 2.0])
+    other, gap = index.nearest_unconnected([0.1, 2.0], rows)
     assert other[0] == -1 and gap[0] == np.inf and gap[1] == 0.25
-    a = index.nearest_unconnected(None, 2, unit="edge")
-    b = index.nearest_unconnected(None, 2 * index.mean_edge_length)
+    a = index.nearest_unconnected(2, unit="edge")
+    b = index.nearest_unconnected(2 * index.mean_edge_length)
     np.testing.assert_array_equal(a[0], b[0])
     with pytest.raises(ValueError, match="vertices: row 1: vertex 999"):
-        index.nearest_unconnected([0, 999], 1.0)
+        index.nearest_unconnected(1.0, [0, 999])
     with pytest.raises(ValueError, match="r: radius -1"):
-        index.nearest_unconnected(None, -1)
+        index.nearest_unconnected(-1)
 
 
 def nearest_by_samples(V, F, q):
@@ -111,10 +111,10 @@ def test_a_region_starts_from_the_corners_of_a_face(mesh):
     q = random.uniform(V.min(0), V.max(0), (25, 3))
     faces, _, points = index.closest_point(q)
     for face, point in zip(faces, points):
-        found = index.query_region(point, 2.5, face=face)
-        np.testing.assert_array_equal(found, index.query_region(point, 2.5, seeds=F[face]))
+        found = index.neighborhood(point, 2.5, face=face)
+        np.testing.assert_array_equal(found, index.neighborhood(point, 2.5, seeds=F[face]))
     np.testing.assert_array_equal(
-        index.query_stroke(points, 1.5, face=faces), index.query_stroke(points, 1.5, seeds=F[faces])
+        index.stroke(points, 1.5, face=faces), index.stroke(points, 1.5, seeds=F[faces])
     )
 
 
@@ -125,7 +125,7 @@ def test_every_search_from_a_point_starts_from_the_corners_of_its_face(mesh):
     faces, _, points = index.closest_point(random.uniform(V.min(0), V.max(0), (12, 3)))
     for face, point in zip(faces, points):
         for call in (
-            lambda **start: index.query_nested(point, [1.0, 2.5], walls=walls, **start),
+            lambda **start: index.nested(point, [1.0, 2.5], walls=walls, **start),
             lambda **start: [index.contains(point, w, 2.5, walls=walls, **start) for w in range(0, len(V), 9)],
             lambda **start: [index.connecting_radius(point, w, walls=walls, **start) for w in range(0, len(V), 9)],
             lambda **start: index.nearest_connected(point, 15, walls=walls, **start),
@@ -139,16 +139,16 @@ def test_a_region_of_a_polygon_starts_from_all_its_corners():
     corners = np.concatenate([quads.ravel(), [0, 1, 4]])
     offsets = np.array([*range(0, 4 * len(quads) + 1, 4), 4 * len(quads) + 3])
     index = meshhood.MeshIndex(V, (offsets, corners))
-    np.testing.assert_array_equal(index.query_region([0.5, 0.5, 0], 0.8, face=0, sort="id"), [0, 1, 4, 5])
-    stroke = index.query_stroke([[0.5, 0.5, 0], [0.2, 0.2, 0]], 0.8, face=[0, 9], sort="id")
+    np.testing.assert_array_equal(index.neighborhood([0.5, 0.5, 0], 0.8, face=0, sort="id"), [0, 1, 4, 5])
+    stroke = index.stroke([[0.5, 0.5, 0], [0.2, 0.2, 0]], 0.8, face=[0, 9], sort="id")
     np.testing.assert_array_equal(stroke, [0, 1, 4, 5])
 
 
 def test_a_face_as_start_is_refused_where_it_means_nothing(mesh):
     V, F, index, _ = mesh
     for call in (
-        lambda **start: index.query_region(3, 1.0, **start),
-        lambda **start: index.query_nested(3, [1.0], **start),
+        lambda **start: index.neighborhood(3, 1.0, **start),
+        lambda **start: index.nested(3, [1.0], **start),
         lambda **start: index.contains(3, 4, 1.0, **start),
         lambda **start: index.connecting_radius(3, 4, **start),
         lambda **start: index.nearest_connected(3, 4, **start),
@@ -156,23 +156,23 @@ def test_a_face_as_start_is_refused_where_it_means_nothing(mesh):
         with pytest.raises(ValueError, match="face: expected None, because the start is a vertex"):
             call(face=2)
     with pytest.raises(ValueError, match="seeds: expected None, because the face is given"):
-        index.query_region([0.0, 0.0, 0.0], 1.0, seeds=[1], face=2)
+        index.neighborhood([0.0, 0.0, 0.0], 1.0, seeds=[1], face=2)
     with pytest.raises(ValueError, match=f"face: row 0: face {len(F)}, but the mesh has {len(F)} faces"):
-        index.query_region([0.0, 0.0, 0.0], 1.0, face=len(F))
+        index.neighborhood([0.0, 0.0, 0.0], 1.0, face=len(F))
     with pytest.raises(ValueError, match="face: expected one for each of 2 points, not 1"):
-        index.query_stroke([[0, 0, 0], [1, 1, 0]], 1.0, face=[1])
+        index.stroke([[0, 0, 0], [1, 1, 0]], 1.0, face=[1])
     with pytest.raises(ValueError, match="face: given, but this index has none"):
-        meshhood.MeshIndex(V, F, keep_faces=False).query_region([0.0, 0.0, 0.0], 1.0, face=1)
+        meshhood.MeshIndex(V, F, keep_faces=False).neighborhood([0.0, 0.0, 0.0], 1.0, face=1)
 
 
-def test_query_knn_is_nearest_connected_row_by_row(mesh):
+def test_k_nearest_is_nearest_connected_row_by_row(mesh):
     V, _, index, _ = mesh
     walls = np.zeros(len(V), bool)
     walls[::7] = True
     ignored = np.zeros(len(V), bool)
     ignored[::5] = True
     for filters in ({}, {"walls": walls}, {"walls": walls, "ignored": ignored}):
-        ids, radii = index.query_knn(None, 9, **filters)
+        ids, radii = index.k_nearest(9, **filters)
         assert ids.shape == radii.shape == (len(V), 9)
         for v in range(0, len(V), 9):
             expected, expected_radii = index.nearest_connected(v, 9, **filters)
@@ -182,63 +182,62 @@ def test_query_knn_is_nearest_connected_row_by_row(mesh):
             assert (ids[v, count:] == -1).all() and (radii[v, count:] == np.inf).all()
 
 
-def test_query_knn_by_path_begins_as_the_path_neighborhood(mesh):
+def test_k_nearest_by_path_begins_as_the_path_neighborhood(mesh):
     V, _, index, _ = mesh
-    ids, lengths = index.query_knn(range(0, len(V), 9), 30, metric="path", r=3.0, fill=len(V), workers=2)
+    ids, lengths = index.k_nearest(30, range(0, len(V), 9), metric="path", r=3.0, fill=len(V), workers=2)
     for row, v in enumerate(range(0, len(V), 9)):
-        expected, expected_lengths = index.query_ball(v, 3.0, metric="path", return_distance=True)
+        expected, expected_lengths = index.neighborhood(v, 3.0, metric="path", return_distance=True)
         count = min(30, len(expected))
         np.testing.assert_array_equal(ids[row, :count], expected[:count])
         np.testing.assert_array_equal(lengths[row, :count], expected_lengths[:count])
         assert (ids[row, count:] == len(V)).all()
 
 
-def test_query_knn_of_one_vertex_is_one_row(mesh):
+def test_k_nearest_of_one_vertex_is_one_row(mesh):
     _, _, index, _ = mesh
-    ids, radii = index.query_knn(5, 4)
+    ids, radii = index.k_nearest(4, 5)
     assert ids.shape == radii.shape == (4,) and ids[0] == 5 and radii[0] == 0
-    np.testing.assert_array_equal(ids, index.query_knn([5], 4)[0][0])
+    np.testing.assert_array_equal(ids, index.k_nearest(4, [5])[0][0])
 
 
 @pytest.mark.parametrize("metric", ["straight", "path"])
-def test_query_knn_until_an_area_gives_discs_of_it(mesh, metric):
+def test_discs_have_the_area(mesh, metric):
     V, F, index, _ = mesh
     areas = meshhood.vertex_areas(V, F)
-    indptr, ids, distances = index.query_knn(None, until=7.5, metric=metric)
-    all_ids, all_distances = index.query_knn(None, 40, metric=metric)
+    indptr, ids, distances = index.discs(7.5, metric=metric)
+    all_ids, all_distances = index.k_nearest(40, metric=metric)
     for v in range(0, len(V), 11):
         row = ids[indptr[v] : indptr[v + 1]]
         np.testing.assert_array_equal(row, all_ids[v, : len(row)])
         np.testing.assert_array_equal(distances[indptr[v] : indptr[v + 1]], all_distances[v, : len(row)])
         sums = np.cumsum(areas[row])
         assert sums[-1] >= 7.5 > sums[-2]
-    same = index.query_knn(None, until=7.5, metric=metric, weights=areas)
+    same = index.discs(7.5, metric=metric, weights=areas)
     np.testing.assert_array_equal(same[1], ids)
 
 
-def test_query_knn_refuses_wrong_arguments(mesh):
+def test_nearest_vertices_refuse_wrong_arguments(mesh):
     V, _, index, _ = mesh
-    for wrong in ({}, {"k": 3, "until": 1.0}):
-        with pytest.raises(ValueError, match="k: expected a number of vertices, or an area as `until`, and not both"):
-            index.query_knn(None, **wrong)
-    with pytest.raises(ValueError, match="until: -1"):
-        index.query_knn(None, until=-1)
+    with pytest.raises(ValueError, match="area: -1"):
+        index.discs(-1)
     with pytest.raises(ValueError, match="metric: 'geodesic'"):
-        index.query_knn(None, 3, metric="geodesic")
+        index.k_nearest(3, metric="geodesic")
     with pytest.raises(ValueError, match="walls: a bool mask of shape"):
-        index.query_knn(None, 3, walls=np.zeros(3, bool))
-    for wrong in ({"k": 10**9}, {"k": 3, "max_bytes": 36 * len(V) - 1}, {"until": 1e9, "max_bytes": 12 * len(V)}):
+        index.k_nearest(3, walls=np.zeros(3, bool))
+    for call in (
+        lambda: index.k_nearest(10**9),
+        lambda: index.k_nearest(3, max_bytes=36 * len(V) - 1),
+        lambda: index.discs(1e9, max_bytes=12 * len(V)),
+    ):
         with pytest.raises(MemoryError, match="exceeds max_bytes, .*; take fewer vertices at a time"):
-            index.query_knn(None, **wrong)
+            call()
     with pytest.raises(MemoryError, match="k: 4611686018427387904 vertices for each"):
-        index.query_knn(None, 2**62)
-    for call in (index.query_knn, index.nearest_connected):
+        index.k_nearest(2**62)
+    for call in (lambda: index.k_nearest(0, 3), lambda: index.nearest_connected(3, 0)):
         with pytest.raises(ValueError, match="k: 0, expected 1 to"):
-            call(3, 0)
-    with pytest.raises(TypeError, match="K: no argument of this call"):
-        index.query_knn(None, K=5)
+            call()
     with pytest.raises(ValueError, match="weights: vertex 2: -1.0, expected a finite number >= 0"):
-        index.query_knn(None, until=1.0, weights=np.where(np.arange(len(V)) == 2, -1.0, 1.0))
+        index.discs(1.0, weights=np.where(np.arange(len(V)) == 2, -1.0, 1.0))
 
 
 def test_from_points_joins_the_pairs_of_a_tree():
@@ -248,7 +247,7 @@ def test_from_points_joins_the_pairs_of_a_tree():
     P = random.uniform(0, 10, (1500, 3))
     index = meshhood.MeshIndex.from_points(P, 0.9)
     pairs = cKDTree(P).query_pairs(0.9, output_type="ndarray")
-    rings = [index.query_rings(v, 1)[1] for v in range(len(P))]
+    rings = [index.nested(v, range(2), metric="rings")[1] for v in range(len(P))]
     found = {(v, int(w)) for v, ring in enumerate(rings) for w in ring if v < w}
     assert found == set(map(tuple, pairs.tolist()))
     assert index.faces is None
@@ -288,7 +287,7 @@ def test_of_faces_joins_faces_across_edges():
     np.testing.assert_allclose(index.positions, V[F].mean(axis=1))
     for f in range(len(F)):
         shared = [g for g in range(len(F)) if len(set(F[f]) & set(F[g])) == 2]
-        np.testing.assert_array_equal(np.sort(index.query_rings(f, 1)[1]), np.sort([f, *shared]))
+        np.testing.assert_array_equal(np.sort(index.nested(f, range(2), metric="rings")[1]), np.sort([f, *shared]))
     polygons = meshhood.MeshIndex.of_faces(V, quads)
     np.testing.assert_allclose(polygons.positions, V[quads].mean(axis=1))
     with pytest.raises(ValueError, match="F: face 1 has no corners"):
@@ -309,7 +308,7 @@ def test_a_clipped_submesh_has_the_area_of_the_disc():
     F = triangles(quads)
     index, patches = meshhood.MeshIndex(V, F), meshhood.RegionMesh(V, F)
     p, r = [20.2, 19.7, 0.0], 13.3
-    ids = index.query_region(p, r)
+    ids = index.neighborhood(p, r)
     whole, clipped = patches.submesh(ids), patches.submesh(ids, clip=(p, r))
     disc = np.pi * r * r
     assert whole.area < 0.95 * disc

@@ -41,26 +41,29 @@ assert_type(meshhood.weld(*mesh).faces, Union[Ids, tuple[Longs, Ids]])
 assert_type(meshhood.__version__, str)
 assert_type(meshhood.show_config(), None)
 
-assert_type(index.query_ball(1, 2), Ids)
-assert_type(index.query_ball(np.int64(1), np.float32(2), sort="id", unit="edge"), Ids)
-assert_type(index.query_ball(1, 2.0, return_distance=True), tuple[Ids, Floats])
-assert_type(index.query_ball([1, 2], 2.0, method="bfs"), tuple[Offsets, Ids])
-assert_type(index.query_ball(None, [2.0, 3.0]), tuple[Offsets, Ids])
-assert_type(index.query_ball(np.arange(3), np.ones(3), return_distance=True), tuple[Offsets, Ids, Floats])
-assert_type(index.query_ball(index.permutation, 1.0), tuple[Offsets, Ids])
-assert_type(index.query_ball(np.ones(9, bool), 1.0), tuple[Offsets, Ids])
+assert_type(index.neighborhood(1, 2), Ids)
+assert_type(index.neighborhood(np.int64(1), np.float32(2), sort="id", unit="edge"), Ids)
+assert_type(index.neighborhood(1, 2.0, return_distance=True), tuple[Ids, Floats])
+assert_type(index.neighborhoods(2.0, [1, 2], method="bfs"), tuple[Offsets, Ids])
+assert_type(index.neighborhoods([2.0, 3.0]), tuple[Offsets, Ids])
+assert_type(index.neighborhoods(np.ones(3), np.arange(3), return_distance=True), tuple[Offsets, Ids, Floats])
+assert_type(index.neighborhoods(1.0, index.permutation), tuple[Offsets, Ids])
+assert_type(index.neighborhoods(1.0, np.ones(9, bool)), tuple[Offsets, Ids])
 assert_type(index.count(1, 2.0, method=meshhood.Paper(radius_ratio=20)), int)
-assert_type(index.count(range(3), 2.0), Longs)
-assert_type(index.count(3, scales=[1.0, 2.0]), Longs)
+assert_type(index.counts(2.0, range(3)), Longs)
+assert_type(index.counts(scales=[1.0, 2.0], vertices=3), Union[int, Longs])
 walls = np.zeros(9, bool)
-assert_type(index.query_ball(None, 2.0, walls=walls, metric="path", dtype=np.float32), tuple[Offsets, Ids])
-assert_type(index.query_ball(3, scales=[1.0, 2.0]), tuple[Offsets, Ids])
-assert_type(index.query_region(3, 2.0, walls=walls, return_distance=True), tuple[Ids, Reals])
-assert_type(index.aggregate(np.ones(9), 2.0, "max"), Reals)
-assert_type(index.aggregate(np.ones(9, np.float32), scales=[1.0, 2.0], vertices=[3, 4]), Singles)
+assert_type(index.neighborhoods(2.0, walls=walls, metric="path", dtype=np.float32), tuple[Offsets, Ids])
+assert_type(index.neighborhoods(scales=[1.0, 2.0], vertices=[3]), tuple[Offsets, Ids])
+assert_type(index.neighborhood(3, 2.0, walls=walls, return_distance=True), tuple[Ids, Floats])
+assert_type(index.nested(3, range(4), metric="rings").ids, Ids)
+assert_type(index.k_nearest(9).distances, Reals)
+assert_type(index.discs(2.0, metric="path").indptr, Offsets)
+assert_type(index.aggregate(np.ones(9), 2.0, "max"), Floats)
+assert_type(index.aggregate(np.ones(9, np.float32), scales=[1.0, 2.0], vertices=[3, 4]), Floats)
 assert_type(index.aggregate([1.0, 2.0], 2.0, vertices=3), Union[float, Singles, Reals])
-assert_type(index.smooth(np.ones(9, np.float32), 2.0, metric="path", walls=walls), Singles)
-assert_type(index.smooth(np.ones(9), 2.0, weights="area"), Reals)
+assert_type(index.smooth(np.ones(9, np.float32), 2.0, metric="path", walls=walls), Floats)
+assert_type(index.smooth(np.ones(9), 2.0, weights="area"), Floats)
 assert_type(index.nearest([0.0, 0.0, 1.0]), tuple[int, float])
 assert_type(index.nearest([[0.0, 0.0, 1.0]]), tuple[Ids, Reals])
 assert_type(index.nearest(np.ones((2, 3))), Union[tuple[int, float], tuple[Ids, Reals]])
@@ -73,7 +76,7 @@ assert_type(index.moments(2.0, degree=3, weights="area", F=mesh.faces), Floats)
 assert_type(index.principal_components(2.0).surface_variation, Floats)
 assert_type(index.features(meshhood.geometric_radii(1.0, 2.0, 3), F=mesh.faces, kinds=("crease", "mean")), Floats)
 assert_type(meshhood.persistence(np.ones((1, 2)), [1.0], 0.5).scales, Ids)
-for part in index.iter_neighborhoods(None, 1.0, return_distance=True):
+for part in index.iter_neighborhoods(1.0, return_distance=True):
     assert_type(part.vertices, Ids)
     assert_type(part.indptr, Offsets)
     assert_type(part.distances, Union[Singles, Reals, None])
@@ -89,7 +92,7 @@ assert_type(parts.neighborhoods(1.0, "out", format="zarr", progress=True), list[
 
 
 def rows(part: distributed.OpenPart, index: meshhood.MeshIndex, owned: Ids) -> Longs:
-    return index.count(owned, 1.0)
+    return index.counts(1.0, owned)
 
 
 parts.map(rows, 1.0, order="parts")
@@ -97,16 +100,16 @@ assert_type(parts.write(rows, 1.0, "out"), list[str])
 """
 
 REFUSED = (
-    'index.query_ball("1", 2.0)',
-    "index.query_ball(1)",
-    "index.query_ball(1, [2.0])",
-    'index.query_ball(1, 2.0, method="fast")',
-    'index.query_ball(1, 2.0, unit="mile")',
-    'index.query_ball([1], 2.0, metric="edge")',
+    'index.neighborhoods(2.0, "1")',
+    "index.neighborhood(1)",
+    "index.neighborhood(1, [2.0])",
+    'index.neighborhood(1, 2.0, method="fast")',
+    'index.neighborhood(1, 2.0, unit="mile")',
+    'index.neighborhoods(2.0, [1], metric="edge")',
     "index.count(1, 2.0, sort='id')",
-    "index.iter_neighborhoods(1.0)",
+    "index.iter_neighborhoods(vertices=1.0)",
     'index.features(2.0, kinds="sharp")',
-    'index.query_ball([1], 2.0, sort="length")',
+    'index.neighborhoods(2.0, [1], sort="length")',
     'index.curvature(2.0, metric="miles")',
     'index.smooth([1.0], 2.0, kernel="biweight")',
     "meshhood.Paper(factor=20)",

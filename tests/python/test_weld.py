@@ -45,7 +45,7 @@ def test_faces_stay_and_name_the_new_vertices():
     np.testing.assert_array_equal(faces, ids[separate])
     np.testing.assert_array_equal(vertices[ids], apart)
     assert len(vertices) == len(V)
-    assert meshhood.MeshIndex(vertices, faces).count(None, np.inf).min() == len(V)
+    assert meshhood.MeshIndex(vertices, faces).counts(np.inf).min() == len(V)
 
 
 def test_polygons_stay_with_all_corners():

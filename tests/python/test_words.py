@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The words that calls on many vertices share mean the same in each: rows, radii, scales, masks, metric, order."""
+"""The arguments that calls on many vertices share mean the same in each: rows, radii, scales, masks, metric, order."""
 
 import inspect
 import pickle
@@ -22,7 +22,7 @@ MASKS = {"walls": WALLS, "ignored": IGNORED}
 
 # Each call with rows and radii; the result is an array, or several.
 CALLS = {
-    "count": lambda r=None, **words: INDEX.count(words.pop("vertices", None), r, **words),
+    "counts": lambda r=None, **words: INDEX.counts(r, **words),
     "aggregate": lambda r=None, **words: INDEX.aggregate(VALUES, r, "sum", **words),
     "maximum": lambda r=None, **words: INDEX.aggregate(VALUES, r, "max", **words),
     "variance": lambda r=None, **words: INDEX.aggregate(VALUES, r, "var", **words),
@@ -33,7 +33,7 @@ CALLS = {
     "components": lambda r=None, **words: INDEX.principal_components(r, **words),
     "features": lambda r=None, **words: INDEX.features(r, kinds=("area", "crease"), **words),
 }
-PATH_CALLS = ("count", "aggregate", "maximum", "variance", "kernel")
+PATH_CALLS = ("counts", "aggregate", "maximum", "variance", "kernel")
 
 
 def arrays(result):
@@ -96,8 +96,6 @@ def test_a_list_of_another_length_is_never_guessed(name):
         CALLS[name](scales=2.0)
     with pytest.raises(TypeError, match="r: missing, expected a number"):
         CALLS[name]()
-    with pytest.raises(TypeError, match="wall: no argument of this call"):
-        CALLS[name](1.0, wall=WALLS)
 
 
 @pytest.mark.parametrize("name", PATH_CALLS)
@@ -111,8 +109,8 @@ def test_masks_give_what_a_mesh_without_the_walls_gives(name):
 
 
 def _with(index, name, r):
-    if name == "count":
-        return index.count(None, r)
+    if name == "counts":
+        return index.counts(r)
     reduce = {"aggregate": "sum", "maximum": "max", "variance": "var", "kernel": "mean"}[name]
     return index.aggregate(VALUES, r, reduce, kernel="biweight" if name == "kernel" else None)
 
@@ -120,21 +118,21 @@ def _with(index, name, r):
 @pytest.mark.parametrize("metric", ("straight", "path"))
 def test_batches_with_masks_are_single_queries_with_masks(metric):
     words = {**MASKS, "metric": metric, "return_distance": True, "sort": "id"}
-    many = rows_of(*INDEX.query_ball(None, 2.5, **words))
+    many = rows_of(*INDEX.neighborhoods(2.5, **words))
     for v, (ids, distances) in enumerate(many):
-        one = INDEX.query_ball(v, 2.5, **words)
+        one = INDEX.neighborhood(v, 2.5, **words)
         np.testing.assert_array_equal(ids, one[0])
         np.testing.assert_array_equal(distances, one[1])
-        np.testing.assert_array_equal(ids, INDEX.query_region(v, 2.5, **MASKS, metric=metric, sort="id"))
+        np.testing.assert_array_equal(ids, INDEX.neighborhood(v, 2.5, **MASKS, metric=metric, sort="id"))
         assert not (WALLS | IGNORED)[ids].any()
-    np.testing.assert_array_equal(INDEX.count(None, 2.5, **MASKS, metric=metric), [len(ids) for ids, _ in many])
+    np.testing.assert_array_equal(INDEX.counts(2.5, **MASKS, metric=metric), [len(ids) for ids, _ in many])
 
 
 @pytest.mark.parametrize("name", ("aggregate", "maximum", "variance", "kernel", "moments"))
 @pytest.mark.parametrize("metric", ("straight", "path", "rings"))
 def test_masks_and_metrics_in_values(name, metric):
     found = CALLS[name](2.5, **MASKS, metric=metric)
-    listed = rows_of(*INDEX.query_ball(None, 2.5, return_distance=True, **MASKS, metric=metric))
+    listed = rows_of(*INDEX.neighborhoods(2.5, return_distance=True, **MASKS, metric=metric))
     for v, (ids, distances) in enumerate(listed):
         if name == "moments":
             assert found[v, 0] == len(ids)
@@ -154,18 +152,17 @@ def test_masks_and_metrics_in_values(name, metric):
 
 
 def test_rows_of_all_scales_follow_each_other():
-    indptr, indices, distances = INDEX.query_ball([4, 9], scales=[1.0, 2.0], return_distance=True)
+    indptr, indices, distances = INDEX.neighborhoods(vertices=[4, 9], scales=[1.0, 2.0], return_distance=True)
     assert len(indptr) == 5
     for (ids, lengths), (v, r) in zip(rows_of(indptr, indices, distances), ((4, 1.0), (9, 1.0), (4, 2.0), (9, 2.0))):
-        one = INDEX.query_ball(v, r, return_distance=True)
+        one = INDEX.neighborhood(v, r, return_distance=True)
         np.testing.assert_array_equal(ids, one[0])
         np.testing.assert_array_equal(lengths, one[1])
-    assert len(INDEX.query_ball(4, scales=[1.0, 2.0])[0]) == 3
-    assert INDEX.count(4, scales=[1.0, 2.0]).tolist() == [len(INDEX.query_ball(4, r)) for r in (1.0, 2.0)]
+    assert INDEX.counts(scales=[1.0, 2.0], vertices=4).tolist() == [len(INDEX.neighborhood(4, r)) for r in (1.0, 2.0)]
     graph = INDEX.radius_neighbors_graph(scales=[1.0, 2.0], vertices=[4, 9])
     assert graph.shape == (4, COUNT) and graph.nnz == len(indices)
     with pytest.raises(MemoryError, match="max_bytes"):
-        INDEX.query_ball(None, scales=[1.0, 2.0], max_bytes=4 * int(INDEX.count(None, 2.0).sum()))
+        INDEX.neighborhoods(scales=[1.0, 2.0], max_bytes=4 * int(INDEX.counts(2.0).sum()))
 
 
 @pytest.mark.parametrize("metric", ("straight", "path"))
@@ -175,17 +172,17 @@ def test_sort(method, metric):
         return
     place = np.argsort(INDEX.permutation)
     words = {"method": method, "metric": metric, "return_distance": True}
-    whole = rows_of(*INDEX.query_ball(None, 2.5, **words))
+    whole = rows_of(*INDEX.neighborhoods(2.5, **words))
     keys_of = {"id": lambda i, d: i, "index": lambda i, d: place[i], "distance": lambda i, d: list(zip(d, i))}
     for sort, key in keys_of.items():
-        rows = rows_of(*INDEX.query_ball(None, 2.5, sort=sort, **words))
+        rows = rows_of(*INDEX.neighborhoods(2.5, sort=sort, **words))
         for v, ((ids, distances), (all_ids, _)) in enumerate(zip(rows, whole)):
             assert sorted(ids) == sorted(all_ids)
             keys = [tuple(k) if isinstance(k, tuple) else k for k in key(ids, distances)]
             assert keys == sorted(keys)
-            np.testing.assert_array_equal(INDEX.query_ball(v, 2.5, sort=sort, method=method, metric=metric), ids)
+            np.testing.assert_array_equal(INDEX.neighborhood(v, 2.5, sort=sort, method=method, metric=metric), ids)
     with pytest.raises(ValueError, match="sort: True, expected 'index' or 'id' or 'distance'"):
-        INDEX.query_ball(0, 1.0, sort=True)
+        INDEX.neighborhood(0, 1.0, sort=True)
 
 
 def test_path_distances_are_those_of_dijkstra():
@@ -205,7 +202,7 @@ def test_types():
     )
     assert INDEX.aggregate(single, 2.0, dtype=np.float64).dtype == INDEX.aggregate(double, 2.0).dtype == np.float64
     assert INDEX.aggregate(VALUES.astype(int), 2.0).dtype == np.float64
-    indptr, indices, distances = INDEX.query_ball(None, 2.0, return_distance=True, dtype="float32")
+    indptr, indices, distances = INDEX.neighborhoods(2.0, return_distance=True, dtype="float32")
     assert (indptr.dtype, indices.dtype, distances.dtype) == (np.int32, np.int32, np.float32)
     graph = INDEX.radius_neighbors_graph(2.0, dtype=np.float32)
     assert (graph.indptr.dtype, graph.indices.dtype, graph.data.dtype) == (np.int32, np.int32, np.float32)
@@ -229,8 +226,6 @@ def test_the_smoothing_matrix_smooths(metric, weights):
     np.testing.assert_allclose((matrix @ VALUES)[~alone], smooth[~alone], rtol=1e-11, atol=1e-13)
     assert np.isnan(smooth[alone]).all() and alone.any()
     np.testing.assert_allclose(matrix.sum(axis=1)[~alone], 1)
-    with pytest.raises(TypeError, match="nan: no argument"):
-        INDEX.smoothing_matrix(2.0, nan="omit")
 
 
 def test_many_channels_are_each_channel_by_itself():
@@ -261,8 +256,8 @@ def test_two_banks_are_not_mixed_along_paths():
 def test_progress_ascends_over_all_scales():
     for call in (
         lambda watch: INDEX.curvature(scales=[1.0, 2.0, 3.0], progress=watch),
-        lambda watch: INDEX.count(None, scales=[1.0, 2.0, 3.0], progress=watch),
-        lambda watch: INDEX.query_ball(None, scales=[1.0, 2.0], progress=watch),
+        lambda watch: INDEX.counts(scales=[1.0, 2.0, 3.0], progress=watch),
+        lambda watch: INDEX.neighborhoods(scales=[1.0, 2.0], progress=watch),
         lambda watch: INDEX.corrected_curvature(scales=[1.0, 2.0], progress=watch),
         lambda watch: INDEX.aggregate(VALUES, scales=[1.0, 2.0], progress=watch),
         lambda watch: INDEX.features(scales=[1.0, 2.0], kinds=("area", "crease"), progress=watch),
@@ -284,11 +279,11 @@ def test_a_bar_has_a_title_and_counts_vertices(monkeypatch):
             bars.append(self)
 
     monkeypatch.setattr(tqdm, "tqdm", Bar)
-    INDEX.query_ball(None, scales=[1.0, 2.0], progress=True)
+    INDEX.neighborhoods(scales=[1.0, 2.0], progress=True)
     INDEX.curvature(2.0, progress=True)
     meshhood.MeshIndex(V, F, progress=True)
     assert [(bar.desc.rstrip(": "), bar.unit.strip()) for bar in bars] == [
-        ("query_ball", "vertices"), ("curvature", "vertices"), ("MeshIndex", "steps"),
+        ("neighborhoods", "vertices"), ("curvature", "vertices"), ("MeshIndex", "steps"),
     ]  # fmt: skip
     assert [(bar.n, bar.total) for bar in bars[:2]] == [(2 * COUNT, 2 * COUNT), (COUNT, COUNT)]
 
@@ -296,11 +291,11 @@ def test_a_bar_has_a_title_and_counts_vertices(monkeypatch):
 @pytest.mark.parametrize(
     ("call", "message"),
     (
-        (lambda: INDEX.query_region([100, 120, 130], 5.0), r"start: integers .*query_ball\(vertices, r\)"),
-        (lambda: INDEX.query_region(np.array([1, 2, 3]), 5.0), r"start: integers .*query_ball\(vertices, r\)"),
-        (lambda: INDEX.nearest_connected([100, 120, 130], 5), r"start: integers .*query_knn\(vertices, k\)"),
-        (lambda: INDEX.nearest_connected([1, 2], 100), r"start: integers .*query_knn\(vertices, k\)"),
-        (lambda: INDEX.query_nested([1, 2, 3], [1.0, 2.0]), r"start: integers .*scales=radii"),
+        (lambda: INDEX.neighborhood([100, 120, 130], 5.0), r"start: integers .*neighborhoods\(r, vertices\)"),
+        (lambda: INDEX.neighborhood(np.array([1, 2, 3]), 5.0), r"start: integers .*neighborhoods\(r, vertices\)"),
+        (lambda: INDEX.nearest_connected([100, 120, 130], 5), r"start: integers .*k_nearest\(k, vertices\)"),
+        (lambda: INDEX.nearest_connected([1, 2], 100), r"start: integers .*k_nearest\(k, vertices\)"),
+        (lambda: INDEX.nested([1, 2, 3], [1.0, 2.0]), r"start: integers .*scales=radii"),
         (lambda: INDEX.contains([1, 2, 3], 4, 1.0), "start: integers"),
     ),
 )
@@ -313,18 +308,18 @@ def test_errors_blame_the_argument_at_fault():
     with pytest.raises(ValueError, match=r"vertices: .* faces are passed as F="):
         INDEX.curvature(5.0, F)
     with pytest.raises(ValueError, match="method: 'bfs', expected 'exact' with walls"):
-        INDEX.count(None, 1.0, walls=WALLS, method="bfs")
+        INDEX.counts(1.0, walls=WALLS, method="bfs")
     with pytest.raises(TypeError, match="walls: .* numbers 0 or 1, expected a bool mask, or vertices"):
-        INDEX.count(None, 1.0, walls=WALLS.astype(int))
+        INDEX.counts(1.0, walls=WALLS.astype(int))
     with pytest.raises(ValueError, match="walls: "):
-        INDEX.count(None, 1.0, walls=[COUNT])
+        INDEX.counts(1.0, walls=[COUNT])
 
 
 def test_masks_are_also_lists_of_vertices():
     words = {"walls": np.flatnonzero(WALLS), "ignored": np.flatnonzero(IGNORED).tolist()}
-    np.testing.assert_array_equal(INDEX.count(None, 2.5, **words), INDEX.count(None, 2.5, **MASKS))
-    np.testing.assert_array_equal(INDEX.query_ball(4, 2.5, **words), INDEX.query_ball(4, 2.5, **MASKS))
-    np.testing.assert_array_equal(INDEX.count(None, 2.5, walls=[], ignored=()), INDEX.count(None, 2.5))
+    np.testing.assert_array_equal(INDEX.counts(2.5, **words), INDEX.counts(2.5, **MASKS))
+    np.testing.assert_array_equal(INDEX.neighborhood(4, 2.5, **words), INDEX.neighborhood(4, 2.5, **MASKS))
+    np.testing.assert_array_equal(INDEX.counts(2.5, walls=[], ignored=()), INDEX.counts(2.5))
 
 
 def test_an_index_with_masks_has_the_attributes_of_a_subclass():
@@ -340,17 +335,17 @@ def test_an_index_with_masks_has_the_attributes_of_a_subclass():
 def test_an_index_with_masks_answers_as_calls_with_them():
     index = INDEX.masked(**MASKS)
     for metric in ("straight", "path", "rings"):
-        np.testing.assert_array_equal(index.count(None, 2, metric=metric), INDEX.count(None, 2, metric=metric, **MASKS))
+        np.testing.assert_array_equal(index.counts(2, metric=metric), INDEX.counts(2, metric=metric, **MASKS))
     np.testing.assert_array_equal(index.curvature(2.5).k1, INDEX.curvature(2.5, **MASKS).k1)
-    np.testing.assert_array_equal(index.query_region(4, 2.5), INDEX.query_region(4, 2.5, **MASKS))
+    np.testing.assert_array_equal(index.neighborhood(4, 2.5), INDEX.neighborhood(4, 2.5, **MASKS))
     assert index.mean_edge_length == INDEX.mean_edge_length
-    np.testing.assert_array_equal(index.count(None, 2, unit="edge"), INDEX.count(None, 2, unit="edge", **MASKS))
+    np.testing.assert_array_equal(index.counts(2, unit="edge"), INDEX.counts(2, unit="edge", **MASKS))
     for refused, message in (
-        (lambda: index.count(None, 2, walls=WALLS), "walls, ignored: expected None, because this index has masks"),
+        (lambda: index.counts(2, walls=WALLS), "walls, ignored: expected None, because this index has masks"),
         (lambda: index.masked(ignored=[1]), "masked again"),
         (lambda: index.refit(V), "not refitted"),
         (lambda: pickle.dumps(index), "not saved"),
-        (lambda: index.count(None, 2, method="bfs"), "method: 'bfs', expected 'exact' with walls"),
+        (lambda: index.counts(2, method="bfs"), "method: 'bfs', expected 'exact' with walls"),
         (lambda: index.count(3, 2, method="ball"), "method: 'ball', expected 'exact' with walls"),
     ):
         with pytest.raises(ValueError, match=message):
@@ -377,19 +372,16 @@ WITH_FACES = {
     "principal_components": lambda index, F: index.principal_components(2.0, weights="area", F=F),
     "features": lambda index, F: index.features(2.0, kinds=("area", "crease"), F=F),
     "closest_point": lambda index, F: index.closest_point(V[:20] + 0.1, F=F),
-    "query_knn": lambda index, F: index.query_knn(None, until=3.0, F=F),
+    "discs": lambda index, F: index.discs(3.0, F=F),
     "submesh": lambda index, F: index.submesh([0, 1, 2, 9, 10, 11], F=F),
-    "rim": lambda index, F: [line.points for line in index.rim(INDEX.query_ball(40, 2.0), 40, 2.0, F=F)],
+    "rim": lambda index, F: [line.points for line in index.rim(INDEX.neighborhood(40, 2.0), 40, 2.0, F=F)],
 }
 
 
 def test_each_call_that_takes_faces_is_listed():
     methods = inspect.getmembers(meshhood.MeshIndex, inspect.isfunction)
-    words = {name: inspect.signature(method).parameters for name, method in methods if name[0] != "_"}
-    taking = {name for name, parameters in words.items() if "F" in parameters or "Unpack" in str(parameters.get("words"))}
-    # Those with other words refuse F, but `refit`, whose faces are not read.
-    taking -= {"radius_neighbors_graph", "iter_neighborhoods", "nearest_unconnected"}
-    assert taking | {"aggregate", "smooth"} == set(WITH_FACES)
+    taking = {name for name, method in methods if "F" in inspect.signature(method).parameters and name[0] != "_"}
+    assert taking == set(WITH_FACES)
 
 
 @pytest.mark.parametrize("name", WITH_FACES)
@@ -412,7 +404,7 @@ def test_faces_of_another_mesh_are_refused(name):
 
 
 def test_a_region_as_a_mesh_needs_no_faces():
-    ids = INDEX.query_ball(40, 2.0)
+    ids = INDEX.neighborhood(40, 2.0)
     wanted, found = meshhood.RegionMesh(V, F).submesh(ids), INDEX.submesh(ids)
     for a, b in zip(wanted, found):
         np.testing.assert_array_equal(a, b)
@@ -425,7 +417,7 @@ def test_a_region_as_a_mesh_needs_no_faces():
 
 def test_a_curvature_counts_its_vertices():
     found = INDEX.curvature(1.0, filter=False)
-    np.testing.assert_array_equal(found.count, INDEX.count(None, 1.0))
+    np.testing.assert_array_equal(found.count, INDEX.counts(1.0))
     assert (found.count < 6).any() and not found.ok[found.count < 6].any()
     assert len(repr(found)) < 60 and "ok" in repr(found)
 
@@ -465,7 +457,7 @@ def test_free_memory_is_what_a_control_group_leaves(tmp_path, monkeypatch):
     monkeypatch.setattr(_memory, "_of_control_groups", lambda: iter([1000]))
     assert _memory.free_bytes() == 1000
     with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds max_bytes, 1000; iter_neighborhoods"):
-        INDEX.query_ball(None, 5.0)
+        INDEX.neighborhoods(5.0)
     with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds max_bytes, 1000"):
         INDEX.aggregate(VALUES, 5.0)
 
@@ -473,7 +465,7 @@ def test_free_memory_is_what_a_control_group_leaves(tmp_path, monkeypatch):
 def test_a_ball_is_every_vertex_in_space():
     edges = oracle.triangle_graph(COUNT, F)
     for v in range(0, COUNT, 11):
-        ids = INDEX.query_ball(v, 1.1, method="ball", sort="id")
+        ids = INDEX.neighborhood(v, 1.1, method="ball", sort="id")
         np.testing.assert_array_equal(ids, np.flatnonzero(oracle.distances(V, v) <= 1.1))
         assert len(ids) >= len(oracle.neighborhood(V, edges, v, 1.1))
 
@@ -481,12 +473,12 @@ def test_a_ball_is_every_vertex_in_space():
 @pytest.mark.parametrize("masks", ({}, MASKS), ids=("all", "masks"))
 def test_rings_are_a_metric(masks):
     words = {**masks, "metric": "rings", "return_distance": True, "sort": "id"}
-    for v, (ids, edges) in enumerate(rows_of(*INDEX.query_ball(None, 2, **words))):
-        counts, wanted = INDEX.query_rings(v, 2, **masks)
+    for v, (ids, edges) in enumerate(rows_of(*INDEX.neighborhoods(2, **words))):
+        counts, wanted = INDEX.nested(v, range(3), metric="rings", **masks)
         np.testing.assert_array_equal(ids, np.sort(wanted))
         number = dict(zip(wanted, np.repeat(np.arange(len(counts)), np.diff(counts, prepend=0))))
         assert edges.tolist() == [number[i] for i in ids]
-        np.testing.assert_array_equal(INDEX.query_ball(v, 2, **words)[0], ids)
-        np.testing.assert_array_equal(INDEX.query_region(v, 2, **words)[0], ids)
+        np.testing.assert_array_equal(INDEX.neighborhood(v, 2, **words)[0], ids)
+        np.testing.assert_array_equal(INDEX.neighborhood(v, 2, **words)[0], ids)
     with pytest.raises(ValueError, match="unit: expected 'mesh' with metric='rings'"):
-        INDEX.count(None, 2, metric="rings", unit="edge")
+        INDEX.counts(2, metric="rings", unit="edge")

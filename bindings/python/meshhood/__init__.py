@@ -6,8 +6,8 @@ component that contains v.
 
     >>> V, F = meshhood.read_mesh("hand.ply")
     >>> index = meshhood.MeshIndex(V, F)
-    >>> near = index.query_ball(42, 1.5)
-    >>> indptr, indices = index.query_ball([42, 43], 1.5)
+    >>> near = index.neighborhood(42, 1.5)
+    >>> indptr, indices = index.neighborhoods(1.5, [42, 43])
 """
 
 from . import _core

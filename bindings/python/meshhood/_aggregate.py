@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
 
 import numpy as np
@@ -13,36 +12,21 @@ from . import _convert, _core
 from ._held import Held
 from ._mesh import mesh_arrays, only_part
 from ._optional import optional
-from ._rows import ResultWords, check_one_given, check_size, check_words, read_rows, result_dtype
-from ._types import Floats, Number, Radii, Reals, Scales, Vertex, Vertices
+from ._progress import Progress
+from ._rows import check_one_given, check_size, read_rows, result_dtype
+from ._types import AnyVertices, Floats, Mask, Metric, Number, Radii, Scales, Unit, Vertex, Vertices, Weights
 
 if TYPE_CHECKING:
+    from numpy.typing import DTypeLike
     from scipy.sparse import csr_array
-    from typing_extensions import Unpack
 
 Reduce = Literal["sum", "mean", "min", "max", "var", "std", "count"]
+Missing = Literal["propagate", "omit"]
+Nesting = Literal["own", "patch"]
 Kernel = Literal["epanechnikov", "biweight", "gaussian"]
 
 _KERNELS = ("epanechnikov", "biweight", "gaussian")
 _REDUCTIONS = ("sum", "mean", "min", "max", "var", "std", "count")
-_MISSING = ("propagate", "omit")
-
-
-class SmoothWords(ResultWords, total=False):
-    """The words of `MeshIndex.smooth` besides `vertices`."""
-
-    scales: Optional[Scales]
-    weights: Union[Literal["area"], ArrayLike, None]
-    nan: Literal["propagate", "omit"]
-    F: Any
-
-
-class AggregateWords(SmoothWords, total=False):
-    """The words of `MeshIndex.aggregate` besides `vertices`."""
-
-    kernel: Optional[Kernel]
-    nesting: Literal["own", "patch"]
-    ddof: int
 
 
 def smoothing_radius(fwhm: Number) -> float:
@@ -71,30 +55,44 @@ class Aggregates(Held):
 
     @overload
     def aggregate(
-        self, values: NDArray[np.float32], r: Optional[Radii] = None, reduce: Reduce = "mean", *,
-        vertices: Vertices = None, **words: Unpack[AggregateWords],
-    ) -> NDArray[np.float32]: ...  # fmt: skip
-
-    @overload
-    def aggregate(
-        self, values: Union[NDArray[np.float64], Sequence[float]], r: Optional[Radii] = None, reduce: Reduce = "mean",
-        *, vertices: Vertices = None, **words: Unpack[AggregateWords],
-    ) -> Reals: ...  # fmt: skip
-
-    @overload
-    def aggregate(
         self, values: ArrayLike, r: Optional[Radii] = None, reduce: Reduce = "mean", *, vertices: Vertices = None,
-        **words: Unpack[AggregateWords],
+        scales: Optional[Scales] = None, weights: Weights = None, kernel: Optional[Kernel] = None,
+        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, F: Any = None, metric: Metric = "straight",
+        walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh", dtype: Optional[DTypeLike] = None,
+        max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
     ) -> Floats: ...  # fmt: skip
 
     @overload
     def aggregate(
         self, values: ArrayLike, r: Optional[Radii] = None, reduce: Reduce = "mean", *, vertices: Vertex,
-        **words: Unpack[AggregateWords],
+        scales: Optional[Scales] = None, weights: Weights = None, kernel: Optional[Kernel] = None,
+        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, F: Any = None, metric: Metric = "straight",
+        walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh", dtype: Optional[DTypeLike] = None,
+        max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
     ) -> Union[float, Floats]: ...  # fmt: skip
 
     def aggregate(
-        self, values: Any, r: Any = None, reduce: Reduce = "mean", *, vertices: Any = None, **words: Any
+        self,
+        values: ArrayLike,
+        r: Optional[Radii] = None,
+        reduce: Reduce = "mean",
+        *,
+        vertices: AnyVertices = None,
+        scales: Optional[Scales] = None,
+        weights: Weights = None,
+        kernel: Optional[Kernel] = None,
+        nan: Missing = "propagate",
+        nesting: Nesting = "own",
+        ddof: int = 0,
+        F: Any = None,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        dtype: Optional[DTypeLike] = None,
+        max_bytes: Optional[int] = None,
+        workers: int = -1,
+        progress: Progress = None,
     ) -> Any:
         """A sum, a mean or another aggregate of values over the exact neighborhood of each vertex.
 
@@ -120,7 +118,7 @@ class Aggregates(Held):
         Returns an axis of scales if there are any, one of vertices unless `vertices` is a single one, then the axes of
         `values` but the first. NaN where a neighborhood has no values; 0 for their sum and their count.
 
-        No ids are listed. The cost is that of `count` for all vertices and a little for each channel. Sums
+        No ids are listed. The cost is that of `counts` and a little for each channel. Sums
         are exact to 1e-14 of the sum of the absolute terms, with a kernel to 1e-13 of the sum without it. A result does
         not depend on the other vertices of the call, bit for bit. With a kernel, its last bits may depend on whether
         `values` have more than 16 channels, and on whether one of them exceeds 2^300.
@@ -131,22 +129,21 @@ class Aggregates(Held):
         >>> index.aggregate(V[:, 2], scales=[0.2, 0.4], vertices=[42, 43]).shape
         (2, 2)
         """
-        rows = read_rows(self, vertices, r, words.get("scales"), words, AggregateWords)
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         given = _values(values, self._count)
-        dtype = result_dtype(words, np.float32 if given.dtype == np.float32 else np.float64)
+        dtype = result_dtype(dtype, np.float32 if given.dtype == np.float32 else np.float64)
         shape = rows.shape + given.shape[1:]
-        check_size(shape, 8, words.get("max_bytes"))
-        nesting = _convert.choice(words.get("nesting", "own"), "nesting", ("own", "patch"))
+        check_size(shape, 8, max_bytes)
         options = {
             "reduce": getattr(_core.Reduce, _convert.choice(reduce, "reduce", _REDUCTIONS)),
-            "kernel": getattr(_core.SmoothingKernel, _kernel(words.get("kernel"))),
-            "missing": getattr(_core.MissingValues, _convert.choice(words.get("nan", "propagate"), "nan", _MISSING)),
-            "nesting": getattr(_core.Nesting, nesting),
-            "ddof": _convert.integer(words.get("ddof", 0), "ddof", 0, 1),
+            "kernel": getattr(_core.SmoothingKernel, _kernel(kernel)),
+            "missing": getattr(_core.MissingValues, _convert.choice(nan, "nan", ("propagate", "omit"))),
+            "nesting": getattr(_core.Nesting, _convert.choice(nesting, "nesting", ("own", "patch"))),
+            "ddof": _convert.integer(ddof, "ddof", 0, 1),
         }
-        if words.get("kernel") is not None and reduce not in ("sum", "mean"):
-            raise ValueError(f"kernel: {words['kernel']!r}, expected None with reduce={reduce!r}")
-        weights = area_weights(self, words.get("weights"), words.get("F"))
+        if kernel is not None and reduce not in ("sum", "mean"):
+            raise ValueError(f"kernel: {kernel!r}, expected None with reduce={reduce!r}")
+        areas = area_weights(self, weights, F)
         if 0 in given.shape[1:]:
             return np.empty(shape, dtype)
         columns = np.array(given, np.float64, order="C").reshape(self._count, int(np.prod(given.shape[1:])))
@@ -155,7 +152,7 @@ class Aggregates(Held):
             result = _core.aggregate(
                 rows.index._exact,
                 values=columns,
-                weights=weights,
+                weights=areas,
                 vertices=rows.vertices,
                 radii=radii,
                 radius=radius,
@@ -168,25 +165,25 @@ class Aggregates(Held):
         result = result.reshape(shape).astype(dtype, copy=False)
         return result if result.ndim else float(result)
 
-    @overload
     def smooth(
-        self, values: NDArray[np.float32], fwhm: Optional[Radii] = None, *, vertices: Vertices = None,
-        **words: Unpack[SmoothWords],
-    ) -> NDArray[np.float32]: ...  # fmt: skip
-
-    @overload
-    def smooth(
-        self, values: Union[NDArray[np.float64], Sequence[float]], fwhm: Optional[Radii] = None, *,
-        vertices: Vertices = None, **words: Unpack[SmoothWords],
-    ) -> Reals: ...  # fmt: skip
-
-    @overload
-    def smooth(
-        self, values: ArrayLike, fwhm: Optional[Radii] = None, *, vertices: Vertices = None,
-        **words: Unpack[SmoothWords],
-    ) -> Floats: ...  # fmt: skip
-
-    def smooth(self, values: Any, fwhm: Any = None, *, vertices: Any = None, **words: Any) -> Any:
+        self,
+        values: ArrayLike,
+        fwhm: Optional[Radii] = None,
+        *,
+        vertices: Vertices = None,
+        scales: Optional[Scales] = None,
+        weights: Weights = None,
+        nan: Missing = "propagate",
+        F: Any = None,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        dtype: Optional[DTypeLike] = None,
+        max_bytes: Optional[int] = None,
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Floats:
         """The values smoothed by a Gaussian of this full width at half maximum: the mean with the weights
         exp(-4 ln 2 (d / fwhm)^2) by the distance d, cut where they are below 1/1000.
 
@@ -198,25 +195,41 @@ class Aggregates(Held):
             of the path.
         weights : None counts each vertex once; "area" weighs it by its area, and makes the result independent of how
             densely the surface is sampled.
-        The other words are those of `aggregate`, which this calls with reduce="mean" and kernel="gaussian". Vertices
+        The other arguments are those of `aggregate`, which this calls with reduce="mean" and kernel="gaussian". Vertices
         that are walls get NaN.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> smooth = index.smooth(V[:, 2], 0.5, metric="path", walls=V[:, 2] < -0.9)
         """
-        check_words(words, SmoothWords)
-        r, words["scales"] = _smoothing_radii(fwhm, words.get("scales"))
-        return self.aggregate(values, r, "mean", kernel="gaussian", vertices=vertices, **words)
+        r, scales = _smoothing_radii(fwhm, scales)
+        return self.aggregate(
+            values, r, kernel="gaussian", vertices=vertices, scales=scales, weights=weights, nan=nan, F=F, metric=metric,
+            walls=walls, ignored=ignored, unit=unit, dtype=dtype, max_bytes=max_bytes, workers=workers, progress=progress,
+        )  # fmt: skip
 
     def smoothing_matrix(
-        self, fwhm: Optional[Radii] = None, *, vertices: Vertices = None, **words: Unpack[SmoothWords]
+        self,
+        fwhm: Optional[Radii] = None,
+        *,
+        vertices: Vertices = None,
+        scales: Optional[Scales] = None,
+        weights: Weights = None,
+        F: Any = None,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        dtype: Optional[DTypeLike] = None,
+        max_bytes: Optional[int] = None,
+        workers: int = -1,
+        progress: Progress = None,
     ) -> csr_array:
         """What `smooth` does, as a scipy.sparse.csr_array (#rows, #V), or with scales (#scales * #rows, #V): its product
         with values (#V, ...) are the smoothed values, up to rounding, for values without NaN. Each row sums to 1; those
         of walls are empty, and where all weights are 0, the row is NaN.
 
-        The words are those of `smooth` but `nan`, and `dtype` is float64 unless given. Memory: 12 bytes for each vertex
-        of each neighborhood. Needs SciPy. `smooth` is faster, unless the same matrix is used many times.
+        The arguments are those of `smooth`, without `values` and `nan`; `dtype` is float64 unless given. Memory: 12 bytes
+        for each vertex of each neighborhood. Needs SciPy. `smooth` is faster, unless the same matrix is used many times.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> W = index.smoothing_matrix(0.5, weights="area")
@@ -224,23 +237,22 @@ class Aggregates(Held):
         True
         """
         csr_array = optional("scipy.sparse", "smoothing_matrix").csr_array
-        check_words(words, SmoothWords)
-        if "nan" in words:
-            raise TypeError("nan: no argument of this call, because a matrix does not depend on the values")
-        weights = area_weights(self, words.get("weights"), words.get("F"))
-        listed: Any = {word: value for word, value in words.items() if word not in ("weights", "F", "dtype")}
-        r, listed["scales"] = _smoothing_radii(fwhm, words.get("scales"))
-        graph = self.radius_neighbors_graph(r, vertices=vertices, mode="distance", **listed)
+        areas = area_weights(self, weights, F)
+        r, scales = _smoothing_radii(fwhm, scales)
+        graph = self.radius_neighbors_graph(
+            r, vertices, scales=scales, mode="distance", metric=metric, walls=walls, ignored=ignored, unit=unit,
+            max_bytes=max_bytes, workers=workers, progress=progress,
+        )  # fmt: skip
         sizes = np.diff(graph.indptr)
-        radii = np.atleast_1d(self._scale(words.get("unit", "mesh")) * (r if listed["scales"] is None else listed["scales"]))
+        radii = np.atleast_1d(self._scale(unit, metric) * (r if scales is None else scales))
         radii = np.repeat(np.repeat(radii, len(sizes) // max(len(radii), 1)), sizes)
         data = _core.smoothing_weights(_core.SmoothingKernel.gaussian, graph.data, radii)
-        if weights is not None:
-            data *= weights[graph.indices]
+        if areas is not None:
+            data *= areas[graph.indices]
         sums = csr_array((data, graph.indices, graph.indptr), shape=graph.shape).sum(axis=1)
         with np.errstate(invalid="ignore"):
             data /= np.repeat(sums, sizes)
-        graph.data = data.astype(result_dtype(words), copy=False)
+        graph.data = data.astype(result_dtype(dtype), copy=False)
         return graph
 
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _convert, _core
+from . import _convert
 from ._types import Floats
 
 FITTED, RANK_DEFICIENT, TOO_FEW, NO_NORMAL, EXTENDED, BEYOND_HALO = range(6)
@@ -76,39 +76,14 @@ class Curvature(NamedTuple):
         return np.hypot(self.k1, self.k2) / np.sqrt(2)
 
 
-class KeptOfFaces:
-    """What `make(exact, corners, offsets, ...)` returns for an index and its faces, kept until other faces are given."""
-
-    def __init__(self, exact: Any, make: Any) -> None:
-        self._exact = exact
-        self._make = make
-        self._kept: tuple[Any, Any] = (None, None)  # replaced as a whole: no lock, which a fork could copy while it is held
-
-    def of_faces(self, key: bytes, arrays: tuple[Any, Any], **options: Any) -> Any:
-        """`key`: what tells the faces from others; empty for those that the index keeps, which never change. `options`
-        do not change the result."""
-        kept, made = self._kept
-        if kept != key:
-            made = self._make(self._exact, *arrays, **options)
-            self._kept = (key, made)
-        return made
-
-
-class Surfaces(KeptOfFaces):
-    """The normals of an index."""
-
-    def __init__(self, exact: Any) -> None:
-        super().__init__(exact, _core.surface_of_faces)
-
-    def of_normals(self, normals: Any) -> Any:
-        """`normals`: (#V, 3)."""
-        count = self._exact.vertex_count
-        array = np.array(_convert.as_array(normals, "normals"))
-        if array.dtype.kind not in "iuf":
-            raise TypeError(f"normals: expected numbers, not {array.dtype}")
-        if array.shape != (count, 3):
-            raise ValueError(f"normals: expected an array of shape ({count}, 3), not {array.shape}")
-        try:
-            return _core.surface_of_normals(self._exact, array.astype(np.float64).ravel())
-        except ValueError as error:
-            raise ValueError(f"normals: {error}") from None
+def normals_of(normals: Any, count: int) -> Any:
+    """`normals`: (count, 3)."""
+    array = np.array(_convert.as_array(normals, "normals"))
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"normals: expected numbers, not {array.dtype}")
+    if array.shape != (count, 3):
+        raise ValueError(f"normals: expected an array of shape ({count}, 3), not {array.shape}")
+    if np.isinf(array).any():
+        row = int(np.isinf(array).any(axis=1).argmax())
+        raise ValueError(f"normals: the normal of vertex {row} is infinite, expected numbers, or NaN for no normal")
+    return array.astype(np.float64).ravel()

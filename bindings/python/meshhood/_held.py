@@ -5,13 +5,12 @@ from __future__ import annotations
 
 import hashlib
 import weakref
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
 from . import _convert, _core
-from ._curvature import KeptOfFaces, Surfaces
+from ._curvature import normals_of
 from ._mesh import face_arrays
 from ._methods import Methods
 from ._types import METRICS
@@ -26,10 +25,8 @@ class Held:
     _exact: Any
     _faces: Any  # corners and offsets, as `face_arrays` returns them, or None
     _checked: bytes  # the key of the faces given last
-    _mesher: Any  # of the faces that the index keeps, made at the first use
     _methods: Methods
-    _surfaces: Surfaces
-    _face_index: KeptOfFaces
+    _last_surface: tuple[Any, Any]  # the key of its faces, and the surface
     _queries: Any
     _count: int
     _whole: Optional[Held]
@@ -40,19 +37,16 @@ class Held:
         self._exact = exact
         self._faces = faces
         self._checked = b""
-        self._mesher = None
         self._whole = whole
         self._last_masked = (None, None)
         self._methods = Methods(exact, None if whole is None else whole._methods)
-        self._surfaces = Surfaces(exact)
-        self._face_index = KeptOfFaces(exact, _core.face_index) if whole is None else whole._face_index
+        self._last_surface = (None, None)
         self._queries = _core.queries(exact)
         self._count = exact.vertex_count
 
-    def _method(self, words: Mapping[str, Any]) -> Any:
-        """The method that the words name."""
-        method = words.get("method", "exact")
-        metric = _convert.choice(words.get("metric", "straight"), "metric", METRICS)
+    def _method(self, method: Any, metric: Any) -> Any:
+        """What answers the queries of these arguments."""
+        metric = _convert.choice(metric, "metric", METRICS)
         if metric != "straight":
             if method != "exact":
                 raise ValueError(f"method: {method!r}, expected 'exact' with metric={metric!r}")
@@ -64,10 +58,12 @@ class Held:
                 raise
             raise TypeError(f"method: expected a name or a Paper, not {type(method).__name__}") from None
 
-    def _scale(self, unit: Any) -> float:
+    def _scale(self, unit: Any, metric: str = "straight") -> float:
         """The factor from `unit` to the unit of the positions."""
         if unit == "mesh":
             return 1.0
+        if metric == "rings":
+            raise ValueError("unit: expected 'mesh' with metric='rings', whose radii are numbers of edges")
         _convert.choice(unit, "unit", ("mesh", "edge"))
         length = self._methods.mean_edge_length
         if length == 0:
@@ -123,15 +119,21 @@ class Held:
             )
         return self._faces
 
-    def _surface(self, F: Any, normals: Any, threads: int) -> Any:
-        """The normals of the faces, or `normals`."""
+    def _surface(self, F: Any, normals: Any = None, needs_faces: bool = False) -> Any:
+        """The surface of the faces, the last of which is kept, or one with these normals."""
         if self._whole is not None:
-            return self._whole._surface(F, normals, threads).on(self._exact)
-        if normals is None:
-            return self._surfaces.of_faces(*self._keyed_faces(F), threads=threads)
-        if F is not None:
-            raise ValueError("F: expected None, because the normals are given")
-        return self._surfaces.of_normals(normals)
+            return self._whole._surface(F, normals, needs_faces).on(self._exact)
+        if normals is not None:
+            if F is not None and not needs_faces:
+                raise ValueError("F: expected None, because the normals are given")
+            arrays = self._face_arrays(F) if needs_faces else (None, None)
+            return _core.surface_of_normals(self._exact, normals_of(normals, self._count), *arrays)
+        key, arrays = self._keyed_faces(F)
+        kept, surface = self._last_surface
+        if kept != key:
+            surface = _core.surface_of_faces(self._exact, *arrays)
+            self._last_surface = (key, surface)  # replaced as a whole: no lock, which a fork could copy while it is held
+        return surface
 
 
 def _digest(arrays: Any) -> bytes:

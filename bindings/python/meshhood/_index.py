@@ -6,7 +6,7 @@ from __future__ import annotations
 import copyreg
 import os
 import pickle
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union, overload
 
@@ -18,38 +18,41 @@ from ._aggregate import Aggregates
 from ._held import Held
 from ._instance import NeedsInstance
 from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_coarse, warn_if_no_faces, warn_if_unwelded
+from ._methods import Method
 from ._optional import optional
 from ._progress import Progress, reporter
 from ._queries import Queries
 from ._region_mesh import Regions
-from ._rows import (
-    CountWords,
-    ListWords,
-    Rows,
-    check_of_many,
-    check_size,
-    check_unit,
-    check_words,
-    read_rows,
-    result_dtype,
-    sort_of,
-    sorted_rows,
-)
+from ._rows import Rows, check_size, check_sort, read_rows, result_dtype, sorted_rows
 from ._shape import Shape
 from ._surface_queries import SurfaceQueries
-from ._types import Counts, Floats, Ids, Mask, Number, Offsets, Radii, Scales, Vertex, Vertices
+from ._types import (
+    AnyVertices,
+    Counts,
+    Floats,
+    Ids,
+    Mask,
+    Metric,
+    Offsets,
+    Radii,
+    Scales,
+    Sort,
+    Unit,
+    Vertex,
+    Vertices,
+)
 
 if TYPE_CHECKING:
+    from numpy.typing import DTypeLike
     from scipy.sparse import csr_array
-    from typing_extensions import Unpack
 
 Order = Literal["query", "index"]
 
 
 class Chunk(NamedTuple):
-    """Some rows of a batch: row i is the neighborhood of vertices[i] (see `MeshIndex.query_ball`).
+    """Some rows of a batch: row i is the neighborhood of vertices[i] (see `MeshIndex.iter_neighborhoods`).
 
-    >>> chunk = next(meshhood.MeshIndex(V, F).iter_neighborhoods(None, 0.3, chunk=100))
+    >>> chunk = next(meshhood.MeshIndex(V, F).iter_neighborhoods(0.3, chunk=100))
     >>> first = chunk.indices[chunk.indptr[0] : chunk.indptr[1]]
     """
 
@@ -89,9 +92,11 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
     progress : True shows a bar of tqdm. A function is called as progress(done, total); an exception from it ends the
         call.
 
-    Calls on many vertices understand the same words:
+    Calls on one start have it first: `neighborhood(start, r)`. Those on many vertices have them last:
+    `counts(r, vertices=None)`. Their arguments mean the same everywhere:
 
-    vertices : the rows: a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
+    vertices : the rows: a sequence of vertices, a bool mask (#V,), or None for all. Or one vertex where the result is a
+        number or an array of numbers for each; it then has no axis of vertices.
     r : the radius, >= 0 or inf, or one for each row. A vertex at exactly `r` is inside.
     scales : several radii for all rows, instead of `r`. The result has a leading axis of scales. Lists of neighborhoods
         have the rows of all scales, scale after scale.
@@ -233,118 +238,106 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
         return self._exact.permutation
 
     @overload
-    def query_ball(
-        self, vertices: Vertex, r: Number, *, return_distance: Literal[False] = False, **words: Unpack[ListWords]
-    ) -> Ids: ...
+    def neighborhoods(
+        self, r: Optional[Radii] = None, vertices: Vertices = None, *, scales: Optional[Scales] = None,
+        return_distance: Literal[False] = False, sort: Optional[Sort] = None, metric: Metric = "straight",
+        walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh", method: Method = "exact",
+        dtype: Optional[DTypeLike] = None, max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
+    ) -> tuple[Offsets, Ids]: ...  # fmt: skip
 
     @overload
-    def query_ball(
-        self, vertices: Vertex, r: Number, *, return_distance: Literal[True], **words: Unpack[ListWords]
-    ) -> tuple[Ids, Floats]: ...
+    def neighborhoods(
+        self, r: Optional[Radii] = None, vertices: Vertices = None, *, scales: Optional[Scales] = None,
+        return_distance: Literal[True], sort: Optional[Sort] = None, metric: Metric = "straight",
+        walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh", method: Method = "exact",
+        dtype: Optional[DTypeLike] = None, max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
+    ) -> tuple[Offsets, Ids, Floats]: ...  # fmt: skip
 
-    @overload
-    def query_ball(
-        self, vertices: Vertices, r: Radii, *, return_distance: Literal[False] = False, **words: Unpack[ListWords]
-    ) -> tuple[Offsets, Ids]: ...
-
-    @overload
-    def query_ball(
-        self, vertices: Vertices, r: Radii, *, return_distance: Literal[True], **words: Unpack[ListWords]
-    ) -> tuple[Offsets, Ids, Floats]: ...
-
-    @overload
-    def query_ball(
+    def neighborhoods(
         self,
-        vertices: Union[Vertex, Vertices],
-        r: None = None,
+        r: Optional[Radii] = None,
+        vertices: Vertices = None,
         *,
-        scales: Scales,
-        return_distance: Literal[False] = False,
-        **words: Unpack[ListWords],
-    ) -> tuple[Offsets, Ids]: ...
-
-    @overload
-    def query_ball(
-        self,
-        vertices: Union[Vertex, Vertices],
-        r: None = None,
-        *,
-        scales: Scales,
-        return_distance: Literal[True],
-        **words: Unpack[ListWords],
-    ) -> tuple[Offsets, Ids, Floats]: ...
-
-    def query_ball(
-        self, vertices: Any, r: Any = None, *, scales: Any = None, return_distance: bool = False, **words: Any
+        scales: Optional[Scales] = None,
+        return_distance: bool = False,
+        sort: Optional[Sort] = None,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        method: Method = "exact",
+        dtype: Optional[DTypeLike] = None,
+        max_bytes: Optional[int] = None,
+        workers: int = -1,
+        progress: Progress = None,
     ) -> Any:
-        """The vertices of the neighborhood of each vertex, itself included.
+        """The vertices of the neighborhood of each vertex, itself included: `indptr, indices` or, with
+        `return_distance`, `indptr, indices, distances`. Row i is indices[indptr[i]:indptr[i + 1]].
 
-        vertices, r, scales, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
-        return_distance : also return the distance of each vertex from its query vertex: that of the straight line, or
-            with metric="path" the length of the path.
-        sort : the order of the ids of a neighborhood: "index", ascending places of `permutation`; "id", ascending; or
-            "distance", ascending, and by id where equal. Without it none is sorted: those of "exact" and "ball" are in
-            index order, those of metric="path" ascend by length, and those of "paper" and "bfs" have an order of their
-            own, which is always the same.
-        method : "exact", the exact neighborhood, by the index;
-                 "paper", the approximate neighborhood of the paper, a superset of "exact" and a subset of "ball", or
-                 `Paper` with other parameters;
-                 "bfs", the exact neighborhood by breadth-first search, for comparison;
-                 "ball", every vertex within `r` in space, connected or not.
-            "paper" builds an index of its own at the first use. Masks and metric="path" need "exact".
-        dtype : of the distances, float64 unless given.
-        max_bytes : refuse a larger result of many vertices with MemoryError; by default, one larger than the memory
-            that is free. A sample of the rows usually shows this within a second.
+        r, vertices, scales, metric, walls, ignored, unit, workers, progress : see `MeshIndex`.
+        return_distance, sort, method, dtype : see `neighborhood`.
+        max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free. A
+            sample of the rows usually shows this within a second.
 
-        Returns for one vertex `indices` (int32) or `indices, distances`; for many vertices, or for scales, `indptr,
-        indices` or `indptr, indices, distances`: row i is indices[indptr[i]:indptr[i + 1]]. `indptr` is int32 if it
-        fits, else int64. The arrays are new.
-
-        The cost of "exact" grows with the part of the mesh at the surface of each ball rather than with the size of the
-        neighborhood. All rows are in memory at once; to avoid that, use `iter_neighborhoods`.
+        `indptr` is int32 if it fits, else int64; `indices` are int32. The arrays are new. All rows are in memory at
+        once; to avoid that, use `iter_neighborhoods`.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> near = index.query_ball(42, 0.3)
-        >>> indptr, indices, distances = index.query_ball([42, 43], [0.3, 0.5], return_distance=True, sort="distance")
+        >>> indptr, indices, distances = index.neighborhoods(
+        ...     [0.3, 0.5], [42, 43], return_distance=True, sort="distance"
+        ... )
         >>> int(indices[indptr[1]])
         43
         """
-        if scales is None and vertices is not None and _convert.is_single(vertices):
-            return self._query_one(vertices, r, return_distance, words)
-        rows = read_rows(self, vertices, r, scales, words, ListWords)
-        indptr, indices, distances = self._query_many(rows.index._method(words), rows, return_distance, words, "query_ball")
+        if vertices is not None and _convert.is_single(vertices):
+            raise TypeError("vertices: one vertex, expected a list; neighborhood(start, r) answers one")
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
+        searched = rows.index._method(method, metric)
+        indptr, indices, distances = self._rows_of(
+            searched, rows, return_distance, sort, dtype, max_bytes, "neighborhoods"
+        )
         return (indptr, indices, distances) if return_distance else (indptr, indices)
 
     @overload
-    def count(self, vertices: Vertex, r: Number, **words: Unpack[CountWords]) -> int: ...
+    def counts(
+        self, r: Optional[Radii] = None, vertices: Vertices = None, *, scales: Optional[Scales] = None,
+        metric: Metric = "straight", walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh",
+        method: Method = "exact", workers: int = -1, progress: Progress = None,
+    ) -> Counts: ...  # fmt: skip
 
     @overload
-    def count(self, vertices: Vertices, r: Radii, **words: Unpack[CountWords]) -> Counts: ...
+    def counts(
+        self, r: Optional[Radii] = None, vertices: Vertex = ..., *, scales: Optional[Scales] = None,
+        metric: Metric = "straight", walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh",
+        method: Method = "exact", workers: int = -1, progress: Progress = None,
+    ) -> Union[int, Counts]: ...  # fmt: skip
 
-    @overload
-    def count(
-        self, vertices: Union[Vertex, Vertices], r: None = None, *, scales: Scales, **words: Unpack[CountWords]
-    ) -> Counts: ...
-
-    def count(self, vertices: Any, r: Any = None, *, scales: Any = None, **words: Any) -> Any:
+    def counts(
+        self,
+        r: Optional[Radii] = None,
+        vertices: AnyVertices = None,
+        *,
+        scales: Optional[Scales] = None,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        method: Method = "exact",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Any:
         """The number of vertices of each neighborhood: int64, (#rows,) or (#scales, #rows); an int for one vertex and
-        one radius. The words are those of `query_ball`.
+        one radius. The arguments are those of `neighborhoods`.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> index.count(None, scales=[0.2, 0.4]).shape
+        >>> index.counts(scales=[0.2, 0.4]).shape
         (2, 642)
         """
-        if scales is None and vertices is not None and _convert.is_single(vertices):
-            check_words(words, CountWords)
-            check_of_many(words)
-            radius = self._one_radius(r, words)
-            searched = self._with_masks(words.get("walls"), words.get("ignored"))._method(words)
-            return searched.count(_convert.vertex(vertices, self._count), radius)
-        rows = read_rows(self, vertices, r, scales, words, CountWords)
-        searched = rows.index._method(words)
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
+        searched = rows.index._method(method, metric)
         counts = rows.shaped(
             rows.for_each_scale(
-                "count",
+                "counts",
                 lambda radius, report: searched.counts(rows.vertices, radius, threads=rows.threads, progress=report),
             )
         )
@@ -353,52 +346,67 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
     def radius_neighbors_graph(
         self,
         r: Optional[Radii] = None,
-        *,
         vertices: Vertices = None,
+        *,
         scales: Optional[Scales] = None,
         mode: Literal["connectivity", "distance"] = "connectivity",
-        **words: Unpack[ListWords],
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        method: Method = "exact",
+        dtype: Optional[DTypeLike] = None,
+        max_bytes: Optional[int] = None,
+        workers: int = -1,
+        progress: Progress = None,
     ) -> csr_array:
         """Neighborhoods as a scipy.sparse.csr_array (#rows, #V), all unless `vertices` are given: a row holds the
         neighborhood of its vertex, itself included. With scales, (#scales * #rows, #V), scale after scale.
 
         mode : "connectivity", 1.0 for each vertex of the neighborhood; or "distance", the distances, with zeros stored.
             Both are float64, as in scikit-learn, unless `dtype` says otherwise.
-        The other words are those of `query_ball`; the ids of a row ascend. With one radius for each row the matrix is
+        The other arguments are those of `neighborhoods`; the ids of a row ascend. With one radius for each row the matrix is
         not symmetric. Needs SciPy.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> index.radius_neighbors_graph(0.3, vertices=[42, 43], mode="distance").shape
+        >>> index.radius_neighbors_graph(0.3, [42, 43], mode="distance").shape
         (2, 642)
         """
         csr_array = optional("scipy.sparse", "radius_neighbors_graph").csr_array
         with_distances = _convert.choice(mode, "mode", ("connectivity", "distance")) == "distance"
-        rows = read_rows(self, vertices, r, scales, words, ListWords)
-        dtype, limit = result_dtype(words), _convert.max_bytes(words.get("max_bytes"))
-        if sort_of(words) not in (None, "id"):
-            raise ValueError(f"sort: {words['sort']!r}, expected None or 'id', because the ids of a row ascend")
-        by_id: Any = {**words, "sort": "id", "max_bytes": limit}
-        searched = rows.index._method(words)
-        indptr, indices, distances = self._query_many(searched, rows, with_distances, by_id, "radius_neighbors_graph")
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
+        numbers, limit = result_dtype(dtype), _convert.max_bytes(max_bytes)
+        searched = rows.index._method(method, metric)
+        indptr, indices, distances = self._rows_of(
+            searched, rows, with_distances, "id", numbers, limit, "radius_neighbors_graph"
+        )
         if not with_distances:
-            check_size(indices.shape, indices.itemsize + dtype.itemsize, limit)
-        data = distances if with_distances else np.ones(len(indices), dtype)
+            check_size(indices.shape, indices.itemsize + numbers.itemsize, limit)
+        data = distances if with_distances else np.ones(len(indices), numbers)
         graph = csr_array((data, indices, indptr), shape=(len(indptr) - 1, self._count))
         graph.has_sorted_indices = graph.has_canonical_format = True
         return graph
 
     def iter_neighborhoods(
         self,
-        vertices: Vertices,
         r: Optional[Radii] = None,
+        vertices: Vertices = None,
         *,
         scales: Optional[Scales] = None,
         chunk: int = 4096,
         order: Order = "query",
         return_distance: bool = False,
-        **words: Unpack[ListWords],
+        sort: Optional[Sort] = None,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        method: Method = "exact",
+        dtype: Optional[DTypeLike] = None,
+        max_bytes: Optional[int] = None,
+        workers: int = -1,
     ) -> Iterator[Chunk]:
-        """As `query_ball` for many vertices, `chunk` rows at a time, so that memory stays bounded. Masks are read
+        """As `neighborhoods`, `chunk` rows at a time, so that memory stays bounded. Masks are read
         once, O(#V).
 
         order : of the rows: "query", that of `vertices`; "index", that of `permutation`, in which near vertices follow
@@ -409,15 +417,17 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
         arguments are checked and copied when this is called: later changes have no effect.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> sum(len(part.vertices) for part in index.iter_neighborhoods(None, 0.3, chunk=100))
+        >>> sum(len(part.vertices) for part in index.iter_neighborhoods(0.3, chunk=100))
         642
         """
         chunk = _convert.positive(chunk, "chunk")
         in_index_order = _convert.choice(order, "order", ("query", "index")) == "index"
-        rows = read_rows(self, vertices, r, scales, words, ListWords)
-        check_of_many(words)
-        sort_of(words)
-        searched = rows.index._method(words)
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, None)
+        check_sort(sort)
+        numbers = result_dtype(dtype)
+        if max_bytes is not None:
+            _convert.max_bytes(max_bytes)
+        searched = rows.index._method(method, metric)
         all_rows = np.arange(self._count, dtype=np.int32) if rows.vertices is None else rows.vertices
         by_place = np.argsort(self._places()[all_rows], kind="stable") if in_index_order else slice(None)
 
@@ -426,39 +436,19 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
                 ids, radii = all_rows[by_place], radius if isinstance(radius, float) else radius[by_place]
                 for begin in range(0, len(ids), chunk):
                     part = slice(begin, begin + chunk)
-                    some = replace(
-                        rows,
-                        vertices=ids[part],
-                        radii=[radii if isinstance(radii, float) else radii[part]],
-                        progress=None,
-                    )
-                    yield Chunk(ids[part].copy(), *self._query_many(searched, some, return_distance, words, ""))
+                    some = replace(rows, vertices=ids[part], radii=[radii if isinstance(radii, float) else radii[part]])
+                    found = self._rows_of(searched, some, return_distance, sort, numbers, max_bytes, "")
+                    yield Chunk(ids[part].copy(), *found)
 
         return chunks()
 
-    def _query_one(self, vertex: Any, r: Any, return_distance: bool, words: Any) -> Any:
-        if not words and not return_distance:  # a microsecond, of which the words below would be a half
-            return self._exact.neighborhood(_convert.vertex(vertex, self._count), _convert.radius(r))
-        check_words(words, ListWords)
-        check_of_many(words)
-        sort, v, radius = sort_of(words), _convert.vertex(vertex, self._count), self._one_radius(r, words)
-        searched = self._with_masks(words.get("walls"), words.get("ignored"))._method(words)
-        if return_distance or sort == "distance":
-            indices, distances = searched.neighborhood_and_distances(v, radius)
-        else:
-            indices, distances = searched.neighborhood(v, radius), None
-        if sort is not None:
-            indices, distances = sorted_rows(self, sort, np.array([0, len(indices)]), indices, distances)
-        return (indices, distances.astype(result_dtype(words), copy=False)) if return_distance else indices
-
-    def _one_radius(self, r: Any, words: Any) -> float:
-        check_unit(words)
-        return self._scale(words.get("unit", "mesh")) * _convert.radius(r)
-
-    def _query_many(self, searched: Any, rows: Rows, return_distance: bool, words: Any, title: str) -> Any:
+    def _rows_of(
+        self, searched: Any, rows: Rows, return_distance: bool, sort: Any, dtype: Any, max_bytes: Any, title: str
+    ) -> Any:
         """indptr, indices, and distances or None; the rows of all scales. `searched` is the method."""
-        sort, dtype = sort_of(words), result_dtype(words)
-        left = _convert.max_bytes(words.get("max_bytes"))
+        check_sort(sort)
+        dtype = result_dtype(dtype)
+        left = _convert.max_bytes(max_bytes)
         with_distances = return_distance or sort == "distance"
 
         def search(radius: Any, report: Any) -> Any:
@@ -484,7 +474,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
 
     def masked(self, *, walls: Mask = None, ignored: Mask = None) -> MeshIndex:
         """The same index with masks: every call of it leaves out walls and ignored vertices (see `MeshIndex`), and takes
-        no such words. For loops of calls: the masks are read once, O(#V). Shares the memory of this index; an index
+        no such arguments. For loops of calls: the masks are read once, O(#V). Shares the memory of this index; an index
         with masks is not saved, refitted, pickled or masked again. `nearest` and `closest_point` are those of the whole mesh.
 
         >>> index = meshhood.MeshIndex(V, F)
@@ -506,8 +496,8 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=N
         of the time of a build.
 
         V : (#V, 3), or a mesh as for the class. Its faces are not read.
-        changed : the vertices that have moved, as `vertices` of `query_ball`; None for all. Rows of V of other vertices are
-            not read. The time is that of a copy of the positions, plus a part that grows with the number of vertices
+        changed : the vertices that have moved, as `vertices` of other calls; None for all. Rows of V of other vertices
+            are not read. The time is that of a copy of the positions, plus a part that grows with the number of vertices
             that have moved. With `changed`, V must not be float64 if the index has float32.
         workers, progress : as for the class.
 

@@ -31,7 +31,7 @@ class Paper:
 
     The defaults are those of the paper. Raises ValueError or TypeError, naming the parameter.
 
-    >>> near = meshhood.MeshIndex(V, F).query_ball(42, 0.3, method=meshhood.Paper(radius_ratio=20))
+    >>> near = meshhood.MeshIndex(V, F).neighborhood(42, 0.3, method=meshhood.Paper(radius_ratio=20))
     """
 
     levels: int = 5

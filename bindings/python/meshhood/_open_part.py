@@ -38,7 +38,7 @@ class OpenPart:
     Within a part, vertices are numbered from 0 in ascending order of their ids in the mesh.
 
     >>> part = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5).open(0)
-    >>> near = part.vertices[part.index.query_ball(part.owned[0], 0.5)]  # by their ids in the mesh
+    >>> near = part.vertices[part.index.neighborhood(part.owned[0], 0.5)]  # by their ids in the mesh
     """
 
     def __init__(self, files: Any, number: int) -> None:

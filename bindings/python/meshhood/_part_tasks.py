@@ -49,7 +49,7 @@ def owned_ids(part: OpenPart) -> NDArray[np.int64]:
 
 
 def count_vertices(radius: float, part: OpenPart, index: MeshIndex, owned: NDArray[np.int32]) -> NDArray[np.int64]:
-    return index.count(owned, radius, workers=1)
+    return index.counts(radius, owned, workers=1)
 
 
 def aggregate_values(
@@ -73,7 +73,7 @@ def curvature_rows(
     found = index.curvature(radius, owned, F=part.mesh.faces, workers=1, **options)
     rows = np.column_stack(found)
     few = np.flatnonzero((found.count < FEWEST_POINTS) & (found.state != NO_NORMAL))
-    few = few[index.count(owned[few], halo, workers=1) < FEWEST_POINTS - 1]  # else all that a fit needs is in the halo
+    few = few[index.counts(halo, owned[few], workers=1) < FEWEST_POINTS - 1]  # else all that a fit needs is in the halo
     refused = few[[_needs_more(index, owned, int(owned[row]), radius, halo) for row in few]]
     rows[refused, :8], rows[refused, 8] = np.nan, BEYOND_HALO
     return rows
@@ -83,12 +83,12 @@ def _needs_more(index: MeshIndex, owned: Any, vertex: int, radius: float, halo: 
     """Whether the fit at a vertex, which is extended to six, needs edges that the part may not have. It adds the nearest
     of the vertices that an edge joins to those it has (see `curvatures` in C++), and the part has all edges of the
     vertices within the halo of one that it owns."""
-    found = index.query_ball(vertex, radius).tolist()
+    found = index.neighborhood(vertex, radius).tolist()
     while len(found) < FEWEST_POINTS:
         last = found[-1]  # those before it have been looked at, or are within the radius
-        if not np.isin(index.query_ball(last, halo, method="ball"), owned).any():
+        if not np.isin(index.neighborhood(last, halo, method="ball"), owned).any():
             return True
-        linked = np.setdiff1d(index.query_ball(found, 1, metric="rings")[1], found)
+        linked = np.setdiff1d(index.neighborhoods(1, found, metric="rings")[1], found)
         if not len(linked):
             return False
         x, y, z = (index.positions[linked].astype(np.float64) - index.positions[vertex].astype(np.float64)).T
@@ -143,13 +143,11 @@ def save_rows(function: PartFunction, path: str, part: OpenPart) -> None:
 
 def save_neighborhoods(radius: float, format: str, distances: bool, path: str, part: OpenPart) -> None:
     owned = np.asarray(part.owned)
-    sizes = part.index.count(owned, radius, workers=1)
+    sizes = part.index.counts(radius, owned, workers=1)
     indptr = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
 
     def chunks(return_distance: bool) -> Iterator[NDArray[Any]]:
-        for chunk in part.index.iter_neighborhoods(
-            owned, radius, chunk=_ROWS, return_distance=return_distance, sort="id", workers=1
-        ):
+        for chunk in part.index.iter_neighborhoods(radius, owned, chunk=_ROWS, return_distance=return_distance, sort="id", workers=1):
             # The numbering of a part ascends as that of the mesh does, so that the rows stay sorted.
             yield chunk.distances if return_distance else part.vertices[chunk.indices]
 

@@ -44,7 +44,7 @@ def plot_neighborhood(
     is what they take away.
 
     index : the `MeshIndex` of the mesh.
-    v, r, metric, walls, ignored, unit : the query, as for `MeshIndex.query_ball`.
+    v, r, metric, walls, ignored, unit : the query, as for `MeshIndex.neighborhood`.
     V, F : the mesh, as for `MeshIndex`, but not a graph; None for the faces that the index keeps.
     ids : draw these vertices in green instead, (n,) ids or a bool mask (#V,).
     legend : explain the colors, with the number of vertices of each.
@@ -93,10 +93,10 @@ def plot_neighborhood(
 
 def _layers(index: MeshIndex, v: int, r: Any, words: Any, unit: Unit) -> dict[str, Any]:
     """The vertices of each layer, by its name in the legend; each nearly always contains the one that follows."""
-    ball, exact = (index.query_ball(v, r, unit=unit, method=method) for method in ("ball", "exact"))
+    ball, exact = (index.neighborhood(v, r, unit=unit, method=method) for method in ("ball", "exact"))
     if words["metric"] == "straight" and words["walls"] is None and words["ignored"] is None:
-        return {"ball": ball, "paper": index.query_ball(v, r, unit=unit, method="paper"), "exact": exact}
-    return {"ball": ball, "straight": exact, "asked": index.query_ball(v, r, unit=unit, **words)}
+        return {"ball": ball, "paper": index.neighborhood(v, r, unit=unit, method="paper"), "exact": exact}
+    return {"ball": ball, "straight": exact, "asked": index.neighborhood(v, r, unit=unit, **words)}
 
 
 def _mesh_of(index: MeshIndex, V: Any, F: Any) -> Any:

@@ -1,173 +1,244 @@
 # SPDX-License-Identifier: MIT
-"""More kinds of queries: around any point, with masks, for several radii, along the edges."""
+"""Queries around one start: a vertex or any point."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, Optional, TypedDict, Union, overload
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _convert, _core
 from ._held import Held
-from ._rows import check_unit, check_words, sort_of, sorted_rows
-from ._types import METRICS, Counts, Ids, Mask, Metric, Number, Reals, Sort, Unit
+from ._methods import Method
+from ._rows import check_sort, result_dtype, sorted_rows
+from ._types import METRICS, Counts, Floats, Ids, Mask, Metric, Number, Reals, Scales, Sort, Unit
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack
+    from numpy.typing import DTypeLike
 
 Face = Union[int, "np.integer[Any]", None]
 Seeds = Union[int, "np.integer[Any]", Sequence[int], "NDArray[np.integer[Any]]", None]
 
 
-class RegionWords(TypedDict, total=False):
-    """The words of `MeshIndex.query_region` besides `return_distance`, on which the type of the result depends."""
+class Nested(NamedTuple):
+    """The neighborhoods of several radii, each vertex once: that of radii[i] is ids[:counts[i]] (see
+    `MeshIndex.nested`).
 
-    seeds: Seeds
-    face: Face
-    walls: Mask
-    ignored: Mask
-    sort: Optional[Sort]
-    metric: Metric
-    unit: Unit
+    >>> counts, ids = meshhood.MeshIndex(V, F).nested(42, [0.2, 0.4])
+    """
+
+    counts: Counts
+    ids: Ids
+
+
+class Connected(NamedTuple):
+    """The nearest connected vertices and their connecting radii (see `MeshIndex.nearest_connected`).
+
+    >>> ids, radii = meshhood.MeshIndex(V, F).nearest_connected(42, 20)
+    """
+
+    ids: Ids
+    radii: Reals
 
 
 class Queries(Held):
-    """The part of `MeshIndex` that searches regions. `query_region` describes the arguments that all calls share."""
+    """The part of `MeshIndex` that queries around one start. `neighborhood` describes the arguments that all share."""
 
     @overload
-    def query_region(
-        self, start: ArrayLike, r: Number, *, return_distance: Literal[False] = False, **words: Unpack[RegionWords]
-    ) -> Ids: ...
+    def neighborhood(
+        self, start: ArrayLike, r: Number, *, seeds: Seeds = None, face: Face = None,
+        return_distance: Literal[False] = False, sort: Optional[Sort] = None, metric: Metric = "straight",
+        walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh", method: Method = "exact",
+        dtype: Optional[DTypeLike] = None,
+    ) -> Ids: ...  # fmt: skip
 
     @overload
-    def query_region(
-        self, start: ArrayLike, r: Number, *, return_distance: Literal[True], **words: Unpack[RegionWords]
-    ) -> tuple[Ids, Reals]: ...
+    def neighborhood(
+        self, start: ArrayLike, r: Number, *, seeds: Seeds = None, face: Face = None,
+        return_distance: Literal[True], sort: Optional[Sort] = None, metric: Metric = "straight",
+        walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh", method: Method = "exact",
+        dtype: Optional[DTypeLike] = None,
+    ) -> tuple[Ids, Floats]: ...  # fmt: skip
 
-    def query_region(self, start: Any, r: Any, *, return_distance: bool = False, **words: Any) -> Any:
-        """The region of `start` and the radius `r`: the vertices that are connected to a seed by edges between vertices
-        within `r` of `start`. For a vertex as start it is the neighborhood that `query_ball` returns.
+    def neighborhood(
+        self,
+        start: ArrayLike,
+        r: Number,
+        *,
+        seeds: Seeds = None,
+        face: Face = None,
+        return_distance: bool = False,
+        sort: Optional[Sort] = None,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        method: Method = "exact",
+        dtype: Optional[DTypeLike] = None,
+    ) -> Any:
+        """The neighborhood of `start` with the radius `r`: the vertices that are connected to the start by edges between
+        vertices within `r` of it. Returns `ids` (int32) or, with `return_distance`, `ids, distances`.
 
-        start : a vertex, or a point in space (3 floats). It is the center of the ball.
+        start : a vertex, or a point in space (3 floats). It is the center of the ball, and a vertex is in its own
+            neighborhood.
         seeds : if `start` is a point: the vertices from which the search starts, for example the corners of the face
             on which the point lies; None for the vertex nearest to the point. A seed outside the ball does not count.
-            If all seeds are outside, the region is empty, and a warning says so: the point is too far from the mesh.
+            If all seeds are outside, the result is empty, and a warning says so: the point is too far from the mesh.
         face : if `start` is a point: the face on which it lies, as `closest_point` returns it; its corners are the
             seeds. Prefer this for picks: the nearest vertex may lie on another sheet than the nearest point.
-        metric : "path" and "rings" need a vertex as start.
-        walls, ignored, unit : see `MeshIndex`.
-        r, return_distance, sort : as for one vertex of `query_ball`, and so is the result. Distances are float64.
+        return_distance : also return the distance of each vertex from `start`: that of the straight line, or with
+            metric="path" the length of the path.
+        sort : the order of the ids: "index", ascending places of `permutation`; "id", ascending; or "distance",
+            ascending, and by id where equal. Without it they are not sorted: those of "exact" and "ball" are in index
+            order, those of metric="path" ascend by length, and those of "paper" and "bfs" have an order of their own,
+            which is always the same.
+        metric, walls, ignored, unit : see `MeshIndex`. "path" and "rings" need a vertex as start.
+        method : "exact", the exact neighborhood, by the index;
+                 "paper", the approximate neighborhood of the paper, a superset of "exact" and a subset of "ball", or
+                 `Paper` with other parameters;
+                 "bfs", the exact neighborhood by breadth-first search, for comparison;
+                 "ball", every vertex within `r` in space, connected or not.
+            "paper" builds an index of its own at the first use. Masks, points, and the other metrics need "exact".
+        dtype : of the distances, float64 unless given.
 
-        An answer depends on the index, the start, the radius and the masks alone. Without `sort`, its ids are in index
-        order, or with "path" sorted by path length. The cost grows with the size of the region.
+        The cost of "exact" grows with the part of the mesh at the surface of the ball rather than with the size of the
+        neighborhood; around a point, with its size.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> ids = index.query_region([0.0, 0.0, 1.1], 0.3)
-        >>> ids = index.query_region(42, 0.5, walls=V[:, 2] > 0.9)
+        >>> near = index.neighborhood(42, 0.3)
+        >>> near = index.neighborhood([0.0, 0.0, 1.1], 0.3)
+        >>> near, distances = index.neighborhood(42, 0.5, walls=V[:, 2] > 0.9, return_distance=True)
         """
-        check_words(words, RegionWords)
-        sort = sort_of(words)
-        center, first = self._start(start, words.get("seeds"), words.get("face"), "query_ball(vertices, r)")
-        radius = self._scale(words.get("unit", "mesh")) * _convert.radius(r)
-        check_unit(words)
-        index = self._with_masks(words.get("walls"), words.get("ignored"))
-        metric = _convert.choice(words.get("metric", "straight"), "metric", METRICS)
-        if metric != "straight":
-            if center is not None:
-                raise ValueError(f"start: expected a vertex with metric={metric!r}, because a point has no edges")
-            indices, distances = index._method(words).neighborhood_and_distances(int(first[0]), radius)
+        if (
+            None is seeds is face is sort is walls is ignored is dtype
+            and (return_distance, metric, unit, method) == (False, "straight", "mesh", "exact")
+            and _convert.is_single(start)
+        ):  # a microsecond, of which the arguments below would be a half
+            return self._exact.neighborhood(_convert.vertex(start, self._count, "start"), _convert.radius(r))
+        check_sort(sort)
+        numbers = result_dtype(dtype)
+        center, first, radius, searched = self._asked(start, r, seeds, face, metric, walls, ignored, unit, method)
+        distances: Any = None
+        if center is not None:
+            indices, distances = self._around_point(center, first, radius, walls, ignored)
+        elif return_distance or sort == "distance":
+            indices, distances = searched.neighborhood_and_distances(int(first[0]), radius)
         else:
-            indices, distances, has_seed = index._queries.region(_core.Metric.straight, center, first, radius)
-            _warn_unless(has_seed or not len(first), "start: the")
+            indices = searched.neighborhood(int(first[0]), radius)
         if sort is not None:
             indices, distances = sorted_rows(self, sort, np.array([0, len(indices)]), indices, distances)
-        return (indices, distances) if return_distance else indices
+        return (indices, distances.astype(numbers, copy=False)) if return_distance else indices
 
-    def query_stroke(
+    def count(
+        self,
+        start: ArrayLike,
+        r: Number,
+        *,
+        seeds: Seeds = None,
+        face: Face = None,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        method: Method = "exact",
+    ) -> int:
+        """The number of vertices of the neighborhood. The arguments are those of `neighborhood`.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> index.count(42, 0.3) == len(index.neighborhood(42, 0.3))
+        True
+        """
+        center, first, radius, searched = self._asked(start, r, seeds, face, metric, walls, ignored, unit, method)
+        if center is None:
+            return int(searched.count(int(first[0]), radius))
+        return len(self._around_point(center, first, radius, walls, ignored)[0])
+
+    def stroke(
         self,
         points: ArrayLike,
         r: Any,
         *,
         seeds: Any = None,
         face: Any = None,
+        metric: Metric = "straight",
         walls: Mask = None,
         ignored: Mask = None,
         sort: Literal["index", "id"] = "index",
         unit: Unit = "mesh",
     ) -> Ids:
-        """The union of the regions of many points, such as those of a brush stroke; each vertex once, in index order,
-        or ascending with sort="id".
+        """The union of the neighborhoods of many points, such as those of a brush stroke; each vertex once, in index
+        order, or ascending with sort="id".
 
-        points : (n, 3).
+        points : (n, 3), or (n,) vertices.
         r : one radius, or one for each point.
         seeds : (n,) or (n, k), those of each point; None for the vertex nearest to each. A warning says that all seeds
             of a point are farther than its radius.
         face : (n,), the face on which each point lies, as `closest_point` returns them; its corners are the seeds.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> ids = index.query_stroke([[0.0, 0.0, 1.0], [0.1, 0.0, 1.0]], 0.2)
+        >>> ids = index.stroke([[0.0, 0.0, 1.0], [0.1, 0.0, 1.0]], 0.2)
         """
         by_id = _convert.choice(sort, "sort", ("index", "id")) == "id"
-        centers = _convert.points(points, "points")
-        radii = np.array(np.broadcast_to(_convert.radii(r, len(centers)), len(centers))) * self._scale(unit)
+        centers: Any = None
+        if np.ndim(points) == 1 and np.asarray(points).dtype.kind in "iu":
+            if seeds is not None or face is not None:
+                raise ValueError("seeds, face: expected None, because the points are vertices")
+            seeds = _convert.vertices(points, self._count, "points")
+            count = len(seeds)
+        else:
+            centers = _convert.points(points, "points")
+            count = len(centers)
+        by = self._metric_of(centers, metric)
+        radii = np.array(np.broadcast_to(_convert.radii(r, count), count)) * self._scale(unit, metric)
         if face is not None:
-            rows = self._corners_of(face, len(centers), seeds)
+            rows = self._corners_of(face, count, seeds)
         else:
             if seeds is None:
                 seeds = self._queries.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
-            rows = _convert.seed_rows(seeds, len(centers), self._count)
-        indices, has_seeds = self._with_masks(walls, ignored)._queries.stroke(_core.Metric.straight, centers, rows, radii)
+            rows = _convert.seed_rows(seeds, count, self._count)
+        indices, has_seeds = self._with_masks(walls, ignored)._queries.stroke(by, centers, rows, radii)
         _warn_unless(has_seeds, "points: a")
         if by_id:
             indices.sort()
         return indices
 
-    def query_nested(
+    def nested(
         self,
         start: ArrayLike,
-        radii: Any,
+        radii: Scales,
         *,
         seeds: Seeds = None,
         face: Face = None,
+        metric: Metric = "straight",
         walls: Mask = None,
         ignored: Mask = None,
         unit: Unit = "mesh",
-    ) -> tuple[Counts, Ids]:
-        """The regions of several radii, each vertex once: `counts, indices`. The region of radii[i] is
-        indices[:counts[i]].
+    ) -> Nested:
+        """The neighborhoods of several radii, each vertex once: `Nested(counts, ids)`. That of radii[i] is
+        ids[:counts[i]].
 
-        start, seeds, face, walls, ignored, unit : see `query_region`.
         radii : strictly ascending.
+        The other arguments are those of `neighborhood`.
 
-        So indices[counts[i - 1]:counts[i]] is ring i: the vertices of the region of radii[i] that are not in that of
+        So ids[counts[i - 1]:counts[i]] is ring i: the vertices of the neighborhood of radii[i] that are not in that of
         radii[i - 1]. A near vertex belongs to a late ring if only a wider ball connects it. Each ring is in index
-        order. The sum over a region is the sum over its rings: `np.add.reduceat`, then `np.cumsum`.
+        order. The sum over a neighborhood is the sum over its rings: `np.add.reduceat`, then `np.cumsum`.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> counts, ids = index.query_nested(42, [0.2, 0.4])
+        >>> counts, ids = index.nested(42, [0.2, 0.4])
         >>> len(ids) == index.count(42, 0.4)
         True
+        >>> counts, ids = index.nested(42, range(3), metric="rings")  # itself, its neighbors, and theirs
         """
-        center, first = self._start(start, seeds, face, "query_ball(vertices, scales=radii)")
-        values = _convert.ascending(radii, "radii") * self._scale(unit)
-        counts, indices, has_seed = self._with_masks(walls, ignored)._queries.nested(_core.Metric.straight, center, first, values)
+        center, first = self._start(start, seeds, face, "neighborhoods(scales=radii, vertices=...)")
+        by = self._metric_of(center, metric)
+        values = _convert.ascending(radii, "radii") * self._scale(unit, metric)
+        counts, ids, has_seed = self._with_masks(walls, ignored)._queries.nested(by, center, first, values)
         _warn_unless(has_seed or not len(first), "start: the")
-        return counts, indices
-
-    def query_rings(self, v: Any, k: Any, *, walls: Mask = None, ignored: Mask = None) -> tuple[Counts, Ids]:
-        """The vertices that at most `k` edges separate from vertex `v`: `counts, indices`. The first counts[i] of the
-        indices are at most i edges away; `counts` ends with the last ring that is not empty, or with ring k.
-        Each ring is in index order.
-
-        >>> index = meshhood.MeshIndex(V, F)
-        >>> counts, ids = index.query_rings(42, 2)
-        """
-        v = _convert.vertex(v, self._count, "v")
-        counts, indices = self._with_masks(walls, ignored)._queries.rings(v, _convert.integer(k, "k", 0, 2**63 - 1))
-        return counts, indices
+        return Nested(counts, ids)
 
     def contains(
         self,
@@ -177,18 +248,21 @@ class Queries(Held):
         *,
         seeds: Seeds = None,
         face: Face = None,
+        metric: Metric = "straight",
         walls: Mask = None,
         ignored: Mask = None,
         unit: Unit = "mesh",
     ) -> bool:
-        """Whether the region of `start` and the radius `r` has vertex `w`. The other words are those of `query_region`.
+        """Whether the neighborhood of `start` with the radius `r` has vertex `w`. The other arguments are those of
+        `neighborhood`.
 
         >>> meshhood.MeshIndex(V, F).contains(42, 163, 0.3)
         True
         """
         center, first = self._start(start, seeds, face, "a call for each")
-        w, r = _convert.vertex(w, self._count, "w"), self._scale(unit) * _convert.radius(r)
-        return bool(self._with_masks(walls, ignored)._queries.contains(_core.Metric.straight, center, first, w, r))
+        by = self._metric_of(center, metric)
+        w, r = _convert.vertex(w, self._count, "w"), self._scale(unit, metric) * _convert.radius(r)
+        return bool(self._with_masks(walls, ignored)._queries.contains(by, center, first, w, r))
 
     def connecting_radius(
         self,
@@ -197,12 +271,14 @@ class Queries(Held):
         *,
         seeds: Seeds = None,
         face: Face = None,
+        metric: Metric = "straight",
         walls: Mask = None,
         ignored: Mask = None,
     ) -> float:
-        """The smallest radius whose region has vertex `w`; inf if there is none. It is the minimum, over all paths of
-        edges from a seed to `w`, of the largest distance between a vertex of the path and `start`.
-        The other words are those of `query_region`.
+        """The smallest radius whose neighborhood has vertex `w`; inf if there is none. It is the minimum, over all paths of
+        edges from a seed to `w`, of the largest distance between a vertex of the path and `start`; by another metric,
+        the length of the path, or the number of edges.
+        The other arguments are those of `neighborhood`.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> index.contains(42, 77, index.connecting_radius(42, 77))
@@ -210,7 +286,8 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "a call for each")
         w = _convert.vertex(w, self._count, "w")
-        return float(self._with_masks(walls, ignored)._queries.connecting_radius(_core.Metric.straight, center, first, w))
+        searched = self._with_masks(walls, ignored)._queries
+        return float(searched.connecting_radius(self._metric_of(center, metric), center, first, w))
 
     def nearest_connected(
         self,
@@ -219,21 +296,22 @@ class Queries(Held):
         *,
         seeds: Seeds = None,
         face: Face = None,
+        metric: Metric = "straight",
         walls: Mask = None,
         ignored: Mask = None,
-    ) -> tuple[Ids, Reals]:
-        """The `k` >= 1 nearest connected vertices and their connecting radii: the first k, ordered by connecting radius,
-        then by distance from `start`, then by id. Fewer if no more are connected. The other words are those of
-        `query_region`.
+    ) -> Connected:
+        """The `k` >= 1 nearest connected vertices and their connecting radii, `Connected(ids, radii)`: the first k,
+        ordered by connecting radius, then by distance from `start`, then by id; by another metric then in index order.
+        Fewer if no more are connected. The other arguments are those of `neighborhood`.
 
         >>> ids, radii = meshhood.MeshIndex(V, F).nearest_connected(42, 20)
         >>> int(ids[0])
         42
         """
-        center, first = self._start(start, seeds, face, "query_knn(vertices, k), or seeds= around a point")
+        center, first = self._start(start, seeds, face, "k_nearest(k, vertices), or seeds= around a point")
         k = _convert.integer(k, "k", 1, 2**63 - 1)
-        indices, radii = self._with_masks(walls, ignored)._queries.nearest_connected(_core.Metric.straight, center, first, k)
-        return indices, radii
+        searched = self._with_masks(walls, ignored)._queries
+        return Connected(*searched.nearest_connected(self._metric_of(center, metric), center, first, k))
 
     @overload
     def nearest(self, points: Sequence[float]) -> tuple[int, float]: ...
@@ -259,9 +337,28 @@ class Queries(Held):
         is_one = np.ndim(points) == 1 and len(rows) == 1
         return (int(vertices[0]), float(distances[0])) if is_one else (vertices, distances)
 
+    def _asked(
+        self, start: Any, r: Any, seeds: Any, face: Any, metric: Any, walls: Any, ignored: Any, unit: Any, method: Any
+    ) -> tuple[Any, Ids, float, Any]:
+        """The center and the seeds, as `_start` returns them, the radius, and the method."""
+        center, first = self._start(start, seeds, face, "neighborhoods(r, vertices)")
+        searched = self._with_masks(walls, ignored)._method(method, metric)
+        _check_vertex(center, metric, method)
+        return center, first, self._scale(unit, metric) * _convert.radius(r), searched
+
+    def _metric_of(self, center: Any, metric: str) -> Any:
+        metric = _convert.choice(metric, "metric", METRICS)
+        _check_vertex(center, metric, "exact")
+        return getattr(_core.Metric, metric)
+
+    def _around_point(self, center: Any, first: Ids, radius: float, walls: Any, ignored: Any) -> tuple[Ids, Reals]:
+        ids, distances, has_seed = self._with_masks(walls, ignored)._queries.region(_core.Metric.straight, center, first, radius)
+        _warn_unless(has_seed or not len(first), "start: the", stacklevel=4)
+        return ids, distances
+
     def _start(self, start: Any, seeds: Any, face: Any, meant: str) -> tuple[tuple[float, float, float] | None, Ids]:
         """The center and the seeds; for a vertex, None and the vertex. `meant`: the call for several vertices."""
-        if np.ndim(start) == 0:
+        if _convert.is_single(start):
             if face is not None:
                 raise ValueError("face: expected None, because the start is a vertex")
             if seeds is not None:
@@ -296,11 +393,18 @@ class Queries(Held):
         return np.where(places < sizes[:, None], corners[at], np.int32(-1))
 
 
-def _warn_unless(has_seed: bool, which: str) -> None:
+def _check_vertex(center: Any, metric: str, method: Any) -> None:
+    if center is not None and metric != "straight":
+        raise ValueError(f"start: expected a vertex with metric={metric!r}, because a point has no edges")
+    if center is not None and method != "exact":
+        raise ValueError(f"method: {method!r}, expected 'exact' around a point")
+
+
+def _warn_unless(has_seed: bool, which: str, stacklevel: int = 3) -> None:
     """The text is always the same, so that a loop over points warns once."""
     if not has_seed:
         warnings.warn(
-            f"{which} point is farther than r from the vertices where its search starts, so its region is empty; "
+            f"{which} point is farther than r from the vertices where its search starts, so its neighborhood is empty; "
             "MeshIndex.nearest returns the nearest vertex and its distance",
-            stacklevel=3,
+            stacklevel=stacklevel,
         )

@@ -21,7 +21,7 @@ class Submesh(NamedTuple):
     """Some faces of a mesh, as a mesh of their own.
 
     >>> index = meshhood.MeshIndex(V, F)
-    >>> part = index.submesh(index.query_ball(42, 0.5))
+    >>> part = index.submesh(index.neighborhood(42, 0.5))
     >>> np.array_equal(part.V, V[part.vertices]) and np.array_equal(part.vertices[part.F], F[part.faces])
     True
     """
@@ -41,7 +41,7 @@ class RimLine(NamedTuple):
     """A polyline along which a surface leaves a ball.
 
     >>> index = meshhood.MeshIndex(V, F)
-    >>> line = index.rim(index.query_ball(42, 0.5), 42, 0.5)[0]
+    >>> line = index.rim(index.neighborhood(42, 0.5), 42, 0.5)[0]
     >>> np.allclose(np.linalg.norm(line.points - V[42], axis=1), 0.5)
     True
     """
@@ -57,21 +57,25 @@ class RegionMesh:
     V, F : the mesh, as for `MeshIndex`. Both are copied.
 
     `ids` are the vertices of a region, in any order, as the queries of `MeshIndex` return them; or a bool mask (#V,).
+    Builds an index of the mesh, if there is none: `MeshIndex.submesh` needs no other.
     The cost of a call is that of sorting the faces around them. Raises ValueError or TypeError, naming the argument and
     the element.
 
     >>> mesher = meshhood.RegionMesh(V, F)
-    >>> part = mesher.submesh(meshhood.MeshIndex(V, F).query_ball(42, 0.5))
+    >>> part = mesher.submesh(meshhood.MeshIndex(V, F).neighborhood(42, 0.5))
     """
 
     def __init__(self, V: Any, F: Any = None) -> None:
-        self._positions, corners, offsets = mesh_arrays(V, F)
-        self._positions = self._positions.copy()
-        self._triangles = offsets is None
-        self._mesher = _core.mesher(self._positions, corners, offsets=offsets)
+        positions, corners, offsets = mesh_arrays(V, F)
+        self._hold(positions.copy(), _core.surface_of_mesh(positions, corners, offsets), offsets is None)
+
+    def _hold(self, positions: Any, surface: Any, is_triangles: bool) -> None:
+        self._positions = positions
+        self._surface = surface
+        self._triangles = is_triangles
 
     def __repr__(self) -> str:
-        return f"<meshhood.RegionMesh: {len(self._positions)} vertices, {self._mesher.face_count} faces>"
+        return f"<meshhood.RegionMesh: {len(self._positions)} vertices, {self._surface.face_count} faces>"
 
     def faces(self, ids: ArrayLike, corners: Corners = "all") -> NDArray[np.int64]:
         """The faces with all corners in `ids`, or with at least one; ascending.
@@ -79,7 +83,7 @@ class RegionMesh:
         >>> meshhood.RegionMesh(V, F).faces(F[7]).tolist()
         [7]
         """
-        return self._mesher.faces(self._ids(ids), self._all(corners))
+        return self._surface.faces(self._ids(ids), self._all(corners))
 
     def submesh(
         self, ids: ArrayLike, corners: Corners = "all", *, clip: Optional[tuple[Any, Any]] = None
@@ -93,31 +97,31 @@ class RegionMesh:
             (offsets, corners), and a face of which the ball has several parts occurs several times. What of a face lies
             in the ball without a corner in `ids` is left out.
 
-        >>> mesher, ids = meshhood.RegionMesh(V, F), meshhood.MeshIndex(V, F).query_ball(42, 0.5)
+        >>> mesher, ids = meshhood.RegionMesh(V, F), meshhood.MeshIndex(V, F).neighborhood(42, 0.5)
         >>> mesher.submesh(ids).area < mesher.submesh(ids, clip=(42, 0.5)).area < mesher.submesh(ids, "any").area
         True
         """
         if clip is not None:
             return self._clipped(self._ids(ids), self._all(corners), clip)
-        vertices, faces, offsets, flat = self._mesher.submesh(self._ids(ids), self._all(corners))
+        vertices, faces, offsets, flat = self._surface.submesh(self._ids(ids), self._all(corners))
         triangles = flat.reshape(-1, 3) if self._triangles else (offsets, flat)
         return Submesh(self._positions[vertices], triangles, vertices, faces)
 
     def rim(self, ids: ArrayLike, start: Any, r: Any) -> list[RimLine]:
         """Where the surface leaves a region: polylines whose points lie on edges, at the distance `r` from `start`.
 
-        ids : the region of `start` and `r` (see `MeshIndex.query_region`).
+        ids : the region of `start` and `r` (see `MeshIndex.neighborhood`).
         start : the center of the ball, a vertex or a point in space (3 numbers).
 
         On a manifold mesh without border all polylines are closed. The others end at the border of the mesh, or where
         three or more of them meet. If the faces are consistently oriented, the region lies to the left. If an edge
         leads from the region to a wall inside the ball, the point on this edge is the wall.
 
-        >>> ids = meshhood.MeshIndex(V, F).query_ball(42, 0.5)
+        >>> ids = meshhood.MeshIndex(V, F).neighborhood(42, 0.5)
         >>> [line.closed for line in meshhood.RegionMesh(V, F).rim(ids, 42, 0.5)]
         [True]
         """
-        points, edges, offsets, closed = self._mesher.rim(self._ids(ids), self._center(start), _convert.radius(r))
+        points, edges, offsets, closed = self._surface.rim(self._ids(ids), self._center(start), _convert.radius(r))
         parts = [slice(begin, end) for begin, end in zip(offsets[:-1], offsets[1:])]
         return [RimLine(points[part], edges[part], bool(is_closed)) for part, is_closed in zip(parts, closed)]
 
@@ -126,7 +130,7 @@ class RegionMesh:
             raise ValueError("corners: 'any', expected 'all' with clip")
         if not isinstance(clip, (tuple, list)) or len(clip) != 2:
             raise ValueError("clip: expected a tuple (start, r)")
-        points, edges, faces, offsets, flat = self._mesher.clip(ids, self._center(clip[0]), _convert.radius(clip[1]))
+        points, edges, faces, offsets, flat = self._surface.clip(ids, self._center(clip[0]), _convert.radius(clip[1]))
         vertices = np.where(edges[:, 0] == edges[:, 1], edges[:, 0], np.int32(-1))
         return Submesh(points, (offsets, flat), vertices, faces)
 
@@ -159,7 +163,7 @@ class Regions(Held):
         F : other faces than those that the index keeps.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> ids = index.query_ball(42, 0.5)
+        >>> ids = index.neighborhood(42, 0.5)
         >>> part = index.submesh(ids)
         >>> len(part.V) == len(part.vertices)
         True
@@ -172,17 +176,12 @@ class Regions(Held):
         """Where the surface leaves a region: see `RegionMesh.rim`.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> [line.closed for line in index.rim(index.query_ball(42, 0.5), 42, 0.5)]
+        >>> [line.closed for line in index.rim(index.neighborhood(42, 0.5), 42, 0.5)]
         [True]
         """
         return self._region_mesh(F).rim(ids, start, r)
 
     def _region_mesh(self, F: Any) -> RegionMesh:
-        if F is None and self._mesher is not None:
-            return self._mesher
-        corners, offsets = self._face_arrays(F)
-        faces = corners.reshape(-1, 3) if offsets is None else (offsets, corners)
-        mesher = RegionMesh(self._methods.positions, faces)
-        if F is None:
-            self._mesher = mesher
-        return mesher
+        mesh = RegionMesh.__new__(RegionMesh)
+        mesh._hold(self._methods.positions, self._surface(F), self._face_arrays(F)[1] is None)
+        return mesh

@@ -1,60 +1,27 @@
 # SPDX-License-Identifier: MIT
-"""The words that every call on many vertices understands (see `MeshIndex`), read in one place."""
+"""The arguments that every call on many vertices has (see `MeshIndex`), read in one place."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Optional, TypedDict, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 
 from . import _convert, _core
-from ._methods import Method
-from ._progress import Progress, Report, check_progress, in_parts, reporter
-from ._types import METRICS, Ids, Mask, Metric, Reals, Sort, Unit
+from ._progress import Progress, Report, in_parts, reporter
+from ._types import METRICS, Ids, Reals
 
 if TYPE_CHECKING:
-    from numpy.typing import DTypeLike
-
     from ._held import Held
-
-
-class Words(TypedDict, total=False):
-    """The words of every call on many vertices, besides the rows and their radii: see `MeshIndex`."""
-
-    walls: Mask
-    ignored: Mask
-    metric: Metric
-    unit: Unit
-    workers: int
-    progress: Progress
-
-
-class ResultWords(Words, total=False):
-    """Of calls whose result may be large."""
-
-    dtype: DTypeLike
-    max_bytes: Optional[int]
-
-
-class CountWords(Words, total=False):
-    """Of calls that can search by other methods than the index: see `MeshIndex.query_ball`."""
-
-    method: Method
-
-
-class ListWords(CountWords, ResultWords, total=False):
-    """Of calls that list neighborhoods: see `MeshIndex.query_ball`."""
-
-    sort: Optional[Sort]
 
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of a call, as its words say."""
+    """The rows of a call, as its arguments say."""
 
     count: int
     vertices: Optional[Ids]  # None for all
@@ -91,9 +58,10 @@ class Rows:
         return array.reshape(self.shape + results[0].shape[1:])
 
 
-def read_rows(index: Held, vertices: Any, r: Any, scales: Any, words: Mapping[str, Any], accepted: Any) -> Rows:
-    """`accepted`: the class of `words`."""
-    check_words(words, accepted)
+def read_rows(
+    index: Held, vertices: Any, r: Any, scales: Any, metric: Any, walls: Any, ignored: Any, unit: Any, workers: Any,
+    progress: Any,
+) -> Rows:  # fmt: skip
     is_one = vertices is not None and _convert.is_single(vertices)
     if vertices is None:
         ids, count = None, index._count
@@ -101,52 +69,29 @@ def read_rows(index: Held, vertices: Any, r: Any, scales: Any, words: Mapping[st
         one = np.array([_convert.vertex(vertices, index._count)], np.int32) if is_one else None
         ids = _convert.vertices(vertices, index._count) if one is None else one
         count = len(ids)
-    metric = _convert.choice(words.get("metric", "straight"), "metric", METRICS)
-    check_unit(words)
-    radii = _radii(r, scales, None if is_one else count, index._scale(words.get("unit", "mesh")))
+    metric = _convert.choice(metric, "metric", METRICS)
+    radii = _radii(r, scales, None if is_one else count, index._scale(unit, metric))
     shape = () if scales is None else (len(radii),)
     return Rows(
         count,
         ids,
         radii,
         shape if is_one else (*shape, count),
-        index._with_masks(words.get("walls"), words.get("ignored")),
+        index._with_masks(walls, ignored),
         metric,
-        _convert.threads(words.get("workers", -1)),
-        words.get("progress"),
+        _convert.threads(workers),
+        progress,
     )
 
 
-def check_unit(words: Mapping[str, Any]) -> None:
-    if words.get("metric") == "rings" and words.get("unit", "mesh") != "mesh":
-        raise ValueError("unit: expected 'mesh' with metric='rings', whose radii are numbers of edges")
-
-
-def check_words(words: Mapping[str, Any], accepted: Any) -> None:
-    for name in words:
-        if name not in accepted.__optional_keys__:
-            known = ", ".join(sorted(accepted.__optional_keys__))
-            raise TypeError(f"{name}: no argument of this call; it takes {known}")
-
-
-def result_dtype(words: Mapping[str, Any], default: Any = np.float64) -> Any:
+def result_dtype(dtype: Any, default: Any = np.float64) -> Any:
     """The type of the numbers of the result."""
-    given = words.get("dtype")
-    return _convert.real_type(default if given is None else given)
+    return _convert.real_type(default if dtype is None else dtype)
 
 
-def check_of_many(words: Mapping[str, Any]) -> None:
-    """Checks the words that have no effect on a call for one vertex."""
-    _convert.threads(words.get("workers", -1))
-    check_progress(words.get("progress"))
-    result_dtype(words)
-    if words.get("max_bytes") is not None:
-        _convert.max_bytes(words["max_bytes"])
-
-
-def sort_of(words: Mapping[str, Any]) -> Optional[str]:
-    sort = words.get("sort")
-    return None if sort is None else _convert.choice(sort, "sort", ("index", "id", "distance"))
+def check_sort(sort: Any) -> None:
+    if sort is not None:
+        _convert.choice(sort, "sort", ("index", "id", "distance"))
 
 
 def sorted_rows(index: Held, sort: str, indptr: Any, indices: Any, distances: Any) -> tuple[Any, Any]:

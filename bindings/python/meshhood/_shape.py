@@ -7,65 +7,45 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Optional, Union, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from . import _convert, _core
 from ._aggregate import area_weights
 from ._curvature import Curvature
 from ._held import Held
 from ._moments import CorrectedCurvature, PrincipalComponents
-from ._rows import Rows, Words, read_rows, result_dtype
-from ._types import Floats, Radii, Scales, Vertices
+from ._progress import Progress
+from ._rows import read_rows, result_dtype
+from ._types import AnyVertices, Floats, Mask, Metric, Radii, Scales, Unit, Weights
 
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike
-    from typing_extensions import Unpack
 
 Kind = Literal[
     "crease", "mean", "gaussian", "k1", "k2", "curvedness", "shape_index", "area", "height", "variation",
 ]  # fmt: skip
 
 
-class SurfaceWords(Words, total=False):
-    """The words of calls that measure the surface."""
-
-    scales: Optional[Scales]
-    F: Any
-    dtype: DTypeLike
-
-
-class CurvatureWords(SurfaceWords, total=False):
-    """The words of `MeshIndex.curvature`."""
-
-    normals: Any
-    like: Literal[None, "libigl"]
-    fit: Literal["quadric", "jet"]
-    filter: bool
-
-
-class CorrectedWords(SurfaceWords, total=False):
-    """The words of `MeshIndex.corrected_curvature`."""
-
-    normals: Any
-
-
-class MomentWords(SurfaceWords, total=False):
-    """The words of `MeshIndex.principal_components`, and with `degree` those of `moments`."""
-
-    weights: Union[Literal["area"], ArrayLike, None]
-
-
-class FeatureWords(SurfaceWords, total=False):
-    """The words of `MeshIndex.features`."""
-
-    filter: bool
-
-
 class Shape(Held):
     """The part of `MeshIndex` that measures the surface."""
 
     def curvature(
-        self, r: Optional[Radii] = None, vertices: Vertices = None, **words: Unpack[CurvatureWords]
+        self,
+        r: Optional[Radii] = None,
+        vertices: AnyVertices = None,
+        *,
+        scales: Optional[Scales] = None,
+        F: Any = None,
+        normals: Any = None,
+        like: Literal[None, "libigl"] = None,
+        fit: Literal["quadric", "jet"] = "quadric",
+        filter: bool = True,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        dtype: Optional[DTypeLike] = None,
+        workers: int = -1,
+        progress: Progress = None,
     ) -> Curvature:
         """Principal curvatures of `vertices` by a quadric that is fitted to their neighborhoods.
 
@@ -93,54 +73,76 @@ class Shape(Held):
         >>> index.curvature(scales=[0.3, 0.5]).mean.shape
         (2, 642)
         """
-        like, fit = words.get("like"), words.get("fit", "quadric")
         if like is not None:
             _convert.choice(like, "like", ("libigl",))
         if like is not None and fit == "jet":
             raise ValueError(f"like: {like!r}, expected None with fit='jet'")
-        rows = read_rows(self, vertices, r, words.get("scales"), words, CurvatureWords)
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
-        options |= {"filter": bool(words.get("filter", True)), "threads": rows.threads, "metric": rows.core_metric}
-        surface = rows.index._surface(words.get("F"), words.get("normals"), rows.threads)
+        options |= {"filter": bool(filter), "threads": rows.threads, "metric": rows.core_metric}
+        surface = rows.index._surface(F, normals)
         found = rows.for_each_scale(
             "curvature", lambda radius, report: surface.curvatures(rows.vertices, radius, progress=report, **options)
         )
-        return Curvature(*(_of_type(rows.shaped(list(arrays)), words) for arrays in zip(*found)))
+        return Curvature(*(_of_type(rows.shaped(list(arrays)), dtype) for arrays in zip(*found)))
 
     def corrected_curvature(
-        self, r: Optional[Radii] = None, vertices: Vertices = None, **words: Unpack[CorrectedWords]
+        self,
+        r: Optional[Radii] = None,
+        vertices: AnyVertices = None,
+        *,
+        scales: Optional[Scales] = None,
+        F: Any = None,
+        normals: Any = None,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        dtype: Optional[DTypeLike] = None,
+        workers: int = -1,
+        progress: Progress = None,
     ) -> CorrectedCurvature:
         """Curvatures by the interpolated corrected curvature measures (Lachaud et al. 2020; in CGAL 6
         `interpolated_corrected_curvatures`): sums over the faces, without a fit.
 
         normals : (#V, 3), instead of those that follow from the faces. The faces are needed in any case.
-        The other words are those of `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian, k1, k2, d1, d2,
+        The other arguments are those of `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian, k1, k2, d1, d2,
         measures. As for `curvature`, a row does not depend on the others.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> index.corrected_curvature(scales=[0.3, 0.5]).mean.shape
         (2, 642)
         """
-        rows = read_rows(self, vertices, r, words.get("scales"), words, CorrectedWords)
-        F, normals = words.get("F"), words.get("normals")
-        corners, offsets = self._face_arrays(F)
-        surface = rows.index._surface(F if normals is None else None, normals, rows.threads)
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
+        surface = rows.index._surface(F, normals, needs_faces=True)
         found = rows.for_each_scale(
             "corrected_curvature",
             lambda radius, report: surface.corrected(
-                corners,
-                offsets=offsets,
-                vertices=rows.vertices,
-                radius=radius,
+                rows.vertices,
+                radius,
                 threads=rows.threads,
                 progress=report,
                 metric=rows.core_metric,
             ),
         )
-        return CorrectedCurvature(*(_of_type(rows.shaped(list(arrays)), words) for arrays in zip(*found)))
+        return CorrectedCurvature(*(_of_type(rows.shaped(list(arrays)), dtype) for arrays in zip(*found)))
 
     def moments(
-        self, r: Optional[Radii] = None, vertices: Vertices = None, *, degree: int = 2, **words: Unpack[MomentWords]
+        self,
+        r: Optional[Radii] = None,
+        vertices: AnyVertices = None,
+        *,
+        scales: Optional[Scales] = None,
+        degree: int = 2,
+        weights: Weights = None,
+        F: Any = None,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        dtype: Optional[DTypeLike] = None,
+        workers: int = -1,
+        progress: Progress = None,
     ) -> Floats:
         """Sums of w x^i y^j z^k over each neighborhood for i + j + k <= degree, where x, y, z are the coordinates
         relative to the query vertex, and w the weights.
@@ -155,45 +157,65 @@ class Shape(Held):
         >>> meshhood.MeshIndex(V, F).moments(0.3).shape
         (642, 10)
         """
-        rows = read_rows(self, vertices, r, words.get("scales"), words, MomentWords)
-        weights = area_weights(self, words.get("weights"), words.get("F"))
-        options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": weights, "threads": rows.threads}
-        options |= {"metric": rows.core_metric}
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
+        options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": area_weights(self, weights, F)}
+        options |= {"threads": rows.threads, "metric": rows.core_metric}
         found = rows.for_each_scale(
             "moments",
             lambda radius, report: _core.moments(rows.index._exact, rows.vertices, radius, progress=report, **options),
         )
-        return _of_type(rows.shaped(found), words)
+        return _of_type(rows.shaped(found), dtype)
 
     def principal_components(
-        self, r: Optional[Radii] = None, vertices: Vertices = None, **words: Unpack[MomentWords]
+        self,
+        r: Optional[Radii] = None,
+        vertices: AnyVertices = None,
+        *,
+        scales: Optional[Scales] = None,
+        weights: Weights = None,
+        F: Any = None,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        dtype: Optional[DTypeLike] = None,
+        workers: int = -1,
+        progress: Progress = None,
     ) -> PrincipalComponents:
         """The mean and the covariance of the positions of each neighborhood: normals, surface variation, and with
-        weights="area" the integral invariants area, barycenter and covariance. The words are those of `moments`, and so
+        weights="area" the integral invariants area, barycenter and covariance. The arguments are those of `moments`, and so
         is what a row depends on.
 
         >>> found = meshhood.MeshIndex(V, F).principal_components(0.3, weights="area")
         >>> found.normal.shape, found.surface_variation.shape
         ((642, 3), (642,))
         """
-        rows = read_rows(self, vertices, r, words.get("scales"), words, MomentWords)
-        weights = area_weights(self, words.get("weights"), words.get("F"))
-        options = {"weights": weights, "threads": rows.threads, "metric": rows.core_metric}
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
+        options = {"weights": area_weights(self, weights, F), "threads": rows.threads, "metric": rows.core_metric}
         found = rows.for_each_scale(
             "principal_components",
             lambda radius, report: _core.principal_components(
                 rows.index._exact, rows.vertices, radius, progress=report, **options
             ),
         )
-        return PrincipalComponents(*(_of_type(rows.shaped(list(arrays)), words) for arrays in zip(*found)))
+        return PrincipalComponents(*(_of_type(rows.shaped(list(arrays)), dtype) for arrays in zip(*found)))
 
     def features(
         self,
         r: Optional[Radii] = None,
-        vertices: Vertices = None,
+        vertices: AnyVertices = None,
         *,
+        scales: Optional[Scales] = None,
         kinds: Union[Kind, Sequence[Kind]] = "crease",
-        **words: Unpack[FeatureWords],
+        F: Any = None,
+        filter: bool = True,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        dtype: Optional[DTypeLike] = None,
+        workers: int = -1,
+        progress: Progress = None,
     ) -> Floats:
         """Feature vectors without unit, so that scales can be compared.
 
@@ -212,28 +234,27 @@ class Shape(Held):
         >>> index.features(scales=meshhood.geometric_radii(0.2, 0.8, 3), kinds=("crease", "area")).shape
         (3, 642, 2)
         """
-        rows = read_rows(self, vertices, r, words.get("scales"), words, FeatureWords)
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         if not isinstance(kinds, Iterable):
             raise TypeError(f"kinds: expected a name or several, not {type(kinds).__name__}")
         names = (kinds,) if isinstance(kinds, str) else tuple(kinds)
         if not names:
             raise ValueError("kinds: there are none, expected at least one")
-        F = words.get("F")
         options = {
             "kinds": [getattr(_core.Feature, _convert.choice(name, "kinds", get_args(Kind))) for name in names],
-            "areas": area_weights(self, "area", F) if {"area", "height", "variation"} & set(names) else None,
-            "filter": bool(words.get("filter", True)),
+            "areas": None,
+            "filter": bool(filter),
             "threads": rows.threads,
             "metric": rows.core_metric,
         }
-        surface = rows.index._surface(F, None, rows.threads)
+        surface = rows.index._surface(F)
         radii, radius = rows.common_radii
         with rows.reporter("features") as report:
             found = surface.features(rows.vertices, radii=np.array(radii), radius=radius, progress=report, **options)
-        found = _of_type(found.reshape(rows.shape + found.shape[2:]), words)
+        found = _of_type(found.reshape(rows.shape + found.shape[2:]), dtype)
         return found[..., 0] if isinstance(kinds, str) else found
 
 
-def _of_type(array: Any, words: Any) -> Any:
-    """Numbers in the type that the words give; other arrays as they are."""
-    return array.astype(result_dtype(words), copy=False) if array.dtype == np.float64 else array
+def _of_type(array: Any, dtype: Any) -> Any:
+    """Numbers in this type; other arrays as they are."""
+    return array.astype(result_dtype(dtype), copy=False) if array.dtype == np.float64 else array

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,20 +13,57 @@ from ._aggregate import area_weights
 from ._held import Held
 from ._mesh import mesh_arrays, positions_of, warn_if_coarse, warn_if_link_is_coarse
 from ._progress import Progress, reporter
-from ._rows import Words, check_words, read_rows
-from ._types import Ids, Number, Radii, Reals, Vertex, Vertices
+from ._rows import Rows, read_rows
+from ._types import AnyVertices, Ids, Mask, Metric, Number, Offsets, Radii, Reals, Unit, Weights
 
 if TYPE_CHECKING:
-    from typing_extensions import Self, Unpack
+    from typing_extensions import Self
 
 # Memory for an edge while an index is built, at most.
 _BYTES_OF_EDGE = 64
 
 
-class NearestWords(Words, total=False):
-    """The words of `MeshIndex.query_knn`."""
+class Unconnected(NamedTuple):
+    """What is near but not connected (see `MeshIndex.nearest_unconnected`).
 
-    max_bytes: Optional[int]
+    >>> vertices, gaps = meshhood.MeshIndex(V, F).nearest_unconnected(0.5)
+    """
+
+    vertices: Any
+    gaps: Any
+
+
+class ClosestPoint(NamedTuple):
+    """A point of the surface, or several (see `MeshIndex.closest_point`).
+
+    >>> meshhood.MeshIndex(V, F).closest_point(2 * V[:5]).face.shape
+    (5,)
+    """
+
+    face: Any
+    barycentric: Reals
+    point: Reals
+
+
+class Nearest(NamedTuple):
+    """The nearest connected vertices of each row (see `MeshIndex.k_nearest`).
+
+    >>> ids, distances = meshhood.MeshIndex(V, F).k_nearest(20)
+    """
+
+    ids: Ids
+    distances: Reals
+
+
+class Discs(NamedTuple):
+    """Discs of fixed area: row i is ids[indptr[i]:indptr[i + 1]] (see `MeshIndex.discs`).
+
+    >>> indptr, ids, distances = meshhood.MeshIndex(V, F).discs(0.3)
+    """
+
+    indptr: Offsets
+    ids: Ids
+    distances: Reals
 
 
 class SurfaceQueries(Held):
@@ -78,18 +115,23 @@ class SurfaceQueries(Held):
 
     def nearest_unconnected(
         self,
-        vertices: Vertices,
         r: Radii,
-        **words: Unpack[Words],
-    ) -> tuple[Ids, Reals]:
+        vertices: AnyVertices = None,
+        *,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Unconnected:
         """The nearest vertex within `r` in space that is not in the neighborhood with radius `r`, and its distance:
-        `other, gap`, both (#rows,); -1 and inf where there is none. Of several at the same distance, the one with the
-        smallest id.
+        `Unconnected(vertices, gaps)`, both (#rows,), or an int and a float for a single vertex; -1 and inf where there
+        is none. Of several at the same distance, the one with the smallest id.
 
-        vertices : a sequence of vertices, a bool mask (#V,), or None for all.
         r : one radius, or one for each row. A vertex at exactly `r` counts.
-        walls, ignored, unit, workers, progress : see `MeshIndex`. Walls and ignored vertices are never the nearest, and
-            for a wall there is none.
+        vertices, walls, ignored, unit, workers, progress : see `MeshIndex`. Walls and ignored vertices are never the
+            nearest, and for a wall there is none.
         metric : see `MeshIndex`: what is connected. With "path", the ball is that of radius `r` in space, too; with
             "rings", all of space.
 
@@ -98,12 +140,12 @@ class SurfaceQueries(Held):
         back into the ball counts as well as another component. With r=inf only other components count.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> other, gap = index.nearest_unconnected(None, 0.5)
+        >>> other, gap = index.nearest_unconnected(0.5)
         >>> thin = gap < 0.1
         """
-        rows = read_rows(self, vertices, r, None, words, Words)
-        with rows.reporter("nearest unconnected") as report:
-            return _core.nearest_unconnected(
+        rows = read_rows(self, vertices, r, None, metric, walls, ignored, unit, workers, progress)
+        with rows.reporter("nearest_unconnected") as report:
+            other, gap = _core.nearest_unconnected(
                 rows.index._exact,
                 rows.vertices,
                 rows.radii[0],
@@ -111,17 +153,18 @@ class SurfaceQueries(Held):
                 progress=report,
                 metric=rows.core_metric,
             )
+        return Unconnected(int(other[0]), float(gap[0])) if rows.shape == () else Unconnected(other, gap)
 
     def closest_point(
         self, q: ArrayLike, *, F: Any = None, workers: int = -1, progress: Progress = None
-    ) -> tuple[Any, Any, Any]:
-        """The point of the surface nearest to a point in space: `face, barycentric, point`. For points (n, 3) or [],
-        three arrays.
+    ) -> ClosestPoint:
+        """The point of the surface nearest to a point in space: `ClosestPoint(face, barycentric, point)`. For points
+        (n, 3) or [], three arrays.
 
         q : 3 numbers, or (n, 3).
         F : other faces than those that the index keeps. What is made of the faces is kept for the next call with the
             same faces.
-        workers, progress : as for `query_ball`, for many points.
+        workers, progress : as for `MeshIndex`, for many points.
 
         face : an int, or (n,) int64, the row of F. Of several faces at the same distance, the one with the smallest
             number; faces that meet at a side or a corner have the same distance there, bit for bit.
@@ -135,35 +178,37 @@ class SurfaceQueries(Held):
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> face, barycentric, point = index.closest_point([0.1, 0.2, 2.0])
-        >>> region = index.query_region(point, 0.3, face=face)
+        >>> region = index.neighborhood(point, 0.3, face=face)
         """
         points = _convert.points(q, "q")
-        key, (corners, offsets) = self._keyed_faces(F)
-        surface = self._face_index.of_faces(key, (corners, offsets))
+        _, offsets = self._face_arrays(F)
+        surface = self._surface(F)
         threads = _convert.threads(workers)
         with reporter(progress, "closest_point", "points", len(points)) as report:
             faces, second, weights, found = surface.closest(points, threads=threads, progress=report)
         if offsets is not None:
             weights = _of_polygons(second, weights, int(np.diff(offsets).max()))
         is_one = np.ndim(q) == 1 and len(points) == 1
-        return (int(faces[0]), weights[0], found[0]) if is_one else (faces, weights, found)
+        return ClosestPoint(int(faces[0]), weights[0], found[0]) if is_one else ClosestPoint(faces, weights, found)
 
-    def query_knn(
+    def k_nearest(
         self,
-        vertices: Union[Vertex, Vertices],
-        k: Any = None,
+        k: int,
+        vertices: AnyVertices = None,
         *,
         r: Number = np.inf,
         fill: int = -1,
-        until: Optional[Number] = None,
-        weights: Any = "area",
-        F: Any = None,
-        **words: Unpack[NearestWords],
-    ) -> Any:
-        """The `k` nearest connected vertices of each of `vertices`, itself included: `ids, distances`, both (#rows, k),
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        max_bytes: Optional[int] = None,
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Nearest:
+        """The `k` nearest connected vertices of each vertex, itself included: `Nearest(ids, distances)`, both (#rows, k),
         or (k,) for a single vertex.
 
-        vertices : a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
         k : how many, at least 1. A row for a smaller `k` is the beginning of that for a larger one.
         r : only vertices within this connecting radius, path length or number of edges.
         metric : "straight": the nearest by connecting radius, the smallest radius whose neighborhood has the vertex,
@@ -171,43 +216,71 @@ class SurfaceQueries(Held):
             the length of the shortest path along edges, "rings": by the number of edges; each then by place in index
             order.
         fill : the id where a row has fewer than `k` vertices; the distance there is inf.
-        until : instead of `k`, an area. Each row is then a disc of fixed area: the first vertices, in the same order,
-            whose weights add up to at least `until`; all where they do not. Returns `indptr, ids, distances`.
-        weights : (#V,), for `until`: "area" for `vertex_areas`.
-        F : other faces than those that the index keeps, for weights="area".
-        walls, ignored, unit, workers, progress : see `MeshIndex`. A row whose vertex is a wall is empty. The result has
-            the unit of V, `until` its square.
-        max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free, or with
-            `until`, for which the result is held twice, than half of it. A sample of the rows usually shows this within
-            a second.
+        vertices, walls, ignored, unit, workers, progress : see `MeshIndex`. A row whose vertex is a wall is empty. The
+            distances have the unit of V.
+        max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> ids, distances = index.query_knn(None, 20)
-        >>> indptr, ids, distances = index.query_knn([4, 7], until=0.3, metric="path")
+        >>> ids, distances = index.k_nearest(20)
         """
-        check_words(words, NearestWords)
-        if (k is None) == (until is None):
-            raise ValueError("k: expected a number of vertices, or an area as `until`, and not both")
-        rows = read_rows(self, vertices, r, None, words, NearestWords)
-        if not isinstance(rows.radii[0], float):
-            raise ValueError("r: expected one radius for all rows")
-        options = {
-            "metric": rows.core_metric,
-            "radius": rows.radii[0],
-            "threads": rows.threads,
-            "max_bytes": _convert.max_bytes(words.get("max_bytes"), copies=1 if until is None else 2),
-        }
-        with rows.reporter("nearest") as report:
-            if until is not None:
-                areas = area_weights(self, weights, F)
-                if areas is None:
-                    raise ValueError("weights: expected 'area' or (#V,) numbers")
-                area = _convert.finite(until, "until", or_zero=False)
-                return _core.discs(rows.index._exact, rows.vertices, area=area, areas=areas, **options, progress=report)
-            options["k"] = _convert.integer(k, "k", 1, 2**63 - 1)
-            options["fill"] = _convert.integer(fill, "fill", -(2**31), 2**31 - 1)
+        rows = read_rows(self, vertices, r, None, metric, walls, ignored, unit, workers, progress)
+        options = _nearest_options(rows, max_bytes, 1)
+        options["k"] = _convert.integer(k, "k", 1, 2**63 - 1)
+        options["fill"] = _convert.integer(fill, "fill", -(2**31), 2**31 - 1)
+        with rows.reporter("k_nearest") as report:
             ids, distances = _core.k_nearest(rows.index._exact, rows.vertices, **options, progress=report)
-        return (ids[0], distances[0]) if rows.shape == () else (ids, distances)
+        return Nearest(ids[0], distances[0]) if rows.shape == () else Nearest(ids, distances)
+
+    def discs(
+        self,
+        area: Number,
+        vertices: AnyVertices = None,
+        *,
+        r: Number = np.inf,
+        weights: Weights = "area",
+        F: Any = None,
+        metric: Metric = "straight",
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        max_bytes: Optional[int] = None,
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Discs:
+        """Discs of a fixed area: of each vertex the first vertices, in the order of `k_nearest`, whose weights add up to
+        at least `area`; all where they do not. Returns `Discs(indptr, ids, distances)`.
+
+        area : > 0, in the square of the unit of V.
+        weights : (#V,), or "area" for `vertex_areas`.
+        F : other faces than those that the index keeps, for weights="area".
+        max_bytes : refuse a larger result with MemoryError; by default, one larger than half of the memory that is free,
+            because it is held twice. A sample of the rows usually shows this within a second.
+        The other arguments are those of `k_nearest`.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> indptr, ids, distances = index.discs(0.3, [4, 7], metric="path")
+        """
+        rows = read_rows(self, vertices, r, None, metric, walls, ignored, unit, workers, progress)
+        options = _nearest_options(rows, max_bytes, 2)
+        areas = area_weights(self, weights, F)
+        if areas is None:
+            raise ValueError("weights: expected 'area' or (#V,) numbers")
+        least = _convert.finite(area, "area", or_zero=False)
+        with rows.reporter("discs") as report:
+            return Discs(
+                *_core.discs(rows.index._exact, rows.vertices, area=least, areas=areas, **options, progress=report)
+            )
+
+
+def _nearest_options(rows: Rows, max_bytes: Any, copies: int) -> dict[str, Any]:
+    if not isinstance(rows.radii[0], float):
+        raise ValueError("r: expected one radius for all rows")
+    return {
+        "metric": rows.core_metric,
+        "radius": rows.radii[0],
+        "threads": rows.threads,
+        "max_bytes": _convert.max_bytes(max_bytes, copies),
+    }
 
 
 def _of_polygons(second: Any, weights: Any, corners: int) -> Reals:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any, Literal, Optional, Union, get_args
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Ids = NDArray[np.int32]
 Offsets = Union[NDArray[np.int32], NDArray[np.int64]]
@@ -16,6 +16,7 @@ Reals = NDArray[np.float64]
 Floats = Union[NDArray[np.float32], NDArray[np.float64]]
 Vertex = Union[int, "np.integer[Any]"]
 Vertices = Union[Sequence[int], "NDArray[np.integer[Any]]", NDArray[np.bool_], None]
+AnyVertices = Union[Vertex, Vertices]
 Number = Union[float, "np.floating[Any]", "np.integer[Any]"]
 Scales = Union[Sequence[float], "NDArray[np.floating[Any]]", "NDArray[np.integer[Any]]"]
 Radii = Union[Number, Scales]
@@ -23,5 +24,6 @@ Mask = Union[NDArray[np.bool_], NDArray[np.integer[Any]], Sequence[int], None]
 Unit = Literal["mesh", "edge"]
 Metric = Literal["straight", "path", "rings"]
 Sort = Literal["index", "id", "distance"]
+Weights = Union[Literal["area"], ArrayLike, None]
 
 METRICS: tuple[str, ...] = get_args(Metric)

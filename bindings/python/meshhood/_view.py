@@ -81,7 +81,7 @@ def view(
     >>> meshhood.view(V, F, values=V[:, 2]).save("heights.html")
 
     V, F : the mesh, as for `MeshIndex`, but not a graph.
-    v, r, unit : the query to show at first, as for `MeshIndex.query_ball`; by default the page chooses one.
+    v, r, unit : the query to show at first, as for `MeshIndex.neighborhood`; by default the page chooses one.
     ids : vertices to show instead of the answers, until another query is made: a sequence or a bool mask (#V,).
     values : (#V,) a number for each vertex, shown as colors. Values that are not finite get no color.
     name : the name of the mesh on the page.

@@ -2,7 +2,7 @@
 """Neighborhoods on a mesh in parts, on Dask: on the threads of this machine, or on a cluster.
 
     >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=8, halo=6, unit="edge")
-    >>> counts = parts.count(5, unit="edge").compute()
+    >>> counts = parts.counts(5, unit="edge").compute()
 
 A part is one task. Without a `dask.distributed.Client`, tasks run on the threads of this machine; with one, on its
 workers, which must see the folder under the same path. Retries and the dashboard are those of Dask.
@@ -106,11 +106,11 @@ class Parts:
         """
         return self._name(_convert.integer(number, "number", 0, len(self) - 1)).open()
 
-    def count(self, r: float, *, unit: Unit = "mesh", order: Literal["mesh", "parts"] = "mesh") -> da.Array:
+    def counts(self, r: float, *, unit: Unit = "mesh", order: Literal["mesh", "parts"] = "mesh") -> da.Array:
         """The number of vertices of each neighborhood: a dask.array (#V,) int64. See `map` for `order`.
 
         >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
-        >>> counts = parts.count(0.3).compute()
+        >>> counts = parts.counts(0.3).compute()
         """
         return self.map(functools.partial(count_vertices, self._radius(r, unit)), r, unit=unit, dtype=np.int64, order=order)
 
@@ -243,7 +243,7 @@ class Parts:
         progress : True shows a bar of tqdm; a function is called as progress(done, total), in parts.
 
         >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
-        >>> paths = parts.write(lambda part, index, owned: index.count(owned, 0.3, workers=1), 0.3, "counts")
+        >>> paths = parts.write(lambda part, index, owned: index.counts(0.3, owned, workers=1), 0.3, "counts")
         >>> sum(len(np.load(path)) for path in paths)
         642
         """
@@ -327,7 +327,7 @@ def open_parts(folder: Folder) -> Parts:
     >>> np.save("V.npy", V), np.save("F.npy", F)
     (None, None)
     >>> parts = meshhood.partition(("V.npy", "F.npy"), "parts", parts=2, halo=0.3)
-    >>> counts = meshhood.open_parts("parts").count(0.3).compute()
+    >>> counts = meshhood.open_parts("parts").counts(0.3).compute()
     """
     return Parts(folder)
 
