@@ -6,7 +6,7 @@ smoothing by a Gaussian beside the biweight nearest to it in L2 and that of the 
     PYTHONPATH=build/release/python bench/aggregate.py [--workers N] [--smooth] MESH...
 
 MESH is a file; radii are in mean edge lengths. Both have the same rows, consecutive in index order: all vertices, or
-the first ones, so that the matrix has at most 100 million entries. The matrix is made by `query_ball` without sorting,
+the first ones, so that the matrix has at most 100 million entries. The matrix is made by `neighborhoods` without sorting,
 with a value of one for each entry, in pieces of 20 million entries; the product is divided by the size of each row. Both
 results are compared. Times are medians of alternating rounds. `aggregate` includes its preparation for the whole mesh,
 which few rows share where the radius is large. The tables are Markdown. """

@@ -45,7 +45,7 @@ def compare_mesh(path):
         knn = least_time(lambda k=k: tree.query(V, k, workers=-1))
         for metric in ("straight", "path"):
             ours = least_time(lambda k=k, metric=metric: index.k_nearest(k, metric=metric))
-            print_row(f"query_knn, {len(V)} vertices, k = {k}, {metric}", ours, knn, "cKDTree.query")
+            print_row(f"k_nearest, {len(V)} vertices, k = {k}, {metric}", ours, knn, "cKDTree.query")
     random = np.random.default_rng(2)
     faces = random.integers(len(F), size=100_000)
     on_faces = np.einsum("nc,ncx->nx", random.dirichlet(np.ones(3), len(faces)), V[F[faces]])

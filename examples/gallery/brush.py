@@ -2,7 +2,7 @@
 """Brush strokes
 ================
 
-A stroke runs over a page of a book whose pages nearly touch. ``query_stroke`` paints what is connected with the brush
+A stroke runs over a page of a book whose pages nearly touch. ``stroke`` paints what is connected with the brush
 at some point of the stroke: this page. A brush that takes all vertices of its ball paints the pages behind it, too.
 """
 
@@ -25,6 +25,6 @@ for i, ids in enumerate([index.stroke(stroke, 4.0), np.concatenate(near)]):
     painted = np.isin(np.arange(len(V)), ids) * 1.0
     apart = pyvista.PolyData.from_regular_faces(V + page[:, None] * (0, 45, 0), F[np.ptp(page[F], axis=1) == 0])
     plotter.add_mesh(apart, scalars=painted, cmap=["lightgray", "#009E73"], show_scalar_bar=False)
-    plotter.add_text(("query_stroke()", "a ball")[i], font_size=10)
+    plotter.add_text(("stroke()", "a ball")[i], font_size=10)
     plotter.camera_position = [(260, -160, 110), (35, 130, 30), (0, 0, 1)]
 plotter.show()

@@ -2,7 +2,7 @@
 """A patch around a picked point, with its rim
 ==============================================
 
-``closest_point`` finds the point of the surface nearest to a pick, and its face; ``query_region`` the patch around it;
+``closest_point`` finds the point of the surface nearest to a pick, and its face; ``neighborhood`` the patch around it;
 ``submesh`` cuts the patch at the ball (green), and ``rim`` is its outline (orange). The ball (blue) has another strand.
 """
 

@@ -217,6 +217,8 @@ def check_plain(call, words, v, radius, found):
     assert len(found) == len(wanted)
     if "walls" in words and call.rows in (lists, matrix) and words.get("sort") in (None, "index"):
         found, wanted = ([column[np.argsort(row[0])] for column in row] for row in (found, wanted))  # other places
+    if "walls" in words and call.name in ("k_nearest", "discs") and "metric" in words:  # likewise, of equal lengths
+        found, wanted = found[1:], wanted[1:]
     for a, b in zip(found, wanted):
         b = np.asarray(b, words.get("dtype") if np.asarray(b).dtype == np.float64 else None)
         if "walls" in words or (call.radius == "fwhm" and "unit" in words):  # sums in another order, radii rounded twice
@@ -491,23 +493,30 @@ def check_nested(words, start, answer):
     assert len(ids) == counts[-1]
 
 
+def connecting_by_hand(words, start, r):
+    """The keys that order vertices of one connecting radius, the vertices, and their radii, up to r."""
+    plain, center, seeds = region_by_hand(words, start, r)
+    if "metric" in words:
+        ids, lengths = getattr(plain, words["metric"])(start, r)
+        return [PLACE[ids]], ids, lengths
+    ids, radii = plain.connecting(center, seeds, r)
+    return [ids, plain.distances(center)[ids]], ids, radii
+
+
 def check_contains(words, start, answer):
     r = R * (INDEX.mean_edge_length if "unit" in words else 1)
-    plain, center, seeds = region_by_hand(words, start, r)
-    assert answer == (near_of(start) in plain.region(center, seeds, r)[0])
+    assert answer == (near_of(start) in connecting_by_hand(words, start, r)[1])
 
 
 def check_connecting(words, start, answer):
-    plain, center, seeds = region_by_hand(words, start, np.inf)
-    ids, radii = plain.connecting(center, seeds, 8.0)
+    _, ids, radii = connecting_by_hand(words, start, 8.0)
     wanted = radii[ids == near_of(start)]
     assert answer == (wanted[0] if len(wanted) else np.inf) or (not len(wanted) and answer > 8.0)
 
 
 def check_nearest(words, start, answer):
-    plain, center, seeds = region_by_hand(words, start, np.inf)
-    ids, radii = plain.connecting(center, seeds, 5.0)
-    order = np.lexsort([ids, plain.distances(center)[ids], radii])[:9]
+    keys, ids, radii = connecting_by_hand(words, start, 5.0)
+    order = np.lexsort([*keys, radii])[:9]
     for found, wanted in zip(answer, (ids[order], radii[order])):
         np.testing.assert_array_equal(found, wanted)
 
@@ -559,7 +568,7 @@ def test_pairs_of_options_for_one_start(name, kind):
 def test_pairs_of_options_of_a_stroke():
     options = {
         "r": {"each": np.linspace(1.3, R, len(POINTS))},
-        **{name: OPTIONS_OF_START[name] for name in ("seeds", "face", "walls", "ignored", "unit")},
+        **{name: OPTIONS_OF_START[name] for name in ("seeds", "face", "metric", "walls", "ignored", "unit")},
         "sort": {"id": "id"},
     }
     names = keywords_of(meshhood.MeshIndex.stroke)
@@ -567,19 +576,19 @@ def test_pairs_of_options_of_a_stroke():
 
     def ask(*given):
         words = {name: np.array([value(p) for p in POINTS]) if callable(value) else value for name, value in given}
-        return words, INDEX.stroke(POINTS, **{"r": R, **words})
+        return words, INDEX.stroke(STARTS["vertex"] if "metric" in words else POINTS, **{"r": R, **words})
 
     def check_stroke(words, answer):
         unit, found = INDEX.mean_edge_length if "unit" in words else 1, set()
         for i, r in enumerate(np.broadcast_to(words.get("r", R), len(POINTS))):
             of_point = {name: value[i] if name in ("seeds", "face") else value for name, value in words.items()}
-            plain, center, seeds = region_by_hand(of_point, POINTS[i], r * unit)
-            found |= set(plain.region(center, seeds, r * unit)[0].tolist())
+            start = STARTS["vertex"][i] if "metric" in words else POINTS[i]
+            found |= set(connecting_by_hand(of_point, start, r * unit)[1].tolist())
         ids = np.array(sorted(found))
         np.testing.assert_array_equal(answer, ids if "sort" in words else ids[np.argsort(PLACE[ids])])
         return 1
 
-    check_pairs("stroke", options, ask, check_stroke)
+    check_pairs("stroke", options, ask, check_stroke, {"seeds": ["points"], "face": ["points"], "metric": ["points"]})
 
 
 # Calls of which only `HOW` has options, or whose options change the answer by themselves.

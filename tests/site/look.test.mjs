@@ -69,10 +69,10 @@ for (const [screen, shown] of [[WIDE, pages], [NARROW, pages], [DARK, pages.filt
 }
 
 test('the search finds a name without a server', async () => {
-  const { page } = await open('search.html', WIDE, '?q=query_stroke');
+  const { page } = await open('search.html', WIDE, '?q=stroke');
   await page.waitForSelector('#search-results li');
   const found = await page.locator('#search-results li').allInnerTexts();
-  assert.ok(found.some((text) => text.includes('MeshIndex.query_stroke')), found.join('\n'));
+  assert.ok(found.some((text) => text.includes('MeshIndex.stroke')), found.join('\n'));
   await page.close();
 });
 

@@ -191,7 +191,7 @@ class Queries(Held):
         else:
             centers = _convert.points(points, "points")
             count = len(centers)
-        by = self._metric_of(centers, metric)
+        by = self._metric_of(centers, metric, "points: expected vertices")
         radii = np.array(np.broadcast_to(_convert.radii(r, count), count)) * self._scale(unit, metric)
         if face is not None:
             rows = self._corners_of(face, count, seeds)
@@ -346,9 +346,9 @@ class Queries(Held):
         _check_vertex(center, metric, method)
         return center, first, self._scale(unit, metric) * _convert.radius(r), searched
 
-    def _metric_of(self, center: Any, metric: str) -> Any:
+    def _metric_of(self, center: Any, metric: str, wanted: str = "start: expected a vertex") -> Any:
         metric = _convert.choice(metric, "metric", METRICS)
-        _check_vertex(center, metric, "exact")
+        _check_vertex(center, metric, "exact", wanted)
         return getattr(_core.Metric, metric)
 
     def _around_point(self, center: Any, first: Ids, radius: float, walls: Any, ignored: Any) -> tuple[Ids, Reals]:
@@ -393,9 +393,9 @@ class Queries(Held):
         return np.where(places < sizes[:, None], corners[at], np.int32(-1))
 
 
-def _check_vertex(center: Any, metric: str, method: Any) -> None:
+def _check_vertex(center: Any, metric: str, method: Any, wanted: str = "start: expected a vertex") -> None:
     if center is not None and metric != "straight":
-        raise ValueError(f"start: expected a vertex with metric={metric!r}, because a point has no edges")
+        raise ValueError(f"{wanted} with metric={metric!r}, because a point has no edges")
     if center is not None and method != "exact":
         raise ValueError(f"method: {method!r}, expected 'exact' around a point")
 
