@@ -124,16 +124,15 @@ void curvature(const CurvatureCommand& options) {
   const RowQuery rows(options.rows, input);
   const std::size_t scales = options.rows.scale_count();
   const Index& index = input.exact_index(options.rows.threads);
-  const CurvatureIndex surface = CurvatureIndex::build(index, input.surface(), options.rows.threads);
+  const CurvatureIndex surface = CurvatureIndex::build(index, input.surface(), {.threads = options.rows.threads});
   CurvatureOptions settings = options.like_libigl ? like_libigl() : CurvatureOptions{};
   settings.filter = !options.no_filter;
-  settings.threads = options.rows.threads;
   Columns columns;
   {
     Task task("fitting", {"rows", static_cast<double>(scales)});
     for (std::size_t i = 0; i < scales; ++i) {
-      settings.progress = task.progress(i, scales);
-      columns.append(curvatures(surface, rows.query_of_scale(i), settings));
+      columns.append(curvatures(surface, rows.query_of_scale(i), settings,
+                                {.threads = options.rows.threads, .progress = task.progress(i, scales)}));
     }
     if (!options.files.npz.empty()) write_npz(options.files.npz, rows, scales, columns);
   }

@@ -112,17 +112,14 @@ struct FeaturesFound {
 FeaturesFound compute(const FeaturesCommand& options, const RowQuery& rows, Input& input) {
   FeaturesFound found{radii_of(options, rows, input), options.kinds.size(), {}, {}};
   static_cast<void>(persistence({}, found.radii, options.threshold));  // refuses wrong radii before the work begins
-  const CurvatureIndex surface =
-      CurvatureIndex::build(input.exact_index(options.rows.threads), input.surface(), options.rows.threads);
+  const CurvatureIndex surface = CurvatureIndex::build(input.exact_index(options.rows.threads), input.surface(),
+                                                       {.threads = options.rows.threads});
   const std::vector<double> areas = vertex_areas(input.surface());
   Task task("measuring", {"rows", static_cast<double>(found.radii.size())});
   const bool has_rows = !options.rows.row_radii.empty();
   found.values = features(surface, has_rows ? rows.query() : rows.query(BatchRadius::scales(found.radii)),
-                          {.kinds = kinds_of(options),
-                           .areas = areas,
-                           .filter = !options.no_filter,
-                           .threads = options.rows.threads,
-                           .progress = task.progress()});
+                          {.kinds = kinds_of(options), .areas = areas, .filter = !options.no_filter},
+                          {.threads = options.rows.threads, .progress = task.progress()});
   for (std::size_t kind = 0; kind < found.kinds; ++kind) {
     std::vector<double> one(found.radii.size() * found.rows());
     for (std::size_t i = 0; i < one.size(); ++i) one[i] = found.values[i * found.kinds + kind];

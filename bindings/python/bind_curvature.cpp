@@ -34,7 +34,7 @@ namespace {
 CurvatureIndex of_faces(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets,
                         unsigned threads) {
   const FacesView faces = faces_of(corners, offsets);
-  return without_lock([&] { return CurvatureIndex::build(method.index(), faces, threads); });
+  return without_lock([&] { return CurvatureIndex::build(method.index(), faces, {.threads = threads}); });
 }
 
 CurvatureIndex of_normals(const ExactMethod& method, const Radii& normals) {
@@ -47,8 +47,7 @@ auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& ver
   CurvatureOptions options = libigl ? like_libigl() : CurvatureOptions{};
   options.fit = jet ? CurvatureFit::Jet : CurvatureFit::Quadric;
   options.filter = filter;
-  options.threads = threads;
-  options.progress = progress_to(progress);
+  const Run run{.threads = threads, .progress = progress_to(progress)};
   const BatchQuery query = query_of(vertices, radius, metric);
   const std::size_t rows = query.vertices.count(surface.vertex_count());
   const nb::object k1 = unset(rows, "float64");
@@ -64,7 +63,7 @@ auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& ver
                                values_of<double>(directions).subspan(3 * rows),
                                values_of<CurvatureState>(state),
                                values_of<std::uint32_t>(count)};
-  without_lock([&] { curvatures(surface, query, memory, options); });
+  without_lock([&] { curvatures(surface, query, memory, options, run); });
   const nb::object vectors = directions.attr("reshape")(2, rows, 3);
   return std::tuple(k1, k2, nb::object(vectors[0]), nb::object(vectors[1]), state, count);
 }
@@ -74,8 +73,8 @@ auto corrected_curvatures_of(const CurvatureIndex& surface, const Input& corners
                              nb::handle progress, Metric metric) {
   const FacesView faces = faces_of(corners, offsets);
   const BatchQuery query = query_of(vertices, radius, metric);
-  const CorrectedCurvatureOptions options{.threads = threads, .progress = progress_to(progress)};
-  CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, faces, query, options); });
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, faces, query, run); });
   const std::size_t rows = found.area.size();
   const auto vectors = [rows](std::vector<double>& values, std::size_t columns) {
     return owned<double>(std::move(values), {rows, columns});
@@ -86,9 +85,8 @@ auto corrected_curvatures_of(const CurvatureIndex& surface, const Input& corners
                     vectors(found.measures, CorrectedCurvatures::kMeasures));
 }
 
-MomentOptions moment_options(unsigned degree, const std::optional<Radii>& weights, unsigned threads,
-                             nb::handle progress) {
-  MomentOptions options{.degree = degree, .weights = {}, .threads = threads, .progress = progress_to(progress)};
+MomentOptions moment_options(unsigned degree, const std::optional<Radii>& weights) {
+  MomentOptions options{.degree = degree, .weights = {}};
   if (weights) options.weights = numbers_of(*weights);
   return options;
 }
@@ -97,8 +95,9 @@ Output<double> moments_of(const ExactMethod& method, const std::optional<Rows>& 
                           unsigned degree, const std::optional<Radii>& weights, unsigned threads, nb::handle progress,
                           Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
-  const MomentOptions options = moment_options(degree, weights, threads, progress);
-  std::vector<double> found = without_lock([&] { return moments(method.index(), query, options); });
+  const MomentOptions options = moment_options(degree, weights);
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  std::vector<double> found = without_lock([&] { return moments(method.index(), query, options, run); });
   const std::size_t columns = moment_count(degree);
   const std::size_t rows = found.size() / columns;
   return owned<double>(std::move(found), {rows, columns});
@@ -107,8 +106,9 @@ Output<double> moments_of(const ExactMethod& method, const std::optional<Rows>& 
 auto components_of(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius,
                    const std::optional<Radii>& weights, unsigned threads, nb::handle progress, Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
-  const MomentOptions options = moment_options(0, weights, threads, progress);
-  PrincipalComponents found = without_lock([&] { return principal_components(method.index(), query, options); });
+  const MomentOptions options = moment_options(0, weights);
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  PrincipalComponents found = without_lock([&] { return principal_components(method.index(), query, options, run); });
   const std::size_t rows = found.weight.size();
   return std::tuple(owned<double>(std::move(found.weight)), owned<double>(std::move(found.center), {rows, 3}),
                     owned<double>(std::move(found.variances), {rows, 3}),
@@ -121,10 +121,10 @@ Output<double> features_of(const CurvatureIndex& surface, const std::optional<Ro
                            nb::handle progress, Metric metric, const Radius& radius) {
   BatchQuery query = query_of(vertices, radius, metric);
   if (!radius) query.radius = BatchRadius::scales({numbers_of(radii).begin(), numbers_of(radii).end()});
-  FeatureOptions options{
-      .kinds = std::move(kinds), .areas = {}, .filter = filter, .threads = threads, .progress = progress_to(progress)};
+  FeatureOptions options{.kinds = std::move(kinds), .areas = {}, .filter = filter};
+  const Run run{.threads = threads, .progress = progress_to(progress)};
   if (areas) options.areas = numbers_of(*areas);
-  std::vector<double> found = without_lock([&] { return features(surface, query, options); });
+  std::vector<double> found = without_lock([&] { return features(surface, query, options, run); });
   const std::size_t count = radius ? 1 : radii.size();
   const std::size_t rows = found.size() / count / options.kinds.size();
   return owned<double>(std::move(found), {count, rows, options.kinds.size()});

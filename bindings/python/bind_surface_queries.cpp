@@ -36,8 +36,8 @@ using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::dev
 auto unconnected(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
                  nb::handle progress, Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
-  const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
-  Unconnected found = without_lock([&] { return nearest_unconnected(method.index(), query, options); });
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  Unconnected found = without_lock([&] { return nearest_unconnected(method.index(), query, run); });
   static_assert(static_cast<std::int32_t>(kNoVertex) == -1);
   return std::pair(owned<std::int32_t>(std::move(found.vertices)), owned<double>(std::move(found.gaps)));
 }
@@ -51,13 +51,13 @@ FaceIndex make_face_index(const ExactMethod& method, const Input& corners, const
 auto closest_points(const FaceIndex& surface, const Points& points, unsigned threads, nb::handle progress) {
   static_assert(sizeof(SpacePoint) == 3 * sizeof(double));
   const std::span<const SpacePoint> all(reinterpret_cast<const SpacePoint*>(points.data()), points.shape(0));
-  const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
+  const Run run{.threads = threads, .progress = progress_to(progress)};
   std::vector<std::int64_t> faces;
   std::vector<std::int64_t> seconds;
   std::vector<std::array<double, 3>> weights;
   std::vector<SpacePoint> found;
   without_lock([&] {
-    for (const SurfacePoint& hit : surface.closest_points(all, options)) {
+    for (const SurfacePoint& hit : surface.closest_points(all, run)) {
       faces.push_back(static_cast<std::int64_t>(hit.face));
       seconds.push_back(static_cast<std::int64_t>(hit.second_corner));
       weights.push_back(hit.weights);
@@ -69,24 +69,16 @@ auto closest_points(const FaceIndex& surface, const Points& points, unsigned thr
                     owned<double>(std::move(weights), {rows, 3}), owned<double>(std::move(found), {rows, 3}));
 }
 
-NearestOptions nearest_options(Metric metric, double radius, unsigned threads, std::uint64_t max_bytes,
-                               nb::handle progress) {
-  return {.metric = metric,
-          .radius = radius,
-          .threads = threads,
-          .max_bytes = max_bytes,
-          .progress = progress_to(progress)};
-}
-
 constexpr const char* kFewer = "take fewer vertices at a time";
 
 auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices, std::size_t k, std::int32_t fill,
                   Metric metric, double radius, unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
-  const NearestOptions options = nearest_options(metric, radius, threads, max_bytes, progress);
+  const NearestOptions options{.metric = metric, .radius = radius};
+  const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
   KNearest found = limited(kFewer, [&] {
     return without_lock([&] {
-      KNearest result = k_nearest(method.index(), asked, k, options);
+      KNearest result = k_nearest(method.index(), asked, k, options, run);
       for (VertexId& id : result.ids) id = id == kNoVertex ? static_cast<VertexId>(fill) : id;
       return result;
     });
@@ -99,10 +91,11 @@ auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices
 auto discs_of(const ExactMethod& method, const std::optional<Rows>& vertices, double area, const Radii& areas,
               Metric metric, double radius, unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
-  const NearestOptions options = nearest_options(metric, radius, threads, max_bytes, progress);
+  const NearestOptions options{.metric = metric, .radius = radius};
+  const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
   Neighborhoods found = limited(kFewer, [&] {
     return without_lock(
-        [&] { return discs(method.index(), asked, area, std::span(areas.data(), areas.size()), options); });
+        [&] { return discs(method.index(), asked, area, std::span(areas.data(), areas.size()), options, run); });
   });
   return std::tuple(owned<std::int64_t>(std::move(found.offsets)), owned<std::int32_t>(std::move(found.ids)),
                     owned<double>(std::move(found.distances)));

@@ -26,11 +26,11 @@ std::size_t Method::count(VertexId v, double radius) {
 }
 
 std::vector<std::uint64_t> Method::neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
-                                                 const BatchOptions& options) const {
+                                                 const BatchOptions& options, const Run& run) const {
   return without_lock([&] { return meshhood::neighborhoods(method_, query, allocate, options); });
 }
 
-std::vector<std::uint64_t> Method::counts(const BatchQuery& query, const BatchOptions& options) const {
+std::vector<std::uint64_t> Method::counts(const BatchQuery& query, const Run& run) const {
   return without_lock([&] { return meshhood::counts(method_, query, options); });
 }
 

@@ -11,13 +11,13 @@
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 /// Curvature at a scale: the shape of the surface in the neighborhood of a vertex with radius r. The measures and how
 /// to choose among them are explained in docs/curvature.md.
 ///
 ///     const auto surface = meshhood::CurvatureIndex::build(index, mesh);
-///     const auto [k1, k2, d1, d2, state, count] = meshhood::curvatures(surface, {.radius = 2.5}, {.threads = 0});
+///     const auto [k1, k2, d1, d2, state, count] = meshhood::curvatures(surface, {.radius = 2.5});
 namespace meshhood {
 
 /// The data for curvature besides the index of a mesh: the normals of the vertices. Immutable: any number of threads
@@ -28,14 +28,13 @@ class CurvatureIndex {
   /// The normal of a vertex is the sum of the vector areas of its faces, normalized. The vector area of a triangle is
   /// half the cross product of two edges. That of a polygon is Newell's sum.
   ///
-  /// mesh     the mesh that the index was built from, with faces; borrowed for the call.
-  /// threads  as in `BuildOptions`. The result does not depend on it.
+  /// mesh  the mesh that the index was built from, with faces; borrowed for the call.
   /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid, has no faces, or has other positions than the index, and
-  /// Error{InvalidOption}. O(#V + #corners).
-  [[nodiscard]] static CurvatureIndex build(const Index& index, const MeshView& mesh, unsigned threads = 1);
+  /// Error{InvalidOption, Cancelled}. O(#V + #corners).
+  [[nodiscard]] static CurvatureIndex build(const Index& index, const MeshView& mesh, const Run& run = {});
 
   /// The same with the positions of the index. `faces` are those of the mesh that it was built from.
-  [[nodiscard]] static CurvatureIndex build(const Index& index, const FacesView& faces, unsigned threads = 1);
+  [[nodiscard]] static CurvatureIndex build(const Index& index, const FacesView& faces, const Run& run = {});
 
   /// The same for a graph without faces.
   ///
@@ -108,10 +107,6 @@ struct CurvatureOptions {
   ShapeOperator shape_operator = ShapeOperator::Exact;
 
   CurvatureFit fit = CurvatureFit::Quadric;
-
-  /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
-  unsigned threads = 1;
-  Progress progress = {};
 };
 
 /// The options with which `curvatures` agrees with `igl::principal_curvature(V, F, ..., radius, useKring = false)` of
@@ -163,12 +158,12 @@ struct CurvatureMemory {
 /// leaf is summed once.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query,
-                                    const CurvatureOptions& options = {});
+                                    const CurvatureOptions& options = {}, const Run& run = {});
 
 /// Writes the same into memory of the caller, which need not be initialized: all of it, unless the call throws. Throws
 /// as the overload above, and Error{InvalidOption} if an array does not have the requested size.
 void curvatures(const CurvatureIndex& surface, const BatchQuery& query, const CurvatureMemory& out,
-                const CurvatureOptions& options = {});
+                const CurvatureOptions& options = {}, const Run& run = {});
 
 /// Koenderink's shape index, 2 / pi atan((k1 + k2) / (k1 - k2)): 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a
 /// valley, -1 in a bowl. NaN where both are 0, where it is not defined.

@@ -68,10 +68,8 @@ class FaceIndex {
   /// O(log #V) on most surfaces; more where faces are large beside the leaves. Allocates nothing.
   [[nodiscard]] SurfacePoint closest_point(const SpacePoint& point) const;
 
-  /// The same for each of `points`. Of the options, `threads` and `progress` are used; the result does not depend on
-  /// them. Throws as above, naming the row, and Error{Cancelled}.
-  [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const SpacePoint> points,
-                                                         const BatchOptions& options = {}) const;
+  /// The same for each of `points`. Throws as above, naming the row, and Error{Cancelled}.
+  [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const SpacePoint> points, const Run& run = {}) const;
 
  private:
   struct State;

@@ -50,15 +50,15 @@ struct Masks {
 };
 
 /// The same index with masks: every search of it, and every call that takes it, leaves out walls and ignored vertices,
-/// but `nearest` and `Start::nearest`, which look at all vertices; a wall as a seed leads nowhere. The masks are copied; the arrays of `index` are shared, all of which remain valid without the walls. Memory: some 50
-/// bytes a leaf with walls, 4 with ignored vertices alone. A search takes about as long as without masks.
+/// but `nearest` and `Start::nearest`, which look at all vertices; a wall as a seed leads nowhere. The masks are
+/// copied; the arrays of `index` are shared, all of which remain valid without the walls. Memory: some 50 bytes a leaf
+/// with walls, 4 with ignored vertices alone. A search takes about as long as without masks.
 ///
 /// An index with masks is not saved, checked, refitted or masked again. After `refit_in_place` of `index`,
 /// it refuses to answer, as a searcher does. Its mesh, as from `extract_graph`, is the whole one.
 ///
-/// threads  as in `BuildOptions`. The result does not depend on it.
 /// O(#V). Throws Error{InvalidOption} unless each mask is empty or has a value for each vertex, or if `index` has
-/// masks.
-[[nodiscard]] Index masked(const Index& index, const Masks& masks, unsigned threads = 1);
+/// masks, and Error{Cancelled}.
+[[nodiscard]] Index masked(const Index& index, const Masks& masks, const Run& run = {});
 
 }  // namespace meshhood

@@ -164,9 +164,9 @@ struct CorrectedRows {
 }  // namespace
 
 CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const FacesView& faces, const BatchQuery& query,
-                                         const CorrectedCurvatureOptions& options) {
+                                         const Run& run) {
   const SurfaceState& state = CurvatureAccess::state(surface);
-  TaskContext task(options.threads);
+  TaskContext task(run.threads);
   validate(MeshView{state.searched.positions(), faces}, task);
   constexpr std::size_t kChannels = CorrectedCurvatures::kMeasures;
   const std::vector<double> held = measures_by_vertex(state, faces);
@@ -177,7 +177,7 @@ CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const Fa
     sum.vertices = listed;
   }
   const std::vector<double> sums = aggregate(state.searched, {.values = held, .channels = kChannels}, sum,
-                                             {.threads = options.threads, .progress = options.progress});
+                                             {.threads = run.threads, .progress = run.progress});
   const std::size_t results = sums.size() / kChannels;
   const std::size_t rows = sum.vertices.count(surface.vertex_count());
   CorrectedCurvatures result;

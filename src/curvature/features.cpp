@@ -62,12 +62,13 @@ double patch_feature(Feature kind, const PrincipalComponents& patch, std::size_t
 /// What one call of `features` computes, radius by radius.
 class FeatureExtraction {
  public:
-  FeatureExtraction(const CurvatureIndex& surface, const BatchQuery& query, FeatureOptions options)
+  FeatureExtraction(const CurvatureIndex& surface, const BatchQuery& query, FeatureOptions options, const Run& run)
       : surface_(surface),
         state_(CurvatureAccess::state(surface)),
         radii_(radius_of_passes(query.radius)),
         metric_(query.metric),
         options_(std::move(options)),
+        run_(run),
         rows_(surface.vertex_count()) {
     if (const auto& list = query.vertices.list()) {
       listed_.assign(list->begin(), list->end());
@@ -125,8 +126,7 @@ class FeatureExtraction {
   }
 
   void write_curvatures(const BatchRadius& radius_of_rows, std::span<double> values) {
-    const Curvatures k = curvatures(surface_, query_of(radius_of_rows),
-                                    {.filter = options_.filter, .threads = options_.threads, .progress = next_pass()});
+    const Curvatures k = curvatures(surface_, query_of(radius_of_rows), {.filter = options_.filter}, next_pass());
     const std::size_t kinds = options_.kinds.size();
     for (std::size_t row = 0; row < rows_; ++row) {
       const double radius = radius_at(radius_of_rows, row);
@@ -141,8 +141,7 @@ class FeatureExtraction {
 
   void write_patches(const BatchRadius& radius_of_rows, std::span<double> values) {
     const PrincipalComponents patch =
-        principal_components(state_.searched, query_of(radius_of_rows),
-                             {.weights = options_.areas, .threads = options_.threads, .progress = next_pass()});
+        principal_components(state_.searched, query_of(radius_of_rows), {.weights = options_.areas}, next_pass());
     const std::size_t kinds = options_.kinds.size();
     for (std::size_t row = 0; row < rows_; ++row) {
       const double radius = radius_at(radius_of_rows, row);
@@ -154,12 +153,14 @@ class FeatureExtraction {
     }
   }
 
-  Progress next_pass() {
-    if (!options_.progress) return {};
+  Run next_pass() {
+    Run pass{.threads = run_.threads};
+    if (!run_.progress) return pass;
     const std::size_t passes = radii_.size() * (static_cast<std::size_t>(fits_) + static_cast<std::size_t>(sums_));
-    return [this, passes, before = passes_begun_++ * rows_](std::size_t done, std::size_t /*total*/) {
-      return options_.progress(before + done, passes * rows_);
+    pass.progress = [this, passes, before = passes_begun_++ * rows_](std::size_t done, std::size_t /*total*/) {
+      return run_.progress(before + done, passes * rows_);
     };
+    return pass;
   }
 
   const CurvatureIndex& surface_;
@@ -168,6 +169,7 @@ class FeatureExtraction {
   Metric metric_;
   double unit_ = 1;  // of the radii
   FeatureOptions options_;
+  const Run& run_;
   std::vector<VertexId> listed_;
   BatchVertices vertices_;
   std::vector<double> radius_of_row_;  // if there is one for each
@@ -189,7 +191,7 @@ void check_count(std::size_t count) {
 }
 
 /// Radii `begin` to `end` - 1, at which a feature lasts.
-struct Run {
+struct Streak {
   std::size_t begin;
   std::size_t end;
 
@@ -198,9 +200,9 @@ struct Run {
 
 /// The longest run of values of one sign that are as strong as the threshold.
 template <class ValueAt>
-Run longest_run(std::size_t radii, double threshold, const ValueAt& value) {
-  Run longest{0, 0};
-  Run run{0, 0};
+Streak longest_streak(std::size_t radii, double threshold, const ValueAt& value) {
+  Streak longest{0, 0};
+  Streak run{0, 0};
   for (std::size_t i = 0; i < radii; ++i) {
     const bool strong = std::abs(value(i)) >= threshold;
     const bool continues = strong && run.end == i && run.size() > 0 && (value(i) > 0) == (value(i - 1) > 0);
@@ -212,8 +214,9 @@ Run longest_run(std::size_t radii, double threshold, const ValueAt& value) {
 
 }  // namespace
 
-std::vector<double> features(const CurvatureIndex& surface, const BatchQuery& query, const FeatureOptions& options) {
-  return FeatureExtraction(surface, query, options).run();
+std::vector<double> features(const CurvatureIndex& surface, const BatchQuery& query, const FeatureOptions& options,
+                             const Run& run) {
+  return FeatureExtraction(surface, query, options, run).run();
 }
 
 std::vector<double> geometric_radii(double smallest, double largest, std::size_t count) {
@@ -255,7 +258,7 @@ Persistence persistence(std::span<const double> values, std::span<const double> 
   Persistence result{std::vector<std::int32_t>(rows), std::vector<double>(rows), std::vector<double>(rows)};
   for (std::size_t row = 0; row < rows; ++row) {
     const auto value = [&](std::size_t i) { return values[i * rows + row]; };
-    const Run run = longest_run(radii.size(), threshold, value);
+    const Streak run = longest_streak(radii.size(), threshold, value);
     if (run.size() == 0) continue;
     std::size_t best = run.begin;
     for (std::size_t i = run.begin; i < run.end; ++i) {

@@ -114,6 +114,7 @@ CurvatureIndex of_faces(const Index& index, const FacesView& faces, TaskContext&
   }
   auto state = std::make_unique<SurfaceState>(index);
   sum_normals(*state, faces, task);
+  task.finish();
   return CurvatureAccess::make(std::move(state));
 }
 
@@ -148,15 +149,15 @@ std::size_t CurvatureIndex::State::first_neighbor(std::size_t place) const {
   return first;
 }
 
-CurvatureIndex CurvatureIndex::build(const Index& index, const MeshView& mesh, unsigned threads) {
-  TaskContext task(threads);
+CurvatureIndex CurvatureIndex::build(const Index& index, const MeshView& mesh, const Run& run) {
+  TaskContext task(run.threads, run.progress, 1);
   validate(mesh, task);
   check_positions(IndexAccess::view(index), mesh);
   return of_faces(index, mesh.faces, task);
 }
 
-CurvatureIndex CurvatureIndex::build(const Index& index, const FacesView& faces, unsigned threads) {
-  TaskContext task(threads);
+CurvatureIndex CurvatureIndex::build(const Index& index, const FacesView& faces, const Run& run) {
+  TaskContext task(run.threads, run.progress, 1);
   validate(MeshView{index.positions(), faces}, task);
   return of_faces(index, faces, task);
 }

@@ -108,15 +108,14 @@ void move_in_place(std::span<const Move> moves, IndexView& index, TaskContext& t
 
 }  // namespace
 
-Index refit(const Index& index, const PositionsView& positions, const BuildOptions& options) {
-  TaskContext task(options.threads, options.progress, kGeometrySteps);
+Index refit(const Index& index, const PositionsView& positions, const Run& run) {
+  TaskContext task(run.threads, run.progress, kGeometrySteps);
   const IndexView& view = IndexAccess::whole(index, "refitted");
   return with_geometry(view, geometry_at(positions, view, task));
 }
 
-Index refit(const Index& index, const PositionsView& positions, const IndicesView& changed,
-            const BuildOptions& options) {
-  TaskContext task(options.threads, options.progress, kGeometrySteps);
+Index refit(const Index& index, const PositionsView& positions, const IndicesView& changed, const Run& run) {
+  TaskContext task(run.threads, run.progress, kGeometrySteps);
   const IndexView& view = IndexAccess::whole(index, "refitted");
   const std::vector<Move> moves = checked_moves(view, positions, changed);
   if (!stay_in_frame(moves, view.frame)) return with_geometry(view, geometry_beyond_frame(moves, view, task));
@@ -125,18 +124,18 @@ Index refit(const Index& index, const PositionsView& positions, const IndicesVie
   return moved;
 }
 
-void Index::refit_in_place(const PositionsView& positions, const BuildOptions& options) {
+void Index::refit_in_place(const PositionsView& positions, const Run& run) {
   static_cast<void>(IndexAccess::whole(*this, "refitted"));
-  TaskContext task(options.threads, options.progress, kGeometrySteps);
+  TaskContext task(run.threads, run.progress, kGeometrySteps);
   auto graph = std::make_shared<KeptGraph>();
   set_geometry(view(), geometry_at(positions, view(), task));
   graph_ = std::move(graph);
   view_->version = ++*view_->newest;
 }
 
-void Index::refit_in_place(const PositionsView& positions, const IndicesView& changed, const BuildOptions& options) {
+void Index::refit_in_place(const PositionsView& positions, const IndicesView& changed, const Run& run) {
   static_cast<void>(IndexAccess::whole(*this, "refitted"));
-  TaskContext task(options.threads, options.progress, kGeometrySteps);
+  TaskContext task(run.threads, run.progress, kGeometrySteps);
   auto graph = std::make_shared<KeptGraph>();
   move_in_place(checked_moves(view(), positions, changed), view(), task);
   graph_ = std::move(graph);

@@ -118,18 +118,17 @@ Hierarchy<Real> take_hierarchy(SectionReader& file) {
 
 }  // namespace
 
-void save(const Index& index, const Sink& sink, const SaveOptions& options) {
-  if (options.faces) raise(ErrorCode::InvalidOption, "faces: the index of the paper is saved without them");
-  std::visit([&](const auto& hierarchy) { save(hierarchy, IndexAccess::mesh(index), sink, options.progress); },
+void save(const Index& index, const Sink& sink, const Run& run) {
+  std::visit([&](const auto& hierarchy) { save(hierarchy, IndexAccess::mesh(index), sink, run.progress); },
              IndexAccess::hierarchy(index));
 }
 
-Index load(std::span<const std::byte> bytes, const LoadOptions& options) {
+Index load(std::span<const std::byte> bytes, const Run& run) {
   const IndexHeader header = read_header(bytes);
   file::expect_kind(header.kind, IndexKind::Paper);
   const AlignedBuffer copy = AlignedBuffer::copy_of(bytes);
   SectionReader file(copy.bytes());
-  TaskContext task(1, options.progress, file.header().sections + 1);
+  TaskContext task(1, run.progress, file.header().sections + 1);
   file.verify_checksums(task);
   AnyHierarchy hierarchy = header.is_double ? AnyHierarchy(take_hierarchy<double>(file)) : take_hierarchy<float>(file);
   task.step();

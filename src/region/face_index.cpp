@@ -244,11 +244,10 @@ SurfacePoint FaceIndex::closest_point(const SpacePoint& point) const {
   return Search(*state_, {point[0], point[1], point[2]}).run();
 }
 
-std::vector<SurfacePoint> FaceIndex::closest_points(std::span<const SpacePoint> points,
-                                                    const BatchOptions& options) const {
+std::vector<SurfacePoint> FaceIndex::closest_points(std::span<const SpacePoint> points, const Run& run) const {
   state_->index.check_current();
   for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points: row " + std::to_string(i) + ": ");
-  TaskContext task(options.threads, options.progress, points.size());
+  TaskContext task(run.threads, run.progress, points.size());
   std::vector<SurfacePoint> found(points.size());
   task.parallel_for(points.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
