@@ -48,7 +48,7 @@ nb::object aggregates(const ExactMethod& method, const Values& values, const std
                              .missing = missing,
                              .nesting = nesting,
                              .ddof = ddof};
-  const Run run{.threads = threads, .max_bytes = max_bytes, .progress = progress_to(progress)};
+  const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
   nb::object result = unset(aggregate_size(method.index(), signal, query, run), "float64");
   const std::span<double> numbers = values_of<double>(result);
   without_lock([&] { aggregate(method.index(), signal, query, numbers, run); });

@@ -27,11 +27,11 @@ std::size_t Method::count(VertexId v, double radius) {
 
 std::vector<std::uint64_t> Method::neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
                                                  const BatchOptions& options, const Run& run) const {
-  return without_lock([&] { return meshhood::neighborhoods(method_, query, allocate, options); });
+  return without_lock([&] { return meshhood::neighborhoods(method_, query, allocate, options, run); });
 }
 
 std::vector<std::uint64_t> Method::counts(const BatchQuery& query, const Run& run) const {
-  return without_lock([&] { return meshhood::counts(method_, query, options); });
+  return without_lock([&] { return meshhood::counts(method_, query, run); });
 }
 
 std::shared_ptr<ExactMethod> exact_method(Index index) {
