@@ -265,7 +265,8 @@ class AllVertices {
   std::uint64_t ids_of_batch(const std::vector<VertexId>& rows, double radius) {
     std::uint64_t ids = 0;
     for_each_neighborhood(mesh_.index, {.vertices = rows, .radius = radius},
-                          [&](const BatchRow& row) { ids += row.ids.size(); }, {.in_index_order = true});
+                          [&](const BatchRow& row) { ids += row.ids.size(); }, {.in_index_order = true},
+                          {.threads = 1});
     return ids;
   }
 

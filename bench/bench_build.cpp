@@ -27,7 +27,7 @@ void bm_adjacency(benchmark::State& state, const std::string& kind) {
 
 void bm_exact(benchmark::State& state, const std::string& kind) {
   const shapes::Shape mesh = shape(kind, state);
-  for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(build(mesh.view()));
+  for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(build(mesh.view(), {.threads = 1}));
   count_vertices(state);
 }
 

@@ -23,7 +23,7 @@ namespace {
 void compare(const SearchMethod& method, const char* name, double edges, double radius) {
   const BatchQuery query{.radius = radius};
   std::uint64_t total = 0;
-  for (const std::uint64_t size : counts(method, query)) total += size;
+  for (const std::uint64_t size : counts(method, query, {.threads = 1})) total += size;
   const auto list = [&](std::uint64_t max_bytes) {
     return [&, max_bytes] {
       std::unique_ptr<VertexId[]> ids;  // NOLINT(modernize-avoid-c-arrays): a vector would be written twice
@@ -31,11 +31,11 @@ void compare(const SearchMethod& method, const char* name, double edges, double 
         ids = std::make_unique_for_overwrite<VertexId[]>(count);  // NOLINT(modernize-avoid-c-arrays)
         return {{ids.get(), count}};
       };
-      static_cast<void>(neighborhoods(method, query, allocate, {.max_bytes = max_bytes}));
+      static_cast<void>(neighborhoods(method, query, allocate, {}, {.threads = 1, .max_bytes = max_bytes}));
     };
   };
-  const auto [count, once, twice] = fastest<3>({[&] { static_cast<void>(counts(method, query)); },
-                                                list(BatchOptions::kUnlimited), list(total * sizeof(VertexId))});
+  const auto [count, once, twice] = fastest<3>({[&] { static_cast<void>(counts(method, query, {.threads = 1})); },
+                                                list(Run::kUnlimited), list(total * sizeof(VertexId))});
   const auto size = static_cast<double>(method.vertex_count());
   std::printf("%-6s %6.4g %9.1f %8.3f %8.3f %8.3f %6.2f\n", name, edges, static_cast<double>(total) / size,
               1e6 * count / size, 1e6 * once / size, 1e6 * twice / size, once / twice);

@@ -27,7 +27,7 @@ double microseconds(const Index& index, const std::vector<VertexId>& rows, doubl
     return {{ids.get(), count}};
   };
   const double start = measure::processor_time();
-  const auto offsets = neighborhoods(index, {.vertices = rows, .radius = radius}, allocate);
+  const auto offsets = neighborhoods(index, {.vertices = rows, .radius = radius}, allocate, {}, {.threads = 1});
   return 1e6 * (measure::processor_time() - start) / static_cast<double>(rows.size());
 }
 

@@ -90,13 +90,14 @@ class KernelTargets {
         {"batch, count", rows_.size(),
          [this, batch] { static_cast<void>(counts(mesh_.index, batch, {.threads = 1})); }},
         {"batch, ids", rows_.size(),
-         [this, batch] { static_cast<void>(neighborhoods(mesh_.index, batch, {.threads = 1})); }},
+         [this, batch] { static_cast<void>(neighborhoods(mesh_.index, batch, {}, {.threads = 1})); }},
         {"mean", rows_.size(), [=] { aggregated(Reduce::Mean, SmoothingKernel::Box); }},
         {"biweight", rows_.size(), [=] { aggregated(Reduce::Mean, SmoothingKernel::Biweight); }},
         {"gaussian", rows_.size(), [=] { aggregated(Reduce::Mean, SmoothingKernel::Gaussian); }},
         {"minimum", rows_.size(), [=] { aggregated(Reduce::Minimum, SmoothingKernel::Box); }},
         {"variance", rows_.size(), [=] { aggregated(Reduce::Variance, SmoothingKernel::Box); }},
-        {"curvature", rows_.size(), [this, batch] { static_cast<void>(curvatures(surface_, batch, {.threads = 1})); }},
+        {"curvature", rows_.size(),
+         [this, batch] { static_cast<void>(curvatures(surface_, batch, {}, {.threads = 1})); }},
     };
   }
 

@@ -24,6 +24,7 @@ namespace meshhood::bench {
 namespace {
 
 constexpr int kRounds = 3;
+const Run kOneThread{.threads = 1};
 
 class Paths {
  public:
@@ -47,7 +48,7 @@ class Paths {
           for (VertexId v = 0; v < size; ++v) found[0] += static_cast<double>(edges_.count(v, radius));
         },
         [&] {
-          for (const std::uint64_t count : counts(method_, query)) found[1] += static_cast<double>(count);
+          for (const std::uint64_t count : counts(method_, query, kOneThread)) found[1] += static_cast<double>(count);
         },
         [&] {
           kept_.clear();
@@ -66,14 +67,16 @@ class Paths {
             kept_lengths_.resize(count);
             return BatchMemory{kept_, kept_lengths_};
           };
-          found[3] += static_cast<double>(neighborhoods(method_, query, allocate, {.distances = true}).back());
+          found[3] +=
+              static_cast<double>(neighborhoods(method_, query, allocate, {.distances = true}, kOneThread).back());
         },
         [&] {
           for (VertexId v = 0; v < size; ++v) found[4] += smoothed(v, radius);
         },
         [&] {
           const AggregateQuery smooth{.radius = radius, .metric = Metric::Path, .kernel = SmoothingKernel::Biweight};
-          for (const double mean : aggregate(index_, {std::span<const double>(map_)}, smooth)) found[5] += mean;
+          for (const double mean : aggregate(index_, {std::span<const double>(map_)}, smooth, kOneThread))
+            found[5] += mean;
         }};
     std::array<double, 6> least;
     least.fill(std::numeric_limits<double>::infinity());

@@ -23,6 +23,7 @@ namespace meshhood::bench {
 namespace {
 
 constexpr int kRounds = 5;
+const Run kOneThread{.threads = 1};
 
 /// The shortest processor time of a call, in milliseconds.
 struct Shortest {
@@ -138,13 +139,16 @@ class Refits {
     Shortest with_copy;
     for (int round = 0; round < kRounds; ++round) {
       built.round([&] { static_cast<void>(build_at(all_moved)); });
-      all.round([&] { static_cast<void>(refit(index_, all_moved)); });
-      with_copy.round([&] { static_cast<void>(refit(index_, brush_moved, brush)); });
-      animation.frames(animation.all, [&](Index& index, bool back) { index.refit_in_place(back ? xyz_ : all_moved); });
-      animation.frames(animation.brush,
-                       [&](Index& index, bool back) { index.refit_in_place(back ? xyz_ : brush_moved, brush); });
-      animation.frames(animation.scattered,
-                       [&](Index& index, bool back) { index.refit_in_place(back ? xyz_ : spread_moved, spread); });
+      all.round([&] { static_cast<void>(refit(index_, all_moved, kOneThread)); });
+      with_copy.round([&] { static_cast<void>(refit(index_, brush_moved, brush, kOneThread)); });
+      animation.frames(animation.all,
+                       [&](Index& index, bool back) { index.refit_in_place(back ? xyz_ : all_moved, kOneThread); });
+      animation.frames(animation.brush, [&](Index& index, bool back) {
+        index.refit_in_place(back ? xyz_ : brush_moved, brush, kOneThread);
+      });
+      animation.frames(animation.scattered, [&](Index& index, bool back) {
+        index.refit_in_place(back ? xyz_ : spread_moved, spread, kOneThread);
+      });
     }
     std::printf("%zu vertices, %zu of them changed; milliseconds\n", xyz_.size() / 3, changed_);
     std::printf("build                      %9.3f\n", built.milliseconds);
@@ -161,7 +165,9 @@ class Refits {
   }
 
  private:
-  [[nodiscard]] Index build_at(const std::vector<double>& xyz) const { return build(MeshView{xyz, faces_}); }
+  [[nodiscard]] Index build_at(const std::vector<double>& xyz) const {
+    return build(MeshView{xyz, faces_}, kOneThread);
+  }
 
   /// Microseconds of a query at 20 mean edges, with refitted indexes and with new ones.
   void compare_queries() {

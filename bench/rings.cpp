@@ -67,29 +67,28 @@ class Rings {
     std::array<std::size_t, 5> found{};
     std::vector<VertexId> ids;
     std::vector<VertexId> kept;
-    const std::array<std::function<void()>, 5> runs{[&] {
-                                                      for (VertexId v = 0; v < size; ++v)
-                                                        found[0] += plain_.within(v, k).size();
-                                                    },
-                                                    [&] {
-                                                      for (const std::uint64_t count : counts(method_, query))
-                                                        found[1] += count;
-                                                    },
-                                                    [&] {
-                                                      kept.clear();
-                                                      for (VertexId v = 0; v < size; ++v) {
-                                                        const std::span<const VertexId> some = plain_.within(v, k);
-                                                        kept.insert(kept.end(), some.begin(), some.end());
-                                                      }
-                                                      found[2] += kept.size();
-                                                    },
-                                                    [&] { found[3] += neighborhoods(method_, query).ids.size(); },
-                                                    [&] {
-                                                      for (VertexId v = 0; v < size; ++v) {
-                                                        edges_.neighborhood(v, static_cast<double>(k), ids);
-                                                        found[4] += ids.size();
-                                                      }
-                                                    }};
+    const std::array<std::function<void()>, 5> runs{
+        [&] {
+          for (VertexId v = 0; v < size; ++v) found[0] += plain_.within(v, k).size();
+        },
+        [&] {
+          for (const std::uint64_t count : counts(method_, query, {.threads = 1})) found[1] += count;
+        },
+        [&] {
+          kept.clear();
+          for (VertexId v = 0; v < size; ++v) {
+            const std::span<const VertexId> some = plain_.within(v, k);
+            kept.insert(kept.end(), some.begin(), some.end());
+          }
+          found[2] += kept.size();
+        },
+        [&] { found[3] += neighborhoods(method_, query, {}, {.threads = 1}).ids.size(); },
+        [&] {
+          for (VertexId v = 0; v < size; ++v) {
+            edges_.neighborhood(v, static_cast<double>(k), ids);
+            found[4] += ids.size();
+          }
+        }};
     std::array<double, 5> least = fastest(runs);
     const bool same = std::ranges::all_of(found, [&](std::size_t count) { return count == found[0]; });
     for (double& seconds : least) seconds *= 1e6 / size;

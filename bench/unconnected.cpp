@@ -31,13 +31,13 @@ void measure_round(double& least, F&& f) {
 
 void compare(const Index& index, double edges, double mean_edge, unsigned threads) {
   const BatchQuery query{.radius = edges * mean_edge};
-  const BatchOptions options{.threads = threads};
+  const Run run{.threads = threads};
   double counting = std::numeric_limits<double>::infinity();
   double nearest = counting;
   Unconnected found;
   for (int round = 0; round < kRounds; ++round) {
-    measure_round(counting, [&] { static_cast<void>(counts(index, query, options)); });
-    measure_round(nearest, [&] { found = nearest_unconnected(index, query, options); });
+    measure_round(counting, [&] { static_cast<void>(counts(index, query, run)); });
+    measure_round(nearest, [&] { found = nearest_unconnected(index, query, run); });
   }
   const auto none = std::count(found.vertices.begin(), found.vertices.end(), kNoVertex);
   const auto vertices = static_cast<double>(index.vertex_count());

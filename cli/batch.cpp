@@ -95,7 +95,7 @@ class Writer {
         npz_(npz) {}
 
   BatchSize write() {
-    const std::vector<std::uint64_t> sizes = counts(method_, query_, next_pass());
+    const std::vector<std::uint64_t> sizes = counts(method_, query_, next_run());
     const std::size_t scales = options_.rows.scale_count();
     const BatchSize total{sizes.size() / scales, std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
     limit_.check(total, file_bytes(options_, total, method_.vertex_count()));
@@ -143,9 +143,8 @@ class Writer {
   /// Calls `write(ids, distances)` for each row, sorted as the options say.
   template <class Write>
   void for_each_row(bool with_distances, Write&& write) {
-    BatchOptions pass = next_pass();
-    pass.distances = with_distances;
-    pass.sorted = options_.sort == "id";
+    const BatchOptions pass{
+        .distances = with_distances, .sorted = options_.sort == "id", .in_index_order = order_ == RowOrder::Index};
     std::vector<VertexId> ids;
     std::vector<double> distances;
     const auto sort_and_write = [&](const BatchRow& row) {
@@ -154,14 +153,13 @@ class Writer {
       sorter_.sort(ids, distances);
       write(std::span<const VertexId>(ids), std::span<const double>(distances));
     };
-    if (sorts_rows(options_)) return for_each_neighborhood(method_, query_, sort_and_write, pass);
-    for_each_neighborhood(method_, query_, [&](const BatchRow& row) { write(row.ids, row.distances); }, pass);
+    if (sorts_rows(options_)) return for_each_neighborhood(method_, query_, sort_and_write, pass, next_run());
+    for_each_neighborhood(
+        method_, query_, [&](const BatchRow& row) { write(row.ids, row.distances); }, pass, next_run());
   }
 
-  BatchOptions next_pass() {
-    return {.threads = options_.rows.threads,
-            .in_index_order = order_ == RowOrder::Index,
-            .progress = task_.progress(passes_begun_++, number_of_passes(options_))};
+  Run next_run() {
+    return {.threads = options_.rows.threads, .progress = task_.progress(passes_begun_++, number_of_passes(options_))};
   }
 
   const SearchMethod& method_;

@@ -34,7 +34,7 @@ struct BuildCommand {
   std::string index = "exact";
   std::string cut;
   bool faces = false;
-  unsigned threads = kAllThreads;
+  unsigned threads = kAllProcessors;
   bool json = false;
   std::string output;
 };
@@ -46,10 +46,14 @@ struct Summary {
   double seconds;        ///< of the build
 };
 
-template <class AnyIndex>
-void save(const std::string& file, const AnyIndex& index, const std::optional<FacesView>& faces) {
+void save(const std::string& file, const Index& index, const std::optional<FacesView>& faces) {
   Task task("writing " + file);
-  io::save(file, index, {.faces = faces, .progress = task.progress()});
+  io::save(file, index, {.faces = faces}, {.progress = task.progress()});
+}
+
+void save(const std::string& file, const paper::Index& index, const std::optional<FacesView>& /*faces*/) {
+  Task task("writing " + file);
+  io::save(file, index, {.progress = task.progress()});
 }
 
 template <class Build>

@@ -31,7 +31,7 @@ struct ClosestCommand {
   Reading reading;
   std::vector<std::string> point;
   std::string points;  ///< a file with a list
-  unsigned threads = kAllThreads;
+  unsigned threads = kAllProcessors;
   std::string output;
   bool json = false;
 };

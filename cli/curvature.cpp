@@ -126,13 +126,12 @@ void curvature(const CurvatureCommand& options) {
   const Surface surface(input.exact_index(options.rows.threads), input.surface());
   CurvatureOptions settings = options.like_libigl ? like_libigl() : CurvatureOptions{};
   settings.filter = !options.no_filter;
-  settings.threads = options.rows.threads;
   Columns columns;
   {
     Task task("fitting", {"rows", static_cast<double>(scales)});
     for (std::size_t i = 0; i < scales; ++i) {
-      settings.progress = task.progress(i, scales);
-      columns.append(curvatures(surface, rows.query_of_scale(i), settings));
+      columns.append(curvatures(surface, rows.query_of_scale(i), settings,
+                                {.threads = options.rows.threads, .progress = task.progress(i, scales)}));
     }
     if (!options.files.npz.empty()) write_npz(options.files.npz, rows, scales, columns);
   }

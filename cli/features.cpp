@@ -116,10 +116,8 @@ FeaturesFound compute(const FeaturesCommand& options, const RowQuery& rows, Inpu
   Task task("measuring", {"rows", static_cast<double>(found.radii.size())});
   const bool has_rows = !options.rows.row_radii.empty();
   found.values = features(surface, has_rows ? rows.query() : rows.query(BatchRadius::scales(found.radii)),
-                          {.kinds = kinds_of(options),
-                           .filter = !options.no_filter,
-                           .threads = options.rows.threads,
-                           .progress = task.progress()});
+                          {.kinds = kinds_of(options), .filter = !options.no_filter},
+                          {.threads = options.rows.threads, .progress = task.progress()});
   for (std::size_t kind = 0; kind < found.kinds; ++kind) {
     std::vector<double> one(found.radii.size() * found.rows());
     for (std::size_t i = 0; i < one.size(); ++i) one[i] = found.values[i * found.kinds + kind];

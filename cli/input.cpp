@@ -163,7 +163,8 @@ const Index& Input::exact_index(unsigned threads) {
     exact_ = mesh_ && !adjacency_ ? build_exact_index(mesh_->view(), threads) : build_exact_index(graph(), threads);
   }
   if (masks_.walls.empty() && masks_.ignored.empty()) return *exact_;
-  if (!masked_) masked_ = meshhood::masked(*exact_, {.walls = masks_.walls, .ignored = masks_.ignored}, threads);
+  if (!masked_)
+    masked_ = meshhood::masked(*exact_, {.walls = masks_.walls, .ignored = masks_.ignored}, {.threads = threads});
   return *masked_;
 }
 
@@ -199,7 +200,7 @@ Index build_exact_index(const Mesh& mesh, unsigned threads) {
 template <class Mesh>
 paper::Index build_paper_index(const Mesh& mesh) {
   Task task("building the index of the paper");
-  return paper::build(mesh, {.progress = task.progress()});
+  return paper::build(mesh, {}, {.progress = task.progress()});
 }
 
 template Index build_exact_index(const MeshView& mesh, unsigned threads);

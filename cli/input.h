@@ -18,9 +18,6 @@
 
 namespace meshhood::cli {
 
-/// Use as many threads as the processor has.
-inline constexpr unsigned kAllThreads = 0;
-
 /// How a mesh file is read: --weld and --precision as typed; empty without.
 struct Reading {
   std::string weld;
@@ -41,7 +38,7 @@ class Input {
  public:
   /// Reads `file`, prints the warnings of the reader, and welds the mesh as --weld says. Throws as `io::read_mesh`,
   /// `io::load` and `Welding`; Error{InvalidOption} if `reading` says anything of an index.
-  Input(std::string file, const Reading& reading, unsigned threads = kAllThreads);
+  Input(std::string file, const Reading& reading, unsigned threads = kAllProcessors);
 
   /// As on the command line.
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -83,7 +80,7 @@ class Input {
   void ignore_welded();
 
   /// With the masks. The file must have edges.
-  [[nodiscard]] const Index& exact_index(unsigned threads = kAllThreads);
+  [[nodiscard]] const Index& exact_index(unsigned threads = kAllProcessors);
 
   /// The file must have edges or be an index of the paper.
   [[nodiscard]] const paper::Index& paper_index();
@@ -105,7 +102,7 @@ class Input {
 
 /// Reads a mesh of at most `max_bytes`, with progress, but does not weld it, and prints the warnings of the reader.
 /// Throws as `io::read_mesh`.
-[[nodiscard]] io::Mesh read_mesh(const std::string& file, const Reading& reading, unsigned threads = kAllThreads,
+[[nodiscard]] io::Mesh read_mesh(const std::string& file, const Reading& reading, unsigned threads = kAllProcessors,
                                  std::uint64_t max_bytes = io::ReadOptions{}.max_bytes);
 
 /// Reads and verifies an index, with progress. Throws as `io::load`.

@@ -39,6 +39,6 @@ void check_method(const MethodOptions& options, bool has_masks, const std::strin
 /// Of the straight metric: a query of the exact index has its own. Borrows `input`. `settings` are those of the method
 /// paper; `threads` build the index. Throws Error{InvalidOption} if the method needs edges and the input has none.
 [[nodiscard]] SearchMethod method_of(const MethodOptions& options, Input& input,
-                                     const paper::QueryOptions& settings = {}, unsigned threads = kAllThreads);
+                                     const paper::QueryOptions& settings = {}, unsigned threads = kAllProcessors);
 
 }  // namespace meshhood::cli

@@ -23,7 +23,7 @@
 
 #include "meshhood/adjacency.h"
 #include "meshhood/error.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 #include "io/descriptor.h"
 #include "io/messages.h"

@@ -31,7 +31,7 @@ struct PartitionCommand {
   std::string halo;
   std::string unit = "mesh";
   std::uint64_t memory = 0;
-  unsigned threads = kAllThreads;
+  unsigned threads = kAllProcessors;
   bool no_resume = false;
   bool json = false;
   std::string output;
@@ -57,9 +57,8 @@ parts::PartitionResult run(const PartitionCommand& options) {
                     .halo = parse_radius("halo", options.halo),
                     .halo_in_edges = options.unit == "edge",
                     .memory = options.memory,
-                    .threads = options.threads,
-                    .resume = !options.no_resume,
-                    .progress = task.progress()});
+                    .resume = !options.no_resume},
+                   {.threads = options.threads, .progress = task.progress()});
 }
 
 /// Figures of all parts.

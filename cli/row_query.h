@@ -25,7 +25,7 @@ struct RowOptions {
   std::string row_radii;  ///< a file with a radius for each row, instead
   MaskFiles masks;
   std::string metric = "straight";
-  unsigned threads = kAllThreads;
+  unsigned threads = kAllProcessors;
 
   /// The length of the first axis of the result.
   [[nodiscard]] std::size_t scale_count() const { return row_radii.empty() ? radii.values.size() : 1; }

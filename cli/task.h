@@ -10,7 +10,7 @@
 #include <string_view>
 #include <thread>
 
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 #include "io/waiting.h"
 

@@ -30,16 +30,16 @@ meshhood::Index index_of_grid() {
 int main() {
   const meshhood::Index index = index_of_grid();
   const meshhood::BatchQuery query{.radius = 5.0};  // around every vertex
-  const meshhood::BatchOptions options{.threads = 0};
+  const meshhood::Run run{.threads = 2};            // without, one for each processor
 
-  const std::vector<std::uint64_t> counts = meshhood::counts(index, query, options);
+  const std::vector<std::uint64_t> counts = meshhood::counts(index, query, run);
   const std::size_t counted = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
 
-  const meshhood::Neighborhoods all = meshhood::neighborhoods(index, query, options);
+  const meshhood::Neighborhoods all = meshhood::neighborhoods(index, query, {}, run);
 
   std::size_t streamed = 0;
   meshhood::for_each_neighborhood(
-      index, query, [&](const meshhood::BatchRow& row) { streamed += row.ids.size(); }, options);
+      index, query, [&](const meshhood::BatchRow& row) { streamed += row.ids.size(); }, {}, run);
 
   std::printf("neighbors of %zu vertices: %zu counted, %zu kept, %zu streamed\n", index.vertex_count(), counted,
               all.ids.size(), streamed);

@@ -257,16 +257,16 @@ class Session {
     const double radius = any_query(oracle).radius;
     std::vector<VertexId> vertices(1 + below(100));
     for (VertexId& v : vertices) v = static_cast<VertexId>(below(oracle.size()));
-    const BatchOptions options{
-        .threads = static_cast<unsigned>(1 + below(3)), .sorted = true, .buffer_bytes = std::size_t{1} << below(24)};
-    const Neighborhoods answer = neighborhoods(*place.index, {.vertices = vertices, .radius = radius}, options);
+    const Run run{.threads = static_cast<unsigned>(1 + below(3))};
+    const Neighborhoods answer =
+        neighborhoods(*place.index, {.vertices = vertices, .radius = radius}, {.sorted = true}, run);
     for (std::size_t row = 0; row < vertices.size(); ++row) {
       const auto ids =
           std::span(answer.ids).subspan(answer.offsets[row], answer.offsets[row + 1] - answer.offsets[row]);
       if (!std::ranges::equal(ids, oracle.exact(vertices[row], radius))) fail("a row of the batch differs");
     }
-    aggregate_ids(*place.index, vertices, radius, answer, options.threads);
-    fit_rows(place, vertices, radius, options.threads);
+    aggregate_ids(*place.index, vertices, radius, answer, run.threads);
+    fit_rows(place, vertices, radius, run.threads);
   }
 
   /// Aggregates the ids of the vertices, as doubles, whose sums are exact.
@@ -300,8 +300,8 @@ class Session {
     if (mesh.face_count() == 0) return;
     const Surface surface(*place.index, mesh.view().faces);
     const BatchQuery query{.vertices = vertices, .radius = radius};
-    const Curvatures found = curvatures(surface, query, {.threads = threads});
-    if (found.k1 != curvatures(surface, query, {.threads = 1}).k1) fail("curvatures depend on the threads");
+    const Curvatures found = curvatures(surface, query, {}, {.threads = threads});
+    if (found.k1 != curvatures(surface, query, {}, {.threads = 1}).k1) fail("curvatures depend on the threads");
     const test::Oracle& oracle = place.subject->oracle;
     for (std::size_t row = 0; row < vertices.size(); ++row) {
       const std::size_t most = oracle.exact(vertices[row], std::numeric_limits<double>::infinity()).size();

@@ -91,25 +91,25 @@ auto naming(const std::filesystem::path& path, F&& call) {
   }
 }
 
-/// `AnyIndex`: Index or paper::Index.
-template <class AnyIndex>
-void save_any(const std::filesystem::path& path, const AnyIndex& index, const SaveOptions& options) {
+/// Writes what `save(sink, progress)` passes to the sink.
+template <class F>
+void save_with(const std::filesystem::path& path, const Progress& reported, F&& save) {
   const std::string name = path.string();
   std::size_t done = 0;
   std::size_t all = 0;
-  const WhileWaiting waiting([&] { report(options.progress, done, all, name); });
+  const WhileWaiting waiting([&] { report(reported, done, all, name); });
   FileWriter file(path);
   const Progress progress = [&](std::size_t so_far, std::size_t total) {
     done = so_far;
     all = total;
-    report(options.progress, done, total, name);
+    report(reported, done, total, name);
     return true;
   };
   const Sink sink = [&](std::span<const std::byte> bytes) {
     file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   };
-  save(index, sink, {.faces = options.faces, .progress = progress});
-  file.commit([&] { report(options.progress, all, all, name); });
+  save(sink, progress);
+  file.commit([&] { report(reported, all, all, name); });
 }
 
 /// Reads the whole file and returns `take(content, progress)`. Progress counts bytes; while the content is verified,
@@ -131,7 +131,7 @@ auto load_with(FileSource& file, const std::filesystem::path& path, const Progre
 
 Index take_exact(AlignedBuffer content, const Progress& progress) {
   const auto bytes = content.bytes();
-  return meshhood::map(bytes, content.take_owner(), {.progress = progress});
+  return meshhood::map(bytes, content.take_owner(), {}, {.progress = progress});
 }
 
 paper::Index take_paper(const AlignedBuffer& content, const Progress& progress) {
@@ -146,27 +146,30 @@ LoadedIndex take_any(AlignedBuffer content, const Progress& progress) {
 
 }  // namespace
 
-void save(const std::filesystem::path& path, const Index& index, const SaveOptions& options) {
-  save_any(path, index, options);
+void save(const std::filesystem::path& path, const Index& index, const SaveOptions& options, const Run& run) {
+  save_with(path, run.progress, [&](const Sink& sink, const Progress& progress) {
+    meshhood::save(index, sink, options, {.progress = progress});
+  });
 }
 
-void save(const std::filesystem::path& path, const paper::Index& index, const SaveOptions& options) {
-  save_any(path, index, options);
+void save(const std::filesystem::path& path, const paper::Index& index, const Run& run) {
+  save_with(path, run.progress,
+            [&](const Sink& sink, const Progress& progress) { paper::save(index, sink, {.progress = progress}); });
 }
 
-Index load(const std::filesystem::path& path, const LoadOptions& options) {
+Index load(const std::filesystem::path& path, const Run& run) {
   FileSource file(path);
-  return load_with(file, path, options.progress, take_exact);
+  return load_with(file, path, run.progress, take_exact);
 }
 
-paper::Index load_paper(const std::filesystem::path& path, const LoadOptions& options) {
+paper::Index load_paper(const std::filesystem::path& path, const Run& run) {
   FileSource file(path);
-  return load_with(file, path, options.progress, take_paper);
+  return load_with(file, path, run.progress, take_paper);
 }
 
-LoadedIndex load_any(const std::filesystem::path& path, const LoadOptions& options) {
+LoadedIndex load_any(const std::filesystem::path& path, const Run& run) {
   FileSource file(path);
-  return load_with(file, path, options.progress, take_any);
+  return load_with(file, path, run.progress, take_any);
 }
 
 std::variant<Mesh, LoadedIndex> read_mesh_or_index(const std::filesystem::path& path, const ReadOptions& options) {
@@ -179,9 +182,9 @@ std::variant<Mesh, LoadedIndex> read_mesh_or_index(const std::filesystem::path& 
   return load_with(file, path, options.progress, take_any);
 }
 
-Index map(const std::filesystem::path& path, const MapOptions& options) {
+Index map(const std::filesystem::path& path, const MapOptions& options, const Run& run) {
   const auto file = std::make_shared<const MappedFile>(path);
-  return naming(path, [&] { return meshhood::map(file->bytes(), file, options); });
+  return naming(path, [&] { return meshhood::map(file->bytes(), file, options, run); });
 }
 
 bool is_index(const std::filesystem::path& path) {

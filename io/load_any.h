@@ -20,7 +20,7 @@ struct LoadedIndex {
 };
 
 /// Reads an index of either kind. As `load`.
-[[nodiscard]] LoadedIndex load_any(const std::filesystem::path& path, const LoadOptions& options = {});
+[[nodiscard]] LoadedIndex load_any(const std::filesystem::path& path, const Run& run = {});
 
 /// Reads a mesh or an index, detected by content; the file may be a pipe. Throws as `read_mesh` and `load`.
 [[nodiscard]] std::variant<Mesh, LoadedIndex> read_mesh_or_index(const std::filesystem::path& path,

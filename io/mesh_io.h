@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "meshhood/mesh.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 /// Reading and writing mesh files. Readers keep the vertex numbering and the polygons of the file.
 namespace meshhood::io {
@@ -30,9 +30,8 @@ struct ReadOptions {
   /// Throw an error instead of recording that a deviation was accepted.
   bool strict = false;
 
-  /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread. The mesh, its
-  /// warnings and errors do not depend on it.
-  unsigned threads = 1;
+  /// As in `Run`. The mesh, its warnings and errors do not depend on it.
+  unsigned threads = kAllProcessors;
 
   /// Refuse a file of more bytes. Also limits endless devices.
   std::uint64_t max_bytes = std::uint64_t{16} << 30;

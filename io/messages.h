@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "meshhood/error.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 /// How errors and warnings name a file, a location in it and what was found there.
 namespace meshhood::io {

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 #include "io/byte_source.h"
 

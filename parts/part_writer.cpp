@@ -114,11 +114,10 @@ Numbering number_vertices(std::span<const Site> vertices, const CutTree& tree, s
 }
 
 template <class Real>
-void write_index(const std::filesystem::path& file, std::vector<Real> xyz, const Faces& faces,
-                 const BuildOptions& options) {
-  const Index index = build({PositionsView(xyz), faces.view()}, options);
+void write_index(const std::filesystem::path& file, std::vector<Real> xyz, const Faces& faces, const Run& run) {
+  const Index index = build({PositionsView(xyz), faces.view()}, run);
   std::vector<Real>().swap(xyz);
-  io::save(file, index, {.progress = options.progress});
+  io::save(file, index, {}, {.progress = run.progress});
 }
 
 void check_count(std::size_t vertices, std::size_t part) {
@@ -143,7 +142,7 @@ std::uint64_t part_memory(const PartContents& contents, std::size_t part) {
 }
 
 Part write_part_files(const std::filesystem::path& folder, const PartContents& contents, std::size_t number,
-                      const CutTree& tree, bool is_double, const BuildOptions& options) {
+                      const CutTree& tree, bool is_double, const Run& run) {
   std::vector<Site> vertices = read_vertices(contents.vertices, number);
   check_count(vertices.size(), number);
   const Numbering numbering = number_vertices(vertices, tree, number);
@@ -152,7 +151,7 @@ Part write_part_files(const std::filesystem::path& folder, const PartContents& c
   std::vector<Site>().swap(vertices);
   const Faces faces = read_faces(contents.faces, number, numbering.ids);
 
-  std::visit([&](auto& values) { write_index(folder / kIndexFile, std::move(values), faces, options); }, xyz);
+  std::visit([&](auto& values) { write_index(folder / kIndexFile, std::move(values), faces, run); }, xyz);
   write_array<std::int64_t>(folder / kVerticesFile, numbering.ids);
   write_array<std::int32_t>(folder / kOwnedFile, numbering.owned);
   write_array<std::int32_t>(folder / kCornersFile, faces.corners);

@@ -31,7 +31,6 @@ struct PartContents {
 /// tree   determines which vertices the part owns.
 /// Throws Error{IoFailure, TooLarge, Cancelled}.
 [[nodiscard]] Part write_part_files(const std::filesystem::path& folder, const PartContents& contents,
-                                    std::size_t number, const CutTree& tree, bool is_double,
-                                    const BuildOptions& options);
+                                    std::size_t number, const CutTree& tree, bool is_double, const Run& run);
 
 }  // namespace meshhood::parts

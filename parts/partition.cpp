@@ -71,15 +71,16 @@ void check_number_of_parts(std::uint64_t parts, std::uint64_t sample_bytes) {
   raise(ErrorCode::TooLarge, fmt::format("{} parts need more memory than is allowed; use fewer parts", parts));
 }
 
-/// One run of `partition`.
-class Run {
+/// One call of `partition`.
+class Partitioning {
  public:
-  Run(ChunkedMesh& mesh, fs::path folder, const PartitionOptions& options)
+  Partitioning(ChunkedMesh& mesh, fs::path folder, const PartitionOptions& options, const Run& run)
       : mesh_(mesh),
         folder_(std::move(folder)),
         options_(options),
         budget_(options.memory),
-        stages_(options.progress) {}
+        threads_(run.threads),
+        stages_(run.progress) {}
 
   PartitionResult run() {
     const FolderLock lock(folder_);
@@ -219,8 +220,8 @@ class Run {
       return true;
     };
     fs::create_directory(work);
-    const BuildOptions build{.threads = options_.threads, .progress = progress};
-    Part written = write_part_files(work, contents, part, tree, plan().is_double, build);
+    Part written =
+        write_part_files(work, contents, part, tree, plan().is_double, {.threads = threads_, .progress = progress});
     write_part(work, plan(), part, written);
     // A damaged one.
     fs::remove_all(folder_of(part));
@@ -234,6 +235,7 @@ class Run {
   fs::path folder_;
   const PartitionOptions& options_;
   Budget budget_;
+  unsigned threads_;
   Stages stages_;
   PartitionResult result_;
   std::vector<bool> finished_;
@@ -251,14 +253,14 @@ auto naming_file_errors(F&& f) {
 
 }  // namespace
 
-PartitionResult partition(ChunkedMesh& mesh, const fs::path& folder, const PartitionOptions& options) {
+PartitionResult partition(ChunkedMesh& mesh, const fs::path& folder, const PartitionOptions& options, const Run& run) {
   check(options);
   return naming_file_errors([&] {
     std::error_code error;
     fs::create_directory(folder, error);
     // A file of this name is refused when the folder is opened.
     if (error && error != std::errc::file_exists) io::raise_errno(folder, error.value(), "create");
-    return Run(mesh, folder, options).run();
+    return Partitioning(mesh, folder, options, run).run();
   });
 }
 

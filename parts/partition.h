@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 #include "parts/chunked_mesh.h"
 #include "parts/manifest.h"
@@ -28,14 +28,9 @@ struct PartitionOptions {
   /// The most bytes of memory, including the index of a part while it is built. At least `kLeastMemory`.
   std::uint64_t memory = std::uint64_t{1} << 30;
 
-  /// As in `BuildOptions`.
-  unsigned threads = 1;
-
   /// Keep the parts that an earlier run on the same mesh with the same halo and number of parts has finished.
   /// Otherwise they are removed.
   bool resume = true;
-
-  Progress progress = {};
 };
 
 inline constexpr std::uint64_t kLeastMemory = std::uint64_t{64} << 20;
@@ -60,6 +55,7 @@ struct PartitionResult {
 /// Throws Error{InvalidOption, InvalidRadius}; what `ChunkedMesh` throws; Error{IoFailure}, also if another run writes
 /// into `folder`; Error{MalformedIndex} if `folder` has the parts of another mesh, halo or number of parts;
 /// Error{TooLarge} if a part needs more memory; Error{Cancelled}. O(#V log #V + #F log #F) in memory of fixed size.
-PartitionResult partition(ChunkedMesh& mesh, const std::filesystem::path& folder, const PartitionOptions& options);
+PartitionResult partition(ChunkedMesh& mesh, const std::filesystem::path& folder, const PartitionOptions& options,
+                          const Run& run = {});
 
 }  // namespace meshhood::parts

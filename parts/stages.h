@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "meshhood/error.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 namespace meshhood::parts {
 

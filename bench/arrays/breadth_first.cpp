@@ -52,7 +52,7 @@ class BreadthFirst {
       const auto sizes = counts(method, {.radius = radius}, {.threads = threads_});
       return std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0});
     }
-    if (question == "ids") return neighborhoods(method, {.radius = radius}, {.threads = threads_}).ids.size();
+    if (question == "ids") return neighborhoods(method, {.radius = radius}, {}, {.threads = threads_}).ids.size();
     if (question == "mean") return means(graph, radius);
     throw std::invalid_argument("unknown question: " + question);
   }

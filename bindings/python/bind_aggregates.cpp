@@ -48,10 +48,10 @@ nb::object aggregates(const ExactMethod& method, const Values& values, const std
                              .missing = missing,
                              .nesting = nesting,
                              .ddof = ddof};
-  const AggregateOptions options{.threads = threads, .max_bytes = max_bytes, .progress = progress_to(progress)};
-  nb::object result = unset(aggregate_size(method.index(), signal, query, options), "float64");
+  const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
+  nb::object result = unset(aggregate_size(method.index(), signal, query, run), "float64");
   const std::span<double> numbers = values_of<double>(result);
-  without_lock([&] { aggregate(method.index(), signal, query, numbers, options); });
+  without_lock([&] { aggregate(method.index(), signal, query, numbers, run); });
   return result;
 }
 

@@ -36,8 +36,7 @@ auto curvatures_of(const Surface& surface, const std::optional<Rows>& vertices, 
   CurvatureOptions options = libigl ? like_libigl() : CurvatureOptions{};
   options.fit = jet ? CurvatureFit::Jet : CurvatureFit::Quadric;
   options.filter = filter;
-  options.threads = threads;
-  options.progress = progress_to(progress);
+  const Run run{.threads = threads, .progress = progress_to(progress)};
   const BatchQuery query = query_of(vertices, radius, metric);
   const std::size_t rows = query.vertices.count(surface.vertex_count());
   const nb::object k1 = unset(rows, "float64");
@@ -53,7 +52,7 @@ auto curvatures_of(const Surface& surface, const std::optional<Rows>& vertices, 
                                values_of<double>(directions).subspan(3 * rows),
                                values_of<CurvatureState>(state),
                                values_of<std::uint32_t>(count)};
-  without_lock([&] { curvatures(surface, query, memory, options); });
+  without_lock([&] { curvatures(surface, query, memory, options, run); });
   const nb::object vectors = directions.attr("reshape")(2, rows, 3);
   return std::tuple(k1, k2, nb::object(vectors[0]), nb::object(vectors[1]), state, count);
 }
@@ -61,8 +60,8 @@ auto curvatures_of(const Surface& surface, const std::optional<Rows>& vertices, 
 auto corrected_curvatures_of(const Surface& surface, const std::optional<Rows>& vertices, const Radius& radius,
                              unsigned threads, nb::handle progress, Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
-  const CorrectedCurvatureOptions options{.threads = threads, .progress = progress_to(progress)};
-  CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, query, options); });
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, query, run); });
   const std::size_t rows = found.area.size();
   const auto vectors = [rows](std::vector<double>& values, std::size_t columns) {
     return owned<double>(std::move(values), {rows, columns});
@@ -73,9 +72,8 @@ auto corrected_curvatures_of(const Surface& surface, const std::optional<Rows>& 
                     vectors(found.measures, CorrectedCurvatures::kMeasures));
 }
 
-MomentOptions moment_options(unsigned degree, const std::optional<Radii>& weights, unsigned threads,
-                             nb::handle progress) {
-  MomentOptions options{.degree = degree, .weights = {}, .threads = threads, .progress = progress_to(progress)};
+MomentOptions moment_options(unsigned degree, const std::optional<Radii>& weights) {
+  MomentOptions options{.degree = degree, .weights = {}};
   if (weights) options.weights = numbers_of(*weights);
   return options;
 }
@@ -84,8 +82,9 @@ Output<double> moments_of(const ExactMethod& method, const std::optional<Rows>& 
                           unsigned degree, const std::optional<Radii>& weights, unsigned threads, nb::handle progress,
                           Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
-  const MomentOptions options = moment_options(degree, weights, threads, progress);
-  std::vector<double> found = without_lock([&] { return moments(method.index(), query, options); });
+  const MomentOptions options = moment_options(degree, weights);
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  std::vector<double> found = without_lock([&] { return moments(method.index(), query, options, run); });
   const std::size_t columns = moment_count(degree);
   const std::size_t rows = found.size() / columns;
   return owned<double>(std::move(found), {rows, columns});
@@ -94,8 +93,9 @@ Output<double> moments_of(const ExactMethod& method, const std::optional<Rows>& 
 auto components_of(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius,
                    const std::optional<Radii>& weights, unsigned threads, nb::handle progress, Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
-  const MomentOptions options = moment_options(0, weights, threads, progress);
-  PrincipalComponents found = without_lock([&] { return principal_components(method.index(), query, options); });
+  const MomentOptions options = moment_options(0, weights);
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  PrincipalComponents found = without_lock([&] { return principal_components(method.index(), query, options, run); });
   const std::size_t rows = found.weight.size();
   return std::tuple(owned<double>(std::move(found.weight)), owned<double>(std::move(found.center), {rows, 3}),
                     owned<double>(std::move(found.variances), {rows, 3}),
@@ -108,10 +108,10 @@ Output<double> features_of(const Surface& surface, const std::optional<Rows>& ve
                            nb::handle progress, Metric metric, const Radius& radius) {
   BatchQuery query = query_of(vertices, radius, metric);
   if (!radius) query.radius = BatchRadius::scales({numbers_of(radii).begin(), numbers_of(radii).end()});
-  FeatureOptions options{
-      .kinds = std::move(kinds), .areas = {}, .filter = filter, .threads = threads, .progress = progress_to(progress)};
+  FeatureOptions options{.kinds = std::move(kinds), .areas = {}, .filter = filter};
+  const Run run{.threads = threads, .progress = progress_to(progress)};
   if (areas) options.areas = numbers_of(*areas);
-  std::vector<double> found = without_lock([&] { return features(surface, query, options); });
+  std::vector<double> found = without_lock([&] { return features(surface, query, options, run); });
   const std::size_t count = radius ? 1 : radii.size();
   const std::size_t rows = found.size() / count / options.kinds.size();
   return owned<double>(std::move(found), {count, rows, options.kinds.size()});

@@ -90,9 +90,10 @@ void write(const std::filesystem::path& path, const Input& positions, const Inpu
 /// `faces`: corners and offsets, to be saved with the index.
 void save_file(const ExactMethod& method, const std::filesystem::path& path,
                const std::optional<std::pair<Input, std::optional<Input>>>& faces, nb::handle progress) {
-  SaveOptions options{.progress = progress_to(progress)};
+  SaveOptions options;
+  const Run run{.progress = progress_to(progress)};
   if (faces) options.faces = faces_of(faces->first, faces->second);
-  without_lock([&] { io::save(path, method.index(), options); });
+  without_lock([&] { io::save(path, method.index(), options, run); });
 }
 
 std::shared_ptr<ExactMethod> loaded(Index index) {
@@ -103,20 +104,20 @@ std::shared_ptr<ExactMethod> loaded(Index index) {
 /// `trusted` applies to mapped files only.
 std::shared_ptr<ExactMethod> load_file(const std::filesystem::path& path, bool mmap, bool trusted,
                                        nb::handle progress) {
-  const Progress reported = progress_to(progress);
+  const Run run{.progress = progress_to(progress)};
   return without_lock([&] {
-    if (mmap) return loaded(io::map(path, {.trusted = trusted, .progress = reported}));
-    return loaded(io::load(path, {.progress = reported}));
+    if (mmap) return loaded(io::map(path, {.trusted = trusted}, run));
+    return loaded(io::load(path, run));
   });
 }
 
 Output<std::uint8_t> to_bytes(const ExactMethod& method) {
-  const SaveOptions options{.progress = progress_to(nb::handle(Py_None))};
+  const Run run{.progress = progress_to(nb::handle(Py_None))};
   std::vector<std::byte> bytes;
   const Sink append = [&](std::span<const std::byte> piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); };
   without_lock([&] {
     bytes.reserve(method.index().bytes().total());
-    save(method.index(), append, options);
+    save(method.index(), append, {}, run);
   });
   return owned<std::uint8_t>(std::move(bytes));
 }
@@ -148,8 +149,8 @@ class OpenFile {
 
 std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
   const auto all = std::as_bytes(std::span(bytes.data(), bytes.size()));
-  const LoadOptions options{.progress = progress_to(nb::handle(Py_None))};
-  return without_lock([&] { return loaded(load(all, options)); });
+  const Run run{.progress = progress_to(nb::handle(Py_None))};
+  return without_lock([&] { return loaded(load(all, run)); });
 }
 
 }  // namespace

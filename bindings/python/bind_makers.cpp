@@ -40,16 +40,16 @@ std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& cor
                                         const std::optional<Input>& offsets, const std::optional<Input>& cut,
                                         unsigned threads, nb::handle progress) {
   const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
-  const BuildOptions options{.threads = threads, .progress = progress_to(progress)};
+  const Run run{.threads = threads, .progress = progress_to(progress)};
   const IndicesView edges = cut ? indices_of(*cut, "cut") : IndicesView();
   return without_lock([&] {
     if (cut) {
       GraphData graph = graph_copy(mesh);
       graph.adjacency = cut_copy(graph.adjacency.view(), edges);
-      return exact_method(build(graph.view(), options));
+      return exact_method(build(graph.view(), run));
     }
     const GraphData copy = positions_copy(mesh.positions, "V");
-    return about("F", [&] { return exact_method(build(MeshView{copy.view().positions, mesh.faces}, options)); });
+    return about("F", [&] { return exact_method(build(MeshView{copy.view().positions, mesh.faces}, run)); });
   });
 }
 
@@ -57,10 +57,11 @@ std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& cor
 std::shared_ptr<ExactMethod> make_linked(const Input& positions, double link, std::size_t max_edges, unsigned threads,
                                          nb::handle progress) {
   const PositionsView points = positions_of(positions, "P");
-  const LinkOptions options{.max_edges = max_edges, .threads = threads, .progress = progress_to(progress)};
+  const LinkOptions options{.max_edges = max_edges};
+  const Run run{.threads = threads, .progress = progress_to(progress)};
   return without_lock([&] {
     const GraphData copy = positions_copy(points, "P");
-    return exact_method(build_linked(copy.view().positions, link, options));
+    return exact_method(build_linked(copy.view().positions, link, options, run));
   });
 }
 
@@ -69,14 +70,14 @@ std::shared_ptr<ExactMethod> make_of_faces(const Input& positions, const Input& 
                                            const std::optional<Input>& offsets, unsigned threads, nb::handle progress) {
   const PositionsView given = positions_of(positions, "V");
   const FacesView faces = faces_of(corners, offsets);
-  const BuildOptions options{.threads = threads, .progress = progress_to(progress)};
+  const Run run{.threads = threads, .progress = progress_to(progress)};
   return without_lock([&] {
     const GraphData copy = positions_copy(given, "V");
     const GraphData graph = about("F", [&] {
       check_vertex_count(faces.size());
       return face_graph({copy.view().positions, faces});
     });
-    return exact_method(build(graph.view(), options));
+    return exact_method(build(graph.view(), run));
   });
 }
 
@@ -84,11 +85,10 @@ std::shared_ptr<ExactMethod> make_refitted(const ExactMethod& method, const Inpu
                                            const std::optional<Input>& changed, unsigned threads, nb::handle progress) {
   const PositionsView moved = positions_of(positions, "V");
   const IndicesView vertices = changed ? indices_of(*changed, "changed") : IndicesView();
-  const BuildOptions options{.threads = threads, .progress = progress_to(progress)};
+  const Run run{.threads = threads, .progress = progress_to(progress)};
   return without_lock([&] {
     return about("V", [&] {
-      return exact_method(changed ? refit(method.index(), moved, vertices, options)
-                                  : refit(method.index(), moved, options));
+      return exact_method(changed ? refit(method.index(), moved, vertices, run) : refit(method.index(), moved, run));
     });
   });
 }
@@ -124,11 +124,9 @@ nb::object positions(const ExactMethod& method) {
 }
 
 std::shared_ptr<paper::Index> make_hierarchy(const GraphData& graph, int levels, int discard, double fusion_growth) {
-  const paper::BuildOptions options{.levels = levels,
-                                    .discard = discard,
-                                    .fusion_growth = fusion_growth,
-                                    .progress = progress_to(nb::handle(Py_None))};
-  return without_lock([&] { return std::make_shared<paper::Index>(paper::build(graph.view(), options)); });
+  const paper::BuildOptions options{.levels = levels, .discard = discard, .fusion_growth = fusion_growth};
+  const Run run{.progress = progress_to(nb::handle(Py_None))};
+  return without_lock([&] { return std::make_shared<paper::Index>(paper::build(graph.view(), options, run)); });
 }
 
 std::shared_ptr<Method> make_paper(std::shared_ptr<paper::Index> hierarchy, double radius_ratio) {

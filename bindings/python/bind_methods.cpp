@@ -45,11 +45,8 @@ auto one_with_distances(Method& method, VertexId v, double radius) {
 auto many(Method& method, const std::optional<Rows>& vertices, const Radius& radius, bool distances, bool sorted,
           unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
   const BatchQuery query = query_of(vertices, radius);
-  const BatchOptions options{.threads = threads,
-                             .distances = distances,
-                             .sorted = sorted,
-                             .max_bytes = max_bytes,
-                             .progress = progress_to(progress)};
+  const BatchOptions options{.distances = distances, .sorted = sorted};
+  const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
   nb::object ids;
   nb::object found_distances;
   const auto allocate = [&, state = PyThreadState_Get()](std::size_t count) -> BatchMemory {
@@ -60,18 +57,18 @@ auto many(Method& method, const std::optional<Rows>& vertices, const Radius& rad
     });
   };
   std::vector<std::uint64_t> offsets = limited("iter_neighborhoods returns the rows in chunks",
-                                               [&] { return method.neighborhoods(query, allocate, options); });
+                                               [&] { return method.neighborhoods(query, allocate, options, run); });
   return std::tuple(owned<std::int64_t>(std::move(offsets)), std::move(ids), std::move(found_distances));
 }
 
 Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vertices, const Radius& radius,
                                  unsigned threads, nb::handle progress) {
-  const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
-  return owned<std::int64_t>(method.counts(query_of(vertices, radius), options));
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  return owned<std::int64_t>(method.counts(query_of(vertices, radius), run));
 }
 
 std::shared_ptr<ExactMethod> masked_method(const ExactMethod& method, const Mask& walls, const Mask& ignored) {
-  return exact_method(without_lock([&] { return masked(method.index(), masks_of(walls, ignored), 0); }));
+  return exact_method(without_lock([&] { return masked(method.index(), masks_of(walls, ignored)); }));
 }
 
 bool are_same_masks(const Mask& a, const Mask& b) {

@@ -53,13 +53,12 @@ std::tuple<std::size_t, std::vector<std::string>> partition_file(const Path& mes
                                         .halo = halo,
                                         .halo_in_edges = halo_in_edges,
                                         .memory = memory,
-                                        .threads = threads,
-                                        .resume = resume,
-                                        .progress = progress_to(progress)};
+                                        .resume = resume};
+  const Run run{.threads = threads, .progress = progress_to(progress)};
   return without_lock([&] {
     const auto opened =
-        faces ? parts::open_arrays(mesh, *faces) : parts::open_mesh(mesh, memory / kMemoryPerByte, options.progress);
-    parts::PartitionResult result = parts::partition(*opened, folder, options);
+        faces ? parts::open_arrays(mesh, *faces) : parts::open_mesh(mesh, memory / kMemoryPerByte, run.progress);
+    parts::PartitionResult result = parts::partition(*opened, folder, options, run);
     return std::tuple(result.kept, std::move(result.warnings));
   });
 }

@@ -61,13 +61,13 @@ Surface of_normals(const ExactMethod& method, const Radii& normals, const std::o
 auto closest_points(const Surface& surface, const Points& points, unsigned threads, nb::handle progress) {
   static_assert(sizeof(SpacePoint) == 3 * sizeof(double));
   const std::span<const SpacePoint> all(reinterpret_cast<const SpacePoint*>(points.data()), points.shape(0));
-  const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
+  const Run run{.threads = threads, .progress = progress_to(progress)};
   std::vector<std::int64_t> faces;
   std::vector<std::int64_t> seconds;
   std::vector<std::array<double, 3>> weights;
   std::vector<SpacePoint> found;
   without_lock([&] {
-    for (const SurfacePoint& hit : surface.closest_points(all, options)) {
+    for (const SurfacePoint& hit : surface.closest_points(all, run)) {
       faces.push_back(static_cast<std::int64_t>(hit.face));
       seconds.push_back(static_cast<std::int64_t>(hit.second_corner));
       weights.push_back(hit.weights);

@@ -33,19 +33,10 @@ namespace {
 auto unconnected(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
                  nb::handle progress, Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
-  const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
-  Unconnected found = without_lock([&] { return nearest_unconnected(method.index(), query, options); });
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  Unconnected found = without_lock([&] { return nearest_unconnected(method.index(), query, run); });
   static_assert(static_cast<std::int32_t>(kNoVertex) == -1);
   return std::pair(owned<std::int32_t>(std::move(found.vertices)), owned<double>(std::move(found.gaps)));
-}
-
-NearestOptions nearest_options(Metric metric, double radius, unsigned threads, std::uint64_t max_bytes,
-                               nb::handle progress) {
-  return {.metric = metric,
-          .radius = radius,
-          .threads = threads,
-          .max_bytes = max_bytes,
-          .progress = progress_to(progress)};
 }
 
 constexpr const char* kFewer = "take fewer vertices at a time";
@@ -53,10 +44,11 @@ constexpr const char* kFewer = "take fewer vertices at a time";
 auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices, std::size_t k, std::int32_t fill,
                   Metric metric, double radius, unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
-  const NearestOptions options = nearest_options(metric, radius, threads, max_bytes, progress);
+  const NearestOptions options{.metric = metric, .radius = radius};
+  const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
   KNearest found = limited(kFewer, [&] {
     return without_lock([&] {
-      KNearest result = k_nearest(method.index(), asked, k, options);
+      KNearest result = k_nearest(method.index(), asked, k, options, run);
       for (VertexId& id : result.ids) id = id == kNoVertex ? static_cast<VertexId>(fill) : id;
       return result;
     });
@@ -69,10 +61,11 @@ auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices
 auto discs_of(const ExactMethod& method, const std::optional<Rows>& vertices, double area, const Radii& areas,
               Metric metric, double radius, unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
-  const NearestOptions options = nearest_options(metric, radius, threads, max_bytes, progress);
+  const NearestOptions options{.metric = metric, .radius = radius};
+  const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
   Neighborhoods found = limited(kFewer, [&] {
     return without_lock(
-        [&] { return discs(method.index(), asked, area, std::span(areas.data(), areas.size()), options); });
+        [&] { return discs(method.index(), asked, area, std::span(areas.data(), areas.size()), options, run); });
   });
   return std::tuple(owned<std::int64_t>(std::move(found.offsets)), owned<std::int32_t>(std::move(found.ids)),
                     owned<double>(std::move(found.distances)));

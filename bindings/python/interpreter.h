@@ -9,7 +9,7 @@
 #include <cxxabi.h>
 #endif
 
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 /// The interpreter lock, also while the interpreter shuts down with a daemon thread in a call.
 ///

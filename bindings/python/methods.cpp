@@ -26,12 +26,12 @@ std::size_t Method::count(VertexId v, double radius) {
 }
 
 std::vector<std::uint64_t> Method::neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
-                                                 const BatchOptions& options) const {
-  return without_lock([&] { return meshhood::neighborhoods(method_, query, allocate, options); });
+                                                 const BatchOptions& options, const Run& run) const {
+  return without_lock([&] { return meshhood::neighborhoods(method_, query, allocate, options, run); });
 }
 
-std::vector<std::uint64_t> Method::counts(const BatchQuery& query, const BatchOptions& options) const {
-  return without_lock([&] { return meshhood::counts(method_, query, options); });
+std::vector<std::uint64_t> Method::counts(const BatchQuery& query, const Run& run) const {
+  return without_lock([&] { return meshhood::counts(method_, query, run); });
 }
 
 std::shared_ptr<ExactMethod> exact_method(Index index) {

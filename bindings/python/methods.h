@@ -37,8 +37,8 @@ class Method {
   Answer neighborhood(VertexId v, double radius, bool distances);
   std::size_t count(VertexId v, double radius);
   std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
-                                           const BatchOptions& options) const;
-  std::vector<std::uint64_t> counts(const BatchQuery& query, const BatchOptions& options) const;
+                                           const BatchOptions& options, const Run& run) const;
+  std::vector<std::uint64_t> counts(const BatchQuery& query, const Run& run) const;
 
  private:
   template <class F>

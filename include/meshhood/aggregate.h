@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <variant>
@@ -13,7 +12,7 @@
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/metric.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 /// Sums, means and other aggregates of values over neighborhoods, without lists of ids.
 ///
@@ -115,25 +114,11 @@ struct AggregateQuery {
   unsigned ddof = 0;
 };
 
-/// How an aggregate runs. The result does not depend on `threads`.
-struct AggregateOptions {
-  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
-
-  /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread.
-  unsigned threads = 1;
-
-  /// The most bytes of the result. A larger one is refused at once.
-  std::uint64_t max_bytes = kUnlimited;
-
-  /// Called between packets of rows, at most twenty times a second.
-  Progress progress = {};
-};
-
 /// The size of the result: #radii by #rows by channels, radius after radius, and row after row; one radius unless there
-/// are scales. Throws Error{TooLarge} if it exceeds the address space or `options.max_bytes`, and Error{InvalidOption}
+/// are scales. Throws Error{TooLarge} if it exceeds the address space or `run.max_bytes`, and Error{InvalidOption}
 /// if there are no channels.
 [[nodiscard]] std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query,
-                                         const AggregateOptions& options = {});
+                                         const Run& run = {});
 
 /// Aggregates the values over the neighborhood of each row by the metric, and writes all of `result`, which
 /// has `aggregate_size` numbers. The neighborhood of a wall is empty: its sum and count are 0, all else is NaN.
@@ -157,11 +142,11 @@ struct AggregateOptions {
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming row, radius or vertex. The
 /// contents of `result` are then unspecified.
 void aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query, std::span<double> result,
-               const AggregateOptions& options = {});
+               const Run& run = {});
 
 /// The same; returns the result.
 [[nodiscard]] std::vector<double> aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query,
-                                            const AggregateOptions& options = {});
+                                            const Run& run = {});
 
 /// The area that each vertex represents: each face gives equal shares to its corners, a third of a triangle. #V, 0 for
 /// a vertex without a face. In the square of the unit of the positions; infinite where that overflows. The area of a

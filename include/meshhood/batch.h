@@ -17,12 +17,12 @@
 #include "meshhood/mesh.h"
 #include "meshhood/metric.h"
 #include "meshhood/paper.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 #include "meshhood/search.h"
 
-/// Many neighborhoods in one call, on one or more threads.
+/// Many neighborhoods in one call, on all processors unless `Run` says otherwise.
 ///
-///     const auto [offsets, ids, distances] = meshhood::neighborhoods(index, {.radius = 1.5}, {.threads = 0});
+///     const auto [offsets, ids, distances] = meshhood::neighborhoods(index, {.radius = 1.5}, {.distances = true});
 namespace meshhood {
 
 struct SearcherFactory;
@@ -155,15 +155,10 @@ struct BatchQuery {
   Metric metric = Metric::Straight;
 };
 
-/// How a batch runs. A row depends on the index, its vertex and its radius alone, not on the other rows or on
-/// `threads`. With an `Index`, its ids are in index order: ascending places of the permutation of the index. Rows of
-/// other methods have the order of their searcher.
+/// What the rows of a batch have, and their order. A row depends on the index, its vertex and its radius alone, not on
+/// the other rows. With an `Index`, its ids are in index order: ascending places of the permutation of the index. Rows
+/// of other methods have the order of their searcher.
 struct BatchOptions {
-  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
-
-  /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread.
-  unsigned threads = 1;
-
   bool distances = false;  ///< also compute the distance of each vertex (see `distance`); ignored when only counting
   bool sorted = false;     ///< ids of a row ascend, whatever the method
 
@@ -176,14 +171,6 @@ struct BatchOptions {
   /// About how many bytes of results may wait until earlier rows are done (`for_each_neighborhood`). A larger buffer
   /// lets more rows run in index order and keeps threads busy; a smaller one stays in the processor's cache.
   std::size_t buffer_bytes = std::size_t{8} << 20;
-
-  /// The most bytes of ids and distances that `neighborhoods` may return. A larger result is refused before memory is
-  /// allocated: at once if a sample of the rows shows that it will not fit, else soon after the rows counted so far
-  /// exceed the limit.
-  std::uint64_t max_bytes = kUnlimited;
-
-  /// Called between rows, at most twenty times a second. If it returns false, no further row is begun.
-  Progress progress = {};
 };
 
 /// One neighborhood of a batch. Valid during the call of the sink.
@@ -214,31 +201,32 @@ using BatchAllocator = std::function<BatchMemory(std::size_t count)>;
 /// Passes each row to `sink`, in order, on the calling thread; the other threads wait meanwhile. Memory:
 /// `buffer_bytes`, a copy of the query, and per thread a searcher and two rows.
 ///
-/// All arguments are checked before the first row is computed. An exception from `sink` or `options.progress`, or a
-/// lack of memory, ends the batch; it is passed on once all threads have stopped, and the method can be used again.
+/// All arguments are checked before the first row is computed. An exception from `sink` or `run.progress`, or a lack
+/// of memory, ends the batch; it is passed on once all threads have stopped, and the method can be used again.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, const RowSink& sink,
-                           const BatchOptions& options = {});
+                           const BatchOptions& options = {}, const Run& run = {});
 
 /// Returns all rows. With an index they are counted first, so that memory is allocated once and exactly. What is found
 /// of exact neighborhoods and rings is kept meanwhile, so that their rows are searched once. It takes about as much
 /// memory as the ids at most, and is dropped if `max_bytes` is less than it and the result together.
 /// Rows of paths, in space and of `paper::Index` are searched twice. Without an index each row is searched once, and
 /// the result is held twice.
-/// Throws as `for_each_neighborhood`, and Error{TooLarge} if the result exceeds `options.max_bytes`.
+/// Throws as `for_each_neighborhood`, and Error{TooLarge} if ids and distances exceed `run.max_bytes`: at once if a
+/// sample of the rows shows that they will not fit, else soon after the rows counted so far exceed the limit.
 [[nodiscard]] Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query,
-                                          const BatchOptions& options = {});
+                                          const BatchOptions& options = {}, const Run& run = {});
 
 /// Writes all rows into memory of the caller, and returns their offsets. `allocate` is called once, on the calling
 /// thread, after the rows are counted. All of the memory is written unless the call throws. Exceptions of `allocate`
 /// are passed on.
 /// Throws as the overload above, and Error{InvalidOption} if the memory does not have the requested size.
 [[nodiscard]] std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const BatchQuery& query,
-                                                       const BatchAllocator& allocate,
-                                                       const BatchOptions& options = {});
+                                                       const BatchAllocator& allocate, const BatchOptions& options = {},
+                                                       const Run& run = {});
 
 /// Returns the number of vertices of each row; #radii by #rows if there are scales. Throws as `for_each_neighborhood`.
 [[nodiscard]] std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& query,
-                                                const BatchOptions& options = {});
+                                                const Run& run = {});
 
 }  // namespace meshhood

@@ -7,7 +7,7 @@
 #include "meshhood/batch.h"
 #include "meshhood/curvature.h"
 #include "meshhood/mesh.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 /// Curvature from measures instead of a fit. See docs/curvature.md.
 namespace meshhood {
@@ -29,12 +29,6 @@ struct CorrectedCurvatures {
   static constexpr std::size_t kMeasures = 12;
 };
 
-struct CorrectedCurvatureOptions {
-  /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
-  unsigned threads = 1;
-  Progress progress = {};
-};
-
 /// The interpolated corrected curvature measures (J.-O. Lachaud, P. Romon, B. Thibert, D. Coeurjolly, "Interpolated
 /// corrected curvature measures for polygonal surfaces", Computer Graphics Forum 39, 2020; CGAL 6 has them as
 /// `interpolated_corrected_curvatures`): integrals over the faces of area, mean curvature, Gaussian curvature and the
@@ -54,6 +48,6 @@ struct CorrectedCurvatureOptions {
 /// `aggregate` with twelve channels.
 /// Throws Error{InvalidMesh, TooLarge, VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
 [[nodiscard]] CorrectedCurvatures corrected_curvatures(const Surface& surface, const BatchQuery& query,
-                                                       const CorrectedCurvatureOptions& options = {});
+                                                       const Run& run = {});
 
 }  // namespace meshhood

@@ -9,7 +9,7 @@
 #include "meshhood/batch.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 #include "meshhood/surface.h"
 
 /// Curvature at a scale: the shape of the surface in the neighborhood of a vertex with radius r. The measures and how
@@ -19,7 +19,7 @@
 /// half the cross product of two edges; that of a polygon is Newell's sum.
 ///
 ///     const meshhood::Surface surface(index, faces);
-///     const auto [k1, k2, d1, d2, state, count] = meshhood::curvatures(surface, {.radius = 2.5}, {.threads = 0});
+///     const auto [k1, k2, d1, d2, state, count] = meshhood::curvatures(surface, {.radius = 2.5});
 namespace meshhood {
 
 /// How principal curvatures follow from the fitted quadric z = a x^2 + b x y + c y^2 + d x + e y.
@@ -68,10 +68,6 @@ struct CurvatureOptions {
   ShapeOperator shape_operator = ShapeOperator::Exact;
 
   CurvatureFit fit = CurvatureFit::Quadric;
-
-  /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
-  unsigned threads = 1;
-  Progress progress = {};
 };
 
 /// The options with which `curvatures` agrees with `igl::principal_curvature(V, F, ..., radius, useKring = false)` of
@@ -123,12 +119,12 @@ struct CurvatureMemory {
 /// leaf is summed once.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Curvatures curvatures(const Surface& surface, const BatchQuery& query,
-                                    const CurvatureOptions& options = {});
+                                    const CurvatureOptions& options = {}, const Run& run = {});
 
 /// Writes the same into memory of the caller, which need not be initialized: all of it, unless the call throws. Throws
 /// as the overload above, and Error{InvalidOption} if an array does not have the requested size.
 void curvatures(const Surface& surface, const BatchQuery& query, const CurvatureMemory& out,
-                const CurvatureOptions& options = {});
+                const CurvatureOptions& options = {}, const Run& run = {});
 
 /// Koenderink's shape index, 2 / pi atan((k1 + k2) / (k1 - k2)): 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a
 /// valley, -1 in a bowl. NaN where both are 0, where it is not defined.

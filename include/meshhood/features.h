@@ -8,7 +8,7 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/curvature.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 /// How a surface looks around each vertex at many scales: feature vectors, and how long a feature persists. See
 /// docs/curvature.md.
@@ -42,10 +42,6 @@ struct FeatureOptions {
 
   /// As for `curvatures`.
   bool filter = true;
-
-  /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
-  unsigned threads = 1;
-  Progress progress = {};
 };
 
 /// #radii by #rows by #kinds: the features of the neighborhood of each row at each of the scales of the query; one
@@ -58,7 +54,7 @@ struct FeatureOptions {
 /// other rows of the call, earlier calls, threads or the processor. Throws Error{VertexOutOfRange, InvalidRadius,
 /// InvalidOption, Cancelled}. A radius must be > 0 and finite.
 [[nodiscard]] std::vector<double> features(const Surface& surface, const BatchQuery& query,
-                                           const FeatureOptions& options = {});
+                                           const FeatureOptions& options = {}, const Run& run = {});
 
 /// `count` radii from `smallest` to `largest` with a constant ratio. Throws Error{InvalidRadius, InvalidOption}.
 [[nodiscard]] std::vector<double> geometric_radii(double smallest, double largest, std::size_t count);

@@ -14,19 +14,9 @@
 #include "meshhood/level.h"
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 namespace meshhood {
-
-/// How an index is built. The index does not depend on these options.
-struct BuildOptions {
-  /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread. Uses fewer
-  /// threads if the system cannot create them. They end with the call.
-  unsigned threads = 1;
-
-  /// Called between the parts of each step. The longest part is a pass over the vertices and edges, linear in the mesh.
-  Progress progress = {};
-};
 
 class KeptGraph;
 struct IndexView;
@@ -77,8 +67,8 @@ class Index {
   /// throws, too, and is to be made again.
   ///
   /// Throws as `refit`; the index is then as it was.
-  void refit_in_place(const PositionsView& positions, const BuildOptions& options = {});
-  void refit_in_place(const PositionsView& positions, const IndicesView& changed, const BuildOptions& options = {});
+  void refit_in_place(const PositionsView& positions, const Run& run = {});
+  void refit_in_place(const PositionsView& positions, const IndicesView& changed, const Run& run = {});
 
   /// Verifies the index against the mesh it was built from. Returns one line per violation, naming the leaf or node, at
   /// most sixteen. An empty result means:
@@ -103,13 +93,14 @@ class Index {
   std::shared_ptr<KeptGraph> graph_;  // and this
 };
 
-/// Builds the index. The same mesh gives the same index for any number of threads.
+/// Builds the index. The same mesh gives the same index for any number of threads. Progress is reported between the
+/// parts of each step, of which the longest is a pass over the vertices and edges.
 ///
 /// mesh    any polygonal mesh (see `validate`); borrowed for the call.
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. TooLarge also beyond 2^27 leaves; a leaf has at least
 /// 16 vertices, except around vertices with very many neighbors. O(#V log #V + #E).
-[[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {});
-[[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {});
+[[nodiscard]] Index build(const MeshView& mesh, const Run& run = {});
+[[nodiscard]] Index build(const GraphView& graph, const Run& run = {});
 
 /// The same from arrays; borrowed for the call.
 ///
@@ -118,8 +109,8 @@ class Index {
 /// faces      integers of 16 to 64 bits in contiguous memory: 3 #F corners of triangles, or #F triangles, each a row of
 ///            three; or a `FacesView`, for polygons and other layouts.
 template <class Positions, class Faces>
-  requires(!std::same_as<Faces, BuildOptions>)
-[[nodiscard]] Index build(const Positions& positions, const Faces& faces, const BuildOptions& options = {}) {
+  requires(!std::same_as<Faces, Run>)
+[[nodiscard]] Index build(const Positions& positions, const Faces& faces, const Run& run = {}) {
   constexpr bool kArePositions = std::constructible_from<PositionsView, const Positions&>;
   constexpr bool kAreTriangles = requires { FacesView::triangles(faces); };
   constexpr bool kAreFaces = kAreTriangles || std::same_as<Faces, FacesView>;
@@ -130,9 +121,9 @@ template <class Positions, class Faces>
                 "faces: expected integers of 16 to 64 bits in contiguous memory, 3 #F corners or #F triangles of "
                 "three; FacesView and meshhood/eigen.h read polygons and other layouts");
   if constexpr (kArePositions && kAreTriangles) {
-    return build(MeshView{positions, FacesView::triangles(faces)}, options);
+    return build(MeshView{positions, FacesView::triangles(faces)}, run);
   } else if constexpr (kArePositions && kAreFaces) {
-    return build(MeshView{positions, faces}, options);
+    return build(MeshView{positions, faces}, run);
   }
 }
 

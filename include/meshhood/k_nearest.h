@@ -10,7 +10,7 @@
 #include "meshhood/batch.h"
 #include "meshhood/index.h"
 #include "meshhood/metric.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 #include "meshhood/unconnected.h"
 
 /// The nearest connected vertices of many vertices in one call: a number of them, or as many as cover an area.
@@ -24,11 +24,6 @@ struct NearestOptions {
 
   /// Only vertices of this connecting radius, path distance or number of edges, or less. >= 0 or infinite.
   double radius = std::numeric_limits<double>::infinity();
-
-  /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
-  unsigned threads = 1;
-  std::uint64_t max_bytes = BatchOptions::kUnlimited;
-  Progress progress = {};
 };
 
 /// #rows by k.
@@ -43,9 +38,9 @@ struct KNearest {
 /// row for any smaller `k`. Each thread owns a search of the metric. O(k log k) a row on most surfaces.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming the row; TooLarge if the
-/// result exceeds `options.max_bytes`, or rows times k is more than 2^40; on a machine of 32 bits, more than 2^28.
+/// result exceeds `run.max_bytes`, or rows times k is more than 2^40; on a machine of 32 bits, more than 2^28.
 [[nodiscard]] KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k,
-                                 const NearestOptions& options = {});
+                                 const NearestOptions& options = {}, const Run& run = {});
 
 /// A disc of fixed area around each of `vertices`: of the nearest connected vertices, in the order of `k_nearest`, the
 /// first whose areas add up to at least `area`; all, where they do not. Distances as for `k_nearest`.
@@ -54,9 +49,10 @@ struct KNearest {
 /// area   > 0 and finite, in the unit of `areas`.
 ///
 /// The result is held twice while its rows are joined. Throws as `k_nearest`;
-/// InvalidOption also for `area` and `areas`, naming the vertex. A result above `options.max_bytes` is refused as that
+/// InvalidOption also for `area` and `areas`, naming the vertex. A result above `run.max_bytes` is refused as that
 /// of `neighborhoods`.
 [[nodiscard]] Neighborhoods discs(const Index& index, const BatchVertices& vertices, double area,
-                                  std::span<const double> areas, const NearestOptions& options = {});
+                                  std::span<const double> areas, const NearestOptions& options = {},
+                                  const Run& run = {});
 
 }  // namespace meshhood

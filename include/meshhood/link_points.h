@@ -6,7 +6,7 @@
 #include "meshhood/adjacency.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 /// Points without faces: the graph that joins near ones.
 ///
@@ -16,10 +16,6 @@ namespace meshhood {
 struct LinkOptions {
   /// A graph with more edges is refused.
   std::size_t max_edges = kMaxNeighbors / 2;
-
-  /// As for `build`. The result does not depend on `threads`.
-  unsigned threads = 1;
-  Progress progress = {};
 };
 
 /// The graph that joins any two points whose distance (see `distance`) is at most `link`; so points at the same place
@@ -34,9 +30,11 @@ struct LinkOptions {
 ///
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}; TooLarge, with the limit, if there are more than
 /// `max_edges`, as soon as so many are counted.
-[[nodiscard]] Adjacency link_points(const PositionsView& points, double link, const LinkOptions& options = {});
+[[nodiscard]] Adjacency link_points(const PositionsView& points, double link, const LinkOptions& options = {},
+                                    const Run& run = {});
 
 /// The index of this graph: what `build` makes of it, in less time, because the graph is not checked. Throws the same.
-[[nodiscard]] Index build_linked(const PositionsView& points, double link, const LinkOptions& options = {});
+[[nodiscard]] Index build_linked(const PositionsView& points, double link, const LinkOptions& options = {},
+                                 const Run& run = {});
 
 }  // namespace meshhood

@@ -57,9 +57,8 @@ struct Masks {
 /// An index with masks is not saved, checked, refitted or masked again. After `refit_in_place` of `index`,
 /// it refuses to answer, as a searcher does. Its mesh, as from `extract_graph`, is the whole one.
 ///
-/// threads  as in `BuildOptions`. The result does not depend on it.
 /// O(#V). Throws Error{InvalidOption} unless each mask is empty or has a value for each vertex, or if `index` has
-/// masks.
-[[nodiscard]] Index masked(const Index& index, const Masks& masks, unsigned threads = 1);
+/// masks, and Error{Cancelled}.
+[[nodiscard]] Index masked(const Index& index, const Masks& masks, const Run& run = {});
 
 }  // namespace meshhood

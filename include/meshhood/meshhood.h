@@ -41,10 +41,10 @@
 #include "meshhood/metric.h"               // IWYU pragma: export
 #include "meshhood/moments.h"              // IWYU pragma: export
 #include "meshhood/paper.h"                // IWYU pragma: export
-#include "meshhood/progress.h"             // IWYU pragma: export
 #include "meshhood/reference.h"            // IWYU pragma: export
 #include "meshhood/refit.h"                // IWYU pragma: export
 #include "meshhood/reorder.h"              // IWYU pragma: export
+#include "meshhood/run.h"                  // IWYU pragma: export
 #include "meshhood/search.h"               // IWYU pragma: export
 #include "meshhood/serialize.h"            // IWYU pragma: export
 #include "meshhood/start.h"                // IWYU pragma: export

@@ -7,7 +7,7 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/index.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 /// Moments of neighborhoods: sums of powers of coordinates, from which fits of polynomials, principal components and
 /// integral invariants are computed without another pass over the vertices. See docs/curvature.md.
@@ -36,10 +36,6 @@ struct MomentOptions {
 
   /// #V, finite and >= 0; empty: 1 each. With `vertex_areas`, sums become integrals over the surface.
   Borrowed<double> weights = {};
-
-  /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
-  unsigned threads = 1;
-  Progress progress = {};
 };
 
 /// M_ijk = sum of w x^i y^j z^k over the neighborhood of each row, by the metric of the query, where x, y, z are the
@@ -57,7 +53,7 @@ struct MomentOptions {
 /// query.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming row or vertex.
 [[nodiscard]] std::vector<double> moments(const Index& index, const BatchQuery& query,
-                                          const MomentOptions& options = {});
+                                          const MomentOptions& options = {}, const Run& run = {});
 
 /// How the vertices of each neighborhood are distributed, one entry for each row of the query. With areas as weights,
 /// these are integral invariants: the area, the barycenter and the covariance of the surface in the neighborhood.
@@ -74,7 +70,7 @@ struct PrincipalComponents {
 /// All but the weight are NaN where the weights of a neighborhood sum to 0. Arguments, cost and errors are those of
 /// `moments`.
 [[nodiscard]] PrincipalComponents principal_components(const Index& index, const BatchQuery& query,
-                                                       const MomentOptions& options = {});
+                                                       const MomentOptions& options = {}, const Run& run = {});
 
 /// The least variance divided by the sum of the three (Pauly, Gross, Kobbelt 2002): 0 on a plane, at most 1/3. NaN
 /// where all are 0.

@@ -12,7 +12,7 @@
 #include "meshhood/level.h"
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 #include "meshhood/search.h"
 
 /// The index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
@@ -22,8 +22,7 @@ namespace meshhood::paper {
 /// A cluster, by its number on its level.
 using ClusterId = VertexId;
 
-/// How the hierarchy is built (3.2, 4.1). There is no option for threads: each step visits the clusters one after the
-/// other, and a decision depends on those before it, so that the result of the paper is defined by a sequential order.
+/// How the hierarchy is built (3.2, 4.1).
 struct BuildOptions {
   /// Levels to compute, the base level (one cluster per vertex) included; >= 1. Construction ends earlier if every
   /// component of the mesh has become a single cluster; `kAllLevels` always continues until then.
@@ -34,9 +33,6 @@ struct BuildOptions {
 
   /// Fusion on level `l` dissolves clusters of fewer than `fusion_growth` to the power of `l` vertices; finite, >= 0.
   double fusion_growth = 4.0;
-
-  /// Called between the steps of each level. The longest step takes O((#V + #E) log #V).
-  Progress progress = {};
 
   static constexpr int kAllLevels = 64;
 };
@@ -92,12 +88,14 @@ class Index {
 };
 
 /// Builds the index (3.2): create, select, link and sphere, fusion, level by level. The same mesh and options give the
-/// same index. One thread.
+/// same index. Uses one thread, whatever `run` says: each step visits the clusters one after the other, and a decision
+/// depends on those before it, so that the result of the paper is defined by a sequential order. Progress is reported
+/// between the steps of each level, of which the longest takes O((#V + #E) log #V).
 ///
 /// mesh    any polygonal mesh (see `meshhood::validate`); borrowed for the call.
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. O(#levels (#V + #E) log #V).
-[[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {});
-[[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {});
+[[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {}, const Run& run = {});
+[[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {}, const Run& run = {});
 
 /// The parameter of a query (3.3).
 struct QueryOptions {

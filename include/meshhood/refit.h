@@ -27,7 +27,6 @@ namespace meshhood {
 /// index      stays as it is, with its searchers, which answer by the old positions.
 /// positions  #V by 3, in the order and the unit in which the mesh of `index` was given; for an index that `reorder`
 ///            made, in index order. Float or double. Borrowed for the call.
-/// options    as for `build`.
 ///
 /// With the positions that `index` has, the result is equal to it, byte for byte. The result owns its positions and its
 /// tree. It shares the rest of the memory with `index`; if that was loaded or mapped, it keeps the bytes of the file
@@ -35,7 +34,7 @@ namespace meshhood {
 ///
 /// Throws Error{InvalidMesh, InvalidOption, Cancelled}: InvalidMesh if there are not #V positions, or if `validate`
 /// rejects one, naming the vertex. O(#V), a fraction of the time of `build`.
-[[nodiscard]] Index refit(const Index& index, const PositionsView& positions, const BuildOptions& options = {});
+[[nodiscard]] Index refit(const Index& index, const PositionsView& positions, const Run& run = {});
 
 /// The same if only the vertices `changed` have moved. Positions of others are not read.
 ///
@@ -50,7 +49,7 @@ namespace meshhood {
 /// Throws also Error{VertexOutOfRange}, naming the row of `changed`. Besides the copy: O(changed log #V), for the
 /// leaves of these vertices and the nodes above; and a sum over all leaves.
 [[nodiscard]] Index refit(const Index& index, const PositionsView& positions, const IndicesView& changed,
-                          const BuildOptions& options = {});
+                          const Run& run = {});
 
 /// How well the leaves of an index fit the positions.
 struct Quality {

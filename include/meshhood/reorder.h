@@ -29,6 +29,6 @@ struct ReorderedMesh {
 /// mesh    any polygonal mesh (see `validate`); borrowed for the call.
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. TooLarge also beyond 2^32 - 1 faces. O(#V log #V + #E
 /// + #corners).
-[[nodiscard]] ReorderedMesh reorder(const MeshView& mesh, const BuildOptions& options = {});
+[[nodiscard]] ReorderedMesh reorder(const MeshView& mesh, const Run& run = {});
 
 }  // namespace meshhood

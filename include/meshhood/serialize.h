@@ -12,7 +12,7 @@
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/paper.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 /// An index as bytes. For files see `meshhood/io/index_io.h`.
 ///
@@ -32,34 +32,25 @@ struct SaveOptions {
   /// The faces of the mesh that the index was built from, borrowed for the call. They are saved with the index, for
   /// calls that need them (see `Index::faces`): 4 bytes for each corner and, unless all are triangles, for each face.
   /// The index does not know them: they are verified to be faces of #V vertices, not to be those of its graph. Without
-  /// them, the file has none; `.faces = index.faces()` saves those of a loaded index again. Not for the paper's index.
+  /// them, the file has none; `.faces = index.faces()` saves those of a loaded index again.
   std::optional<FacesView> faces = {};
-
-  /// Called while the fingerprint is computed, then between parts: the checksum of each section, and pieces of the
-  /// bytes. The longest part takes O(bytes).
-  Progress progress = {};
 };
 
-/// Streams the bytes of `index` to `sink`. Peak memory is one copy of the graph, for the fingerprint, and one of the
-/// faces. Throws Error{InvalidMesh, TooLarge} if the faces are invalid, or are not all triangles and have 2^32 corners
-/// or more; Error{Cancelled}. O(bytes of the index).
-void save(const Index& index, const Sink& sink, const SaveOptions& options = {});
+/// Streams the bytes of `index` to `sink`. Progress is reported while the fingerprint is computed, then between parts:
+/// the checksum of each section, and pieces of the bytes. The longest part takes O(bytes). Peak memory is one copy of
+/// the graph, for the fingerprint, and one of the faces. Throws Error{InvalidMesh, TooLarge} if the faces are invalid,
+/// or are not all triangles and have 2^32 corners or more; Error{Cancelled}. O(bytes of the index).
+void save(const Index& index, const Sink& sink, const SaveOptions& options = {}, const Run& run = {});
 
-/// How an index is loaded.
-struct LoadOptions {
-  /// Called between the parts of the verification: the checksum of each section, then passes over the arrays. The
-  /// longest part takes O(bytes).
-  Progress progress = {};
-};
-
-/// Returns the index that was saved as `bytes`, which are copied.
+/// Returns the index that was saved as `bytes`, which are copied. Progress is reported between the parts of the
+/// verification: the checksum of each section, then passes over the arrays. The longest part takes O(bytes).
 ///
 /// Everything is verified: the checksums, and all that a search relies on for safety. An accepted index answers every
 /// query within its arrays, even if it was forged; its answers may then be wrong.
 ///
 /// Throws Error{MalformedIndex}, naming the section, the byte, what it contains and what was expected;
 /// Error{Cancelled}. O(bytes).
-[[nodiscard]] Index load(std::span<const std::byte> bytes, const LoadOptions& options = {});
+[[nodiscard]] Index load(std::span<const std::byte> bytes, const Run& run = {});
 
 /// How an index is mapped.
 struct MapOptions {
@@ -68,12 +59,10 @@ struct MapOptions {
   /// undefined behavior: wrong answers, a crash, or a query that does not end. Only for files that no other user can
   /// write.
   bool trusted = false;
-
-  /// As in `LoadOptions`. A trusted file has no parts.
-  Progress progress = {};
 };
 
-/// Returns the index in place: nothing is copied, and pages of a mapped file are read when queries need them.
+/// Returns the index in place: nothing is copied, and pages of a mapped file are read when queries need them. Progress
+/// as of `load`; a trusted file has no parts.
 ///
 /// bytes   at an address that is a multiple of `kIndexAlignment`; must not change as long as the index lives. A file
 ///         that is truncated or overwritten in place changes under its mapping (a file replaced by renaming does not).
@@ -82,7 +71,7 @@ struct MapOptions {
 ///
 /// Throws as `load`, and Error{InvalidOption} if the address is not aligned. O(bytes), or O(1) if trusted.
 [[nodiscard]] Index map(std::span<const std::byte> bytes, std::shared_ptr<const void> owner,
-                        const MapOptions& options = {});
+                        const MapOptions& options = {}, const Run& run = {});
 
 /// The kind of a saved index.
 enum class IndexKind : std::uint8_t {
@@ -124,12 +113,11 @@ void check_mesh(const IndexHeader& header, const Fingerprint& mesh);
 /// is loaded.
 namespace paper {
 
-/// As `meshhood::save`. The fingerprint was computed by `build`: nothing is copied.
-/// Throws Error{InvalidOption} if there are faces: this index does not hold them.
-void save(const Index& index, const Sink& sink, const SaveOptions& options = {});
+/// As `meshhood::save`, without faces. The fingerprint was computed by `build`: nothing is copied.
+void save(const Index& index, const Sink& sink, const Run& run = {});
 
 /// As `meshhood::load`.
-[[nodiscard]] Index load(std::span<const std::byte> bytes, const LoadOptions& options = {});
+[[nodiscard]] Index load(std::span<const std::byte> bytes, const Run& run = {});
 
 }  // namespace paper
 }  // namespace meshhood

@@ -139,11 +139,9 @@ class Surface {
   [[nodiscard]] SurfacePoint closest_point(const SpacePoint& point) const;
 
   /// The same for each of `points`. They are taken along a space-filling curve, and each search begins with the last
-  /// answer, so that one takes about a third of the time of a single call. 16 bytes a point. Of the options, `threads`
-  /// and `progress` are used; the result does not depend on them. Throws as above, naming the row, and
-  /// Error{Cancelled}.
-  [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const SpacePoint> points,
-                                                         const BatchOptions& options = {}) const;
+  /// answer, so that one takes about a third of the time of a single call. 16 bytes a point. Throws as above, naming
+  /// the row, and Error{Cancelled}.
+  [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const SpacePoint> points, const Run& run = {}) const;
 
   /// The faces with all corners in `ids`, or with at least one; ascending. A face without corners is never one.
   ///

@@ -32,7 +32,6 @@ struct Unconnected {
 ///          within `r` along the edges, and the ball is that of radius `r` in space. A number of edges is no radius in
 ///          space: by rings, the nearest of all other vertices is found. Walls and ignored vertices are never the
 ///          nearest, and for a wall there is none.
-/// options  of these, `threads` and `progress` are used. The result does not depend on them.
 ///
 /// The neighborhoods are found as by `counts`; what the tree of the index has in the balls besides them is searched,
 /// the nearest first. So far away from any gap, all leaves that the surface of a ball meets are compared with it. Where
@@ -40,7 +39,6 @@ struct Unconnected {
 /// Memory besides the result: as for `counts`.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
-[[nodiscard]] Unconnected nearest_unconnected(const Index& index, const BatchQuery& query,
-                                              const BatchOptions& options = {});
+[[nodiscard]] Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const Run& run = {});
 
 }  // namespace meshhood

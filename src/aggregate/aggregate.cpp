@@ -177,7 +177,7 @@ struct Destination {
 class Aggregation {
  public:
   Aggregation(const Index& index, const SignalView& signal, const CheckedQuery& checked, std::span<double> result,
-              const AggregateOptions& options)
+              const Run& run)
       : index_(index),
         view_(IndexAccess::view(index_)),
         tree_(view_),
@@ -187,7 +187,7 @@ class Aggregation {
         has_patches_(checked.has_patches()),
         rows_(checked.rows()),
         result_(result),
-        options_(options),
+        run_(run),
         together_(query_.kernel == SmoothingKernel::Gaussian ? kChannelsOfAGaussian : kChannelsTogether),
         blocks_((signal.channels + together_ - 1) / together_) {}
 
@@ -216,9 +216,8 @@ class Aggregation {
   /// All channels of one radius.
   void reduce_listed(std::size_t radius) {
     const std::size_t size = rows_ * signal_.channels;
-    const PacketOptions pass = next_pass(blocks_);
     sum_listed(index_, signal_, query_, radii_[radius].common(), result_.subspan(radius * size, size),
-               {.threads = options_.threads, .progress = pass.progress});
+               next_pass(blocks_));
   }
 
   void reduce_radius(const Reduction& reduction, std::size_t radius, std::size_t first, std::size_t count) {
@@ -232,7 +231,7 @@ class Aggregation {
             to.write(packet, *reducer);
           };
         },
-        next_pass());
+        {.lengths = needs_lengths()}, next_pass());
   }
 
   /// One search for all scales: what belongs to a smaller one is cut from what was found at the largest.
@@ -258,7 +257,7 @@ class Aggregation {
             }
           };
         },
-        next_pass());
+        {.lengths = needs_lengths()}, next_pass());
   }
 
   [[nodiscard]] BatchQuery query_of(const BatchRadius& radius) const {
@@ -281,12 +280,12 @@ class Aggregation {
   }
 
   /// `blocks`: how many blocks of channels it reduces.
-  PacketOptions next_pass(std::size_t blocks = 1) {
-    PacketOptions pass{.threads = options_.threads, .progress = {}, .lengths = needs_lengths()};
+  Run next_pass(std::size_t blocks = 1) {
+    Run pass{.threads = run_.threads};
     const std::size_t passes = blocks_ * (shares_search() ? radii_.size() - passes_.size() + 1 : radii_.size());
-    if (options_.progress) {
+    if (run_.progress) {
       pass.progress = [this, passes, blocks, before = passes_begun_ * rows_](std::size_t done, std::size_t /*total*/) {
-        return options_.progress(before + blocks * done, passes * rows_);
+        return run_.progress(before + blocks * done, passes * rows_);
       };
     }
     passes_begun_ += blocks;
@@ -303,7 +302,7 @@ class Aggregation {
   bool has_patches_;
   std::size_t rows_;
   std::span<double> result_;
-  const AggregateOptions& options_;
+  const Run& run_;
   std::size_t together_;
   std::size_t blocks_;
   std::size_t passes_begun_ = 0;
@@ -354,30 +353,29 @@ std::size_t checked_size(std::size_t radii, std::size_t rows, std::size_t channe
 
 }  // namespace
 
-std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query,
-                           const AggregateOptions& options) {
+std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query, const Run& run) {
   if (signal.channels == 0) raise(ErrorCode::InvalidOption, "channels is 0, expected at least 1");
   const auto& scales = query.radius.scales();
   return checked_size(scales ? scales->size() : 1, query.vertices.count(index.vertex_count()), signal.channels,
-                      options.max_bytes);
+                      run.max_bytes);
 }
 
 void aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query, std::span<double> result,
-               const AggregateOptions& options) {
+               const Run& run) {
   const CheckedQuery checked(index, signal, query);
-  const std::size_t size = aggregate_size(index, signal, checked.query(), options);
+  const std::size_t size = aggregate_size(index, signal, checked.query(), run);
   if (result.size() != size) {
     raise(ErrorCode::InvalidOption,
           "the result has room for " + std::to_string(result.size()) + " numbers, expected " + std::to_string(size));
   }
   const UnchangedSignal unchanged(signal, result);
-  Aggregation(index, unchanged.view(), checked, result, options).run();
+  Aggregation(index, unchanged.view(), checked, result, run).run();
 }
 
 std::vector<double> aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query,
-                              const AggregateOptions& options) {
-  std::vector<double> result(aggregate_size(index, signal, query, options));
-  aggregate(index, signal, query, result, options);
+                              const Run& run) {
+  std::vector<double> result(aggregate_size(index, signal, query, run));
+  aggregate(index, signal, query, result, run);
   return result;
 }
 

@@ -152,7 +152,7 @@ bool is_better_listed(const Index& index, const SignalView& signal, const Aggreg
 }
 
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
-                std::span<double> result, const AggregateOptions& options) {
+                std::span<double> result, const Run& run) {
   const IndexView& view = IndexAccess::view(index);
   std::vector<std::size_t> rows(query.vertices.count(index.vertex_count()));
   std::iota(rows.begin(), rows.end(), std::size_t{0});
@@ -160,20 +160,20 @@ void sum_listed(const Index& index, const SignalView& signal, const AggregateQue
   std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
     return std::pair(view.slot[query.vertices[a]], a) < std::pair(view.slot[query.vertices[b]], b);
   });
-  TaskContext task(options.threads, options.progress, rows.size());
+  TaskContext task(run.threads, run.progress, rows.size());
   ListedRows listed(signal, query, radius);
   std::vector<VertexId> vertices;
   for (std::size_t begin = 0; begin < rows.size(); begin += kRowsTogether) {
     const std::span<const std::size_t> some =
         std::span(rows).subspan(begin, std::min(kRowsTogether, rows.size() - begin));
     Progress still_wanted;
-    if (options.progress) {
-      still_wanted = [&](std::size_t, std::size_t) { return options.progress(begin, rows.size()); };
+    if (run.progress) {
+      still_wanted = [&](std::size_t, std::size_t) { return run.progress(begin, rows.size()); };
     }
     vertices.clear();
     for (const std::size_t row : some) vertices.push_back(query.vertices[row]);
     listed.set(neighborhoods(index, {.vertices = vertices, .radius = radius, .metric = query.metric},
-                             {.threads = options.threads, .distances = true, .progress = still_wanted}));
+                             {.distances = true}, {.threads = run.threads, .progress = still_wanted}));
     constexpr std::size_t kGrain = 16;
     task.parallel_for(some.size(), kGrain, [&](unsigned thread, std::size_t first, std::size_t end) {
       for (std::size_t i = first; i < end; ++i) listed.write(i, result.data() + some[i] * signal.channels);

@@ -22,6 +22,6 @@ namespace meshhood {
 
 /// Writes `result`, #rows by channels. The query has been checked, and has a smoothing kernel.
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
-                std::span<double> result, const AggregateOptions& options);
+                std::span<double> result, const Run& run);
 
 }  // namespace meshhood

@@ -26,12 +26,13 @@ void sort_answer(std::span<VertexId> ids, std::span<double> distances) {
   }
 }
 
-Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, std::size_t passes)
+Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, const Run& run,
+             std::size_t passes)
     : method_(query.metric == Metric::Straight ? method : method.by(query.metric)),
       factory_(method_.searchers()),
       options_(options),
       rows_(query, factory_.vertex_count),
-      task_(options.threads, options.progress, passes * rows_.size()),
+      task_(run.threads, run.progress, passes * rows_.size()),
       threads_(task_.threads()) {}
 
 BatchWorker& Batch::worker(unsigned thread) {

@@ -35,9 +35,10 @@ class Batch {
   /// The most rows of one call of `for_each_chunk`.
   static constexpr std::size_t kMaxRows = std::size_t{1} << 22;
 
-  /// Shares `method`, borrows `options`, and copies the rest. `passes`: the number of passes over all rows.
+  /// Shares `method`, borrows `run`, and copies the rest. `passes`: the number of passes over all rows.
   /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
-  Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, std::size_t passes);
+  Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, const Run& run,
+        std::size_t passes);
 
   [[nodiscard]] const Rows& rows() const { return rows_; }
   [[nodiscard]] const BatchOptions& options() const { return options_; }
@@ -97,7 +98,7 @@ class Batch {
 
   SearchMethod method_;
   const SearcherFactory& factory_;  // of `method_`
-  const BatchOptions& options_;
+  BatchOptions options_;
   Rows rows_;
   TaskContext task_;
   std::vector<PerThread> threads_;

@@ -46,8 +46,8 @@ std::uint64_t ids_at_once(const SizeLimit& limit, unsigned threads) {
 }
 
 /// Of the result.
-SizeLimit limit_of(const BatchOptions& options, std::size_t rows) {
-  return {options.max_bytes, sizeof(VertexId) + (options.distances ? sizeof(double) : 0), rows};
+SizeLimit limit_of(const BatchOptions& options, const Run& run, std::size_t rows) {
+  return {run.max_bytes, sizeof(VertexId) + (options.distances ? sizeof(double) : 0), rows};
 }
 
 /// What rows need that are counted first and written later: a limit for their ids, and a place for what was found.
@@ -96,8 +96,9 @@ BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool di
 
 /// Searches each row once. The rows wait in memory of our own until their number of ids is known.
 std::vector<std::uint64_t> stream_and_copy(const SearchMethod& method, const BatchQuery& query,
-                                           const BatchAllocator& allocate, const BatchOptions& options) {
-  SizeLimit limit = limit_of(options, query.vertices.count(method.vertex_count()));
+                                           const BatchAllocator& allocate, const BatchOptions& options,
+                                           const Run& run) {
+  SizeLimit limit = limit_of(options, run, query.vertices.count(method.vertex_count()));
   Neighborhoods rows{{0}, {}, {}};
   const auto append = [&](const BatchRow& row) {
     limit.add(row.ids.size());
@@ -107,7 +108,7 @@ std::vector<std::uint64_t> stream_and_copy(const SearchMethod& method, const Bat
   };
   BatchOptions in_row_order = options;
   in_row_order.in_index_order = false;
-  for_each_neighborhood(method, query, append, in_row_order);
+  for_each_neighborhood(method, query, append, in_row_order, run);
   const BatchMemory memory = allocated(allocate, rows.ids.size(), options.distances);
   std::copy(rows.ids.begin(), rows.ids.end(), memory.ids.begin());
   std::copy(rows.distances.begin(), rows.distances.end(), memory.distances.begin());
@@ -161,9 +162,9 @@ void write_rows(Batch& batch, KeptChunks& kept, std::span<const std::uint64_t> o
 
 }  // namespace
 
-std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options) {
+std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& query, const Run& run) {
   const std::vector<BatchRadius> passes = radius_of_passes(query.radius);
-  Batch batch(method, {query.vertices, passes.front(), query.metric}, options, passes.size());
+  Batch batch(method, {query.vertices, passes.front(), query.metric}, {}, run, passes.size());
   const std::size_t rows = batch.rows().size();
   std::vector<std::uint64_t> result(passes.size() * rows);
   for (std::size_t i = 0; i < passes.size(); ++i) {
@@ -175,11 +176,11 @@ std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& 
 }
 
 std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const BatchQuery& query,
-                                         const BatchAllocator& allocate, const BatchOptions& options) {
+                                         const BatchAllocator& allocate, const BatchOptions& options, const Run& run) {
   if (!allocate) raise(ErrorCode::InvalidOption, "allocate is empty, expected a function");
-  if (!method.searchers().is_count_cheap) return stream_and_copy(method, query, allocate, options);
-  Batch batch(method, query, options, 2);
-  SizeLimit limit = limit_of(options, batch.rows().size());
+  if (!method.searchers().is_count_cheap) return stream_and_copy(method, query, allocate, options, run);
+  Batch batch(method, query, options, run, 2);
+  SizeLimit limit = limit_of(options, run, batch.rows().size());
   check_sample(batch, limit);
   std::vector<std::uint64_t> offsets(batch.rows().size() + 1);
   KeptChunks kept(batch.task().threads());
@@ -193,14 +194,15 @@ std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const Batch
   return offsets;
 }
 
-Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options) {
+Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options,
+                            const Run& run) {
   Neighborhoods result;
   const auto allocate = [&](std::size_t count) -> BatchMemory {
     result.ids.resize(count);
     if (options.distances) result.distances.resize(count);
     return {result.ids, result.distances};
   };
-  result.offsets = neighborhoods(method, query, allocate, options);
+  result.offsets = neighborhoods(method, query, allocate, options, run);
   return result;
 }
 

@@ -39,8 +39,8 @@ constexpr double kAreaSlack = 1e-6;
 /// The rows of a call, in index order.
 class NearestRows {
  public:
-  NearestRows(const Index& index, const BatchVertices& vertices, const NearestOptions& options)
-      : index_(index), options_(options) {
+  NearestRows(const Index& index, const BatchVertices& vertices, const NearestOptions& options, const Run& run)
+      : index_(index), options_(options), run_(run) {
     check_radius(options.radius);
     const std::size_t count = vertices.count(index.vertex_count());
     vertices_.reserve(count);
@@ -65,7 +65,7 @@ class NearestRows {
     std::vector<std::pair<std::uint32_t, std::size_t>> in_order(size());
     for (std::size_t row = 0; row < size(); ++row) in_order[row] = {index_->slot[vertices_[row]], row};
     std::sort(in_order.begin(), in_order.end());
-    TaskContext task(options_.threads, options_.progress, size());
+    TaskContext task(run_.threads, run_.progress, size());
     std::vector<decltype(make())> searches(task.threads());
     task.parallel_for(size(), kRowsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
       if (!searches[thread]) searches[thread] = make();
@@ -79,7 +79,8 @@ class NearestRows {
 
  private:
   BoundIndex index_;
-  NearestOptions options_;
+  const NearestOptions& options_;
+  const Run& run_;
   std::vector<VertexId> vertices_;
 };
 
@@ -167,7 +168,7 @@ void find_disc(Search& search, VertexId v, std::size_t enough, double area, std:
 /// Refuses discs that are far too large, by the sizes of a sample. Its rows end at several times the mean size that
 /// fits, so that they take a part of the time of all rows.
 void check_sample(const Index& index, const BatchVertices& vertices, double area, std::span<const double> areas,
-                  NearestOptions options, const SizeLimit& limit) {
+                  const NearestOptions& options, Run run, const SizeLimit& limit) {
   constexpr std::size_t kWorthwhile = 64;
   constexpr std::uint64_t kTimesTheMean = 8;
   const std::size_t count = vertices.count(index.vertex_count());
@@ -176,10 +177,10 @@ void check_sample(const Index& index, const BatchVertices& vertices, double area
   if (most >= index.vertex_count()) return;
   std::vector<VertexId> some;
   for (std::size_t i = 0; i < SizeLimit::kSample; ++i) some.push_back(vertices[limit.sampled_row(i)]);
-  if (options.progress) {
-    options.progress = [count, all = options.progress](std::size_t, std::size_t) { return all(0, count); };
+  if (run.progress) {
+    run.progress = [count, all = run.progress](std::size_t, std::size_t) { return all(0, count); };
   }
-  NearestRows rows(index, some, options);
+  NearestRows rows(index, some, options, run);
   std::vector<double> sizes(some.size());
   for_each_row(index, rows, [&](auto& search, std::size_t row) {
     Disc disc;
@@ -206,13 +207,14 @@ void check_areas(double area, std::span<const double> areas, std::size_t vertice
 
 }  // namespace
 
-KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k, const NearestOptions& options) {
-  NearestRows rows(index, vertices, options);
+KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k, const NearestOptions& options,
+                   const Run& run) {
+  NearestRows rows(index, vertices, options, run);
   if (rows.size() != 0 && k > kMostValues / rows.size()) {
     raise(ErrorCode::TooLarge, "k: " + std::to_string(k) + " vertices for each of " + std::to_string(rows.size()) +
                                    " rows, expected at most " + std::to_string(kMostValues) + " in all");
   }
-  const SizeLimit limit(options.max_bytes, kItemBytes, rows.size());
+  const SizeLimit limit(run.max_bytes, kItemBytes, rows.size());
   if (rows.size() * k > limit.max_items()) limit.refuse("", rows.size() * k);
   KNearest result{std::vector<VertexId>(rows.size() * k, kNoVertex),
                   std::vector<double>(rows.size() * k, std::numeric_limits<double>::infinity())};
@@ -229,13 +231,13 @@ KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_
 }
 
 Neighborhoods discs(const Index& index, const BatchVertices& vertices, double area, std::span<const double> areas,
-                    const NearestOptions& options) {
+                    const NearestOptions& options, const Run& run) {
   const std::vector<double> copy(areas.begin(), areas.end());
   areas = copy;
   check_areas(area, areas, index.vertex_count());
-  NearestRows rows(index, vertices, options);
-  SizeLimit limit(options.max_bytes, kItemBytes, rows.size());
-  check_sample(index, vertices, area, areas, rows.options(), limit);
+  NearestRows rows(index, vertices, options, run);
+  SizeLimit limit(run.max_bytes, kItemBytes, rows.size());
+  check_sample(index, vertices, area, areas, options, run, limit);
   std::vector<Disc> found(rows.size());
   for_each_row(index, rows, [&](auto& search, std::size_t row) {
     Disc disc;

@@ -11,10 +11,9 @@
 namespace meshhood {
 
 void for_each_packet(const Index& index, const BatchQuery& query, const PacketVisitorFactory& make_visitor,
-                     const PacketOptions& options) {
+                     const PacketOptions& options, const Run& run) {
   if (!make_visitor) raise(ErrorCode::InvalidOption, "make_visitor is empty, expected a function");
-  const BatchOptions batch_options{.threads = options.threads, .progress = options.progress};
-  Batch batch(index, query, batch_options, 1);
+  Batch batch(index, query, {}, run, 1);
   std::vector<PacketVisitor> visitors(batch.task().threads());
   batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
     PacketVisitor& visitor = visitors[thread];

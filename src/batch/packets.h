@@ -5,7 +5,7 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/index.h"
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 #include "exact/joint/packet_answer.h"
 
@@ -14,18 +14,12 @@ namespace meshhood {
 /// Called with each packet of one thread.
 using PacketVisitor = std::function<void(const PacketAnswer&)>;
 
-/// Makes the visitor of thread number `thread`, which is less than `PacketOptions::threads`, or than the number of
-/// processors if that is 0. Called at most once for each number, by the thread itself, before its first packet.
+/// Makes the visitor of thread number `thread`, which is less than that of the threads of the call. Called at most once
+/// for each number, by the thread itself, before its first packet.
 using PacketVisitorFactory = std::function<PacketVisitor(unsigned thread)>;
 
-/// How packets are computed. The answers do not depend on threads and progress.
+/// What packets have.
 struct PacketOptions {
-  /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread.
-  unsigned threads = 1;
-
-  /// Receives the number of rows that were visited.
-  Progress progress = {};
-
   /// Whether packets have lengths, by paths and by rings. Rings are then searched row by row.
   bool lengths = false;
 };
@@ -42,9 +36,9 @@ struct PacketOptions {
 /// searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).
 ///
 /// All arguments are checked before the first packet is computed. An exception from a visitor, the factory or
-/// `options.progress` ends the call; it is passed on once all threads have stopped.
+/// `run.progress` ends the call; it is passed on once all threads have stopped.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 void for_each_packet(const Index& index, const BatchQuery& query, const PacketVisitorFactory& make_visitor,
-                     const PacketOptions& options = {});
+                     const PacketOptions& options = {}, const Run& run = {});
 
 }  // namespace meshhood

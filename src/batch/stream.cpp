@@ -194,9 +194,9 @@ class Stream {
 }  // namespace
 
 void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, const RowSink& sink,
-                           const BatchOptions& options) {
+                           const BatchOptions& options, const Run& run) {
   if (!sink) raise(ErrorCode::InvalidOption, "sink is empty, expected a function");
-  Batch batch(method, query, options, 1);
+  Batch batch(method, query, options, run, 1);
   Stream(batch, sink).run();
   batch.task().finish();
 }

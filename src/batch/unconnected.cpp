@@ -200,7 +200,7 @@ class UnconnectedSearch {
 
 }  // namespace
 
-Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const BatchOptions& options) {
+Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const Run& run) {
   const std::size_t rows = query.vertices.count(index.vertex_count());
   Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kNoGap)};
   const IndexView& view = IndexAccess::view(index);
@@ -214,7 +214,7 @@ Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, con
       }
     };
   };
-  for_each_packet(index, query, make_visitor, {.threads = options.threads, .progress = options.progress});
+  for_each_packet(index, query, make_visitor, {}, run);
   return result;
 }
 

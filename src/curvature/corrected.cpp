@@ -164,9 +164,8 @@ struct CorrectedRows {
 
 }  // namespace
 
-CorrectedCurvatures corrected_curvatures(const Surface& surface, const BatchQuery& query,
-                                         const CorrectedCurvatureOptions& options) {
-  TaskContext task(options.threads);
+CorrectedCurvatures corrected_curvatures(const Surface& surface, const BatchQuery& query, const Run& run) {
+  TaskContext task(run.threads);
   const OrientedIndex state = SurfaceAccess::oriented(surface, task);
   if (surface.face_count() == 0 && surface.vertex_count() != 0) {
     raise(ErrorCode::InvalidMesh, "the surface has no faces, expected faces, also with normals");
@@ -180,7 +179,7 @@ CorrectedCurvatures corrected_curvatures(const Surface& surface, const BatchQuer
     sum.vertices = listed;
   }
   const std::vector<double> sums = aggregate(*state.searched, {.values = held, .channels = kChannels}, sum,
-                                             {.threads = options.threads, .progress = options.progress});
+                                             {.threads = run.threads, .progress = run.progress});
   const std::size_t results = sums.size() / kChannels;
   const std::size_t rows = sum.vertices.count(surface.vertex_count());
   CorrectedCurvatures result;

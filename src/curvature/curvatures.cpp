@@ -135,7 +135,8 @@ void check_sizes(const CurvatureMemory& memory, std::size_t rows) {
 
 CurvatureOptions like_libigl() { return {.filter = true, .open_ball = true, .shape_operator = ShapeOperator::Libigl}; }
 
-Curvatures curvatures(const Surface& surface, const BatchQuery& query, const CurvatureOptions& options) {
+Curvatures curvatures(const Surface& surface, const BatchQuery& query, const CurvatureOptions& options,
+                      const Run& run) {
   const std::size_t rows = query.vertices.count(surface.vertex_count());
   Curvatures result;
   result.k1.resize(rows);
@@ -144,25 +145,24 @@ Curvatures curvatures(const Surface& surface, const BatchQuery& query, const Cur
   result.d2.resize(3 * rows);
   result.state.resize(rows);
   result.count.resize(rows);
-  curvatures(surface, query, {result.k1, result.k2, result.d1, result.d2, result.state, result.count}, options);
+  curvatures(surface, query, {result.k1, result.k2, result.d1, result.d2, result.state, result.count}, options, run);
   return result;
 }
 
 void curvatures(const Surface& surface, const BatchQuery& query, const CurvatureMemory& out,
-                const CurvatureOptions& options) {
+                const CurvatureOptions& options, const Run& run) {
   if (options.fit == CurvatureFit::Jet && options.shape_operator == ShapeOperator::Libigl) {
     raise(ErrorCode::InvalidOption, "libigl's shape operator requires the quadric, not the jet");
   }
-  const OrientedIndex state = SurfaceAccess::oriented(surface, options.threads);
+  const OrientedIndex state = SurfaceAccess::oriented(surface, run.threads);
   check_sizes(out, query.vertices.count(surface.vertex_count()));
   const MomentSource source{.index = state.index, .filter = options.filter ? &state : nullptr, .metric = query.metric};
-  visit_moments(*state.searched, query, options.open_ball, source,
-                {.threads = options.threads, .progress = options.progress}, [&] {
-                  auto fitter = std::make_shared<CurvatureFitter>(state, query.metric, options, out);
-                  return [fitter](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
-                    fitter->fit(packet, sums, moments);
-                  };
-                });
+  visit_moments(*state.searched, query, options.open_ball, source, run, [&] {
+    auto fitter = std::make_shared<CurvatureFitter>(state, query.metric, options, out);
+    return [fitter](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
+      fitter->fit(packet, sums, moments);
+    };
+  });
 }
 
 double shape_index(double k1, double k2) {

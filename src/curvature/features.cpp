@@ -62,12 +62,13 @@ double patch_feature(Feature kind, const PrincipalComponents& patch, std::size_t
 /// What one call of `features` computes, radius by radius.
 class FeatureExtraction {
  public:
-  FeatureExtraction(const Surface& surface, const BatchQuery& query, FeatureOptions options)
+  FeatureExtraction(const Surface& surface, const BatchQuery& query, FeatureOptions options, const Run& run)
       : surface_(surface),
-        state_(SurfaceAccess::oriented(surface, options.threads)),
+        state_(SurfaceAccess::oriented(surface, run.threads)),
         radii_(radius_of_passes(query.radius)),
         metric_(query.metric),
         options_(std::move(options)),
+        run_(run),
         rows_(surface.vertex_count()) {
     if (const auto& list = query.vertices.list()) {
       listed_.assign(list->begin(), list->end());
@@ -127,8 +128,7 @@ class FeatureExtraction {
   }
 
   void write_curvatures(const BatchRadius& radius_of_rows, std::span<double> values) {
-    const Curvatures k = curvatures(surface_, query_of(radius_of_rows),
-                                    {.filter = options_.filter, .threads = options_.threads, .progress = next_pass()});
+    const Curvatures k = curvatures(surface_, query_of(radius_of_rows), {.filter = options_.filter}, next_pass());
     const std::size_t kinds = options_.kinds.size();
     for (std::size_t row = 0; row < rows_; ++row) {
       const double radius = radius_at(radius_of_rows, row);
@@ -143,8 +143,7 @@ class FeatureExtraction {
 
   void write_patches(const BatchRadius& radius_of_rows, std::span<double> values) {
     const PrincipalComponents patch =
-        principal_components(*state_.searched, query_of(radius_of_rows),
-                             {.weights = options_.areas, .threads = options_.threads, .progress = next_pass()});
+        principal_components(*state_.searched, query_of(radius_of_rows), {.weights = options_.areas}, next_pass());
     const std::size_t kinds = options_.kinds.size();
     for (std::size_t row = 0; row < rows_; ++row) {
       const double radius = radius_at(radius_of_rows, row);
@@ -156,12 +155,14 @@ class FeatureExtraction {
     }
   }
 
-  Progress next_pass() {
-    if (!options_.progress) return {};
+  Run next_pass() {
+    Run pass{.threads = run_.threads};
+    if (!run_.progress) return pass;
     const std::size_t passes = radii_.size() * (static_cast<std::size_t>(fits_) + static_cast<std::size_t>(sums_));
-    return [this, passes, before = passes_begun_++ * rows_](std::size_t done, std::size_t /*total*/) {
-      return options_.progress(before + done, passes * rows_);
+    pass.progress = [this, passes, before = passes_begun_++ * rows_](std::size_t done, std::size_t /*total*/) {
+      return run_.progress(before + done, passes * rows_);
     };
+    return pass;
   }
 
   const Surface& surface_;
@@ -170,6 +171,7 @@ class FeatureExtraction {
   Metric metric_;
   double unit_ = 1;  // of the radii
   FeatureOptions options_;
+  const Run& run_;
   std::vector<VertexId> listed_;
   BatchVertices vertices_;
   std::vector<double> radius_of_row_;  // if there is one for each
@@ -191,7 +193,7 @@ void check_count(std::size_t count) {
 }
 
 /// Radii `begin` to `end` - 1, at which a feature lasts.
-struct Run {
+struct Streak {
   std::size_t begin;
   std::size_t end;
 
@@ -200,9 +202,9 @@ struct Run {
 
 /// The longest run of values of one sign that are as strong as the threshold.
 template <class ValueAt>
-Run longest_run(std::size_t radii, double threshold, const ValueAt& value) {
-  Run longest{0, 0};
-  Run run{0, 0};
+Streak longest_streak(std::size_t radii, double threshold, const ValueAt& value) {
+  Streak longest{0, 0};
+  Streak run{0, 0};
   for (std::size_t i = 0; i < radii; ++i) {
     const bool strong = std::abs(value(i)) >= threshold;
     const bool continues = strong && run.end == i && run.size() > 0 && (value(i) > 0) == (value(i - 1) > 0);
@@ -214,8 +216,9 @@ Run longest_run(std::size_t radii, double threshold, const ValueAt& value) {
 
 }  // namespace
 
-std::vector<double> features(const Surface& surface, const BatchQuery& query, const FeatureOptions& options) {
-  return FeatureExtraction(surface, query, options).run();
+std::vector<double> features(const Surface& surface, const BatchQuery& query, const FeatureOptions& options,
+                             const Run& run) {
+  return FeatureExtraction(surface, query, options, run).run();
 }
 
 std::vector<double> geometric_radii(double smallest, double largest, std::size_t count) {
@@ -257,7 +260,7 @@ Persistence persistence(std::span<const double> values, std::span<const double> 
   Persistence result{std::vector<std::int32_t>(rows), std::vector<double>(rows), std::vector<double>(rows)};
   for (std::size_t row = 0; row < rows; ++row) {
     const auto value = [&](std::size_t i) { return values[i * rows + row]; };
-    const Run run = longest_run(radii.size(), threshold, value);
+    const Streak run = longest_streak(radii.size(), threshold, value);
     if (run.size() == 0) continue;
     std::size_t best = run.begin;
     for (std::size_t i = run.begin; i < run.end; ++i) {

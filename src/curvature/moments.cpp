@@ -67,12 +67,12 @@ struct RowMoments {
 };
 
 /// Calls `take` with each row, on any of the threads.
-void for_each_row(const Index& index, const BatchQuery& query, const MomentOptions& options,
+void for_each_row(const Index& index, const BatchQuery& query, const MomentOptions& options, const Run& run,
                   const std::function<void(std::size_t row, const RowMoments&)>& take) {
   const IndexView& view = IndexAccess::view(index);
   const MomentWeights weights(view, options.weights);
   const MomentSource source{.index = &view, .weights = weights.values, .metric = query.metric};
-  visit_moments(index, query, false, source, {.threads = options.threads, .progress = options.progress}, [&] {
+  visit_moments(index, query, false, source, run, [&] {
     const auto direct = std::make_shared<DirectMoments>(index, source);
     return [&, direct](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
       for_each_query(packet.queries, [&](std::size_t q) {
@@ -109,14 +109,14 @@ PointDistribution distribution_of(const QueryMoments& moments, std::size_t query
   return {center, eigen(covariance)};
 }
 
-std::vector<double> moments(const Index& index, const BatchQuery& query, const MomentOptions& options) {
+std::vector<double> moments(const Index& index, const BatchQuery& query, const MomentOptions& options, const Run& run) {
   if (options.degree > kLargestMomentDegree) {
     raise(ErrorCode::InvalidOption,
           "degree is " + std::to_string(options.degree) + ", expected at most " + std::to_string(kLargestMomentDegree));
   }
   const std::size_t columns = moment_count(options.degree);
   std::vector<double> result(columns * query.vertices.count(index.vertex_count()));
-  for_each_row(index, query, options, [&](std::size_t row, const RowMoments& m) {
+  for_each_row(index, query, options, run, [&](std::size_t row, const RowMoments& m) {
     for (unsigned i = 0; i <= options.degree; ++i) {
       for (unsigned j = 0; i + j <= options.degree; ++j) {
         for (unsigned k = 0; i + j + k <= options.degree; ++k) {
@@ -128,14 +128,15 @@ std::vector<double> moments(const Index& index, const BatchQuery& query, const M
   return result;
 }
 
-PrincipalComponents principal_components(const Index& index, const BatchQuery& query, const MomentOptions& options) {
+PrincipalComponents principal_components(const Index& index, const BatchQuery& query, const MomentOptions& options,
+                                         const Run& run) {
   const std::size_t rows = query.vertices.count(index.vertex_count());
   PrincipalComponents result;
   result.weight.resize(rows);
   result.center.resize(3 * rows);
   result.variances.resize(3 * rows);
   result.axes.resize(9 * rows);
-  for_each_row(index, query, options, [&](std::size_t row, const RowMoments& m) { write_row(result, row, m); });
+  for_each_row(index, query, options, run, [&](std::size_t row, const RowMoments& m) { write_row(result, row, m); });
   return result;
 }
 

@@ -52,7 +52,7 @@ class PacketSummer {
 }  // namespace
 
 void visit_moments(const Index& index, const BatchQuery& query, bool open_ball, const MomentSource& source,
-                   const PacketOptions& options, const std::function<MomentVisitor()>& make_visitor) {
+                   const Run& run, const std::function<MomentVisitor()>& make_visitor) {
   BatchQuery closed = query;
   std::vector<double> radii;
   const bool opens = open_ball && query.metric != Metric::Rings;
@@ -68,7 +68,7 @@ void visit_moments(const Index& index, const BatchQuery& query, bool open_ball, 
         auto summer = std::make_shared<PacketSummer>(source, make_visitor());
         return [summer](const PacketAnswer& packet) { summer->visit(packet); };
       },
-      options);
+      {}, run);
 }
 
 }  // namespace meshhood

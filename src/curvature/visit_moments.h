@@ -31,6 +31,6 @@ using MomentVisitor =
 ///
 /// The moments of a row depend on index, source, vertex and radius alone, bit for bit: see `PacketMoments`.
 void visit_moments(const Index& index, const BatchQuery& query, bool open_ball, const MomentSource& source,
-                   const PacketOptions& options, const std::function<MomentVisitor()>& make_visitor);
+                   const Run& run, const std::function<MomentVisitor()>& make_visitor);
 
 }  // namespace meshhood

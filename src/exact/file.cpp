@@ -129,7 +129,7 @@ void verify_alignment(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-void save(const Index& index, const Sink& sink, const SaveOptions& options) {
+void save(const Index& index, const Sink& sink, const SaveOptions& options, const Run& run) {
   const IndexView& view = IndexAccess::whole(index, "saved");
   file::SectionWriter writer;
   writer.add("frame", std::span(&view.frame, 1));
@@ -142,7 +142,7 @@ void save(const Index& index, const Sink& sink, const SaveOptions& options) {
   }
   const bool is_double = std::holds_alternative<std::span<const double>>(view.positions);
   const std::size_t scalar_bytes = is_double ? sizeof(double) : sizeof(float);
-  TaskContext task(1, options.progress, writer.parts());
+  TaskContext task(1, run.progress, writer.parts());
   const Fingerprint mesh = fingerprint(index, task);
   task.report_progress();
   writer.write({.vertices = view.vertex_count(),
@@ -152,19 +152,20 @@ void save(const Index& index, const Sink& sink, const SaveOptions& options) {
                sink, task);
 }
 
-Index load(std::span<const std::byte> bytes, const LoadOptions& options) {
+Index load(std::span<const std::byte> bytes, const Run& run) {
   // Before the copy is allocated.
   static_cast<void>(read_header(bytes));
   AlignedBuffer copy = AlignedBuffer::copy_of(bytes);
   const auto at = copy.bytes();
-  return map(at, copy.take_owner(), {.progress = options.progress});
+  return map(at, copy.take_owner(), {}, run);
 }
 
-Index map(std::span<const std::byte> bytes, std::shared_ptr<const void> owner, const MapOptions& options) {
+Index map(std::span<const std::byte> bytes, std::shared_ptr<const void> owner, const MapOptions& options,
+          const Run& run) {
   verify_alignment(bytes);
   file::SectionReader file(bytes);
   file::expect_kind(file.header().kind, IndexKind::Exact);
-  TaskContext task(1, options.progress, options.trusted ? 0 : file.header().sections + file::kVerifyParts);
+  TaskContext task(1, run.progress, options.trusted ? 0 : file.header().sections + file::kVerifyParts);
   if (!options.trusted) file.verify_checksums(task);
   auto view = take_arrays(file);
   file.expect_end();

@@ -297,15 +297,15 @@ Adjacency linked(const PositionsView& points, double link, std::size_t max_edges
 
 }  // namespace
 
-Adjacency link_points(const PositionsView& points, double link, const LinkOptions& options) {
-  TaskContext task(options.threads, options.progress, kLinkSteps);
+Adjacency link_points(const PositionsView& points, double link, const LinkOptions& options, const Run& run) {
+  TaskContext task(run.threads, run.progress, kLinkSteps);
   Adjacency graph = linked(points, link, options.max_edges, task);
   task.finish();
   return graph;
 }
 
-Index build_linked(const PositionsView& points, double link, const LinkOptions& options) {
-  TaskContext task(options.threads, options.progress, kLinkSteps + IndexAccess::kBuildSteps);
+Index build_linked(const PositionsView& points, double link, const LinkOptions& options, const Run& run) {
+  TaskContext task(run.threads, run.progress, kLinkSteps + IndexAccess::kBuildSteps);
   const Adjacency graph = linked(points, link, options.max_edges, task);
   Index index = IndexAccess::make(IndexAccess::build_arrays(points, EdgeSource(graph.view()), task));
   task.report_progress();

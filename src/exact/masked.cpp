@@ -76,12 +76,11 @@ void pierce(const IndexView& index, MaskedData& data) {
 
 }  // namespace
 
-Index masked(const Index& index, const Masks& masks, unsigned threads) {
+Index masked(const Index& index, const Masks& masks, const Run& run) {
   const IndexView& given = IndexAccess::whole(index, "masked again");
   check_mask(masks.walls, given.vertex_count(), "walls");
   check_mask(masks.ignored, given.vertex_count(), "ignored");
-  const Progress none;
-  TaskContext task(threads, none, 0);
+  TaskContext task(run.threads, run.progress, 1);
   auto data = std::make_shared<MaskedData>();
   data->shared = given;
   data->walls = lanes_by_leaf(given, masks.walls, task);
@@ -97,6 +96,7 @@ Index masked(const Index& index, const Masks& masks, unsigned threads) {
   view->is_masked = true;
   view->geometry = nullptr;
   view->owner = std::move(data);
+  task.finish();
   return IndexAccess::make(std::move(view), index);
 }
 

@@ -79,8 +79,8 @@ MeshView ReorderedMesh::view() const& {
           face_offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(face_offsets, corners)};
 }
 
-ReorderedMesh reorder(const MeshView& mesh, const BuildOptions& options) {
-  TaskContext task(options.threads, options.progress, IndexAccess::kBuildSteps);
+ReorderedMesh reorder(const MeshView& mesh, const Run& run) {
+  TaskContext task(run.threads, run.progress, IndexAccess::kBuildSteps);
   if (mesh.faces.size() > std::numeric_limits<std::uint32_t>::max()) {
     raise(ErrorCode::TooLarge, std::to_string(mesh.faces.size()) + " faces, but the limit is " +
                                    std::to_string(std::numeric_limits<std::uint32_t>::max()));

@@ -67,12 +67,13 @@ Hierarchy<Real> keep(std::span<const Real> xyz, const std::vector<DraftLevel>& l
 }
 
 template <class Real>
-Hierarchy<Real> compute(std::span<const Real> xyz, const AdjacencyView& graph, const BuildOptions& options) {
+Hierarchy<Real> compute(std::span<const Real> xyz, const AdjacencyView& graph, const BuildOptions& options,
+                        const Run& run) {
   std::vector<DraftLevel> levels;
   levels.push_back(base_level(xyz, graph));
   std::vector<std::vector<ClusterId>> parents;
   double threshold = 1;
-  TaskContext task(1, options.progress, max_steps(options));
+  TaskContext task(1, run.progress, max_steps(options));
   while (!is_complete(levels.back()) && static_cast<int>(levels.size()) < options.levels) {
     const DraftLevel& below = levels.back();
     threshold *= options.fusion_growth;
@@ -99,36 +100,38 @@ bool fits_float_spheres(std::span<const float> xyz) {
   return std::all_of(xyz.begin(), xyz.end(), [](float x) { return std::abs(x) <= 0x1p125F; });
 }
 
-AnyHierarchy compute_any(std::span<const double> xyz, const AdjacencyView& graph, const BuildOptions& options) {
-  return compute(xyz, graph, options);
+AnyHierarchy compute_any(std::span<const double> xyz, const AdjacencyView& graph, const BuildOptions& options,
+                         const Run& run) {
+  return compute(xyz, graph, options, run);
 }
 
-AnyHierarchy compute_any(std::span<const float> xyz, const AdjacencyView& graph, const BuildOptions& options) {
-  if (fits_float_spheres(xyz)) return compute(xyz, graph, options);
+AnyHierarchy compute_any(std::span<const float> xyz, const AdjacencyView& graph, const BuildOptions& options,
+                         const Run& run) {
+  if (fits_float_spheres(xyz)) return compute(xyz, graph, options, run);
   const std::vector<double> wide(xyz.begin(), xyz.end());
-  return compute<double>(wide, graph, options);
+  return compute<double>(wide, graph, options, run);
 }
 
 /// `graph` and `options` are valid.
-Index make_index(const GraphView& graph, const BuildOptions& options) {
+Index make_index(const GraphView& graph, const BuildOptions& options, const Run& run) {
   AnyHierarchy hierarchy = graph.positions.visit([&]<class Real>(const StridedPositions<Real>& xyz) {
-    return compute_any(PackedPositions<Real>(xyz).view(), graph.adjacency, options);
+    return compute_any(PackedPositions<Real>(xyz).view(), graph.adjacency, options, run);
   });
   return IndexAccess::make(std::move(hierarchy), fingerprint(graph));
 }
 
 }  // namespace
 
-Index build(const GraphView& graph, const BuildOptions& options) {
+Index build(const GraphView& graph, const BuildOptions& options, const Run& run) {
   check_options(options);
   validate(graph);
-  return make_index(graph, options);
+  return make_index(graph, options, run);
 }
 
-Index build(const MeshView& mesh, const BuildOptions& options) {
+Index build(const MeshView& mesh, const BuildOptions& options, const Run& run) {
   check_options(options);
   const Adjacency graph = adjacency(mesh);
-  return make_index({mesh.positions, graph.view()}, options);
+  return make_index({mesh.positions, graph.view()}, options, run);
 }
 
 }  // namespace meshhood::paper

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The sections of the paper's index. Data that follows from other data is not stored and so cannot contradict it:
 // parents, the vertices of clusters above the lowest level, the cluster of each vertex, mean radii.
+#include <cmath>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
@@ -11,8 +14,8 @@
 #include "format/section_writer.h"
 #include "paper/draft.h"
 #include "paper/hierarchy.h"
-#include "paper/verify.h"
 #include "shared/aligned_buffer.h"
+#include "shared/distance.h"
 #include "shared/parallel.h"
 
 namespace meshhood::paper {
@@ -75,6 +78,91 @@ std::span<const LevelRecord> take_records(SectionReader& file) {
   return records;
 }
 
+void verify_row(const AdjacencyView& siblings, std::size_t cluster, const SectionReader& file) {
+  const std::span<const VertexId> row = siblings[cluster];
+  for (const VertexId& sibling : row) {
+    const bool is_next = &sibling == row.data() || (&sibling)[-1] < sibling;
+    if (sibling < siblings.size() && sibling != cluster && is_next) continue;
+    file.refuse(&sibling, "cluster " + std::to_string(cluster) + ": sibling " + std::to_string(sibling) +
+                              ", expected another of " + std::to_string(siblings.size()) + ", in ascending order");
+  }
+}
+
+/// `ids` has each of 0 .. size - 1 once.
+void verify_permutation(std::span<const VertexId> ids, const SectionReader& file) {
+  std::vector<bool> seen(ids.size());
+  for (const VertexId& id : ids) {
+    if (id >= ids.size() || seen[id]) {
+      file.refuse(&id, "vertex " + std::to_string(id) + ", expected each of " + std::to_string(ids.size()) + " once");
+    }
+    seen[id] = true;
+  }
+}
+
+/// `starts` ascends strictly from 0 to `end`.
+void verify_starts(std::span<const ClusterId> starts, std::size_t end, const SectionReader& file) {
+  if (starts.front() != 0) file.refuse(starts.data(), "begins with " + std::to_string(starts.front()) + ", expected 0");
+  for (std::size_t c = 0; c + 1 < starts.size(); ++c) {
+    if (starts[c] < starts[c + 1] && starts[c + 1] <= end) continue;
+    file.refuse(&starts[c], "cluster " + std::to_string(c) + ": range from " + std::to_string(starts[c]) + " to " +
+                                std::to_string(starts[c + 1]) + ", expected a range that is not empty and ends by " +
+                                std::to_string(end));
+  }
+  if (starts.back() != end) {
+    file.refuse(&starts.back(), "ends with " + std::to_string(starts.back()) + ", expected " + std::to_string(end));
+  }
+}
+
+/// Each row ascends, is in range, and does not contain its own cluster; each pair occurs in both directions.
+void verify_siblings(const AdjacencyView& siblings, const SectionReader& file) {
+  const std::size_t end = siblings.neighbors.size();
+  if (siblings.offsets.front() != 0 || siblings.offsets.back() != end) {
+    file.refuse(siblings.offsets.data(), "rows do not run from 0 to " + std::to_string(end));
+  }
+  for (std::size_t c = 0; c < siblings.size(); ++c) {
+    if (siblings.offsets[c] <= siblings.offsets[c + 1] && siblings.offsets[c + 1] <= end) continue;
+    file.refuse(&siblings.offsets[c], "cluster " + std::to_string(c) + ": rows do not ascend");
+  }
+  for (std::size_t c = 0; c < siblings.size(); ++c) verify_row(siblings, c, file);
+  // Clusters are visited in ascending order, so their entries must come in that order in each sibling's row.
+  std::vector<EdgeOffset> next(siblings.offsets.begin(), siblings.offsets.end());
+  for (std::size_t c = 0; c < siblings.size(); ++c) {
+    for (const VertexId& sibling : siblings[c]) {
+      const std::size_t back = next[sibling]++;
+      if (back < siblings.offsets[sibling + std::size_t{1}] && siblings.neighbors[back] == c) continue;
+      file.refuse(&sibling, "cluster " + std::to_string(c) + ": sibling " + std::to_string(sibling) +
+                                " does not list it as a sibling");
+    }
+  }
+}
+
+template <class Real>
+void verify_spheres(std::span<const Sphere<Real>> spheres, const SectionReader& file) {
+  for (const Sphere<Real>& s : spheres) {
+    const bool is_sphere = std::isfinite(s.x) && std::isfinite(s.y) && std::isfinite(s.z) && std::isfinite(s.radius);
+    if (!is_sphere || s.radius < 0)
+      file.refuse(&s, "a sphere whose center or radius is not finite, or whose radius is negative");
+  }
+}
+
+/// Spheres enclose their vertices, with the distances of the query.
+template <class Real>
+void verify_enclosed(const Hierarchy<Real>& hierarchy, const SectionReader& file) {
+  for (std::size_t l = 0; l < hierarchy.levels.size(); ++l) {
+    const Level<Real>& level = hierarchy.levels[l];
+    for (std::size_t c = 0; c < level.size(); ++c) {
+      const Sphere<Real>& sphere = level.spheres[c];
+      for (std::size_t i = level.first_vertex[c]; i < level.first_vertex[c + 1]; ++i) {
+        const double d2 = squared_distance(center_of(sphere), point<Real>(hierarchy.positions, i));
+        if (std::sqrt(d2) <= static_cast<double>(sphere.radius)) continue;
+        file.refuse_in(
+            "spheres " + std::to_string(l), c * sizeof(Sphere<Real>),
+            "cluster " + std::to_string(c) + ": does not enclose vertex " + std::to_string(hierarchy.vertices[i]));
+      }
+    }
+  }
+}
+
 /// below: the levels below, and the vertices.
 template <class Real>
 Level<Real> take_level(SectionReader& file, std::size_t l, const LevelRecord& record, const Hierarchy<Real>& below) {
@@ -83,14 +171,14 @@ Level<Real> take_level(SectionReader& file, std::size_t l, const LevelRecord& re
   Level<Real> level;
   level.number = static_cast<int>(record.number);
   const auto first = file.take<ClusterId>(members_name(l), std::uint64_t{clusters} + 1);
-  file::verify_starts(first, members, file);
+  verify_starts(first, members, file);
   (l == 0 ? level.first_vertex : level.first_child) = copy(first);
   const auto spheres = file.take<Sphere<Real>>(on_level("spheres", l), clusters);
-  file::verify_spheres(spheres, file);
+  verify_spheres(spheres, file);
   level.spheres = copy(spheres);
   const auto rows = file.take<EdgeOffset>(on_level("sibling_rows", l), std::uint64_t{clusters} + 1);
   const auto siblings = file.take<ClusterId>(on_level("siblings", l));
-  file::verify_siblings({rows, siblings}, file);
+  verify_siblings({rows, siblings}, file);
   level.siblings = {copy(rows), copy(siblings)};
   return level;
 }
@@ -104,7 +192,7 @@ Hierarchy<Real> take_hierarchy(SectionReader& file) {
   file::verify_coordinates(positions, file);
   hierarchy.positions = copy(positions);
   const auto ids = file.take<VertexId>("vertices", vertices);
-  file::verify_permutation(ids, file);
+  verify_permutation(ids, file);
   hierarchy.vertices = copy(ids);
   for (std::size_t l = 0; l < records.size(); ++l) {
     hierarchy.levels.push_back(take_level(file, l, records[l], hierarchy));
@@ -112,24 +200,23 @@ Hierarchy<Real> take_hierarchy(SectionReader& file) {
   file.expect_end();
   derive(hierarchy);
   for (Level<Real>& level : hierarchy.levels) level.mean_radius = mean_radius(level);
-  file::verify_enclosed(hierarchy, file);
+  verify_enclosed(hierarchy, file);
   return hierarchy;
 }
 
 }  // namespace
 
-void save(const Index& index, const Sink& sink, const SaveOptions& options) {
-  if (options.faces) raise(ErrorCode::InvalidOption, "faces: the index of the paper is saved without them");
-  std::visit([&](const auto& hierarchy) { save(hierarchy, IndexAccess::mesh(index), sink, options.progress); },
+void save(const Index& index, const Sink& sink, const Run& run) {
+  std::visit([&](const auto& hierarchy) { save(hierarchy, IndexAccess::mesh(index), sink, run.progress); },
              IndexAccess::hierarchy(index));
 }
 
-Index load(std::span<const std::byte> bytes, const LoadOptions& options) {
+Index load(std::span<const std::byte> bytes, const Run& run) {
   const IndexHeader header = read_header(bytes);
   file::expect_kind(header.kind, IndexKind::Paper);
   const AlignedBuffer copy = AlignedBuffer::copy_of(bytes);
   SectionReader file(copy.bytes());
-  TaskContext task(1, options.progress, file.header().sections + 1);
+  TaskContext task(1, run.progress, file.header().sections + 1);
   file.verify_checksums(task);
   AnyHierarchy hierarchy = header.is_double ? AnyHierarchy(take_hierarchy<double>(file)) : take_hierarchy<float>(file);
   task.step();

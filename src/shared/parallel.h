@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 #include "shared/coarse_clock.h"
 

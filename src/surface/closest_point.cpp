@@ -185,12 +185,12 @@ SurfacePoint Surface::closest_point(const SpacePoint& point) const {
 }
 
 std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> points,
-                                                  const BatchOptions& options) const {
+                                                  const Run& run) const {
   const State& state = SurfaceAccess::state(*this);
   for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points: row " + std::to_string(i) + ": ");
   const FaceTree& tree = state.tree();
   const std::vector<std::size_t> in_order = along_curve(points, state.index->frame);
-  TaskContext task(options.threads, options.progress, points.size());
+  TaskContext task(run.threads, run.progress, points.size());
   std::vector<SurfacePoint> found(points.size());
   task.parallel_for(points.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     ClosestPoint search(*state.index, tree);

@@ -39,7 +39,7 @@ struct Streamed {
   friend bool operator==(const Streamed&, const Streamed&) = default;
 };
 
-Streamed stream(const SearchMethod& index, const BatchQuery& query, const BatchOptions& options) {
+Streamed stream(const SearchMethod& index, const BatchQuery& query, const BatchOptions& options, const Run& run = {}) {
   Streamed result;
   for_each_neighborhood(
       index, query,
@@ -48,7 +48,7 @@ Streamed stream(const SearchMethod& index, const BatchQuery& query, const BatchO
         result.ids.emplace_back(row.ids.begin(), row.ids.end());
         result.distances.emplace_back(row.distances.begin(), row.distances.end());
       },
-      options);
+      options, run);
   return result;
 }
 
@@ -120,10 +120,11 @@ void expect_right(const SearchMethod& index, const Source& source, const RandomR
   for (const unsigned threads : kThreads) {
     // The smaller buffers hold no row, or few.
     for (const std::size_t buffer : {std::size_t{0}, std::size_t{2000}, std::size_t{1} << 24}) {
-      const BatchOptions options{.threads = threads, .distances = true, .sorted = true, .buffer_bytes = buffer};
-      EXPECT_EQ(stream(index, rows.query(), options), expected) << threads << " threads, " << buffer << " bytes";
+      const BatchOptions options{.distances = true, .sorted = true, .buffer_bytes = buffer};
+      EXPECT_EQ(stream(index, rows.query(), options, {.threads = threads}), expected)
+          << threads << " threads, " << buffer << " bytes";
     }
-    EXPECT_EQ(rows_of(neighborhoods(index, rows.query(), {.threads = threads, .distances = true, .sorted = true})),
+    EXPECT_EQ(rows_of(neighborhoods(index, rows.query(), {.distances = true, .sorted = true}, {.threads = threads})),
               expected);
     EXPECT_EQ(counts(index, rows.query(), {.threads = threads}), sizes_of(expected));
   }
@@ -156,11 +157,12 @@ TEST_P(Families, OrderDoesNotDependOnTheThreads) {
   const Index index = build(mesh.view());
   const RandomRows rows(mesh.view(), 600, 1);
   for (const std::size_t buffer : {std::size_t{5000}, std::size_t{1} << 24}) {
-    const Streamed expected = stream(index, rows.query(), {.distances = true, .buffer_bytes = buffer});
-    const Neighborhoods collected = neighborhoods(index, rows.query());
+    const Streamed expected = stream(index, rows.query(), {.distances = true, .buffer_bytes = buffer}, {.threads = 1});
+    const Neighborhoods collected = neighborhoods(index, rows.query(), {}, {.threads = 1});
     for (const unsigned threads : kThreads) {
-      EXPECT_EQ(stream(index, rows.query(), {.threads = threads, .distances = true, .buffer_bytes = buffer}), expected);
-      EXPECT_EQ(neighborhoods(index, rows.query(), {.threads = threads}).ids, collected.ids);
+      EXPECT_EQ(stream(index, rows.query(), {.distances = true, .buffer_bytes = buffer}, {.threads = threads}),
+                expected);
+      EXPECT_EQ(neighborhoods(index, rows.query(), {}, {.threads = threads}).ids, collected.ids);
     }
   }
 }
@@ -177,7 +179,7 @@ class Batches : public testing::Test {
 TEST_F(Batches, WithoutAListTakeAllVerticesInOrder) {
   std::vector<VertexId> all(index.vertex_count());
   std::iota(all.begin(), all.end(), VertexId{0});
-  const BatchOptions options{.threads = 2, .sorted = true};
+  const BatchOptions options{.sorted = true};
   EXPECT_EQ(stream(index, {.radius = 2.5}, options), stream(index, {.vertices = all, .radius = 2.5}, options));
   EXPECT_EQ(counts(index, {.radius = 0.5}), std::vector<std::uint64_t>(all.size(), 1));
 }
@@ -187,13 +189,13 @@ TEST_F(Batches, OfNoRowsAreEmpty) {
   const BatchQuery query{.vertices = none, .radius = 1.0};
   EXPECT_THAT(counts(index, query), IsEmpty());
   EXPECT_THAT(neighborhoods(index, query).offsets, ElementsAre(0));
-  EXPECT_THAT(stream(index, query, {.threads = 2}).ids, IsEmpty());
+  EXPECT_THAT(stream(index, query, {}, {.threads = 2}).ids, IsEmpty());
 }
 
 TEST_F(Batches, OfAnEmptyMeshAreEmpty) {
   const Index empty = build(MeshView{});
   EXPECT_THAT(counts(empty, {.radius = 1.0}), IsEmpty());
-  EXPECT_THAT(neighborhoods(empty, {.radius = 1.0}, {.threads = 2}).offsets, ElementsAre(0));
+  EXPECT_THAT(neighborhoods(empty, {.radius = 1.0}, {}, {.threads = 2}).offsets, ElementsAre(0));
   const paper::Index empty_paper = paper::build(MeshView{});
   EXPECT_THAT(stream(empty_paper, {.radius = 1.0}, {}).ids, IsEmpty());
   EXPECT_THAT(stream(SearchMethod::breadth_first({}), {.radius = 1.0}, {}).ids, IsEmpty());
@@ -230,8 +232,9 @@ class Guarded {
   std::vector<T> values_;
 };
 
-void expect_same_in_callers_memory(const SearchMethod& index, const BatchQuery& query, const BatchOptions& options) {
-  const Neighborhoods expected = neighborhoods(index, query, options);
+void expect_same_in_callers_memory(const SearchMethod& index, const BatchQuery& query, const BatchOptions& options,
+                                   const Run& run) {
+  const Neighborhoods expected = neighborhoods(index, query, options, run);
   Guarded<VertexId> ids;
   Guarded<double> distances;
   std::vector<std::size_t> calls;
@@ -241,7 +244,7 @@ void expect_same_in_callers_memory(const SearchMethod& index, const BatchQuery& 
     calls.push_back(count);
     return {ids.take(count), distances.take(options.distances ? count : 0)};
   };
-  EXPECT_EQ(neighborhoods(index, query, allocate, options), expected.offsets);
+  EXPECT_EQ(neighborhoods(index, query, allocate, options, run), expected.offsets);
   EXPECT_THAT(calls, ElementsAre(expected.ids.size()));
   EXPECT_EQ(ids.values(), expected.ids);
   EXPECT_EQ(distances.values(), expected.distances);
@@ -252,13 +255,13 @@ TEST_F(Batches, FillMemoryThatTheCallerAllocates) {
   const RandomRows rows(mesh.view(), 500, 3);
   for (const unsigned threads : kThreads) {
     for (const bool distances : {false, true}) {
-      const BatchOptions options{.threads = threads, .distances = distances, .sorted = distances};
-      expect_same_in_callers_memory(index, rows.query(), options);
-      expect_same_in_callers_memory(approximate, rows.query(), options);
+      const BatchOptions options{.distances = distances, .sorted = distances};
+      expect_same_in_callers_memory(index, rows.query(), options, {.threads = threads});
+      expect_same_in_callers_memory(approximate, rows.query(), options, {.threads = threads});
     }
   }
-  const Index empty = build(MeshView{});
-  expect_same_in_callers_memory(empty, {.radius = 1.0}, {});
+  const Index empty = build(MeshView{}, {});
+  expect_same_in_callers_memory(empty, {.radius = 1.0}, {}, {});
 }
 
 TEST_F(Batches, RefuseMemoryOfAnotherSize) {
@@ -269,7 +272,7 @@ TEST_F(Batches, RefuseMemoryOfAnotherSize) {
       return {std::span(ids).first(with_ids), std::span(distances).first(with_distances)};
     };
     expect_refused(ErrorCode::InvalidOption, cause, [&] {
-      static_cast<void>(neighborhoods(index, {.radius = 0.5}, allocate, {.threads = 2, .distances = true}));
+      static_cast<void>(neighborhoods(index, {.radius = 0.5}, allocate, {.distances = true}, {.threads = 2}));
     });
   };
   refused("memory for 3599 ids, expected for 3600", 3599, 3600);
@@ -282,7 +285,7 @@ TEST_F(Batches, RefuseMemoryOfAnotherSize) {
 TEST_F(Batches, PassOnExceptionsOfTheAllocator) {
   for (const unsigned threads : kThreads) {
     const auto allocate = [](std::size_t) -> BatchMemory { throw std::bad_alloc(); };
-    EXPECT_THROW(static_cast<void>(neighborhoods(index, {.radius = 2.0}, allocate, {.threads = threads})),
+    EXPECT_THROW(static_cast<void>(neighborhoods(index, {.radius = 2.0}, allocate, {}, {.threads = threads})),
                  std::bad_alloc);
   }
 }
@@ -296,20 +299,20 @@ TEST_F(Batches, OfMoreRowsThanAPieceHaveAllRows) {
 
 /// Expects each of the calls to refuse before it passes on rows or reports progress.
 void expect_all_refused(ErrorCode code, const std::string& cause, const SearchMethod& index, const BatchQuery& query,
-                        BatchOptions options) {
+                        meshhood::Run run) {
   const auto never = [&](const BatchRow&) { ADD_FAILURE() << "passed on before: " << cause; };
-  options.progress = [&](std::size_t, std::size_t) {
+  run.progress = [&](std::size_t, std::size_t) {
     ADD_FAILURE() << "reported before: " << cause;
     return true;
   };
-  expect_refused(code, cause, [&] { for_each_neighborhood(index, query, never, options); });
-  expect_refused(code, cause, [&] { static_cast<void>(neighborhoods(index, query, options)); });
-  expect_refused(code, cause, [&] { static_cast<void>(counts(index, query, options)); });
+  expect_refused(code, cause, [&] { for_each_neighborhood(index, query, never, {}, run); });
+  expect_refused(code, cause, [&] { static_cast<void>(neighborhoods(index, query, {}, run)); });
+  expect_refused(code, cause, [&] { static_cast<void>(counts(index, query, run)); });
   const auto no_memory = [&](std::size_t) -> BatchMemory {
     ADD_FAILURE() << "allocated before: " << cause;
     return {};
   };
-  expect_refused(code, cause, [&] { static_cast<void>(neighborhoods(index, query, no_memory, options)); });
+  expect_refused(code, cause, [&] { static_cast<void>(neighborhoods(index, query, no_memory, {}, run)); });
 }
 
 TEST_F(Batches, RefuseInvalidArgumentsBeforeTheFirstRow) {
@@ -319,10 +322,10 @@ TEST_F(Batches, RefuseInvalidArgumentsBeforeTheFirstRow) {
   const std::vector<VertexId> three{0, 1, 2};
   const paper::Index approximate = paper::build(mesh.view());
   const auto refused = [&](ErrorCode code, const std::string& cause, const BatchQuery& query,
-                           const BatchOptions& options = {}) {
-    expect_all_refused(code, cause, index, query, options);
-    expect_all_refused(code, cause, approximate, query, options);
-    expect_all_refused(code, cause, SearchMethod::ball_scan(mesh.view().positions), query, options);
+                           const meshhood::Run& run = {}) {
+    expect_all_refused(code, cause, index, query, run);
+    expect_all_refused(code, cause, approximate, query, run);
+    expect_all_refused(code, cause, SearchMethod::ball_scan(mesh.view().positions), query, run);
   };
   refused(ErrorCode::VertexOutOfRange, "row 2: vertex 3600, but the mesh has 3600 vertices",
           {.vertices = vertices, .radius = 1.0});
@@ -354,16 +357,16 @@ TEST_F(Batches, ReadTheirQueryOnce) {
                                      SearchMethod::ball_scan(graph.positions)}) {
     const Neighborhoods expected = neighborhoods(method, rows.query());
     RandomRows changed = rows;
-    const BatchOptions options{.progress = [&](std::size_t, std::size_t) {
+    const meshhood::Run run{.progress = [&](std::size_t, std::size_t) {
       std::fill(changed.vertices.begin(), changed.vertices.end(), VertexId{4'000'000'000});
       std::fill(changed.radii.begin(), changed.radii.end(), std::numeric_limits<double>::quiet_NaN());
       return true;
     }};
-    EXPECT_EQ(neighborhoods(method, changed.query(), options).ids, expected.ids);
+    EXPECT_EQ(neighborhoods(method, changed.query(), {}, run).ids, expected.ids);
     changed = rows;
-    EXPECT_EQ(counts(method, changed.query(), options), sizes_of(rows_of(expected)));
+    EXPECT_EQ(counts(method, changed.query(), run), sizes_of(rows_of(expected)));
     changed = rows;
-    EXPECT_EQ(stream(method, changed.query(), options).ids.size(), rows.vertices.size());
+    EXPECT_EQ(stream(method, changed.query(), {}, run).ids.size(), rows.vertices.size());
   }
 }
 
@@ -372,11 +375,11 @@ TEST_F(Batches, RefuseAResultBeyondTheLimit) {
   for (const unsigned threads : kThreads) {
     for (const bool distances : {false, true}) {
       const std::uint64_t bytes = ids * (sizeof(VertexId) + (distances ? sizeof(double) : 0));
-      BatchOptions options{.threads = threads, .distances = distances, .max_bytes = bytes};
-      EXPECT_EQ(neighborhoods(index, {.radius = 3}, options).ids.size(), ids);
-      --options.max_bytes;
-      expect_refused(ErrorCode::TooLarge, " bytes, exceeds max_bytes, " + std::to_string(options.max_bytes),
-                     [&] { static_cast<void>(neighborhoods(index, {.radius = 3}, options)); });
+      meshhood::Run run{.threads = threads, .max_bytes = bytes};
+      EXPECT_EQ(neighborhoods(index, {.radius = 3}, {.distances = distances}, run).ids.size(), ids);
+      --run.max_bytes;
+      expect_refused(ErrorCode::TooLarge, " bytes, exceeds max_bytes, " + std::to_string(run.max_bytes),
+                     [&] { static_cast<void>(neighborhoods(index, {.radius = 3}, {.distances = distances}, run)); });
     }
   }
 }
@@ -384,12 +387,14 @@ TEST_F(Batches, RefuseAResultBeyondTheLimit) {
 TEST_F(Batches, RefuseAResultFarBeyondTheLimitByASample) {
   const std::vector<VertexId> vertices(100'000, VertexId{7});
   std::size_t most = 0;
-  const BatchOptions options{.max_bytes = std::uint64_t{1} << 30, .progress = [&](std::size_t done, std::size_t) {
-                               most = std::max(most, done);
-                               return true;
-                             }};
+  const meshhood::Run run{.progress =
+                              [&](std::size_t done, std::size_t) {
+                                most = std::max(most, done);
+                                return true;
+                              },
+                          .max_bytes = std::uint64_t{1} << 30};
   expect_refused(ErrorCode::TooLarge, "about 1440000000 bytes, exceeds max_bytes, 1073741824", [&] {
-    static_cast<void>(neighborhoods(index, {.vertices = vertices, .radius = kInfinity}, options));
+    static_cast<void>(neighborhoods(index, {.vertices = vertices, .radius = kInfinity}, {}, run));
   });
   EXPECT_EQ(most, 0U) << "all rows of the refused batch were counted";
 }
@@ -401,18 +406,18 @@ TEST_F(Batches, AcceptAResultWithinTheLimitThatTheSampleDoesNotExclude) {
   for (std::size_t row = 0; row < radii.size(); row += 2) radii[row] = 3;
   const BatchQuery query{.vertices = vertices, .radius = radii};
   const std::uint64_t ids = neighborhoods(index, query).ids.size();
-  EXPECT_EQ(neighborhoods(index, query, {.max_bytes = ids * sizeof(VertexId)}).ids.size(), ids);
+  EXPECT_EQ(neighborhoods(index, query, {}, {.max_bytes = ids * sizeof(VertexId)}).ids.size(), ids);
 }
 
 TEST_F(Batches, AcceptAMaskedResultWithinTheLimitThatTheWholeOneExceeds) {
   const std::vector<VertexId> vertices(20'000, VertexId{7});
   std::vector<std::uint8_t> others(index.vertex_count(), 1);
   others[7] = 0;
-  const BatchOptions options{.max_bytes = vertices.size() * sizeof(VertexId)};
+  const meshhood::Run run{.max_bytes = vertices.size() * sizeof(VertexId)};
   for (const Masks& masks : {Masks{.walls = others}, Masks{.ignored = others}}) {
     const BatchQuery query{.vertices = vertices, .radius = kInfinity};
     const Index searched = masked(index, masks);
-    EXPECT_EQ(neighborhoods(searched, query, options).ids, vertices);
+    EXPECT_EQ(neighborhoods(searched, query, {}, run).ids, vertices);
   }
 }
 
@@ -420,19 +425,19 @@ TEST_F(Batches, ReportFromZeroToTheTotalOnTheCallingThread) {
   for (const unsigned threads : kThreads) {
     std::vector<std::size_t> reports;
     const auto caller = std::this_thread::get_id();
-    const BatchOptions options{.threads = threads, .progress = [&](std::size_t done, std::size_t total) {
-                                 EXPECT_EQ(std::this_thread::get_id(), caller);
-                                 EXPECT_EQ(total, index.vertex_count());
-                                 reports.push_back(done);
-                                 return true;
-                               }};
+    const meshhood::Run run{.threads = threads, .progress = [&](std::size_t done, std::size_t total) {
+                              EXPECT_EQ(std::this_thread::get_id(), caller);
+                              EXPECT_EQ(total, index.vertex_count());
+                              reports.push_back(done);
+                              return true;
+                            }};
     for_each_neighborhood(
         index, {.radius = 2.0},
         [&](const BatchRow& row) {
           EXPECT_EQ(std::this_thread::get_id(), caller);
           if (row.row % 1000 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(60));
         },
-        options);
+        {}, run);
     EXPECT_EQ(reports.front(), 0U);
     EXPECT_EQ(reports.back(), index.vertex_count());
     EXPECT_GE(reports.size(), 5U);
@@ -444,14 +449,13 @@ TEST_F(Batches, ReportFromZeroToTheTotalOnTheCallingThread) {
 std::size_t rows_before_cancel(const Index& index, unsigned threads, std::size_t last) {
   std::size_t reports = 0;
   std::size_t rows = 0;
-  const BatchOptions options{.threads = threads, .buffer_bytes = 20000, .progress = [&](std::size_t, std::size_t) {
-                               return ++reports < last;
-                             }};
+  const BatchOptions options{.buffer_bytes = 20000};
+  const meshhood::Run run{.threads = threads, .progress = [&](std::size_t, std::size_t) { return ++reports < last; }};
   const auto sink = [&](const BatchRow&) {
     if (++rows % 500 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(60));
   };
   expect_refused(ErrorCode::Cancelled, "cancelled",
-                 [&] { for_each_neighborhood(index, {.radius = 2.0}, sink, options); });
+                 [&] { for_each_neighborhood(index, {.radius = 2.0}, sink, options, run); });
   EXPECT_EQ(reports, last);
   return rows;
 }
@@ -480,7 +484,7 @@ TEST_F(Batches, PassOnExceptionsOfTheSink) {
         ++rows;
         if (row.row == last) throw std::bad_alloc();
       };
-      EXPECT_THROW(for_each_neighborhood(index, {.radius = 2.0}, sink, {.threads = threads}), std::bad_alloc);
+      EXPECT_THROW(for_each_neighborhood(index, {.radius = 2.0}, sink, {}, {.threads = threads}), std::bad_alloc);
       EXPECT_EQ(rows, last + 1);
     }
     EXPECT_EQ(counts(index, {.radius = kInfinity}, {.threads = threads}).back(), index.vertex_count());
@@ -489,11 +493,11 @@ TEST_F(Batches, PassOnExceptionsOfTheSink) {
 
 TEST_F(Batches, PassOnExceptionsOfTheProgressCallback) {
   for (const unsigned threads : kThreads) {
-    const BatchOptions options{.threads = threads, .progress = [](std::size_t done, std::size_t total) {
-                                 if (done == total) throw std::bad_alloc();
-                                 return true;
-                               }};
-    EXPECT_THROW(static_cast<void>(counts(index, {.radius = 2.0}, options)), std::bad_alloc);
+    const meshhood::Run run{.threads = threads, .progress = [](std::size_t done, std::size_t total) {
+                              if (done == total) throw std::bad_alloc();
+                              return true;
+                            }};
+    EXPECT_THROW(static_cast<void>(counts(index, {.radius = 2.0}, run)), std::bad_alloc);
   }
 }
 

@@ -26,14 +26,15 @@ struct Received {
   friend bool operator==(const Received&, const Received&) = default;
 };
 
-std::vector<Received> stream(const Index& index, const BatchQuery& query, const BatchOptions& options) {
+std::vector<Received> stream(const Index& index, const BatchQuery& query, const BatchOptions& options,
+                             const Run& run = {}) {
   std::vector<Received> rows;
   for_each_neighborhood(
       index, query,
       [&](const BatchRow& row) {
         rows.push_back({row.row, {row.ids.begin(), row.ids.end()}, {row.distances.begin(), row.distances.end()}});
       },
-      options);
+      options, run);
   return rows;
 }
 
@@ -103,9 +104,9 @@ TEST_F(JointBatch, IndexOrderPassesTheSameRowsSortedByTheirPlaceInTheIndex) {
 TEST_F(JointBatch, RowsDoNotDependOnTheThreads) {
   for (const bool in_index_order : {false, true}) {
     const BatchQuery query{.vertices = vertices, .radius = radii};
-    const std::vector<Received> rows = stream(index, query, {.threads = 1, .in_index_order = in_index_order});
+    const std::vector<Received> rows = stream(index, query, {.in_index_order = in_index_order}, {.threads = 1});
     for (const unsigned threads : {2U, 5U}) {
-      EXPECT_EQ(stream(index, query, {.threads = threads, .in_index_order = in_index_order}), rows);
+      EXPECT_EQ(stream(index, query, {.in_index_order = in_index_order}, {.threads = threads}), rows);
     }
   }
 }

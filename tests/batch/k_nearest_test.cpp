@@ -91,7 +91,7 @@ TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
     const double edge = oracle.graph().mean_edge();
     for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
       for (const double radius : {kInfinity, metric == Metric::Rings ? 3.5 : 3 * edge, 0.0}) {
-        const NearestOptions options{.metric = metric, .radius = radius, .threads = 2};
+        const NearestOptions options{.metric = metric, .radius = radius};
         const Index searched = masked(index, radius != 0 ? Masks{walls, ignored} : Masks{});
         Searcher edges(searched, metric);
         const std::size_t k = 1 + random.below(30);
@@ -133,7 +133,7 @@ TEST(KNearest, OfAllVerticesAreTheRowsInTheirOrder) {
   const TestMesh mesh = bumpy_grid(30);
   const Index index = build(mesh.view());
   Searcher searcher(index);
-  const KNearest found = k_nearest(index, {}, 7, {.threads = 3});
+  const KNearest found = k_nearest(index, {}, 7, {}, {.threads = 3});
   ASSERT_EQ(found.ids.size(), 7 * mesh.size());
   NearestRow expected;
   for (VertexId v = 0; v < mesh.size(); ++v) {
@@ -179,13 +179,14 @@ TEST(KNearest, RefusesAResultBeyondTheLimit) {
   const std::vector<double> areas(mesh.size(), 1.0);
   const std::uint64_t bytes = 12 * 20 * mesh.size();
   for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
-    NearestOptions options{.metric = metric, .threads = 2, .max_bytes = bytes};
-    EXPECT_EQ(k_nearest(index, {}, 20, options).ids.size(), bytes / 12);
-    EXPECT_EQ(discs(index, {}, 20, areas, options).ids.size(), bytes / 12);
-    --options.max_bytes;
-    const std::string message = " bytes, exceeds max_bytes, " + std::to_string(options.max_bytes);
-    expect_refused(ErrorCode::TooLarge, message, [&] { static_cast<void>(k_nearest(index, {}, 20, options)); });
-    expect_refused(ErrorCode::TooLarge, message, [&] { static_cast<void>(discs(index, {}, 20, areas, options)); });
+    const NearestOptions options{.metric = metric};
+    meshhood::Run run{.threads = 2, .max_bytes = bytes};
+    EXPECT_EQ(k_nearest(index, {}, 20, options, run).ids.size(), bytes / 12);
+    EXPECT_EQ(discs(index, {}, 20, areas, options, run).ids.size(), bytes / 12);
+    --run.max_bytes;
+    const std::string message = " bytes, exceeds max_bytes, " + std::to_string(run.max_bytes);
+    expect_refused(ErrorCode::TooLarge, message, [&] { static_cast<void>(k_nearest(index, {}, 20, options, run)); });
+    expect_refused(ErrorCode::TooLarge, message, [&] { static_cast<void>(discs(index, {}, 20, areas, options, run)); });
   }
 }
 
@@ -195,13 +196,14 @@ TEST(KNearest, RefusesDiscsFarBeyondTheLimitByASample) {
   const std::vector<double> areas(mesh.size(), 1.0);
   const std::vector<VertexId> vertices(10'000, VertexId{7});
   std::size_t most = 0;
-  const NearestOptions options{.max_bytes = std::uint64_t{12} * 100 * vertices.size(),
-                               .progress = [&](std::size_t done, std::size_t) {
-                                 most = std::max(most, done);
-                                 return true;
-                               }};
+  const meshhood::Run run{.progress =
+                              [&](std::size_t done, std::size_t) {
+                                most = std::max(most, done);
+                                return true;
+                              },
+                          .max_bytes = std::uint64_t{12} * 100 * vertices.size()};
   expect_refused(ErrorCode::TooLarge, "at least about",
-                 [&] { static_cast<void>(discs(index, vertices, 1e9, areas, options)); });
+                 [&] { static_cast<void>(discs(index, vertices, 1e9, areas, {}, run)); });
   EXPECT_EQ(most, 0U) << "rows of the refused call were searched";
 }
 
@@ -216,15 +218,15 @@ TEST(KNearest, ReturnsDiscsWithinTheLimitThatTheSampleDoesNotExclude) {
   std::vector<VertexId> vertices(10'000, VertexId{7});
   std::fill_n(vertices.begin(), vertices.size() / 2, VertexId{5});
   const std::uint64_t ids = (mesh.size() - 1) * (vertices.size() / 2);
-  const NearestOptions options{.max_bytes = 12 * ids};
-  EXPECT_EQ(discs(masked(index, {.walls = walls}), vertices, 1e9, areas, options).ids.size(), ids);
+  const meshhood::Run run{.max_bytes = 12 * ids};
+  EXPECT_EQ(discs(masked(index, {.walls = walls}), vertices, 1e9, areas, {}, run).ids.size(), ids);
 }
 
 TEST(KNearest, StopsWhenItIsCancelled) {
   const TestMesh mesh = bumpy_grid(30);
   const Index index = build(mesh.view());
   expect_refused(ErrorCode::Cancelled, "", [&] {
-    static_cast<void>(k_nearest(index, {}, 5, {.progress = [](std::size_t, std::size_t) { return false; }}));
+    static_cast<void>(k_nearest(index, {}, 5, {}, {.progress = [](std::size_t, std::size_t) { return false; }}));
   });
 }
 

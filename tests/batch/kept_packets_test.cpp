@@ -130,7 +130,7 @@ TEST(KeptChunks, OfMoreRowsThanAreSortedAtATime) {
   std::vector<VertexId> vertices(kFirst + 300, 1);
   std::fill(vertices.begin() + kFirst, vertices.end(), 4);
   const Neighborhoods found =
-      neighborhoods(index, {.vertices = vertices, .radius = 2, .metric = Metric::Rings}, {.threads = 2});
+      neighborhoods(index, {.vertices = vertices, .radius = 2, .metric = Metric::Rings}, {}, {.threads = 2});
   ASSERT_EQ(found.ids.size(), 3 * kFirst + 4 * 300);
   for (std::size_t row = 0; row < vertices.size(); ++row) {
     const auto first = found.ids.begin() + static_cast<std::ptrdiff_t>(found.offsets[row]);
@@ -165,8 +165,8 @@ TEST_P(KeptRows, AreThoseThatWereSearchedForEach) {
         radii.push_back(random.below(20) == 0 ? kInfinity : scale * random.uniform(0, 1));
       }
       const BatchQuery query{.vertices = vertices, .radius = radii};
-      const BatchOptions options{
-          .threads = 1 + static_cast<unsigned>(seed % 2), .distances = seed % 3 == 0, .sorted = seed % 5 == 0};
+      const BatchOptions options{.distances = seed % 3 == 0, .sorted = seed % 5 == 0};
+      const meshhood::Run run{.threads = 1 + static_cast<unsigned>(seed % 2)};
       Neighborhoods expected{{0}, {}, {}};
       for_each_neighborhood(
           method, query,
@@ -175,11 +175,11 @@ TEST_P(KeptRows, AreThoseThatWereSearchedForEach) {
             expected.distances.insert(expected.distances.end(), row.distances.begin(), row.distances.end());
             expected.offsets.push_back(expected.ids.size());
           },
-          options);
-      BatchOptions tight = options;  // without room for what is kept
+          options, run);
+      meshhood::Run tight = run;  // without room for what is kept
       tight.max_bytes = sizeof(VertexId) * expected.ids.size() + sizeof(double) * expected.distances.size();
-      for (const BatchOptions& given : {options, tight}) {
-        const Neighborhoods found = neighborhoods(method, query, given);
+      for (const meshhood::Run& given : {run, tight}) {
+        const Neighborhoods found = neighborhoods(method, query, options, given);
         ASSERT_EQ(found.offsets, expected.offsets);
         ASSERT_EQ(found.ids, expected.ids);
         ASSERT_EQ(found.distances, expected.distances);

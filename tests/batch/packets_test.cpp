@@ -63,6 +63,11 @@ std::vector<std::vector<VertexId>> ids_of(const PacketAnswer& answer, const Inde
   return ids;
 }
 
+/// Visits all packets on this thread.
+void visit(const Index& index, const BatchQuery& query, const PacketVisitor& visitor) {
+  for_each_packet(index, query, [&](unsigned) { return visitor; }, {}, {.threads = 1});
+}
+
 /// One visitor for all threads.
 PacketVisitorFactory everyone(const PacketVisitor& visitor) {
   return [visitor](unsigned) { return visitor; };
@@ -83,17 +88,16 @@ TEST_P(PacketFamilies, HoldTheNeighborhoodsOfTheOracle) {
       std::vector<double> radii(mesh.size(), radius);
       if (radius > 0) radii[random.below(radii.size())] = random.uniform(0, 3) * edge;
       std::size_t seen = 0;
-      for_each_packet(
-          index, {.radius = radii}, everyone([&](const PacketAnswer& answer) {
-            const std::vector<std::vector<VertexId>> ids = ids_of(answer, index);
-            for (std::size_t i = 0; i < ids.size(); ++i) {
-              ASSERT_EQ(answer.rows[i], answer.vertices[i]);
-              ASSERT_EQ(answer.radii[i], radii[answer.rows[i]]);
-              ASSERT_THAT(ids[i], testing::ElementsAreArray(oracle.exact(answer.vertices[i], answer.radii[i])))
-                  << mesh.name << ", vertex " << answer.vertices[i] << ", radius " << answer.radii[i];
-            }
-            seen += ids.size();
-          }));
+      visit(index, {.radius = radii}, [&](const PacketAnswer& answer) {
+        const std::vector<std::vector<VertexId>> ids = ids_of(answer, index);
+        for (std::size_t i = 0; i < ids.size(); ++i) {
+          ASSERT_EQ(answer.rows[i], answer.vertices[i]);
+          ASSERT_EQ(answer.radii[i], radii[answer.rows[i]]);
+          ASSERT_THAT(ids[i], testing::ElementsAreArray(oracle.exact(answer.vertices[i], answer.radii[i])))
+              << mesh.name << ", vertex " << answer.vertices[i] << ", radius " << answer.radii[i];
+        }
+        seen += ids.size();
+      });
       EXPECT_EQ(seen, mesh.size());
       rows += seen;
     }
@@ -124,7 +128,7 @@ class Packets : public testing::Test {
                       const std::vector<double> found = sums_of(answer, index, signal);
                       for (std::size_t i = 0; i < found.size(); ++i) result[answer.rows[i]] = found[i];
                     }),
-                    {.threads = threads});
+                    {}, {.threads = threads});
     return result;
   }
 
@@ -139,15 +143,15 @@ class Packets : public testing::Test {
 TEST_F(Packets, HaveEachRowOnceWithItsVertexAndRadius) {
   std::vector<int> seen(vertices.size());
   std::map<std::size_t, std::size_t> sizes;
-  for_each_packet(index, {.vertices = vertices, .radius = radii}, everyone([&](const PacketAnswer& answer) {
-                    ASSERT_EQ(answer.queries, ~QueryWord{0} >> (kPacketCapacity - answer.rows.size()));
-                    ++sizes[answer.rows.size()];
-                    for (std::size_t i = 0; i < answer.rows.size(); ++i) {
-                      ++seen[answer.rows[i]];
-                      EXPECT_EQ(answer.vertices[i], vertices[answer.rows[i]]);
-                      EXPECT_EQ(answer.radii[i], radii[answer.rows[i]]);
-                    }
-                  }));
+  visit(index, {.vertices = vertices, .radius = radii}, [&](const PacketAnswer& answer) {
+    ASSERT_EQ(answer.queries, ~QueryWord{0} >> (kPacketCapacity - answer.rows.size()));
+    ++sizes[answer.rows.size()];
+    for (std::size_t i = 0; i < answer.rows.size(); ++i) {
+      ++seen[answer.rows[i]];
+      EXPECT_EQ(answer.vertices[i], vertices[answer.rows[i]]);
+      EXPECT_EQ(answer.radii[i], radii[answer.rows[i]]);
+    }
+  });
   EXPECT_THAT(seen, testing::Each(1));
   EXPECT_GT(sizes[1], 0U) << "no row was answered by itself";
   EXPECT_GT(sizes.rbegin()->first, 20U);
@@ -202,8 +206,8 @@ void check_pieces(const PacketAnswer& answer, const Index& index, std::size_t& l
 TEST_F(Packets, HavePiecesInIndexOrder) {
   std::size_t long_runs = 0;
   std::size_t with_words = 0;
-  for_each_packet(index, {.vertices = vertices, .radius = 20},
-                  everyone([&](const PacketAnswer& answer) { check_pieces(answer, index, long_runs, with_words); }));
+  visit(index, {.vertices = vertices, .radius = 20},
+        [&](const PacketAnswer& answer) { check_pieces(answer, index, long_runs, with_words); });
   EXPECT_GT(long_runs, 0U);
   EXPECT_GT(with_words, 0U);
 }
@@ -216,8 +220,8 @@ TEST(PacketsOfAStar, HavePiecesInIndexOrder) {
     const Index index = build(mesh.view());
     std::size_t long_runs = 0;
     std::size_t with_words = 0;
-    for_each_packet(index, {.radius = 0.9},
-                    everyone([&](const PacketAnswer& answer) { check_pieces(answer, index, long_runs, with_words); }));
+    visit(index, {.radius = 0.9},
+          [&](const PacketAnswer& answer) { check_pieces(answer, index, long_runs, with_words); });
     EXPECT_GT(with_words, 0U) << family.name;
   }
 }
@@ -232,7 +236,7 @@ TEST_F(Packets, GoToOneVisitorForEachThread) {
                     made.insert(thread);
                     return [&](const PacketAnswer& answer) { rows += answer.rows.size(); };
                   },
-                  {.threads = 3});
+                  {}, {.threads = 3});
   EXPECT_EQ(rows, index.vertex_count());
   ASSERT_FALSE(made.empty());
   for (const unsigned thread : made) {
@@ -253,7 +257,7 @@ TEST_F(Packets, PassOnExceptionsOfAVisitor) {
     const auto visitor = everyone([&](const PacketAnswer&) {
       if (++calls == 3) throw std::runtime_error("enough");
     });
-    EXPECT_THROW(for_each_packet(index, {.radius = 3}, visitor, {.threads = threads}), std::runtime_error);
+    EXPECT_THROW(for_each_packet(index, {.radius = 3}, visitor, {}, {.threads = threads}), std::runtime_error);
   }
 }
 
@@ -265,12 +269,12 @@ TEST_F(Packets, ReportTheRowsAndCanBeCancelled) {
     reports.push_back(done);
     return true;
   };
-  for_each_packet(index, {.radius = 3}, nothing, {.progress = note});
+  for_each_packet(index, {.radius = 3}, nothing, {}, {.progress = note});
   EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
   EXPECT_EQ(reports.front(), 0U);
   EXPECT_EQ(reports.back(), index.vertex_count());
   expect_refused(ErrorCode::Cancelled, "cancelled", [&] {
-    for_each_packet(index, {.radius = 3}, nothing,
+    for_each_packet(index, {.radius = 3}, nothing, {},
                     {.progress = [](std::size_t done, std::size_t total) { return done < total; }});
   });
 }
@@ -291,7 +295,7 @@ TEST_F(Packets, AreRefusedBeforeTheFirstVisit) {
   expect_refused(ErrorCode::InvalidOption, "make_visitor returned",
                  [&] { for_each_packet(index, {.radius = 1}, everyone({})); });
   expect_refused(ErrorCode::InvalidOption, "threads",
-                 [&] { for_each_packet(index, {.radius = 1}, never, {.threads = 5000}); });
+                 [&] { for_each_packet(index, {.radius = 1}, never, {}, {.threads = 5000}); });
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
     const BatchQuery query{.vertices = vertices, .radius = radii};
     const unsigned threads = 1 + static_cast<unsigned>(seed % 2);
     const std::vector<std::uint64_t> sizes = counts(method, query, {.threads = threads});
-    const Neighborhoods found = neighborhoods(method, query, {.threads = threads});
-    const Neighborhoods measured = neighborhoods(method, query, {.threads = threads, .distances = true});
+    const Neighborhoods found = neighborhoods(method, query, {}, {.threads = threads});
+    const Neighborhoods measured = neighborhoods(method, query, {.distances = true}, {.threads = threads});
     ASSERT_EQ(found.ids, measured.ids);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       masked_searcher.neighborhood(vertices[i], radii[i], ids, lengths);

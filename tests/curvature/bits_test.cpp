@@ -47,13 +47,13 @@ void append(std::vector<double>& out, const std::vector<double>& values, std::si
 std::vector<std::vector<double>> results(const Subject& s, const BatchQuery& query, unsigned threads) {
   const std::size_t rows = query.vertices.count(s.mesh.size());
   std::vector<std::vector<double>> out(rows);
-  const auto sums = moments(s.index, query, {.degree = 4, .weights = s.areas, .threads = threads});
-  const PrincipalComponents patch = principal_components(s.index, query, {.threads = threads});
-  const auto feature = !s.has_features ? std::vector<double>(3 * rows)
-                                       : features(s.surface, query,
-                                                  {.kinds = {Feature::Crease, Feature::Height, Feature::Variation},
-                                                   .areas = s.areas,
-                                                   .threads = threads});
+  const auto sums = moments(s.index, query, {.degree = 4, .weights = s.areas}, {.threads = threads});
+  const PrincipalComponents patch = principal_components(s.index, query, {}, {.threads = threads});
+  const auto feature =
+      !s.has_features ? std::vector<double>(3 * rows)
+                      : features(s.surface, query,
+                                 {.kinds = {Feature::Crease, Feature::Height, Feature::Variation}, .areas = s.areas},
+                                 {.threads = threads});
   for (std::size_t row = 0; row < rows; ++row) {
     append(out[row], sums, row, moment_count(4));
     append(out[row], patch.center, row, 3);
@@ -61,12 +61,11 @@ std::vector<std::vector<double>> results(const Subject& s, const BatchQuery& que
     append(out[row], patch.axes, row, 9);
     append(out[row], feature, row, 3);
   }
-  for (const CurvatureOptions& options :
-       {CurvatureOptions{.filter = true, .fit = CurvatureFit::Quadric, .threads = threads},
-        CurvatureOptions{.filter = false, .fit = CurvatureFit::Quadric, .threads = threads},
-        CurvatureOptions{.filter = true, .open_ball = true, .fit = CurvatureFit::Jet, .threads = threads},
-        CurvatureOptions{.filter = false, .fit = CurvatureFit::Jet, .threads = threads}}) {
-    const Curvatures k = curvatures(s.surface, query, options);
+  for (const CurvatureOptions& options : {CurvatureOptions{.filter = true, .fit = CurvatureFit::Quadric},
+                                          CurvatureOptions{.filter = false, .fit = CurvatureFit::Quadric},
+                                          CurvatureOptions{.filter = true, .open_ball = true, .fit = CurvatureFit::Jet},
+                                          CurvatureOptions{.filter = false, .fit = CurvatureFit::Jet}}) {
+    const Curvatures k = curvatures(s.surface, query, options, {.threads = threads});
     for (std::size_t row = 0; row < rows; ++row) {
       append(out[row], k.k1, row, 1);
       append(out[row], k.k2, row, 1);

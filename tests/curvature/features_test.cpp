@@ -94,7 +94,7 @@ TEST(Features, DoNotDependOnTheUnit) {
   const Index index = build(mesh.view());
   std::vector<double> radii = bumps.radii;
   for (double& r : radii) r = std::ldexp(r, -200);
-  EXPECT_EQ(features(Surface(index, mesh.view()), {{}, BatchRadius::scales(radii)}, {.threads = 2}),
+  EXPECT_EQ(features(Surface(index, mesh.view()), {{}, BatchRadius::scales(radii)}, {}, {.threads = 2}),
             features(bumps.surface, {{}, BatchRadius::scales(bumps.radii)}));
 }
 
@@ -182,7 +182,8 @@ TEST(Features, RefuseInvalidArgumentsAndNameThem) {
   expect_refused(ErrorCode::InvalidOption, "3 values",
                  [&] { (void)persistence(std::span(values).first(3), std::vector<double>{1, 2}, 1); });
   expect_refused(ErrorCode::Cancelled, "cancel", [&] {
-    (void)of({1.0, 2.0}, {.progress = [](std::size_t done, std::size_t total) { return done < total / 2; }});
+    (void)features(bumps.surface, {{}, BatchRadius::scales({1.0, 2.0})}, {},
+                   {.progress = [](std::size_t done, std::size_t total) { return done < total / 2; }});
   });
 }
 

@@ -85,7 +85,7 @@ class WithWalls : public testing::Test {
 };
 
 TEST_F(WithWalls, MomentsAreThoseWithoutTheEdgesAtWalls) {
-  const MomentOptions options{.degree = 4, .threads = 2};
+  const MomentOptions options{.degree = 4};
   const std::vector<double> found = moments(with_walls, {.radius = 4}, options);
   expect_same(found, moments(expected_index, {.radius = 4}, options), moment_count(4), 1e-11);
   for (std::size_t v = 0; v < mesh.size(); ++v) {
@@ -114,7 +114,7 @@ TEST_F(WithWalls, CurvaturesAreThoseWithoutTheEdgesAtWalls) {
   const Surface expected_surface = Surface::of_normals(expected_index, normals);
   for (const double radius : {1.0, 4.0}) {  // at the smaller one, many neighborhoods are extended
     for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
-      const CurvatureOptions options{.fit = fit, .threads = 2};
+      const CurvatureOptions options{.fit = fit};
       const Curvatures found = curvatures(surface, {.radius = radius}, options);
       const Curvatures expected = curvatures(expected_surface, {.radius = radius}, options);
       expect_same(found.k1, expected.k1, 1, 1e-6);

@@ -184,7 +184,7 @@ TEST(Moments, OfALowerDegreeAreTheFirstColumns) {
   const Index index = build(mesh.view());
   const std::vector<double> all = moments(index, {.radius = 3.0}, {.degree = 4});
   for (const unsigned degree : {0U, 1U, 2U, 3U}) {
-    const std::vector<double> some = moments(index, {.radius = 3.0}, {.degree = degree, .threads = 2});
+    const std::vector<double> some = moments(index, {.radius = 3.0}, {.degree = degree}, {.threads = 2});
     const std::size_t columns = moment_count(degree);
     ASSERT_EQ(some.size(), columns * mesh.size());
     for (std::size_t i = 0; i < some.size(); ++i) ASSERT_EQ(some[i], all[35 * (i / columns) + i % columns]);

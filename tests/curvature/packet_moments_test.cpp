@@ -84,7 +84,7 @@ TEST(PacketMoments, DoNotDependOnTheScratchMemory) {
   for (const MomentSource& source : {plain, filtered, weighted}) {
     for (const Isa isa : available_isas()) {
       PacketMoments reused(source, isa);
-      for_each_packet(*state.searched, {.radius = radii}, [&](unsigned) -> PacketVisitor {
+      const auto make_visitor = [&](unsigned) -> PacketVisitor {
         return [&](const PacketAnswer& packet) {
           for (QueryWord left = first_lanes(static_cast<unsigned>(packet.rows.size())); left != 0;) {
             PacketMoments fresh(source, isa);
@@ -101,7 +101,8 @@ TEST(PacketMoments, DoNotDependOnTheScratchMemory) {
             left &= ~queries;
           }
         };
-      });
+      };
+      for_each_packet(*state.searched, {.radius = radii}, make_visitor, {}, {.threads = 1});
     }
   }
   std::printf("%zu rows\n", rows);

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "meshhood/progress.h"
+#include "meshhood/run.h"
 
 namespace meshhood::test {
 namespace {

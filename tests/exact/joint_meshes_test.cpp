@@ -66,7 +66,7 @@ class LeafRows {
                             mismatches_ += static_cast<std::size_t>(!same || sizes[row.row] != expected_.size());
                             ++rows_;
                           },
-                          {.threads = 2, .sorted = true, .in_index_order = true});
+                          {.sorted = true, .in_index_order = true}, {.threads = 2});
   }
 
   ReferenceSearcher reference_;

@@ -46,7 +46,7 @@ TEST_P(LinkedFamilies, JoinThePairsOfAScan) {
     const double edge = oracle.mean_edge();
     for (const double link : {0.0, 0.9 * edge, 2 * edge, mesh.size() == 0 ? 0 : oracle.distance(pick(), pick())}) {
       const Adjacency expected = scan(oracle, link);
-      const Adjacency found = link_points(mesh.positions_view(), link, {.threads = 2});
+      const Adjacency found = link_points(mesh.positions_view(), link, {}, {.threads = 2});
       ASSERT_EQ(found.offsets, expected.offsets) << mesh.name << ", link " << link;
       ASSERT_EQ(found.neighbors, expected.neighbors) << mesh.name << ", link " << link;
       validate(GraphView{mesh.positions_view(), found.view()});
@@ -78,7 +78,7 @@ TEST(LinkPoints, OfClustersAndPointsVeryFarAwayAreThoseOfAScan) {
   for (const double far : {0x1p60, -0x1p70, 0x1p300}) mesh.add_vertex(far, 3, far);
   const Oracle oracle(mesh.finish(false));
   for (const double link : {0.0, 1.0, 3.0}) {
-    const Adjacency found = link_points(mesh.positions_view(), link, {.threads = 2});
+    const Adjacency found = link_points(mesh.positions_view(), link, {}, {.threads = 2});
     const Adjacency expected = scan(oracle, link);
     EXPECT_EQ(found.offsets, expected.offsets);
     EXPECT_EQ(found.neighbors, expected.neighbors);
@@ -127,7 +127,7 @@ TEST(LinkPoints, BuildTheIndexOfTheirGraph) {
   const TestMesh mesh = bumpy_grid(40);
   const Adjacency graph = link_points(mesh.positions_view(), 1.2);
   const Index expected = build(GraphView{mesh.positions_view(), graph.view()});
-  EXPECT_THAT(differences(build_linked(mesh.positions_view(), 1.2, {.threads = 2}), expected), testing::IsEmpty());
+  EXPECT_THAT(differences(build_linked(mesh.positions_view(), 1.2, {}, {.threads = 2}), expected), testing::IsEmpty());
 }
 
 TEST(LinkPoints, RefuseWrongLinksAndTooManyEdges) {
@@ -141,7 +141,7 @@ TEST(LinkPoints, RefuseWrongLinksAndTooManyEdges) {
   const std::size_t edges = std::size_t{3000} * 2999 / 2;
   EXPECT_EQ(link_points(points, 20, {.max_edges = edges}).neighbors.size(), 2 * edges);
   expect_refused(ErrorCode::TooLarge, "edges",
-                 [&] { static_cast<void>(link_points(points, 20, {.max_edges = edges - 1, .threads = 2})); });
+                 [&] { static_cast<void>(link_points(points, 20, {.max_edges = edges - 1}, {.threads = 2})); });
   points[4] = std::numeric_limits<float>::quiet_NaN();
   expect_refused(ErrorCode::InvalidMesh, "vertex 1", [&] { static_cast<void>(link_points(points, 1)); });
 }

@@ -135,7 +135,7 @@ void compare_single(MaskedCase& scene, Random& random, const Oracle& oracle, Way
 void compare_batch(MaskedCase& scene, double radius, unsigned threads, Ways& ways) {
   const Index index = scene.masked();
   const BatchQuery query{.radius = radius};
-  const Neighborhoods found = neighborhoods(index, query, {.threads = threads, .distances = true});
+  const Neighborhoods found = neighborhoods(index, query, {.distances = true}, {.threads = threads});
   const std::vector<std::uint64_t> sizes = counts(index, query, {.threads = threads});
   ASSERT_EQ(sizes.size(), scene.size());
   for (VertexId v = 0; v < scene.size(); ++v) {
@@ -232,7 +232,7 @@ TEST(Masked, HasACopyOfTheMasks) {
   std::vector<std::uint8_t> walls(mesh.size());
   for (std::size_t v = 0; v < mesh.size(); v += 7) walls[v] = 1;
   const Index searched = masked(index, {.walls = walls});
-  const Index same = masked(index, {.walls = walls}, 3);
+  const Index same = masked(index, {.walls = walls}, {.threads = 3});
   std::ranges::fill(walls, std::uint8_t{1});
   EXPECT_EQ(counts(searched, {.radius = 2}), counts(same, {.radius = 2}));
   EXPECT_GT(counts(searched, {.radius = 2})[1], 1U);

@@ -161,7 +161,7 @@ TEST_P(OneOrder, OfBatchesStreamsAndRegions) {
     }
     const BatchQuery query{.vertices = vertices, .radius = radii};
     for (const unsigned threads : {1U, 3U}) {
-      const Neighborhoods all = neighborhoods(index, query, {.threads = threads, .distances = true});
+      const Neighborhoods all = neighborhoods(index, query, {.distances = true}, {.threads = threads});
       for (const bool in_index_order : {false, true}) {
         std::size_t rows = 0;
         for_each_neighborhood(
@@ -171,7 +171,7 @@ TEST_P(OneOrder, OfBatchesStreamsAndRegions) {
               ASSERT_THAT(row.distances, testing::ElementsAreArray(questions.answers[row.row].distances));
               ++rows;
             },
-            {.threads = threads, .distances = true, .in_index_order = in_index_order, .buffer_bytes = 1000});
+            {.distances = true, .in_index_order = in_index_order, .buffer_bytes = 1000}, {.threads = threads});
         ASSERT_EQ(rows, questions.asked.size());
       }
       for (std::size_t i = 0; i < questions.asked.size(); ++i) {

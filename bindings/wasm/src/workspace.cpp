@@ -13,16 +13,14 @@ void Workspace::read(std::span<const std::byte> file, const std::string& name, c
   mesh_ = io::read_mesh(file, name, options);
 }
 
-void Workspace::build(const MeshView& mesh, std::span<const VertexId> cut, const BuildOptions& options) {
-  if (cut.empty()) return replace_index(meshhood::build(mesh, options));
+void Workspace::build(const MeshView& mesh, std::span<const VertexId> cut, const Run& run) {
+  if (cut.empty()) return replace_index(meshhood::build(mesh, run));
   const Adjacency whole = adjacency(mesh);
   const Adjacency rest = cut_edges(whole.view(), cut);
-  replace_index(meshhood::build(GraphView{mesh.positions, rest.view()}, options));
+  replace_index(meshhood::build(GraphView{mesh.positions, rest.view()}, run));
 }
 
-void Workspace::load(std::span<const std::byte> bytes, const LoadOptions& options) {
-  replace_index(meshhood::load(bytes, options));
-}
+void Workspace::load(std::span<const std::byte> bytes, const Run& run) { replace_index(meshhood::load(bytes, run)); }
 
 void Workspace::refit(const PositionsView& positions, const std::optional<IndicesView>& changed) {
   std::optional<Surface> surface = faces_ ? std::exchange(surface_, {}) : std::nullopt;

@@ -44,10 +44,10 @@ class Workspace {
 
   /// Replaces the index. `cut` are the ends of edges that no search crosses. Throws as `meshhood::build` and
   /// `cut_edges`.
-  void build(const MeshView& mesh, std::span<const VertexId> cut, const BuildOptions& options);
+  void build(const MeshView& mesh, std::span<const VertexId> cut, const Run& run);
 
   /// Replaces the index by a saved one. Throws as `meshhood::load`.
-  void load(std::span<const std::byte> bytes, const LoadOptions& options);
+  void load(std::span<const std::byte> bytes, const Run& run);
 
   /// Moves the vertices `changed`, or all. Throws as `meshhood::refit`; the index is then as it was.
   void refit(const PositionsView& positions, const std::optional<IndicesView>& changed);

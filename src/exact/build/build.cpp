@@ -72,13 +72,13 @@ Index finish(IndexData arrays, TaskContext& task) {
 
 }  // namespace
 
-Index build(const MeshView& mesh, const BuildOptions& options) {
-  TaskContext task(options.threads, options.progress, IndexAccess::kBuildSteps);
+Index build(const MeshView& mesh, const Run& run) {
+  TaskContext task(run.threads, run.progress, IndexAccess::kBuildSteps);
   return finish(IndexAccess::build_arrays(mesh, task), task);
 }
 
-Index build(const GraphView& graph, const BuildOptions& options) {
-  TaskContext task(options.threads, options.progress, IndexAccess::kBuildSteps);
+Index build(const GraphView& graph, const Run& run) {
+  TaskContext task(run.threads, run.progress, IndexAccess::kBuildSteps);
   validate(graph);
   return finish(IndexAccess::build_arrays(graph.positions, EdgeSource(graph.adjacency), task), task);
 }
