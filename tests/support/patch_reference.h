@@ -41,7 +41,7 @@ class PatchReference {
         const auto [a, b] = side(f, i);
         faces_of_vertex_[a].push_back(f);
         faces_of_side_[std::minmax(a, b)].push_back(f);
-        balance_[std::minmax(a, b)] += a < b ? 1 : -1;
+        if (a != b) balance_[std::minmax(a, b)] += a < b ? 1 : -1;
       }
     }
   }
@@ -126,7 +126,7 @@ class PatchReference {
         if (length(p[i]) <= radius) push(faces_of_vertex_[a]);
         if (distance_of_segment(p[i], p[(i + 1) % 3]) > radius) continue;
         push(faces_of_side_.at(std::minmax(a, b)));
-        has_border |= balance_.at(std::minmax(a, b)) != 0;
+        has_border |= a != b && balance_.at(std::minmax(a, b)) != 0;
       }
       if (radius > 0) add(p, radius, sums);
     }

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "patch/rim.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/vector.h"
+
+namespace meshhood {
+namespace {
+
+using Complex = std::complex<double>;
+
+// One of these is far from the rim, unless it is everywhere.
+constexpr std::array<Point, 6> kPoles{{{0.48, 0.6, 0.64},
+                                       {-0.48, -0.6, -0.64},
+                                       {0.64, -0.48, -0.6},
+                                       {-0.64, 0.48, 0.6},
+                                       {0.6, -0.64, 0.48},
+                                       {-0.6, 0.64, -0.48}}};
+
+/// A product without the functions for infinite factors.
+Complex times(const Complex& a, const Complex& b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+double squared_size(const Complex& z) { return z.real() * z.real() + z.imag() * z.imag(); }
+
+/// Only the argument of a product counts.
+Complex rescaled(const Complex& z) {
+  const double size = squared_size(z);
+  return size > 1e-100 && size < 1e100 ? z : (1 / std::sqrt(size)) * z;
+}
+
+/// A number whose argument is half the signed area of a spherical triangle.
+Complex half_area(const Point& n, const Point& u, const Point& w) {
+  return {1 + dot(n, u) + dot(u, w) + dot(w, n), dot(n, cross(u, w))};
+}
+
+}  // namespace
+
+void RimArcs::clear() {
+  ends_.clear();
+  product_ = 1;
+  sum_ = 0;
+  count_ = 0;
+}
+
+void RimArcs::add(const Point& n, double h, double theta, const Point& u, const Point& w) {
+  const double sign = h < 0 ? -1 : 1;
+  sum_ += sign * theta * (1 - sign * h);
+  product_ = rescaled(times(product_, std::conj(half_area(sign * n, u, w))));
+  ends_.emplace_back(u, w);
+  ++count_;
+}
+
+void RimArcs::add_circle(double h) {
+  sum_ += 2 * std::numbers::pi * (1 - h);
+  ++count_;
+}
+
+double RimArcs::area_behind() const {
+  constexpr double kSphere = 4 * std::numbers::pi;
+  constexpr double kFar = 0.25;       // of the squared factor of an arc
+  constexpr double kSlack = 0x1p-46;  // of an arc
+  Complex best = 1;
+  double most = -1;
+  for (const Point& pole : kPoles) {
+    Complex product = product_;
+    double least = kFar;
+    for (const auto& [u, w] : ends_) {
+      const Complex factor = half_area(pole, u, w);
+      least = std::min(least, squared_size(factor));
+      if (least <= most) break;
+      product = rescaled(times(product, factor));
+    }
+    if (least <= most) continue;
+    most = least;
+    best = product;
+    if (least == kFar) break;
+  }
+  const double area = std::fmod(-(sum_ + 2 * std::arg(best)), kSphere);
+  const double positive = area < 0 ? area + kSphere : area;
+  return positive > kSphere - kSlack * static_cast<double>(count_ + 8) ? 0 : positive;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+
+#include "patch/rim.h"
+#include "shared/distance.h"
+
+namespace meshhood {
+
+/// A ball, and the unit of the frame.
+struct PatchBall {
+  Point center;
+  double squared;  // of the predicate
+  double scale;    // of the frame, a power of two
+  double radius;   // in the frame
+
+  [[nodiscard]] bool contains(const Point& p) const { return squared_distance(center, p) <= squared; }
+};
+
+/// A triangle by its corners in the unit of the mesh, with what is known of them.
+struct PatchTriangle {
+  std::array<Point, 3> corners;
+  std::array<std::uint32_t, 3> places;
+  std::array<bool, 3> inside;
+};
+
+/// The part of a triangle in a ball that does not contain all of its corners. Lengths are in units of the radius, from
+/// the center of the ball.
+///
+/// Its boundary runs along chords, the parts of the sides in the ball, and along arcs from where a side leaves the ball
+/// to where the next one enters it. All of it follows from the point of each side's line that is nearest to the center.
+/// Where a corner is far away beside the radius, this point is computed in twice the precision. Triangles that share a
+/// side have the same point, bit for bit.
+class Section {
+ public:
+  Section(const PatchBall& ball, const PatchTriangle& triangle);
+
+  /// Whether side `i`, from corner `i`, has a point in the ball, and whether it has one although no corner is.
+  [[nodiscard]] bool meets(std::size_t i) const { return sides_[i].is_cut; }
+  [[nodiscard]] bool dips(std::size_t i) const { return sides_[i].dips; }
+
+  struct Measure {
+    double area;
+    double distance;  // of the plane, along the normal
+  };
+
+  /// Adds the arcs to `rim`.
+  [[nodiscard]] Measure measure(RimArcs& rim);
+
+ private:
+  struct Side {
+    Point nearest{0, 0, 0};  // of its line
+    Point along{0, 0, 0};    // a unit vector; 0 if the corners are at the same place
+    double half = 0;         // of the chord of the line
+    double from = 0;         // its part in the ball, from `nearest` on
+    double to = 0;
+    double offset = 0;  // of the line, from the foot of the center on the plane, to the right
+    bool is_cut = false;
+    bool dips = false;
+  };
+
+  template <class Real>
+  void find_lines(const PatchBall& ball, const PatchTriangle& triangle);
+  void find_chord(const PatchBall& ball, const PatchTriangle& triangle, std::size_t i);
+  [[nodiscard]] std::complex<double> turn_at(std::size_t corner) const;
+  [[nodiscard]] double angle_of_arc(std::size_t from, std::size_t steps) const;
+  [[nodiscard]] double distance_of_plane() const;
+  [[nodiscard]] bool contains_disc() const;
+
+  std::array<Side, 3> sides_;
+  std::array<bool, 3> inside_;
+  Point normal_{0, 0, 0};  // a unit vector; 0 without an area
+  double far_distance_ = 0;    // of the plane, from corner 0
+};
+
+}  // namespace meshhood

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include "shared/distance.h"
+
+namespace meshhood {
+
+/// A number of about 106 bits, the sum of two doubles that do not overlap (T. J. Dekker, "A floating-point technique
+/// for extending the available precision", Numerische Mathematik 18, 1971). For corners so far from a ball that what
+/// cancels in double would be seen in it.
+struct Twofold {
+  double high;
+  double low = 0;
+
+  Twofold(double value) : high(value) {}
+  Twofold(double first, double second) : high(first + second), low(second - (high - first)) {}  // |first| >= |second|
+
+  /// Without an error.
+  [[nodiscard]] static Twofold sum(double a, double b) {
+    const double sum = a + b;
+    const double part = sum - a;
+    return {sum, (a - (sum - part)) + (b - part)};
+  }
+
+  friend Twofold operator+(const Twofold& a, const Twofold& b) {
+    const Twofold s = sum(a.high, b.high);
+    return {s.high, s.low + (a.low + b.low)};
+  }
+  friend Twofold operator-(const Twofold& a, const Twofold& b) { return a + Twofold{-b.high, -b.low}; }
+  friend Twofold operator*(const Twofold& a, const Twofold& b) {
+    const double product = a.high * b.high;
+    return {product, std::fma(a.high, b.high, -product) + (a.high * b.low + a.low * b.high)};
+  }
+  friend Twofold operator/(const Twofold& a, const Twofold& b) {
+    const Twofold quotient = a.high / b.high;
+    return quotient + Twofold((a - quotient * b).high / b.high);
+  }
+  explicit operator double() const { return high; }
+};
+
+/// A vector of numbers of either kind.
+template <class Real>
+struct Vector {
+  Real x;
+  Real y;
+  Real z;
+
+  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vector operator*(const Real& s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
+
+  [[nodiscard]] Point round() const {
+    return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+  }
+};
+
+template <class Real>
+[[nodiscard]] Real dot(const Vector<Real>& a, const Vector<Real>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class Real>
+[[nodiscard]] Vector<Real> cross(const Vector<Real>& a, const Vector<Real>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+}  // namespace meshhood
