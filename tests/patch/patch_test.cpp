@@ -44,14 +44,20 @@ struct TestTriangles {
       for (const std::uint32_t v : mesh.face(f)) points.push_back(corner_of(mesh, v));
       Triangulation parts;
       triangulate(points, parts);
+      const auto owner = [&](std::size_t a, std::size_t b) {
+        const bool is_side = (a + 1) % points.size() == b || (b + 1) % points.size() == a;
+        return static_cast<std::uint32_t>(is_side ? 0 : f + 1);
+      };
       for (const auto& [a, b, c] : parts) {
         corners.push_back({mesh.face(f)[a], mesh.face(f)[b], mesh.face(f)[c]});
+        owners.push_back({owner(a, b), owner(b, c), owner(c, a)});
         faces.push_back(f);
       }
     }
   }
 
   std::vector<PatchReference::Triangle> corners;
+  std::vector<PatchReference::Triangle> owners;
   std::vector<std::size_t> faces;
 
   [[nodiscard]] std::vector<std::size_t> faces_of(const std::vector<std::size_t>& triangles) const {
@@ -68,7 +74,7 @@ struct Case {
   explicit Case(const TestMesh& given)
       : mesh(given),
         triangles(mesh),
-        reference(mesh.positions, triangles.corners),
+        reference(mesh.positions, triangles.corners, triangles.owners),
         index(build(mesh.view())),
         surface(PatchIndex::build(index, mesh.view().faces)),
         searcher(surface) {}
@@ -105,8 +111,9 @@ class PatchFamilies : public testing::TestWithParam<Family> {};
 TEST_P(PatchFamilies, AreThoseOfTheReference) {
   for (std::uint64_t seed = 0; seed < scaled(20, 2); ++seed) {
     SCOPED_TRACE(seed);
-    Case test(make_mesh(GetParam(), seed, 150));
-    if (test.triangles.corners.empty()) continue;
+    const TestMesh mesh = make_mesh(GetParam(), seed, 150);
+    if (TestTriangles(mesh).corners.empty()) continue;
+    Case test(mesh);
     Random random(seed);
     const double edge = mean_edge_length(test.index);
     for (std::size_t i = 0; i < 20; ++i) {

@@ -31,8 +31,10 @@ class PatchReference {
   };
 
   /// positions  #V by 3.
-  PatchReference(const std::vector<double>& positions, std::vector<Triangle> triangles)
-      : triangles_(std::move(triangles)), faces_of_vertex_(positions.size() / 3) {
+  /// owners     for side i of each triangle, from corner i: the number of the polygon whose diagonal it is, from 1 on,
+  ///            or 0 for a side that all polygons share.
+  PatchReference(const std::vector<double>& positions, std::vector<Triangle> triangles, std::vector<Triangle> owners)
+      : triangles_(std::move(triangles)), owners_(std::move(owners)), faces_of_vertex_(positions.size() / 3) {
     for (std::size_t v = 0; v < positions.size() / 3; ++v) {
       points_.push_back({positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]});
     }
@@ -40,8 +42,8 @@ class PatchReference {
       for (std::size_t i = 0; i < 3; ++i) {
         const auto [a, b] = side(f, i);
         faces_of_vertex_[a].push_back(f);
-        faces_of_side_[std::minmax(a, b)].push_back(f);
-        if (a != b) balance_[std::minmax(a, b)] += a < b ? 1 : -1;
+        faces_of_side_[key(f, i)].push_back(f);
+        if (a != b) balance_[key(f, i)] += a < b ? 1 : -1;
       }
     }
   }
@@ -77,6 +79,12 @@ class PatchReference {
 
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> side(std::size_t f, std::size_t i) const {
     return {triangles_[f][i], triangles_[f][(i + 1) % 3]};
+  }
+
+  /// The ends of a side in ascending order, and its owner.
+  [[nodiscard]] Triangle key(std::size_t f, std::size_t i) const {
+    const auto [a, b] = side(f, i);
+    return {std::min(a, b), std::max(a, b), owners_[f][i]};
   }
 
   static Real distance_of_segment(const Vector& a, const Vector& b) {
@@ -125,8 +133,8 @@ class PatchReference {
         const auto [a, b] = side(f, i);
         if (length(p[i]) <= radius) push(faces_of_vertex_[a]);
         if (distance_of_segment(p[i], p[(i + 1) % 3]) > radius) continue;
-        push(faces_of_side_.at(std::minmax(a, b)));
-        has_border |= a != b && balance_.at(std::minmax(a, b)) != 0;
+        push(faces_of_side_.at(key(f, i)));
+        has_border |= a != b && balance_.at(key(f, i)) != 0;
       }
       if (radius > 0) add(p, radius, sums);
     }
@@ -216,9 +224,10 @@ class PatchReference {
 
   std::vector<Vector> points_;
   std::vector<Triangle> triangles_;
+  std::vector<Triangle> owners_;
   std::vector<std::vector<std::size_t>> faces_of_vertex_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> faces_of_side_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance_;
+  std::map<Triangle, std::vector<std::size_t>> faces_of_side_;
+  std::map<Triangle, int> balance_;
 };
 
 }  // namespace meshhood::test
