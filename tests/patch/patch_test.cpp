@@ -29,6 +29,8 @@
 namespace meshhood::test {
 namespace {
 
+using Reference = PatchReference<long double>;
+
 constexpr double kPi = std::numbers::pi;
 
 Point corner_of(const TestMesh& mesh, std::uint32_t v) {
@@ -56,8 +58,8 @@ struct TestTriangles {
     }
   }
 
-  std::vector<PatchReference::Triangle> corners;
-  std::vector<PatchReference::Triangle> owners;
+  std::vector<Reference::Triangle> corners;
+  std::vector<Reference::Triangle> owners;
   std::vector<std::size_t> faces;
 
   [[nodiscard]] std::vector<std::size_t> faces_of(const std::vector<std::size_t>& triangles) const {
@@ -80,7 +82,7 @@ struct Case {
         searcher(surface) {}
 
   /// Compares what the library says with the reference.
-  void expect_same(const PatchStart& start, const PatchReference::Answer& expected, double radius) {
+  void expect_same(const PatchStart& start, const Reference::Answer& expected, double radius) {
     EXPECT_EQ(searcher.patch(start, radius), triangles.faces_of(expected.faces));
     const PatchMeasure measure = searcher.measure(start, radius);
     const double disc = kPi * radius * radius;
@@ -100,7 +102,7 @@ struct Case {
 
   TestMesh mesh;
   TestTriangles triangles;
-  PatchReference reference;
+  Reference reference;
   Index index;
   PatchIndex surface;
   PatchSearcher searcher;
@@ -120,7 +122,7 @@ TEST_P(PatchFamilies, AreThoseOfTheReference) {
       const auto v = static_cast<std::uint32_t>(random.below(test.mesh.size()));
       const double radius = edge * std::exp2(random.uniform(-3, 4));
       SCOPED_TRACE("vertex " + std::to_string(v) + ", radius " + std::to_string(radius));
-      const PatchReference::Answer expected = test.reference.around_vertex(v, radius);
+      const Reference::Answer expected = test.reference.around_vertex(v, radius);
       if (expected.faces.empty()) continue;
       test.expect_same(v, expected, radius);
       if (HasFailure()) return;

@@ -14,11 +14,11 @@
 
 namespace meshhood::test {
 
-/// The patch of a ball as its definition says it, in long double: a search in breadth over triangles, and closed forms
-/// for each. Shares no code with the library.
+/// The patch of a ball as its definition says it: a search in breadth over triangles, and closed forms for each. Shares
+/// no code with the library.
+template <class Real>
 class PatchReference {
  public:
-  using Real = long double;
   using Vector = std::array<Real, 3>;
   using Triangle = std::array<std::uint32_t, 3>;
 
@@ -36,7 +36,7 @@ class PatchReference {
   PatchReference(const std::vector<double>& positions, std::vector<Triangle> triangles, std::vector<Triangle> owners)
       : triangles_(std::move(triangles)), owners_(std::move(owners)), faces_of_vertex_(positions.size() / 3) {
     for (std::size_t v = 0; v < positions.size() / 3; ++v) {
-      points_.push_back({positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]});
+      points_.push_back({Real(positions[3 * v]), Real(positions[3 * v + 1]), Real(positions[3 * v + 2])});
     }
     for (std::size_t f = 0; f < triangles_.size(); ++f) {
       for (std::size_t i = 0; i < 3; ++i) {
@@ -49,11 +49,20 @@ class PatchReference {
   }
 
   [[nodiscard]] Answer around_vertex(std::uint32_t v, Real radius) const {
-    return run(points_[v], faces_of_vertex_[v], radius);
+    Answer answer = measure(v, radius);
+    find_gap(points_[v], radius, answer);
+    return answer;
   }
 
   [[nodiscard]] Answer around_point(const Vector& center, std::size_t face, Real radius) const {
-    return run(center, {face}, radius);
+    Answer answer = run(center, {face}, radius);
+    find_gap(center, radius, answer);
+    return answer;
+  }
+
+  /// Without the gap.
+  [[nodiscard]] Answer measure(std::uint32_t v, Real radius) const {
+    return run(points_[v], faces_of_vertex_[v], radius);
   }
 
   static Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -144,17 +153,20 @@ class PatchReference {
     answer.area = static_cast<double>(sums.area);
     Real solid = std::fmod(-sums.solid, 4 * kPi);
     if (!sums.has_rim) solid = sums.moment < 0 ? 4 * kPi : 0;
-    if (solid < -1e-13L) solid += 4 * kPi;
+    if (solid < Real(-1e-13)) solid += 4 * kPi;
     answer.volume = has_border ? std::numeric_limits<double>::quiet_NaN()
                                : static_cast<double>((sums.moment + radius * radius * radius * solid) / 3);
+    return answer;
+  }
+
+  void find_gap(const Vector& center, Real radius, Answer& answer) const {
     for (std::size_t f = 0; f < triangles_.size(); ++f) {
-      if (seen[f] != 0) continue;
+      if (std::ranges::binary_search(answer.faces, f)) continue;
       const Real distance = distance_of_triangle(relative(f, center));
       if (distance > radius || static_cast<double>(distance) >= answer.gap) continue;
       answer.gap = static_cast<double>(distance);
       answer.nearest = f;
     }
-    return answer;
   }
 
   /// The signed area of the spherical triangle of three unit vectors.
@@ -209,11 +221,11 @@ class PatchReference {
       return;
     }
     sums.has_rim = true;
-    const Vector k{0.36L, 0.48L, 0.8L};
+    const Vector k{Real(0.36), Real(0.48), Real(0.8)};
     for (std::size_t i = 0; i < chords.size(); ++i) {
       const Vector& x = chords[i].second;
       const Vector& y = chords[(i + 1) % chords.size()].first;
-      if (length(minus(x, y)) < 1e-14L * r) continue;  // a corner in the disc
+      if (length(minus(x, y)) < Real(1e-14) * r) continue;  // a corner in the disc
       Real theta = angle(x, y);
       if (theta < 0) theta += 2 * kPi;
       const Vector u = plus({0, 0, 0}, 1 / r, x);
