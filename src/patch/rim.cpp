@@ -11,8 +11,6 @@
 namespace meshhood {
 namespace {
 
-using Complex = std::complex<double>;
-
 // One of these is far from the rim, unless it is everywhere.
 constexpr std::array<Point, 6> kPoles{{{0.48, 0.6, 0.64},
                                        {-0.48, -0.6, -0.64},
@@ -20,11 +18,6 @@ constexpr std::array<Point, 6> kPoles{{{0.48, 0.6, 0.64},
                                        {-0.64, 0.48, 0.6},
                                        {0.6, -0.64, 0.48},
                                        {-0.6, 0.64, -0.48}}};
-
-/// A product without the functions for infinite factors.
-Complex times(const Complex& a, const Complex& b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
 
 double squared_size(const Complex& z) { return z.real() * z.real() + z.imag() * z.imag(); }
 
@@ -81,7 +74,7 @@ double RimArcs::area_behind() const {
     best = product;
     if (least == kFar) break;
   }
-  const double area = std::fmod(-(sum_ + 2 * std::arg(best)), kSphere);
+  const double area = std::fmod(-(sum_ + 2 * argument(best)), kSphere);
   const double positive = area < 0 ? area + kSphere : area;
   return positive > kSphere - kSlack * static_cast<double>(count_ + 8) ? 0 : positive;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <complex>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "patch/angle.h"
 #include "shared/distance.h"
 
 namespace meshhood {
@@ -37,7 +37,7 @@ class RimArcs {
 
  private:
   std::vector<std::pair<Point, Point>> ends_;
-  std::complex<double> product_{1, 0};
+  Complex product_{1, 0};
   double sum_ = 0;
   std::size_t count_ = 0;
 };

@@ -12,8 +12,6 @@
 namespace meshhood {
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr double kPi = std::numbers::pi;
 
 // A corner farther away than so many radii is far. The nearest point of a line is off by a few 2^-53 of its corners'
@@ -21,20 +19,6 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kFar = 64;
 
 constexpr std::size_t after(std::size_t i) { return i == 2 ? 0 : i + 1; }
-
-Complex times(const Complex& a, const Complex& b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
-/// A unit vector, or 0.
-Point direction(const Point& p) {
-  const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  if (largest == 0) return {0, 0, 0};
-  const Point q{p.x / largest, p.y / largest, p.z / largest};
-  return (1 / length(q)) * q;
-}
-
-Point divided(const Point& p, double by) { return {p.x / by, p.y / by, p.z / by}; }
 
 /// From the center, in the frame. Scaling by a power of two does not round.
 template <class Real>
@@ -49,64 +33,71 @@ Vector<Real> offset(const PatchBall& ball, const Point& p) {
   return {axis(p.x, ball.center.x), axis(p.y, ball.center.y), axis(p.z, ball.center.z)};
 }
 
-bool is_far(const PatchBall& ball, const PatchTriangle& triangle) {
-  const double reach = kFar * ball.radius / ball.scale;
-  return std::ranges::any_of(triangle.corners,
-                             [&](const Point& p) { return squared_distance(p, ball.center) > reach * reach; });
-}
+Point divided(const Point& p, double by) { return {p.x / by, p.y / by, p.z / by}; }
 
 }  // namespace
 
-Section::Section(const PatchBall& ball, const PatchTriangle& triangle) : inside_(triangle.inside) {
-  if (is_far(ball, triangle)) {
-    find_lines<Twofold>(ball, triangle);
-  } else {
-    find_lines<double>(ball, triangle);
+Section::Section(const PatchBall& ball, const PatchTriangle& triangle) : ball_(&ball), triangle_(&triangle) {
+  double farthest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners_[i] = (ball.scale / ball.radius) * (triangle.corners[i] - ball.center);
+    farthest = std::max(farthest, dot(corners_[i], corners_[i]));
   }
+  is_far_ = !(farthest <= kFar * kFar);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const bool has_end = triangle.inside[i] || triangle.inside[after(i)];
+    if (!has_end && !may_dip(i)) continue;
+    // From the same end for all triangles that have the side.
+    const bool is_reversed = triangle.places[after(i)] < triangle.places[i];
+    if (is_far_) {
+      find_nearest<Twofold>(i, is_reversed);
+    } else {
+      find_nearest<double>(i, is_reversed);
+    }
+    sides_[i].is_cut = has_end || sides_[i].dips;
+    if (sides_[i].is_cut) find_chord(i);
+  }
+}
+
+/// Whether the nearest point of a line lies between the ends and in the ball, but for rounding.
+bool Section::may_dip(std::size_t i) const {
+  constexpr double kSlack = 1e-9;
+  if (is_far_) return true;
+  const Point& a = corners_[i];
+  const Point side = corners_[after(i)] - a;
+  const double along = dot(a, side);
+  const double square = dot(side, side);
+  return along <= kSlack * square && along >= -(1 + kSlack) * square &&
+         dot(a, a) * square - along * along <= (1 + kSlack) * square;
 }
 
 template <class Real>
-void Section::find_lines(const PatchBall& ball, const PatchTriangle& triangle) {
-  std::array<Vector<Real>, 3> corners{offset<Real>(ball, triangle.corners[0]), offset<Real>(ball, triangle.corners[1]),
-                                      offset<Real>(ball, triangle.corners[2])};
-  for (std::size_t i = 0; i < 3; ++i) {
-    // From the same end for all triangles that have the side.
-    const bool is_reversed = triangle.places[after(i)] < triangle.places[i];
-    const Vector<Real>& begin = corners[is_reversed ? after(i) : i];
-    const Vector<Real> whole = corners[is_reversed ? i : after(i)] - begin;
-    const Real square = dot(whole, whole);
-    Side& side = sides_[i];
-    if (static_cast<double>(square) == 0) {
-      side.nearest = divided(begin.round(), ball.radius);
-      side.is_cut = inside_[i];
-      continue;
-    }
-    const Real share = Real(0) - dot(begin, whole) / square;
-    side.nearest = divided((begin + share * whole).round(), ball.radius);
-    side.along = direction((is_reversed ? -1.0 : 1.0) * whole.round());
-    const auto rounded = static_cast<double>(share);
-    side.dips = !inside_[i] && !inside_[after(i)] && rounded > 0 && rounded < 1 && dot(side.nearest, side.nearest) <= 1;
-    find_chord(ball, triangle, i);
-  }
-  const Vector<Real> area = cross(corners[1] - corners[0], corners[2] - corners[0]);
-  normal_ = direction(area.round());
-  const Real size = Real(length(area.round()));
-  if (static_cast<double>(size) > 0) far_distance_ = static_cast<double>(dot(area, corners[0]) / size) / ball.radius;
-}
-
-void Section::find_chord(const PatchBall& ball, const PatchTriangle& triangle, std::size_t i) {
+void Section::find_nearest(std::size_t i, bool is_reversed) {
+  const auto begin = offset<Real>(*ball_, triangle_->corners[is_reversed ? after(i) : i]);
+  const auto whole = offset<Real>(*ball_, triangle_->corners[is_reversed ? i : after(i)]) - begin;
+  const Real square = dot(whole, whole);
   Side& side = sides_[i];
-  side.is_cut = side.dips || inside_[i] || inside_[after(i)];
-  if (!side.is_cut) return;
-  side.half = std::sqrt(std::max(0.0, 1 - dot(side.nearest, side.nearest)));
-  const auto along = [&](std::size_t corner) {
-    return dot(offset<double>(ball, triangle.corners[corner]).round(), side.along) / ball.radius;
-  };
-  side.from = inside_[i] ? along(i) : -side.half;
-  side.to = inside_[after(i)] ? along(after(i)) : side.half;
+  const auto squared_length = static_cast<double>(square);
+  if (squared_length == 0) {
+    side.nearest = corners_[i];
+    return;
+  }
+  const Real share = Real(0) - dot(begin, whole) / square;
+  side.nearest = divided((begin + share * whole).round(), ball_->radius);
+  side.along = ((is_reversed ? -1 : 1) / std::sqrt(squared_length)) * whole.round();
+  const auto rounded = static_cast<double>(share);
+  const bool is_between = rounded > 0 && rounded < 1 && !triangle_->inside[i] && !triangle_->inside[after(i)];
+  side.dips = is_between && dot(side.nearest, side.nearest) <= 1;
 }
 
-/// The turn of the boundary at a corner, as a complex number of size 1.
+void Section::find_chord(std::size_t i) {
+  Side& side = sides_[i];
+  side.half = std::sqrt(std::max(0.0, 1 - dot(side.nearest, side.nearest)));
+  side.from = triangle_->inside[i] ? dot(corners_[i], side.along) : -side.half;
+  side.to = triangle_->inside[after(i)] ? dot(corners_[after(i)], side.along) : side.half;
+}
+
+/// The turn of the boundary at a corner between two sides that are cut.
 Complex Section::turn_at(std::size_t corner) const {
   const Point& before = sides_[after(after(corner))].along;
   const Point& behind = sides_[corner].along;
@@ -115,55 +106,80 @@ Complex Section::turn_at(std::size_t corner) const {
 
 /// The angle of the arc from where side `from` leaves the ball to where the one `steps` sides later enters it.
 ///
-/// The boundary turns at both ends of the arc, each time by arg(offset + i half), and along the arc. All of it is the
-/// turn at the corners in between, 2 pi for the same side again. So the numbers are divided, and the angle is an
-/// argument in [0, 2 pi]; in [0, pi] for the next side, since both ends are seen from the corner that is outside. Near
+/// The boundary turns at both ends of the arc, each time by the argument of (offset, half), and along the arc. All of
+/// it is the turn at the corners in between: at the next corner; or, one side later, 2 pi without that at the corner
+/// that both sides have; or 2 pi for the same side again. So the numbers are divided, and the angle is an argument, in
+/// [0, 2 pi]; in [0, pi] for the next side, since both ends of the arc are seen from the corner that is outside. Near
 /// the ends of the first range the angles themselves are subtracted.
 double Section::angle_of_arc(std::size_t from, std::size_t steps) const {
-  const std::size_t to = (from + steps) % 3;
+  const Side& to = sides_[(from + steps) % 3];
   const Complex leaves{sides_[from].offset, sides_[from].half};
-  const Complex enters{sides_[to].offset, sides_[to].half};
-  Complex turn = 1;
-  if (steps != 3) turn = turn_at(after(from));
-  if (steps == 2) turn = times(turn, turn_at(to));
-  const Complex arc = times(times(turn, std::conj(leaves)), std::conj(enters));
-  const double angle = std::arg(arc);
+  const Complex enters{to.offset, to.half};
+  const Complex turn = steps == 1 ? turn_at(after(from)) : steps == 2 ? std::conj(turn_at(from)) : 1;
+  const Complex arc = times(turn, std::conj(times(leaves, enters)));
+  const double angle = argument(arc);
   if (steps == 1) return angle >= 0 ? angle : arc.real() > 0 ? 0 : 2 * kPi + angle;
   if (std::abs(arc.imag()) > 1e-6 * arc.real()) return angle < 0 ? 2 * kPi + angle : angle;
-  const double all = steps == 3 ? 2 * kPi : std::arg(turn_at(after(from))) + std::arg(turn_at(to));
-  return std::clamp(all - std::arg(leaves) - std::arg(enters), 0.0, 2 * kPi);
+  const double all = 2 * kPi + (steps == 2 ? argument(turn) : 0);
+  return std::clamp(all - argument(leaves) - argument(enters), 0.0, 2 * kPi);
 }
 
 /// From the longest chord, whose line is near.
 double Section::distance_of_plane() const {
-  double longest = 0;
-  double distance = far_distance_;
+  const Side* longest = &sides_[0];
   for (const Side& side : sides_) {
-    if (!(side.to - side.from > longest)) continue;
-    longest = side.to - side.from;
-    distance = dot(normal_, side.nearest);
+    if (side.to - side.from > longest->to - longest->from) longest = &side;
   }
-  return std::clamp(distance, -1.0, 1.0);
+  return std::clamp(dot(normal_, longest->nearest), -1.0, 1.0);
 }
 
-/// Of a plane that meets the ball, but not on the sides.
-bool Section::contains_disc() const {
-  return std::abs(far_distance_) < 1 && std::ranges::all_of(sides_, [](const Side& side) { return side.offset > 0; });
+/// The vector area of the triangle and whether the foot of the center on its plane lies in it, in the frame.
+template <class Real>
+Section::Plane Section::find_plane() const {
+  std::array<Vector<Real>, 3> corners{offset<Real>(*ball_, triangle_->corners[0]),
+                                      offset<Real>(*ball_, triangle_->corners[1]),
+                                      offset<Real>(*ball_, triangle_->corners[2])};
+  const Vector<Real> area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const Point rounded = area.round();
+  const double size = length(rounded);
+  if (size == 0) return {};
+  bool has_foot = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector<Real> over = cross(corners[i], corners[after(i)] - corners[i]);
+    has_foot = has_foot && static_cast<double>(dot(area, over)) > 0;
+  }
+  return {(1 / size) * rounded, static_cast<double>(dot(area, corners[0])) / size / ball_->radius, has_foot};
+}
+
+/// No side is cut: the plane meets the ball in a disc within the triangle, or beside it.
+Section::Measure Section::measure_disc(const Plane& plane, RimArcs& rim) {
+  if (!plane.has_foot || !(std::abs(plane.distance) < 1)) return {0, 0};
+  rim.add_circle(plane.distance);
+  return {kPi * (1 - plane.distance) * (1 + plane.distance), plane.distance};
 }
 
 Section::Measure Section::measure(RimArcs& rim) {
-  if (normal_.x == 0 && normal_.y == 0 && normal_.z == 0) return {0, 0};
+  const bool is_cut = sides_[0].is_cut || sides_[1].is_cut || sides_[2].is_cut;
+  if (is_far_ || !is_cut) {
+    const Plane plane = is_far_ ? find_plane<Twofold>() : find_plane<double>();
+    if (!is_cut) return measure_disc(plane, rim);
+    normal_ = plane.normal;
+  } else {
+    normal_ = cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
+    const double size = length(normal_);
+    normal_ = size > 0 ? (1 / size) * normal_ : Point{0, 0, 0};
+  }
+  if (normal_.x == 0 && normal_.y == 0 && normal_.z == 0) return {0, 0};  // no area
   const double distance = distance_of_plane();
   const double disc = (1 - distance) * (1 + distance);  // the square of its radius
   double doubled = 0;
   for (Side& side : sides_) {
+    if (!side.is_cut) continue;
     side.offset = dot(side.nearest, cross(side.along, normal_));
-    if (side.is_cut) doubled += side.offset * (side.to - side.from);
+    doubled += side.offset * (side.to - side.from);
   }
-  bool is_cut = false;
   for (std::size_t i = 0; i < 3; ++i) {
-    is_cut |= sides_[i].is_cut;
-    if (!sides_[i].is_cut || inside_[after(i)]) continue;
+    if (!sides_[i].is_cut || triangle_->inside[after(i)]) continue;
     std::size_t steps = 1;
     while (!sides_[(i + steps) % 3].is_cut) ++steps;
     const Side& next = sides_[(i + steps) % 3];
@@ -171,10 +187,6 @@ Section::Measure Section::measure(RimArcs& rim) {
     doubled += disc * angle;
     rim.add(normal_, distance, angle, sides_[i].nearest + sides_[i].half * sides_[i].along,
             next.nearest - next.half * next.along);
-  }
-  if (!is_cut && contains_disc()) {
-    doubled = 2 * kPi * disc;
-    rim.add_circle(distance);
   }
   return {doubled / 2, distance};
 }

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <array>
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 
+#include "patch/angle.h"
 #include "patch/rim.h"
 #include "shared/distance.h"
 
@@ -63,18 +63,29 @@ class Section {
     bool dips = false;
   };
 
+  struct Plane {
+    Point normal{0, 0, 0};
+    double distance = 0;
+    bool has_foot = false;  // of the perpendicular from the center, within the triangle
+  };
+
   template <class Real>
-  void find_lines(const PatchBall& ball, const PatchTriangle& triangle);
-  void find_chord(const PatchBall& ball, const PatchTriangle& triangle, std::size_t i);
-  [[nodiscard]] std::complex<double> turn_at(std::size_t corner) const;
+  void find_nearest(std::size_t i, bool is_reversed);
+  void find_chord(std::size_t i);
+  template <class Real>
+  [[nodiscard]] Plane find_plane() const;
+  [[nodiscard]] static Measure measure_disc(const Plane& plane, RimArcs& rim);
+  [[nodiscard]] bool may_dip(std::size_t i) const;
+  [[nodiscard]] Complex turn_at(std::size_t corner) const;
   [[nodiscard]] double angle_of_arc(std::size_t from, std::size_t steps) const;
   [[nodiscard]] double distance_of_plane() const;
-  [[nodiscard]] bool contains_disc() const;
 
+  const PatchBall* ball_;
+  const PatchTriangle* triangle_;
+  std::array<Point, 3> corners_;  // from the center
   std::array<Side, 3> sides_;
-  std::array<bool, 3> inside_;
-  Point normal_{0, 0, 0};  // a unit vector; 0 without an area
-  double far_distance_ = 0;    // of the plane, from corner 0
+  bool is_far_;
+  Point normal_{0, 0, 0};  // a unit vector
 };
 
 }  // namespace meshhood
