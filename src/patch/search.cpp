@@ -18,23 +18,6 @@ PatchSearch::PatchSearch(const PatchState& state)
       seen_(state.triangles.size()),
       kinds_(state.clusters.size()) {}
 
-void PatchSearch::run(const Point& center, double radius, std::span<const TriangleId> starts, bool measures) {
-  const double scale = state_->index->frame.scale;
-  ball_ = {center, squared_radius(radius), scale, scale * radius};
-  measures_ = measures;
-  inside_.forget();
-  seen_.forget();
-  kinds_.forget();
-  triangles_.clear();
-  clusters_.clear();
-  rim_.clear();
-  has_border_ = false;
-  area_ = 0;
-  moment_ = 0;
-  for (const TriangleId t : starts) visit(t);
-  std::visit([&](auto xyz) { spread(xyz); }, state_->index->positions);
-}
-
 double PatchSearch::area() const { return area_ / ball_.scale / ball_.scale; }
 
 double PatchSearch::volume() const {
@@ -58,6 +41,28 @@ std::vector<std::size_t> PatchSearch::faces() const {
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   return faces;
+}
+
+inline PatchSearch::Kind PatchSearch::kind_of(ClusterId cluster) {
+  constexpr double kSlack = 0x1p-46;
+  if (kinds_.is_known(cluster)) return kinds_[cluster];
+  const Cluster& sums = state_->clusters.clusters[cluster];
+  const double reach = ball_.scale * length(sums.center - ball_.center) + sums.radius;
+  return kinds_.set(cluster, reach <= ball_.radius * (1 - kSlack) ? Kind::Whole : Kind::Partial);
+}
+
+inline void PatchSearch::visit(TriangleId t) {
+  if (seen_.is_known(t)) return;
+  const ClusterId cluster = state_->clusters.of_triangle[t];
+  const Kind kind = kind_of(cluster);
+  if (kind == Kind::Whole) take(cluster);
+  if (kind != Kind::Partial) return;
+  seen_.set(t, true);
+  triangles_.push_back(t);
+}
+
+inline void PatchSearch::visit_fan(std::uint32_t place) {
+  for (const TriangleId t : state_->triangles.fan(place)) visit(t);
 }
 
 /// Steps from the triangles seen and the clusters taken until there are no more.
@@ -88,22 +93,21 @@ void PatchSearch::spread(std::span<const Real> xyz) {
   }
 }
 
-void PatchSearch::visit(TriangleId t) {
-  if (seen_.is_known(t)) return;
-  const ClusterId cluster = state_->clusters.of_triangle[t];
-  const Kind kind = kind_of(cluster);
-  if (kind == Kind::Whole) take(cluster);
-  if (kind != Kind::Partial) return;
-  seen_.set(t, true);
-  triangles_.push_back(t);
-}
-
-PatchSearch::Kind PatchSearch::kind_of(ClusterId cluster) {
-  constexpr double kSlack = 0x1p-46;
-  if (kinds_.is_known(cluster)) return kinds_[cluster];
-  const Cluster& sums = state_->clusters.clusters[cluster];
-  const double reach = ball_.scale * length(sums.center - ball_.center) + sums.radius;
-  return kinds_.set(cluster, reach <= ball_.radius * (1 - kSlack) ? Kind::Whole : Kind::Partial);
+void PatchSearch::run(const Point& center, double radius, std::span<const TriangleId> starts, bool measures) {
+  const double scale = state_->index->frame.scale;
+  ball_ = {center, squared_radius(radius), scale, scale * radius, 1 / radius};
+  measures_ = measures;
+  inside_.forget();
+  seen_.forget();
+  kinds_.forget();
+  triangles_.clear();
+  clusters_.clear();
+  rim_.clear();
+  has_border_ = false;
+  area_ = 0;
+  moment_ = 0;
+  for (const TriangleId t : starts) visit(t);
+  std::visit([&](auto xyz) { spread(xyz); }, state_->index->positions);
 }
 
 void PatchSearch::take(ClusterId cluster) {
@@ -131,10 +135,6 @@ void PatchSearch::leave(ClusterId cluster) {
   }
 }
 
-void PatchSearch::visit_fan(std::uint32_t place) {
-  for (const TriangleId t : state_->triangles.fan(place)) visit(t);
-}
-
 void PatchSearch::visit_ring(TriangleId t, std::size_t side) {
   const std::uint32_t begin = 3 * t + static_cast<std::uint32_t>(side);
   for (std::uint32_t i = state_->triangles.ring[begin]; i != begin; i = state_->triangles.ring[i]) visit(i / 3);
@@ -154,7 +154,7 @@ void PatchSearch::add_cut(TriangleId t, const PatchTriangle& triangle) {
     if (section.dips(i)) visit_ring(t, i);
     has_border_ |= section.meets(i) && state_->triangles.is_border(t, static_cast<unsigned>(i));
   }
-  if (!measures_ || ball_.radius == 0) return;
+  if (!measures_ || !std::isfinite(ball_.unit)) return;
   const double r = ball_.radius;
   const auto [area, distance] = section.measure(rim_);
   area_ += area * r * r;

@@ -33,30 +33,38 @@ Vector<Real> offset(const PatchBall& ball, const Point& p) {
   return {axis(p.x, ball.center.x), axis(p.y, ball.center.y), axis(p.z, ball.center.z)};
 }
 
-Point divided(const Point& p, double by) { return {p.x / by, p.y / by, p.z / by}; }
+Vector<double> as_vector(const Point& p) { return {p.x, p.y, p.z}; }
 
 }  // namespace
 
 Section::Section(const PatchBall& ball, const PatchTriangle& triangle) : ball_(&ball), triangle_(&triangle) {
   double farthest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    corners_[i] = (ball.scale / ball.radius) * (triangle.corners[i] - ball.center);
+    corners_[i] = ball.unit * (triangle.corners[i] - ball.center);
     farthest = std::max(farthest, dot(corners_[i], corners_[i]));
   }
   is_far_ = !(farthest <= kFar * kFar);
   for (std::size_t i = 0; i < 3; ++i) {
-    const bool has_end = triangle.inside[i] || triangle.inside[after(i)];
-    if (!has_end && !may_dip(i)) continue;
-    // From the same end for all triangles that have the side.
-    const bool is_reversed = triangle.places[after(i)] < triangle.places[i];
-    if (is_far_) {
-      find_nearest<Twofold>(i, is_reversed);
-    } else {
-      find_nearest<double>(i, is_reversed);
-    }
-    sides_[i].is_cut = has_end || sides_[i].dips;
-    if (sides_[i].is_cut) find_chord(i);
+    sides_[i].is_cut = triangle.inside[i] || triangle.inside[after(i)];
+    if (sides_[i].is_cut || !may_dip(i)) continue;
+    find_nearest(i);
+    sides_[i].is_cut = sides_[i].dips = sides_[i].is_between && dot(sides_[i].nearest, sides_[i].nearest) <= 1;
   }
+}
+
+/// The nearest point of the line from `begin` along `whole`, both times `unit`.
+template <class Real>
+Section::Side Section::nearest_side(const Vector<Real>& begin, const Vector<Real>& whole, double unit) {
+  const Real square = dot(whole, whole);
+  const auto rounded = static_cast<double>(square);
+  Side side;
+  side.nearest = unit * begin.round();
+  if (rounded == 0) return side;
+  const Real share = Real(0) - dot(begin, whole) / square;
+  side.nearest = unit * (begin + share * whole).round();
+  side.along = (1 / std::sqrt(rounded)) * whole.round();
+  side.is_between = static_cast<double>(share) > 0 && static_cast<double>(share) < 1;
+  return side;
 }
 
 /// Whether the nearest point of a line lies between the ends and in the ball, but for rounding.
@@ -71,27 +79,26 @@ bool Section::may_dip(std::size_t i) const {
          dot(a, a) * square - along * along <= (1 + kSlack) * square;
 }
 
-template <class Real>
-void Section::find_nearest(std::size_t i, bool is_reversed) {
-  const auto begin = offset<Real>(*ball_, triangle_->corners[is_reversed ? after(i) : i]);
-  const auto whole = offset<Real>(*ball_, triangle_->corners[is_reversed ? i : after(i)]) - begin;
-  const Real square = dot(whole, whole);
-  Side& side = sides_[i];
-  const auto squared_length = static_cast<double>(square);
-  if (squared_length == 0) {
-    side.nearest = corners_[i];
-    return;
+/// From the same end for all triangles that have the side.
+void Section::find_nearest(std::size_t i) {
+  const bool is_reversed = triangle_->places[after(i)] < triangle_->places[i];
+  const std::size_t begin = is_reversed ? after(i) : i;
+  const std::size_t end = is_reversed ? i : after(i);
+  if (is_far_) {
+    const auto from = offset<Twofold>(*ball_, triangle_->corners[begin]);
+    const auto to = offset<Twofold>(*ball_, triangle_->corners[end]);
+    sides_[i] = nearest_side(from, to - from, 1 / ball_->radius);
+  } else {
+    const auto from = as_vector(corners_[begin]);
+    sides_[i] = nearest_side(from, as_vector(corners_[end]) - from, 1.0);
   }
-  const Real share = Real(0) - dot(begin, whole) / square;
-  side.nearest = divided((begin + share * whole).round(), ball_->radius);
-  side.along = ((is_reversed ? -1 : 1) / std::sqrt(squared_length)) * whole.round();
-  const auto rounded = static_cast<double>(share);
-  const bool is_between = rounded > 0 && rounded < 1 && !triangle_->inside[i] && !triangle_->inside[after(i)];
-  side.dips = is_between && dot(side.nearest, side.nearest) <= 1;
+  if (is_reversed) sides_[i].along = -1.0 * sides_[i].along;
 }
 
 void Section::find_chord(std::size_t i) {
   Side& side = sides_[i];
+  if (!side.dips) find_nearest(i);
+  side.is_cut = true;
   side.half = std::sqrt(std::max(0.0, 1 - dot(side.nearest, side.nearest)));
   side.from = triangle_->inside[i] ? dot(corners_[i], side.along) : -side.half;
   side.to = triangle_->inside[after(i)] ? dot(corners_[after(i)], side.along) : side.half;
@@ -160,6 +167,9 @@ Section::Measure Section::measure_disc(const Plane& plane, RimArcs& rim) {
 
 Section::Measure Section::measure(RimArcs& rim) {
   const bool is_cut = sides_[0].is_cut || sides_[1].is_cut || sides_[2].is_cut;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (sides_[i].is_cut) find_chord(i);
+  }
   if (is_far_ || !is_cut) {
     const Plane plane = is_far_ ? find_plane<Twofold>() : find_plane<double>();
     if (!is_cut) return measure_disc(plane, rim);

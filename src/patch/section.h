@@ -7,6 +7,7 @@
 
 #include "patch/angle.h"
 #include "patch/rim.h"
+#include "patch/twofold.h"
 #include "shared/distance.h"
 
 namespace meshhood {
@@ -17,6 +18,7 @@ struct PatchBall {
   double squared;  // of the predicate
   double scale;    // of the frame, a power of two
   double radius;   // in the frame
+  double unit;     // 1 / radius in the unit of the mesh; infinite if that is next to nothing
 
   [[nodiscard]] bool contains(const Point& p) const { return squared_distance(center, p) <= squared; }
 };
@@ -59,6 +61,7 @@ class Section {
     double from = 0;         // its part in the ball, from `nearest` on
     double to = 0;
     double offset = 0;  // of the line, from the foot of the center on the plane, to the right
+    bool is_between = false;  // whether `nearest` lies between the ends
     bool is_cut = false;
     bool dips = false;
   };
@@ -70,7 +73,8 @@ class Section {
   };
 
   template <class Real>
-  void find_nearest(std::size_t i, bool is_reversed);
+  [[nodiscard]] static Side nearest_side(const Vector<Real>& begin, const Vector<Real>& whole, double unit);
+  void find_nearest(std::size_t i);
   void find_chord(std::size_t i);
   template <class Real>
   [[nodiscard]] Plane find_plane() const;
