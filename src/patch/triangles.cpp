@@ -55,7 +55,7 @@ struct Given {
 };
 
 /// Finds the parts of a few triangles that are joined by corners.
-class BinParts {
+class LeafParts {
  public:
   /// Sorts the triangles by their parts, each named by its first triangle, and leaves their order otherwise.
   void sort(std::span<Given> triangles) {
@@ -115,29 +115,29 @@ Triangles::Triangles(const IndexView& index, const FacesView& faces) {
   join_sides(index.vertex_count());
 }
 
-/// Counting sort by the place of the corner that comes first in index order, then by the parts of each bin that hold
+/// Counting sort by the leaf of the corner that comes first in index order, then by the parts of each leaf that hold
 /// together.
 void Triangles::sort_faces(const IndexView& index, const FacesView& faces) {
-  const auto bin_of = [&](const Corners& triangle) { return index.slot_at(std::ranges::min(triangle)) / kClusterLanes; };
-  std::vector<TriangleId> begin(index.leaf_count() * kLeafCapacity / kClusterLanes + 1, 0);
+  const auto leaf_at = [&](const Corners& triangle) { return leaf_of(index.slot_at(std::ranges::min(triangle))); };
+  std::vector<TriangleId> begin(index.leaf_count() + 1, 0);
   for_each_triangle(index, faces, [&](std::size_t, const Corners& triangle, std::uint8_t) {
-    ++begin[bin_of(triangle) + std::size_t{1}];
+    ++begin[leaf_at(triangle) + std::size_t{1}];
   });
   add_up(begin);
   if (begin.back() == 0) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
   std::vector<TriangleId> next(begin.begin(), begin.end() - 1);
   std::vector<Given> given(begin.back());
   for_each_triangle(index, faces, [&](std::size_t f, const Corners& triangle, std::uint8_t diagonals) {
-    given[next[bin_of(triangle)]++] = {triangle, static_cast<std::uint32_t>(f), diagonals, 0};
+    given[next[leaf_at(triangle)]++] = {triangle, static_cast<std::uint32_t>(f), diagonals, 0};
   });
-  BinParts parts;
+  LeafParts parts;
   first_of_cluster.push_back(0);
-  for (std::size_t bin = 0; bin + 1 < begin.size(); ++bin) {
-    parts.sort(std::span(given).subspan(begin[bin], begin[bin + 1] - begin[bin]));
-    for (TriangleId t = begin[bin]; t < begin[bin + 1]; ++t) {
-      if (t > begin[bin] && given[t].part != given[t - 1].part) first_of_cluster.push_back(t);
+  for (LeafId leaf = 0; leaf < index.leaf_count(); ++leaf) {
+    parts.sort(std::span(given).subspan(begin[leaf], begin[leaf + std::size_t{1}] - begin[leaf]));
+    for (TriangleId t = begin[leaf]; t < begin[leaf + std::size_t{1}]; ++t) {
+      if (t > begin[leaf] && given[t].part != given[t - 1].part) first_of_cluster.push_back(t);
     }
-    if (begin[bin] != begin[bin + 1]) first_of_cluster.push_back(begin[bin + 1]);
+    if (begin[leaf] != begin[leaf + std::size_t{1}]) first_of_cluster.push_back(begin[leaf + std::size_t{1}]);
   }
   for (const Given& triangle : given) {
     corners.push_back(triangle.corners);

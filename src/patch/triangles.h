@@ -16,14 +16,11 @@ namespace meshhood {
 /// A triangle by its number. Those of a cluster follow each other.
 using TriangleId = std::uint32_t;
 
-/// A cluster has the triangles whose corners that come first in index order are among so many lanes of a leaf.
-inline constexpr std::size_t kClusterLanes = 16;
-
 /// The triangles of the faces of a mesh, and which of them meet.
 ///
 /// A face with a wall, or with fewer than three corners, has none. A *side* joins two corners; the triangles at a side
-/// are a ring. A diagonal of a polygon is a side of its own, even where another face has the same corners. The triangles
-/// of a *cluster* lie close together, and are connected by corners.
+/// are a ring. A diagonal of a polygon is a side of its own, even where another face has the same corners. A
+/// *cluster* has the triangles whose corners that come first in index order are in one leaf, as far as corners join them.
 struct Triangles {
   std::vector<std::array<std::uint32_t, 3>> corners;  // places in index order
   std::vector<std::uint32_t> face;                    // of each: its number in the mesh
