@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <variant>
 
 #include "base/vector.h"
+#include "patch/section.h"
+#include "patch/twofold.h"
 #include "region/triangle_point.h"
 
 namespace meshhood {
@@ -23,6 +26,26 @@ inline double squared_distance(const Point& q, const Box& box) {
   const Point gap{beyond(q.x, box.low.x, box.high.x), beyond(q.y, box.low.y, box.high.y),
                   beyond(q.z, box.low.z, box.high.z)};
   return dot(gap, gap);
+}
+
+/// The distance of a triangle from `q`, in twice the precision.
+double far_distance(const Point& q, const std::array<Point, 3>& corners, double scale) {
+  std::array<Vector<Twofold>, 3> p{offset_of<Twofold>(corners[0], q, scale), offset_of<Twofold>(corners[1], q, scale),
+                                   offset_of<Twofold>(corners[2], q, scale)};
+  const Vector<Twofold> area = cross(p[1] - p[0], p[2] - p[0]);
+  const double size = length(area.round());
+  double least = kInfinity;
+  bool has_foot = size > 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector<Twofold> side = p[(i + 1) % 3] - p[i];
+    has_foot = has_foot && static_cast<double>(dot(area, cross(p[i], side))) > 0;
+    const Twofold square = dot(side, side);
+    Twofold share = static_cast<double>(square) > 0 ? Twofold(0) - dot(p[i], side) / square : Twofold(0);
+    if (!(static_cast<double>(share) > 0)) share = Twofold(0);
+    if (static_cast<double>(share) > 1) share = Twofold(1);
+    least = std::min(least, length((p[i] + share * side).round()));
+  }
+  return (has_foot ? std::abs(static_cast<double>(dot(area, p[0]))) / size : least) / scale;
 }
 
 template <class Real>
@@ -77,13 +100,20 @@ class GapSearch {
     const Box box{box_of([](double a, double b) { return std::min(a, b); }),
                   box_of([](double a, double b) { return std::max(a, b); })};
     if (squared_distance(q_, box) > squared_limit_) return;
-    const TrianglePoint found = nearest_in_triangle(q_, corners, search_->ball().scale);
+    TrianglePoint found = nearest_in_triangle(q_, corners, search_->ball().scale);
+    if (is_far(corners)) found.distance = far_distance(q_, corners, search_->ball().scale);
     const std::size_t face = state_->triangles.face[t];
     if (found.distance > radius_ || found.distance > gap_.distance) return;
     if (found.distance == gap_.distance && gap_.face <= face) return;
     gap_ = {face, {}, found.weights, {found.point.x, found.point.y, found.point.z}, found.distance};
     for (std::size_t i = 0; i < 3; ++i) gap_.vertices[i] = state_->index->id(places[i]);
     set_limit(found.distance);
+  }
+
+  [[nodiscard]] bool is_far(const std::array<Point, 3>& corners) const {
+    return std::ranges::any_of(corners, [&](const Point& p) {
+      return squared_distance(p, q_) > kFar * kFar * radius_ * radius_;
+    });
   }
 
   const PatchState* state_;

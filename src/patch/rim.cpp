@@ -11,6 +11,9 @@
 namespace meshhood {
 namespace {
 
+// An arc that is longer has nearly opposite ends, or more than that, and is added in four parts.
+constexpr double kLong = 2;
+
 // One of these is far from the rim, unless it is everywhere.
 constexpr std::array<Point, 6> kPoles{{{0.48, 0.6, 0.64},
                                        {-0.48, -0.6, -0.64},
@@ -44,9 +47,28 @@ void RimArcs::clear() {
 void RimArcs::add(const Point& n, double h, double theta, const Point& u, const Point& w) {
   const double sign = h < 0 ? -1 : 1;
   sum_ += sign * theta * (1 - sign * h);
-  product_ = rescaled(times(product_, std::conj(half_area(sign * n, u, w))));
-  ends_.emplace_back(u, w);
   ++count_;
+  if (theta < kLong) return add_part(sign * n, u, w);
+  const Point foot = h * n;
+  const double size = std::sqrt((1 - h) * (1 + h));
+  const auto middle = [&](const Point& toward) {
+    const double norm = length(toward);
+    return norm > 0 ? foot + (size / norm) * toward : foot;
+  };
+  const Point chord = w - u;
+  const bool is_nearly_whole = theta > 1.5 * std::numbers::pi;
+  const Point half = middle(is_nearly_whole ? 2.0 * foot - (u + w) : cross(chord, n));
+  const Point first = middle(cross(half - u, n));
+  const Point last = middle(cross(w - half, n));
+  add_part(sign * n, u, first);
+  add_part(sign * n, first, half);
+  add_part(sign * n, half, last);
+  add_part(sign * n, last, w);
+}
+
+void RimArcs::add_part(const Point& n, const Point& u, const Point& w) {
+  product_ = rescaled(times(product_, std::conj(half_area(n, u, w))));
+  ends_.emplace_back(u, w);
 }
 
 void RimArcs::add_circle(double h) {

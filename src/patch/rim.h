@@ -18,7 +18,8 @@ namespace meshhood {
 /// with T the signed area of a spherical triangle, T = 2 arg(1 + n.u + u.w + w.n + i n.(u x w)) (van Oosterom and
 /// Strackee, "The solid angle of a plane triangle", 1983). The area to the right of all arcs is minus the sum, modulo
 /// 4 pi. So the complex numbers are multiplied, and one arctangent is taken of the product. For h < 0, n is replaced by
-/// -n: the arc is then -theta about it, and T is far from its singularity.
+/// -n: the arc is then -theta about it, and T is far from its singularity. An arc that is not short is divided, since
+/// opposite ends have no spherical triangle.
 class RimArcs {
  public:
   void clear();
@@ -36,6 +37,8 @@ class RimArcs {
   [[nodiscard]] double area_behind() const;
 
  private:
+  void add_part(const Point& n, const Point& u, const Point& w);
+
   std::vector<std::pair<Point, Point>> ends_;
   Complex product_{1, 0};
   double sum_ = 0;

@@ -4,36 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <type_traits>
 
 #include "base/vector.h"
-#include "patch/twofold.h"
 
 namespace meshhood {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// A corner farther away than so many radii is far. The nearest point of a line is off by a few 2^-53 of its corners'
-// distance: below 1e-13 of the radius.
-constexpr double kFar = 64;
-
 constexpr std::size_t after(std::size_t i) { return i == 2 ? 0 : i + 1; }
 
-/// From the center, in the frame. Scaling by a power of two does not round.
+Vector<double> as_vector(const Point& p) { return {p.x, p.y, p.z}; }
+
 template <class Real>
 Vector<Real> offset(const PatchBall& ball, const Point& p) {
-  const auto axis = [&](double x, double center) -> Real {
-    if constexpr (std::is_same_v<Real, double>) {
-      return ball.scale * (x - center);
-    } else {
-      return Twofold::sum(ball.scale * x, -ball.scale * center);
-    }
-  };
-  return {axis(p.x, ball.center.x), axis(p.y, ball.center.y), axis(p.z, ball.center.z)};
+  return offset_of<Real>(p, ball.center, ball.scale);
 }
-
-Vector<double> as_vector(const Point& p) { return {p.x, p.y, p.z}; }
 
 }  // namespace
 
@@ -133,9 +119,10 @@ double Section::angle_of_arc(std::size_t from, std::size_t steps) const {
 
 /// From the longest chord, whose line is near.
 double Section::distance_of_plane() const {
-  const Side* longest = &sides_[0];
+  const Side* longest = nullptr;
   for (const Side& side : sides_) {
-    if (side.to - side.from > longest->to - longest->from) longest = &side;
+    if (!side.is_cut) continue;
+    if (longest == nullptr || side.to - side.from > longest->to - longest->from) longest = &side;
   }
   return std::clamp(dot(normal_, longest->nearest), -1.0, 1.0);
 }

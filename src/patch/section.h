@@ -23,6 +23,10 @@ struct PatchBall {
   [[nodiscard]] bool contains(const Point& p) const { return squared_distance(center, p) <= squared; }
 };
 
+/// A corner farther away than so many radii is far. In double, the nearest point of a line is off by a few 2^-53 of its
+/// corners' distance: below 1e-13 of the radius, unless a corner is far.
+inline constexpr double kFar = 64;
+
 /// A triangle by its corners in the unit of the mesh, with what is known of them.
 struct PatchTriangle {
   std::array<Point, 3> corners;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "shared/distance.h"
 
@@ -64,6 +65,19 @@ template <class Real>
 template <class Real>
 [[nodiscard]] Vector<Real> cross(const Vector<Real>& a, const Vector<Real>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// `p` - `center`, times `scale`, a power of two, which does not round.
+template <class Real>
+[[nodiscard]] Vector<Real> offset_of(const Point& p, const Point& center, double scale) {
+  const auto axis = [&](double x, double from) -> Real {
+    if constexpr (std::is_same_v<Real, double>) {
+      return scale * (x - from);
+    } else {
+      return Twofold::sum(scale * x, -scale * from);
+    }
+  };
+  return {axis(p.x, center.x), axis(p.y, center.y), axis(p.z, center.z)};
 }
 
 }  // namespace meshhood

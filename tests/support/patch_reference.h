@@ -228,9 +228,18 @@ class PatchReference {
       if (length(minus(x, y)) < Real(1e-14) * r) continue;  // a corner in the disc
       Real theta = angle(x, y);
       if (theta < 0) theta += 2 * kPi;
-      const Vector u = plus({0, 0, 0}, 1 / r, x);
-      const Vector w = plus({0, 0, 0}, 1 / r, y);
-      sums.solid += theta * (1 - h) - spherical(n, u, w) + spherical(k, u, w);
+      // In parts, so that no two ends are opposite.
+      const auto turned = [&](Real share) {
+        const Vector from = minus(x, foot);
+        const Vector around = plus(foot, std::cos(share * theta), from);
+        return plus({0, 0, 0}, 1 / r, plus(around, std::sin(share * theta), cross(n, from)));
+      };
+      sums.solid += theta * (1 - h);
+      for (int part = 0; part < 4; ++part) {
+        const Vector u = turned(Real(part) / 4);
+        const Vector w = part == 3 ? plus({0, 0, 0}, 1 / r, y) : turned(Real(part + 1) / 4);
+        sums.solid += spherical(k, u, w) - spherical(n, u, w);
+      }
     }
   }
 
