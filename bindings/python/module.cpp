@@ -75,6 +75,7 @@ NB_MODULE(_core, module) {
   meshhood::python::bind_aggregates(module);
   meshhood::python::bind_curvature(module);
   meshhood::python::bind_makers(module);
+  meshhood::python::bind_patches(module);
   meshhood::python::bind_queries(module);
   meshhood::python::bind_region_mesh(module);
   meshhood::python::bind_surface_queries(module);

@@ -22,9 +22,7 @@
 namespace meshhood {
 namespace {
 
-constexpr std::size_t kRowsAtOnce = 32;
-
-const PatchGap kNoGap{};
+constexpr std::size_t kPatchesAtOnce = 32;
 
 /// Runs the search around a vertex. Returns whether there is a patch.
 bool run_at(const PatchState& state, PatchSearch& search, VertexId v, double radius, bool measures) {
@@ -42,7 +40,7 @@ void for_each_row(const PatchState& state, const Rows& rows, TaskContext& task, 
   for (std::size_t row = 0; row < rows.size(); ++row) in_order[row] = {state.index->slot[rows.vertex(row)], row};
   std::sort(in_order.begin(), in_order.end());
   std::vector<std::unique_ptr<PatchSearch>> searches(task.threads());
-  task.parallel_for(rows.size(), kRowsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
+  task.parallel_for(rows.size(), kPatchesAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
     if (!searches[thread]) searches[thread] = std::make_unique<PatchSearch>(state);
     for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
       const std::size_t row = in_order[i].second;
@@ -140,7 +138,7 @@ PatchMeasure PatchSearcher::measure(const PatchStart& start, double radius) {
 }
 
 PatchGap PatchSearcher::gap(const PatchStart& start, double radius) {
-  return state_->run(start, radius, false) ? find_gap(*state_->surface, state_->search, radius) : kNoGap;
+  return state_->run(start, radius, false) ? find_gap(*state_->surface, state_->search, radius) : PatchGap{};
 }
 
 Invariants invariants(const PatchIndex& surface, const BatchQuery& query, const BatchOptions& options) {
@@ -168,7 +166,7 @@ std::vector<PatchGap> gaps(const PatchIndex& surface, const BatchQuery& query, c
   check_metric(query);
   const Rows rows(query, state.index->vertex_count());
   TaskContext task(options.threads, options.progress, rows.size());
-  std::vector<PatchGap> result(rows.size(), kNoGap);
+  std::vector<PatchGap> result(rows.size());
   for_each_row(state, rows, task, false, [&](PatchSearch& search, std::size_t row, bool exists) {
     if (exists) result[row] = find_gap(state, search, rows.radius(row));
   });
