@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Compares `invariants` and `gaps` for all vertices with the plain search of the tests, in double, for a sample of them.
-// Wall-clock microseconds for each vertex, the ratio, and the largest deviation in units of pi r^2 and of the ball.
+// Compares `invariants` and `gaps` for all vertices with the plain search of the tests, in double, for a sample of
+// them. Wall-clock microseconds for each vertex, the ratio, and the largest deviation in units of pi r^2 and of the
+// ball.
 //
 //   bench_patches MESH THREADS [RADIUS IN MEAN EDGES...]
 #include <algorithm>

@@ -64,8 +64,8 @@ class Patches {
     static_assert(static_cast<std::int64_t>(kNoFace) == -1);
     const std::size_t rows = distances.size();
     return std::tuple(owned<double>(std::move(distances)), owned<std::int64_t>(std::move(faces)),
-                      owned<std::int32_t>(std::move(corners), {rows, 3}),
-                      owned<double>(std::move(weights), {rows, 3}), owned<double>(std::move(points), {rows, 3}));
+                      owned<std::int32_t>(std::move(corners), {rows, 3}), owned<double>(std::move(weights), {rows, 3}),
+                      owned<double>(std::move(points), {rows, 3}));
   }
 
   auto faces(VertexId vertex, std::optional<std::size_t> face, const SpacePoint& point, double radius) {

@@ -16,9 +16,10 @@
 ///     const auto ids = searcher.neighborhood(42, 1.5);  // the same set as breadth-first search
 ///
 /// `Searcher`, for one vertex or point, and visitors are in search.h, batches over many vertices in batch.h, sums over
-/// neighborhoods in aggregate.h and moments.h, areas, volumes and gaps of the surface in patch.h, walls in masks.h, meshes that deform in refit.h, files in io/mesh_io.h
-/// and io/index_io.h. Meshes of other libraries are in eigen.h, cgal.h, openmesh.h and geometry_central.h.
-/// `meshhood::paper` has the same calls with the approximate neighborhoods of the paper.
+/// neighborhoods in aggregate.h and moments.h, areas, volumes and gaps of the surface in patch.h, walls in masks.h,
+/// meshes that deform in refit.h, files in io/mesh_io.h and io/index_io.h. Meshes of other libraries are in eigen.h,
+/// cgal.h, openmesh.h and geometry_central.h. `meshhood::paper` has the same calls with the approximate neighborhoods
+/// of the paper.
 
 #include "meshhood/adjacency.h"            // IWYU pragma: export
 #include "meshhood/aggregate.h"            // IWYU pragma: export

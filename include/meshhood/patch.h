@@ -28,8 +28,8 @@
 ///     const auto thickness = meshhood::gaps(surface, {.radius = 1.5}).distances;
 ///
 /// Faces are oriented counterclockwise, seen from outside. A polygon is triangulated, one that is not convex so that
-/// its area is its own; diagonals join triangles as sides do. A face with a wall (see masks.h), or with fewer than three
-/// corners, is not there. Vertices at the same place are not one: weld a mesh that has such.
+/// its area is its own; diagonals join triangles as sides do. A face with a wall (see masks.h), or with fewer than
+/// three corners, is not there. Vertices at the same place are not one: weld a mesh that has such.
 namespace meshhood {
 
 /// No face.
@@ -66,9 +66,9 @@ struct PatchMeasure {
 struct PatchGap {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-  std::size_t face = kNoFace;                                        ///< its number
+  std::size_t face = kNoFace;                                         ///< its number
   std::array<VertexId, 3> vertices{kNoVertex, kNoVertex, kNoVertex};  ///< of its triangle
-  std::array<double, 3> weights{kNone, kNone, kNone};                ///< barycentric coordinates in it
+  std::array<double, 3> weights{kNone, kNone, kNone};                 ///< barycentric coordinates in it
   SpacePoint point{kNone, kNone, kNone};
   double distance = std::numeric_limits<double>::infinity();
 };

@@ -64,8 +64,7 @@ Clusters::Clusters(const IndexView& index, const Triangles& triangles) : of_tria
   levels.emplace_back(count);
   for (ClusterId cluster = 0; cluster < count; ++cluster) {
     const TriangleId end = triangles.first_of_cluster[cluster + std::size_t{1}];
-    clusters.push_back(
-        add_up(index, triangles, triangles.first_of_cluster[cluster], end, levels.front()[cluster]));
+    clusters.push_back(add_up(index, triangles, triangles.first_of_cluster[cluster], end, levels.front()[cluster]));
     set_first();
     link(triangles, cluster);
   }

@@ -111,9 +111,8 @@ class GapSearch {
   }
 
   [[nodiscard]] bool is_far(const std::array<Point, 3>& corners) const {
-    return std::ranges::any_of(corners, [&](const Point& p) {
-      return squared_distance(p, q_) > kFar * kFar * radius_ * radius_;
-    });
+    return std::ranges::any_of(
+        corners, [&](const Point& p) { return squared_distance(p, q_) > kFar * kFar * radius_ * radius_; });
   }
 
   const PatchState* state_;

@@ -33,7 +33,9 @@ class PatchSearch {
   [[nodiscard]] double volume() const;
 
   [[nodiscard]] const PatchBall& ball() const { return ball_; }
-  [[nodiscard]] bool has(TriangleId t) const { return seen_.is_known(t) || has_cluster(state_->clusters.of_triangle[t]); }
+  [[nodiscard]] bool has(TriangleId t) const {
+    return seen_.is_known(t) || has_cluster(state_->clusters.of_triangle[t]);
+  }
   [[nodiscard]] bool has_cluster(ClusterId c) const { return kinds_.is_known(c) && kinds_[c] == Kind::Taken; }
 
   /// The numbers of the faces, ascending.
@@ -55,9 +57,9 @@ class PatchSearch {
   void add_cut(TriangleId t, const PatchTriangle& triangle);
 
   const PatchState* state_;
-  EpochArray<bool> inside_;  // by place
-  EpochArray<bool> seen_;    // by triangle of a partial cluster; the value means nothing
-  EpochArray<Kind> kinds_;   // by cluster
+  EpochArray<bool> inside_;            // by place
+  EpochArray<bool> seen_;              // by triangle of a partial cluster; the value means nothing
+  EpochArray<Kind> kinds_;             // by cluster
   std::vector<TriangleId> triangles_;  // seen
   std::vector<ClusterId> clusters_;    // taken
   RimArcs rim_;

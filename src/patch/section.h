@@ -64,7 +64,7 @@ class Section {
     double half = 0;         // of the chord of the line
     double from = 0;         // its part in the ball, from `nearest` on
     double to = 0;
-    double offset = 0;  // of the line, from the foot of the center on the plane, to the right
+    double offset = 0;        // of the line, from the foot of the center on the plane, to the right
     bool is_between = false;  // whether `nearest` lies between the ends
     bool is_cut = false;
     bool dips = false;

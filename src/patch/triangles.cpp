@@ -176,8 +176,8 @@ namespace {
 
 /// A side of a triangle, seen from the end that comes first.
 struct Side {
-  std::uint32_t last;   // its other end
-  std::uint32_t owner;  // the face of a diagonal
+  std::uint32_t last;    // its other end
+  std::uint32_t owner;   // the face of a diagonal
   std::uint32_t number;  // three times its triangle, plus its number there
   bool is_reversed;
 

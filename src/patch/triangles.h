@@ -20,14 +20,15 @@ using TriangleId = std::uint32_t;
 ///
 /// A face with a wall, or with fewer than three corners, has none. A *side* joins two corners; the triangles at a side
 /// are a ring. A diagonal of a polygon is a side of its own, even where another face has the same corners. A
-/// *cluster* has the triangles whose corners that come first in index order are in one leaf, as far as corners join them.
+/// *cluster* has the triangles whose corners that come first in index order are in one leaf, as far as corners join
+/// them.
 struct Triangles {
   std::vector<std::array<std::uint32_t, 3>> corners;  // places in index order
   std::vector<std::uint32_t> face;                    // of each: its number in the mesh
   std::vector<std::uint8_t> flags;                    // bits 0 to 2: the sides at borders; 3 to 5: diagonals
-  std::vector<std::uint32_t> ring;       // by side, 3 t + i for that from corner i of t: the next at the same side
-  std::vector<std::uint32_t> first_fan;  // by place, and one more: in `fans`
-  std::vector<TriangleId> fans;          // the triangles at each place
+  std::vector<std::uint32_t> ring;           // by side, 3 t + i for that from corner i of t: the next at the same side
+  std::vector<std::uint32_t> first_fan;      // by place, and one more: in `fans`
+  std::vector<TriangleId> fans;              // the triangles at each place
   std::vector<TriangleId> first_of_cluster;  // by cluster, and one more
   std::vector<std::uint32_t> first_of_face;  // by face of the mesh, and one more: in `by_face`
   std::vector<TriangleId> by_face;

@@ -52,9 +52,7 @@ struct Vector {
   friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend Vector operator*(const Real& s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
 
-  [[nodiscard]] Point round() const {
-    return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
-  }
+  [[nodiscard]] Point round() const { return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}; }
 };
 
 template <class Real>

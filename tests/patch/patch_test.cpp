@@ -134,9 +134,10 @@ TEST_P(PatchFamilies, AreThoseOfTheReference) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Surfaces, PatchFamilies, testing::ValuesIn(surface_families().begin(), surface_families().end()),
+INSTANTIATE_TEST_SUITE_P(Surfaces, PatchFamilies,
+                         testing::ValuesIn(surface_families().begin(), surface_families().end()), family_name);
+INSTANTIATE_TEST_SUITE_P(Traps, PatchFamilies, testing::ValuesIn(trap_families().begin(), trap_families().end()),
                          family_name);
-INSTANTIATE_TEST_SUITE_P(Traps, PatchFamilies, testing::ValuesIn(trap_families().begin(), trap_families().end()), family_name);
 
 /// A box whose sides are grids of squares, cut into triangles; outward normals.
 TestMesh make_box(std::array<std::uint32_t, 3> cells, double edge) {
@@ -523,11 +524,11 @@ TEST(PatchBatch, RefusesWhatIsWrong) {
   expect_refused(ErrorCode::VertexOutOfRange, "row 1",
                  [&] { static_cast<void>(gaps(test.surface, {.vertices = vertices, .radius = 1})); });
   expect_refused(ErrorCode::InvalidRadius, "", [&] { static_cast<void>(gaps(test.surface, {})); });
-  expect_refused(ErrorCode::InvalidOption, "metric", [&] {
-    static_cast<void>(invariants(test.surface, {.radius = 1, .metric = Metric::Rings}));
-  });
+  expect_refused(ErrorCode::InvalidOption, "metric",
+                 [&] { static_cast<void>(invariants(test.surface, {.radius = 1, .metric = Metric::Rings})); });
   expect_refused(ErrorCode::Cancelled, "", [&] {
-    static_cast<void>(invariants(test.surface, {.radius = 1}, {.progress = [](std::size_t, std::size_t) { return false; }}));
+    static_cast<void>(
+        invariants(test.surface, {.radius = 1}, {.progress = [](std::size_t, std::size_t) { return false; }}));
   });
   TestMesh edges;
   edges.add_vertex(0, 0, 0);
