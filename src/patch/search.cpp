@@ -95,7 +95,7 @@ void PatchSearch::spread(std::span<const Real> xyz) {
 
 void PatchSearch::run(const Point& center, double radius, std::span<const TriangleId> starts, bool measures) {
   const double scale = state_->index->frame.scale;
-  ball_ = {center, squared_radius(radius), scale, scale * radius, 1 / radius};
+  ball_ = {center, squared_radius(radius), scale, scale * radius, radius > 0 ? 1 / radius : kInfinity};
   measures_ = measures;
   inside_.forget();
   seen_.forget();
@@ -149,12 +149,19 @@ void PatchSearch::add_whole(TriangleId t, const PatchTriangle& triangle) {
 }
 
 void PatchSearch::add_cut(TriangleId t, const PatchTriangle& triangle) {
+  const auto add_side = [&](std::size_t i, bool is_met) {
+    has_border_ |= is_met && state_->triangles.is_border(t, static_cast<unsigned>(i));
+  };
+  if (!std::isfinite(ball_.unit)) {  // a ball that is next to nothing
+    for (std::size_t i = 0; i < 3; ++i) add_side(i, triangle.inside[i] || triangle.inside[(i + 1) % 3]);
+    return;
+  }
   Section section(ball_, triangle);
   for (std::size_t i = 0; i < 3; ++i) {
     if (section.dips(i)) visit_ring(t, i);
-    has_border_ |= section.meets(i) && state_->triangles.is_border(t, static_cast<unsigned>(i));
+    add_side(i, section.meets(i));
   }
-  if (!measures_ || !std::isfinite(ball_.unit)) return;
+  if (!measures_) return;
   const double r = ball_.radius;
   const auto [area, distance] = section.measure(rim_);
   area_ += area * r * r;

@@ -57,7 +57,7 @@ struct Given {
 /// Finds the parts of a few triangles that are joined by corners.
 class LeafParts {
  public:
-  /// Sorts the triangles by their parts, each named by its first triangle, and leaves their order otherwise.
+  /// Sorts the triangles by their parts, each named by its first triangle, then by their faces.
   void sort(std::span<Given> triangles) {
     parents_.resize(triangles.size());
     std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
@@ -70,7 +70,9 @@ class LeafParts {
       if (at_places_[i].first == at_places_[i - 1].first) unite(at_places_[i].second, at_places_[i - 1].second);
     }
     for (std::uint32_t i = 0; i < triangles.size(); ++i) triangles[i].part = root(i);
-    std::ranges::stable_sort(triangles, {}, &Given::part);
+    std::sort(triangles.begin(), triangles.end(), [](const Given& a, const Given& b) {
+      return std::tie(a.part, a.face, a.corners) < std::tie(b.part, b.face, b.corners);
+    });
   }
 
  private:

@@ -503,7 +503,7 @@ TEST(PatchBatch, HasTheSameBitsForAnyThreadsAndRows) {
   const Invariants listed = invariants(test.surface, {.vertices = some, .radius = radii}, {.threads = 2});
   const std::vector<PatchGap> nearest = gaps(test.surface, {.vertices = some, .radius = radii}, {.threads = 2});
   for (std::size_t i = 0; i < some.size(); ++i) {
-    const std::size_t scale = std::ranges::find(scales, radii[i]) - scales.begin();
+    const auto scale = static_cast<std::size_t>(std::ranges::find(scales, radii[i]) - scales.begin());
     EXPECT_EQ(listed.area[i], one.area[scale * rows + some[i]]);
     EXPECT_EQ(listed.volume[i], one.volume[scale * rows + some[i]]);
     EXPECT_EQ(listed.area[i], test.searcher.measure(some[i], radii[i]).area);
