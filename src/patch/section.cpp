@@ -113,7 +113,7 @@ double Section::angle_of_arc(std::size_t from, std::size_t steps) const {
   const double angle = argument(arc);
   if (steps == 1) return angle >= 0 ? angle : arc.real() > 0 ? 0 : 2 * kPi + angle;
   if (std::abs(arc.imag()) > 1e-6 * arc.real()) return angle < 0 ? 2 * kPi + angle : angle;
-  const double all = 2 * kPi + (steps == 2 ? argument(turn) : 0);
+  const double all = 2 * kPi - (steps == 2 ? std::abs(argument(turn)) : 0);  // without an area, its sign is noise
   return std::clamp(all - argument(leaves) - argument(enters), 0.0, 2 * kPi);
 }
 

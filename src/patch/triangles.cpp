@@ -6,10 +6,12 @@
 #include <numeric>
 #include <string>
 #include <tuple>
+#include <variant>
 
 #include "meshhood/error.h"
 
 #include "base/triangulate.h"
+#include "base/vector.h"
 
 namespace meshhood {
 namespace {
@@ -36,7 +38,8 @@ void for_each_triangle(const IndexView& index, const FacesView& faces, F&& f) {
     }
     if (places.size() == 3) return f(face, Corners{places[0], places[1], places[2]}, std::uint8_t{0});
     points.clear();
-    for (const std::uint32_t place : places) points.push_back(index.in_frame(place));
+    for (const std::uint32_t place : places)
+      points.push_back(index.frame.scale * std::visit([&](auto xyz) { return point(xyz, place); }, index.positions));
     triangulate(points, triangles);
     for (const auto& [a, b, c] : triangles) {
       const unsigned diagonals = static_cast<unsigned>(is_diagonal(a, b, places.size())) |

@@ -95,7 +95,11 @@ struct Case {
     if (!std::isnan(expected.volume)) {
       const double ball = 4 * kPi / 3 * radius * radius * radius;
       const double scale = std::max(1.0, std::abs(expected.volume) / ball);
-      EXPECT_NEAR(measure.volume / ball, expected.volume / ball, 1e-12 * scale);
+      const double error = std::abs(measure.volume - expected.volume) / ball;
+      // Whether a sheet without thickness is next to nothing or next to all is rounding.
+      const bool is_sheet = std::min(std::abs(expected.volume), std::abs(expected.volume - ball)) < 1e-11 * ball;
+      EXPECT_LT(is_sheet ? std::min(error, std::abs(error - 1)) : error, 1e-12 * scale)
+          << measure.volume << " and " << expected.volume;
     }
     const PatchGap gap = searcher.gap(start, radius);
     EXPECT_EQ(gap.face == kNoFace, std::isinf(expected.gap));
@@ -112,6 +116,12 @@ struct Case {
   PatchSearcher searcher;
 };
 
+/// Whether the reference is accurate: no side is a million times as long as the radius, and no cube underflows.
+bool is_within_reach(const TestMesh& mesh, double radius) {
+  const double farthest = *std::ranges::max_element(mesh.positions, {}, [](double x) { return std::abs(x); });
+  return radius > 1e-100 && radius < 1e100 && std::abs(farthest) < 1e6 * radius;
+}
+
 class PatchFamilies : public testing::TestWithParam<Family> {};
 
 TEST_P(PatchFamilies, AreThoseOfTheReference) {
@@ -126,6 +136,7 @@ TEST_P(PatchFamilies, AreThoseOfTheReference) {
       const auto v = static_cast<std::uint32_t>(random.below(test.mesh.size()));
       const double radius = edge * std::exp2(random.uniform(-3, 4));
       SCOPED_TRACE("vertex " + std::to_string(v) + ", radius " + std::to_string(radius));
+      if (!is_within_reach(mesh, radius)) continue;
       const Reference::Answer expected = test.reference.around_vertex(v, radius);
       if (expected.faces.empty()) continue;
       test.expect_same(v, expected, radius);
@@ -136,6 +147,8 @@ TEST_P(PatchFamilies, AreThoseOfTheReference) {
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, PatchFamilies,
                          testing::ValuesIn(surface_families().begin(), surface_families().end()), family_name);
+INSTANTIATE_TEST_SUITE_P(Extremes, PatchFamilies,
+                         testing::ValuesIn(extreme_families().begin(), extreme_families().end()), family_name);
 INSTANTIATE_TEST_SUITE_P(Traps, PatchFamilies, testing::ValuesIn(trap_families().begin(), trap_families().end()),
                          family_name);
 
