@@ -43,12 +43,22 @@ std::vector<std::size_t> PatchSearch::faces() const {
   return faces;
 }
 
+/// Whole if the bounding sphere of a cluster lies in the ball, or its box.
 inline PatchSearch::Kind PatchSearch::kind_of(ClusterId cluster) {
   constexpr double kSlack = 0x1p-46;
   if (kinds_.is_known(cluster)) return kinds_[cluster];
   const Cluster& sums = state_->clusters.clusters[cluster];
-  const double reach = ball_.scale * length(sums.center - ball_.center) + sums.radius;
-  return kinds_.set(cluster, reach <= ball_.radius * (1 - kSlack) ? Kind::Whole : Kind::Partial);
+  const double distance = ball_.scale * length(sums.center - ball_.center);
+  const double inner = ball_.radius * (1 - kSlack);
+  bool is_whole = distance + sums.radius <= inner;
+  if (!is_whole && distance < inner) {
+    const Box& box = state_->clusters.levels.front()[cluster];
+    const Point low = ball_.center - box.low;
+    const Point high = box.high - ball_.center;
+    const Point far{std::max(low.x, high.x), std::max(low.y, high.y), std::max(low.z, high.z)};
+    is_whole = ball_.scale * length(far) <= inner;
+  }
+  return kinds_.set(cluster, is_whole ? Kind::Whole : Kind::Partial);
 }
 
 inline void PatchSearch::visit(TriangleId t) {
