@@ -16,12 +16,13 @@ PatchSearch::PatchSearch(const PatchState& state)
     : state_(&state),
       inside_(state.index->vertex_count()),
       seen_(state.triangles.size()),
-      kinds_(state.clusters.size()) {}
+      kinds_(state.clusters.size()),
+      triangles_(state.triangles.size() + 1) {}
 
 double PatchSearch::area() const { return area_ / ball_.scale / ball_.scale; }
 
 double PatchSearch::volume() const {
-  if (has_border_ || (triangles_.empty() && clusters_.empty())) return kNan;
+  if (has_border_ || seen_count_ == 0) return kNan;
   const double r = ball_.radius;
   const bool is_inward = rim_.empty() && moment_ < 0;  // all of the ball but what the patch encloses
   const double behind = is_inward ? 4 * std::numbers::pi : rim_.empty() ? 0 : rim_.area_behind();
@@ -32,7 +33,7 @@ double PatchSearch::volume() const {
 std::vector<std::size_t> PatchSearch::faces() const {
   const Triangles& all = state_->triangles;
   std::vector<std::size_t> faces;
-  for (const TriangleId t : triangles_) faces.push_back(all.face[t]);
+  for (const TriangleId t : std::span(triangles_).first(seen_count_)) faces.push_back(all.face[t]);
   for (const ClusterId c : clusters_) {
     for (TriangleId t = all.first_of_cluster[c]; t < all.first_of_cluster[c + std::size_t{1}]; ++t) {
       faces.push_back(all.face[t]);
@@ -61,14 +62,11 @@ inline PatchSearch::Kind PatchSearch::kind_of(ClusterId cluster) {
   return kinds_.set(cluster, is_whole ? Kind::Whole : Kind::Partial);
 }
 
+/// Without a branch, because it is seldom clear what was seen before.
 inline void PatchSearch::visit(TriangleId t) {
-  if (seen_.is_known(t)) return;
-  const ClusterId cluster = state_->clusters.of_triangle[t];
-  const Kind kind = kind_of(cluster);
-  if (kind == Kind::Whole) take(cluster);
-  if (kind != Kind::Partial) return;
-  seen_.set(t, true);
-  triangles_.push_back(t);
+  triangles_[seen_count_] = t;
+  seen_count_ += static_cast<std::size_t>(seen_[t] != epoch_);
+  seen_[t] = epoch_;
 }
 
 inline void PatchSearch::visit_fan(std::uint32_t place) {
@@ -79,12 +77,16 @@ inline void PatchSearch::visit_fan(std::uint32_t place) {
 template <class Real>
 void PatchSearch::spread(std::span<const Real> xyz) {
   std::size_t next_cluster = 0;
-  for (std::size_t next = 0; next < triangles_.size() || next_cluster < clusters_.size();) {
-    if (next == triangles_.size()) {
+  for (std::size_t next = 0; next < seen_count_ || next_cluster < clusters_.size();) {
+    if (next == seen_count_) {
       leave(clusters_[next_cluster++]);
       continue;
     }
     const TriangleId t = triangles_[next++];
+    const ClusterId cluster = state_->clusters.of_triangle[t];
+    const Kind kind = kind_of(cluster);
+    if (kind == Kind::Whole) take(cluster);
+    if (kind != Kind::Partial) continue;
     PatchTriangle triangle{{}, state_->triangles.corners[t], {}};
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t place = triangle.places[i];
@@ -108,9 +110,12 @@ void PatchSearch::run(const Point& center, double radius, std::span<const Triang
   ball_ = {center, squared_radius(radius), scale, scale * radius, radius > 0 ? 1 / radius : kInfinity};
   measures_ = measures;
   inside_.forget();
-  seen_.forget();
   kinds_.forget();
-  triangles_.clear();
+  if (++epoch_ == 0) {
+    std::ranges::fill(seen_, 0U);
+    epoch_ = 1;
+  }
+  seen_count_ = 0;
   clusters_.clear();
   rim_.clear();
   has_border_ = false;

@@ -34,7 +34,7 @@ class PatchSearch {
 
   [[nodiscard]] const PatchBall& ball() const { return ball_; }
   [[nodiscard]] bool has(TriangleId t) const {
-    return seen_.is_known(t) || has_cluster(state_->clusters.of_triangle[t]);
+    return seen_[t] == epoch_ || has_cluster(state_->clusters.of_triangle[t]);
   }
   [[nodiscard]] bool has_cluster(ClusterId c) const { return kinds_.is_known(c) && kinds_[c] == Kind::Taken; }
 
@@ -58,9 +58,11 @@ class PatchSearch {
 
   const PatchState* state_;
   EpochArray<bool> inside_;            // by place
-  EpochArray<bool> seen_;              // by triangle of a partial cluster; the value means nothing
+  std::vector<std::uint32_t> seen_;    // by triangle: the last run that has seen it
   EpochArray<Kind> kinds_;             // by cluster
-  std::vector<TriangleId> triangles_;  // seen
+  std::uint32_t epoch_ = 0;            // the number of the run
+  std::vector<TriangleId> triangles_;  // seen, in this order; and room for one more than all
+  std::size_t seen_count_ = 0;
   std::vector<ClusterId> clusters_;    // taken
   RimArcs rim_;
   PatchBall ball_{};

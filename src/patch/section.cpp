@@ -38,19 +38,21 @@ Section::Section(const PatchBall& ball, const PatchTriangle& triangle) : ball_(&
   }
 }
 
-/// The nearest point of the line from `begin` along `whole`, both times `unit`.
+/// The nearest point of the line from `begin` along `whole`, both times `unit`. `sign`: of the direction of the side.
 template <class Real>
-Section::Side Section::nearest_side(const Vector<Real>& begin, const Vector<Real>& whole, double unit) {
+void Section::set_line(Side& side, const Vector<Real>& begin, const Vector<Real>& whole, double unit, double sign) {
   const Real square = dot(whole, whole);
   const auto rounded = static_cast<double>(square);
-  Side side;
-  side.nearest = unit * begin.round();
-  if (rounded == 0) return side;
+  if (rounded == 0) {
+    side.nearest = unit * begin.round();
+    side.along = {0, 0, 0};
+    side.is_between = false;
+    return;
+  }
   const Real share = Real(0) - dot(begin, whole) / square;
   side.nearest = unit * (begin + share * whole).round();
-  side.along = (1 / std::sqrt(rounded)) * whole.round();
+  side.along = (sign / std::sqrt(rounded)) * whole.round();
   side.is_between = static_cast<double>(share) > 0 && static_cast<double>(share) < 1;
-  return side;
 }
 
 /// Whether the nearest point of a line lies between the ends and in the ball, but for rounding.
@@ -70,21 +72,20 @@ void Section::find_nearest(std::size_t i) {
   const bool is_reversed = triangle_->places[after(i)] < triangle_->places[i];
   const std::size_t begin = is_reversed ? after(i) : i;
   const std::size_t end = is_reversed ? i : after(i);
+  const double sign = is_reversed ? -1 : 1;
   if (is_far_) {
     const auto from = offset<Twofold>(*ball_, triangle_->corners[begin]);
     const auto to = offset<Twofold>(*ball_, triangle_->corners[end]);
-    sides_[i] = nearest_side(from, to - from, 1 / ball_->radius);
+    set_line(sides_[i], from, to - from, 1 / ball_->radius, sign);
   } else {
     const auto from = as_vector(corners_[begin]);
-    sides_[i] = nearest_side(from, as_vector(corners_[end]) - from, 1.0);
+    set_line(sides_[i], from, as_vector(corners_[end]) - from, 1, sign);
   }
-  if (is_reversed) sides_[i].along = -1.0 * sides_[i].along;
 }
 
 void Section::find_chord(std::size_t i) {
   Side& side = sides_[i];
   if (!side.dips) find_nearest(i);
-  side.is_cut = true;
   side.half = std::sqrt(std::max(0.0, 1 - dot(side.nearest, side.nearest)));
   side.from = triangle_->inside[i] ? dot(corners_[i], side.along) : -side.half;
   side.to = triangle_->inside[after(i)] ? dot(corners_[after(i)], side.along) : side.half;

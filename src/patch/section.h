@@ -58,14 +58,15 @@ class Section {
   [[nodiscard]] Measure measure(RimArcs& rim);
 
  private:
+  /// All but the flags is set only where the side is cut.
   struct Side {
-    Point nearest{0, 0, 0};  // of its line
-    Point along{0, 0, 0};    // a unit vector; 0 if the corners are at the same place
-    double half = 0;         // of the chord of the line
-    double from = 0;         // its part in the ball, from `nearest` on
-    double to = 0;
-    double offset = 0;        // of the line, from the foot of the center on the plane, to the right
-    bool is_between = false;  // whether `nearest` lies between the ends
+    Point nearest;  // of its line
+    Point along;    // a unit vector; 0 if the corners are at the same place
+    double half;    // of the chord of the line
+    double from;    // its part in the ball, from `nearest` on
+    double to;
+    double offset;    // of the line, from the foot of the center on the plane, to the right
+    bool is_between;  // whether `nearest` lies between the ends
     bool is_cut = false;
     bool dips = false;
   };
@@ -77,7 +78,7 @@ class Section {
   };
 
   template <class Real>
-  [[nodiscard]] static Side nearest_side(const Vector<Real>& begin, const Vector<Real>& whole, double unit);
+  static void set_line(Side& side, const Vector<Real>& begin, const Vector<Real>& whole, double unit, double sign);
   void find_nearest(std::size_t i);
   void find_chord(std::size_t i);
   template <class Real>
