@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Compares `invariants` and `gaps` for all vertices with the plain search of the tests, in double, for a sample of
-// them. Wall-clock microseconds for each vertex, the ratio, and the largest deviation in units of pi r^2 and of the
+// them. Microseconds of a thread for each vertex, the ratio, and the largest deviation in units of pi r^2 and of the
 // ball.
 //
 //   bench_patches MESH THREADS [RADIUS IN MEAN EDGES...]
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -16,6 +15,7 @@
 
 #include "meshhood/meshhood.h"
 
+#include "measure/timing.h"
 #include "mesh_argument.h"
 #include "program.h"
 #include "support/patch_reference.h"
@@ -30,10 +30,9 @@ constexpr std::size_t kSample = 400;
 /// Microseconds for each of `rows`.
 template <class F>
 double time_of(std::size_t rows, F&& f) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = measure::processor_time();
   f();
-  return 1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
-         static_cast<double>(rows);
+  return 1e6 * (measure::processor_time() - start) / static_cast<double>(rows);
 }
 
 /// Of a mesh of triangles.
@@ -89,10 +88,9 @@ int run(std::span<char*> arguments) {
   const auto threads = static_cast<unsigned>(std::stoul(arguments[2]));
   const Index index = build(mesh.view(), {.threads = threads});
   const double mean_edge = mean_edge_length(index);
-  const auto start = std::chrono::steady_clock::now();
+  const double start = measure::processor_time();
   const PatchIndex surface = PatchIndex::build(index, mesh.view().faces);
-  const std::chrono::duration<double> building = std::chrono::steady_clock::now() - start;
-  std::printf("built in %.2f s, %.0f bytes a face\n", building.count(),
+  std::printf("built in %.2f s, %.0f bytes a face\n", measure::processor_time() - start,
               static_cast<double>(surface.bytes()) / static_cast<double>(surface.face_count()));
   const Reference reference = make_reference(mesh.view());
   std::printf("%6s %8s %10s %10s %8s %10s %10s %10s\n", "edges", "faces", "plain us", "us", "ratio", "gap us", "area",

@@ -63,7 +63,7 @@ class PatchSearch {
   std::uint32_t epoch_ = 0;            // the number of the run
   std::vector<TriangleId> triangles_;  // seen, in this order; and room for one more than all
   std::size_t seen_count_ = 0;
-  std::vector<ClusterId> clusters_;    // taken
+  std::vector<ClusterId> clusters_;  // taken
   RimArcs rim_;
   PatchBall ball_{};
   bool measures_ = false;
