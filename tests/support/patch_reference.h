@@ -221,7 +221,7 @@ class PatchReference {
       return;
     }
     sums.has_rim = true;
-    const Vector k{Real(0.36), Real(0.48), Real(0.8)};
+    const Vector k{Real(9) / 25, Real(12) / 25, Real(4) / 5};
     for (std::size_t i = 0; i < chords.size(); ++i) {
       const Vector& x = chords[i].second;
       const Vector& y = chords[(i + 1) % chords.size()].first;
