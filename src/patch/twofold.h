@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include "shared/distance.h"
 
@@ -25,20 +25,36 @@ struct Twofold {
     return {sum, (a - (sum - part)) + (b - part)};
   }
 
+  /// Likewise, unless a factor is beyond 2^995. Without a fused operation, which the library never uses.
+  [[nodiscard]] static Twofold product(double a, double b) {
+    const auto [a_high, a_low] = halves(a);
+    const auto [b_high, b_low] = halves(b);
+    const double product = a * b;
+    return {product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
+  }
+
   friend Twofold operator+(const Twofold& a, const Twofold& b) {
     const Twofold s = sum(a.high, b.high);
     return {s.high, s.low + (a.low + b.low)};
   }
   friend Twofold operator-(const Twofold& a, const Twofold& b) { return a + Twofold{-b.high, -b.low}; }
   friend Twofold operator*(const Twofold& a, const Twofold& b) {
-    const double product = a.high * b.high;
-    return {product, std::fma(a.high, b.high, -product) + (a.high * b.low + a.low * b.high)};
+    const Twofold p = product(a.high, b.high);
+    return {p.high, p.low + (a.high * b.low + a.low * b.high)};
   }
   friend Twofold operator/(const Twofold& a, const Twofold& b) {
     const Twofold quotient = a.high / b.high;
     return quotient + Twofold((a - quotient * b).high / b.high);
   }
   explicit operator double() const { return high; }
+
+ private:
+  /// The upper and the lower 26 bits of a number.
+  static std::pair<double, double> halves(double a) {
+    const double shifted = 0x1.0000002p27 * a;
+    const double upper = shifted - (shifted - a);
+    return {upper, a - upper};
+  }
 };
 
 /// A vector of numbers of either kind.
