@@ -11,13 +11,13 @@
 namespace meshhood {
 namespace {
 
-void enclose(Box& box, const Box& other) {
+void enclose(BoundingBox& box, const BoundingBox& other) {
   box.low = {std::min(box.low.x, other.low.x), std::min(box.low.y, other.low.y), std::min(box.low.z, other.low.z)};
   box.high = {std::max(box.high.x, other.high.x), std::max(box.high.y, other.high.y),
               std::max(box.high.z, other.high.z)};
 }
 
-constexpr Box kEmptyBox{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+constexpr BoundingBox kNoBox{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
 Point position(const IndexView& index, std::uint32_t place) {
   return std::visit([&](auto xyz) { return point(xyz, place); }, index.positions);
@@ -25,8 +25,8 @@ Point position(const IndexView& index, std::uint32_t place) {
 
 /// The sums over the triangles `begin .. end - 1`, and their box. Corners are seen from the center of the sphere, so
 /// that the moment is as accurate far from the origin.
-Cluster add_up(const IndexView& index, const Triangles& triangles, TriangleId begin, TriangleId end, Box& box) {
-  box = kEmptyBox;
+Cluster add_up(const IndexView& index, const Triangles& triangles, TriangleId begin, TriangleId end, BoundingBox& box) {
+  box = kNoBox;
   for (TriangleId t = begin; t < end; ++t) {
     for (const std::uint32_t place : triangles.corners[t]) {
       const Point p = position(index, place);
@@ -105,8 +105,8 @@ void Clusters::link(const Triangles& triangles, ClusterId cluster) {
 
 void Clusters::stack_boxes() {
   while (levels.back().size() > 1) {
-    const std::vector<Box>& below = levels.back();
-    std::vector<Box> boxes((below.size() + kBoxes - 1) / kBoxes, kEmptyBox);
+    const std::vector<BoundingBox>& below = levels.back();
+    std::vector<BoundingBox> boxes((below.size() + kBoxes - 1) / kBoxes, kNoBox);
     for (std::size_t i = 0; i < below.size(); ++i) enclose(boxes[i / kBoxes], below[i]);
     levels.push_back(std::move(boxes));
   }

@@ -33,7 +33,7 @@ struct ClusterLink {
 };
 
 /// A box in the unit of the mesh.
-struct Box {
+struct BoundingBox {
   Point low;
   Point high;
 };
@@ -45,12 +45,12 @@ struct Clusters {
   /// A corner of more triangles is a hub: links do not list its triangles, which many clusters would.
   static constexpr std::size_t kMostLinked = 64;
 
-  std::vector<Cluster> clusters;         // and one more, for the end of the last links and hubs
-  std::vector<ClusterLink> links;        // and one more, for the end of the last triangles
-  std::vector<TriangleId> linked;        // ascending
-  std::vector<std::uint32_t> hubs;       // places
-  std::vector<ClusterId> of_triangle;    // the cluster of each
-  std::vector<std::vector<Box>> levels;  // of each cluster, then of eight such boxes each; one at last
+  std::vector<Cluster> clusters;                 // and one more, for the end of the last links and hubs
+  std::vector<ClusterLink> links;                // and one more, for the end of the last triangles
+  std::vector<TriangleId> linked;                // ascending
+  std::vector<std::uint32_t> hubs;               // places
+  std::vector<ClusterId> of_triangle;            // the cluster of each
+  std::vector<std::vector<BoundingBox>> levels;  // of each cluster, then of eight such boxes each; one at last
 
   Clusters(const IndexView& index, const Triangles& triangles);
 

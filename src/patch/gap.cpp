@@ -21,7 +21,7 @@ namespace {
 // away than this much more cannot have a nearer one.
 constexpr double kSlack = 0x1p-43;
 
-inline double squared_distance(const Point& q, const Box& box) {
+inline double squared_distance(const Point& q, const BoundingBox& box) {
   const auto beyond = [](double x, double low, double high) { return std::max(std::max(low - x, x - high), 0.0); };
   const Point gap{beyond(q.x, box.low.x, box.high.x), beyond(q.y, box.low.y, box.high.y),
                   beyond(q.z, box.low.z, box.high.z)};
@@ -30,14 +30,15 @@ inline double squared_distance(const Point& q, const Box& box) {
 
 /// The distance of a triangle from `q`, in twice the precision.
 double far_distance(const Point& q, const std::array<Point, 3>& corners, double scale) {
-  std::array<Vector<Twofold>, 3> p{offset_of<Twofold>(corners[0], q, scale), offset_of<Twofold>(corners[1], q, scale),
-                                   offset_of<Twofold>(corners[2], q, scale)};
-  const Vector<Twofold> area = cross(p[1] - p[0], p[2] - p[0]);
+  std::array<RealVector<Twofold>, 3> p{offset_of<Twofold>(corners[0], q, scale),
+                                       offset_of<Twofold>(corners[1], q, scale),
+                                       offset_of<Twofold>(corners[2], q, scale)};
+  const RealVector<Twofold> area = cross(p[1] - p[0], p[2] - p[0]);
   const double size = length(area.round());
   double least = kInfinity;
   bool has_foot = size > 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vector<Twofold> side = p[(i + 1) % 3] - p[i];
+    const RealVector<Twofold> side = p[(i + 1) % 3] - p[i];
     has_foot = has_foot && static_cast<double>(dot(area, cross(p[i], side))) > 0;
     const Twofold square = dot(side, side);
     Twofold share = static_cast<double>(square) > 0 ? Twofold(0) - dot(p[i], side) / square : Twofold(0);
@@ -69,7 +70,7 @@ class GapSearch {
 
   void visit(std::size_t level, std::size_t box) {
     if (level == 0) return visit_cluster(static_cast<ClusterId>(box));
-    const std::vector<Box>& below = state_->clusters.levels[level - 1];
+    const std::vector<BoundingBox>& below = state_->clusters.levels[level - 1];
     std::array<std::pair<double, std::size_t>, Clusters::kBoxes> near{};
     std::size_t count = 0;
     for (std::size_t i = box * near.size(); i < std::min((box + 1) * near.size(), below.size()); ++i) {
@@ -97,8 +98,8 @@ class GapSearch {
                    less(less(corners[0].y, corners[1].y), corners[2].y),
                    less(less(corners[0].z, corners[1].z), corners[2].z)};
     };
-    const Box box{box_of([](double a, double b) { return std::min(a, b); }),
-                  box_of([](double a, double b) { return std::max(a, b); })};
+    const BoundingBox box{box_of([](double a, double b) { return std::min(a, b); }),
+                          box_of([](double a, double b) { return std::max(a, b); })};
     if (squared_distance(q_, box) > squared_limit_) return;
     TrianglePoint found = nearest_in_triangle(q_, corners, search_->ball().scale);
     if (is_far(corners)) found.distance = far_distance(q_, corners, search_->ball().scale);

@@ -74,7 +74,7 @@ std::size_t PatchIndex::bytes() const {
   const auto bytes_of = [](const auto& array) { return array.size() * sizeof(array[0]); };
   std::size_t bytes = state_->triangles.bytes() + bytes_of(sums.clusters) + bytes_of(sums.links) +
                       bytes_of(sums.linked) + bytes_of(sums.hubs) + bytes_of(sums.of_triangle);
-  for (const std::vector<Box>& level : sums.levels) bytes += bytes_of(level);
+  for (const std::vector<BoundingBox>& level : sums.levels) bytes += bytes_of(level);
   return bytes;
 }
 

@@ -78,13 +78,13 @@ void RimArcs::add_circle(double h) {
 
 double RimArcs::area_behind() const {
   constexpr double kSphere = 4 * std::numbers::pi;
-  constexpr double kFar = 0.25;       // of the squared factor of an arc
+  constexpr double kFarPole = 0.25;   // of the squared factor of an arc
   constexpr double kSlack = 0x1p-46;  // of an arc
   Complex best = 1;
   double most = -1;
   for (const Point& pole : kPoles) {
     Complex product = product_;
-    double least = kFar;
+    double least = kFarPole;
     for (const auto& [u, w] : ends_) {
       const Complex factor = half_area(pole, u, w);
       least = std::min(least, squared_size(factor));
@@ -94,7 +94,7 @@ double RimArcs::area_behind() const {
     if (least <= most) continue;
     most = least;
     best = product;
-    if (least == kFar) break;
+    if (least == kFarPole) break;
   }
   const double area = std::fmod(-(sum_ + 2 * argument(best)), kSphere);
   const double positive = area < 0 ? area + kSphere : area;

@@ -14,10 +14,10 @@ constexpr double kPi = std::numbers::pi;
 
 constexpr std::size_t after(std::size_t i) { return i == 2 ? 0 : i + 1; }
 
-Vector<double> as_vector(const Point& p) { return {p.x, p.y, p.z}; }
+RealVector<double> as_vector(const Point& p) { return {p.x, p.y, p.z}; }
 
 template <class Real>
-Vector<Real> offset(const PatchBall& ball, const Point& p) {
+RealVector<Real> offset(const PatchBall& ball, const Point& p) {
   return offset_of<Real>(p, ball.center, ball.scale);
 }
 
@@ -40,7 +40,8 @@ Section::Section(const PatchBall& ball, const PatchTriangle& triangle) : ball_(&
 
 /// The nearest point of the line from `begin` along `whole`, both times `unit`. `sign`: of the direction of the side.
 template <class Real>
-void Section::set_line(Side& side, const Vector<Real>& begin, const Vector<Real>& whole, double unit, double sign) {
+void Section::set_line(Side& side, const RealVector<Real>& begin, const RealVector<Real>& whole, double unit,
+                       double sign) {
   const Real square = dot(whole, whole);
   const auto rounded = static_cast<double>(square);
   if (rounded == 0) {
@@ -131,16 +132,16 @@ double Section::distance_of_plane() const {
 /// The vector area of the triangle and whether the foot of the center on its plane lies in it, in the frame.
 template <class Real>
 Section::Plane Section::find_plane() const {
-  std::array<Vector<Real>, 3> corners{offset<Real>(*ball_, triangle_->corners[0]),
-                                      offset<Real>(*ball_, triangle_->corners[1]),
-                                      offset<Real>(*ball_, triangle_->corners[2])};
-  const Vector<Real> area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  std::array<RealVector<Real>, 3> corners{offset<Real>(*ball_, triangle_->corners[0]),
+                                          offset<Real>(*ball_, triangle_->corners[1]),
+                                          offset<Real>(*ball_, triangle_->corners[2])};
+  const RealVector<Real> area = cross(corners[1] - corners[0], corners[2] - corners[0]);
   const Point rounded = area.round();
   const double size = length(rounded);
   if (size == 0) return {};
   bool has_foot = true;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vector<Real> over = cross(corners[i], corners[after(i)] - corners[i]);
+    const RealVector<Real> over = cross(corners[i], corners[after(i)] - corners[i]);
     has_foot = has_foot && static_cast<double>(dot(area, over)) > 0;
   }
   return {(1 / size) * rounded, static_cast<double>(dot(area, corners[0])) / size / ball_->radius, has_foot};

@@ -78,7 +78,8 @@ class Section {
   };
 
   template <class Real>
-  static void set_line(Side& side, const Vector<Real>& begin, const Vector<Real>& whole, double unit, double sign);
+  static void set_line(Side& side, const RealVector<Real>& begin, const RealVector<Real>& whole, double unit,
+                       double sign);
   void find_nearest(std::size_t i);
   void find_chord(std::size_t i);
   template <class Real>

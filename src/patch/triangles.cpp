@@ -16,7 +16,7 @@
 namespace meshhood {
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
+using TrianglePlaces = std::array<std::uint32_t, 3>;
 
 /// Whether two of the `size` corners of a polygon follow each other in neither direction.
 bool is_diagonal(std::uint32_t a, std::uint32_t b, std::size_t size) {
@@ -36,7 +36,7 @@ void for_each_triangle(const IndexView& index, const FacesView& faces, F&& f) {
       if (index.is_wall(leaf_of(slot), lane_of(slot))) return;
       places.push_back(index.leaf_begin[leaf_of(slot)] + lane_of(slot));
     }
-    if (places.size() == 3) return f(face, Corners{places[0], places[1], places[2]}, std::uint8_t{0});
+    if (places.size() == 3) return f(face, TrianglePlaces{places[0], places[1], places[2]}, std::uint8_t{0});
     points.clear();
     for (const std::uint32_t place : places)
       points.push_back(index.frame.scale * std::visit([&](auto xyz) { return point(xyz, place); }, index.positions));
@@ -45,13 +45,13 @@ void for_each_triangle(const IndexView& index, const FacesView& faces, F&& f) {
       const unsigned diagonals = static_cast<unsigned>(is_diagonal(a, b, places.size())) |
                                  static_cast<unsigned>(is_diagonal(b, c, places.size())) << 1U |
                                  static_cast<unsigned>(is_diagonal(c, a, places.size())) << 2U;
-      f(face, Corners{places[a], places[b], places[c]}, static_cast<std::uint8_t>(diagonals));
+      f(face, TrianglePlaces{places[a], places[b], places[c]}, static_cast<std::uint8_t>(diagonals));
     }
   });
 }
 
-struct Given {
-  Corners corners;
+struct GivenTriangle {
+  TrianglePlaces corners;
   std::uint32_t face;
   std::uint8_t diagonals;
   std::uint32_t part;
@@ -61,7 +61,7 @@ struct Given {
 class LeafParts {
  public:
   /// Sorts the triangles by their parts, each named by its first triangle, then by their faces.
-  void sort(std::span<Given> triangles) {
+  void sort(std::span<GivenTriangle> triangles) {
     parents_.resize(triangles.size());
     std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
     at_places_.clear();
@@ -73,7 +73,7 @@ class LeafParts {
       if (at_places_[i].first == at_places_[i - 1].first) unite(at_places_[i].second, at_places_[i - 1].second);
     }
     for (std::uint32_t i = 0; i < triangles.size(); ++i) triangles[i].part = root(i);
-    std::sort(triangles.begin(), triangles.end(), [](const Given& a, const Given& b) {
+    std::sort(triangles.begin(), triangles.end(), [](const GivenTriangle& a, const GivenTriangle& b) {
       return std::tie(a.part, a.face, a.corners) < std::tie(b.part, b.face, b.corners);
     });
   }
@@ -123,16 +123,18 @@ Triangles::Triangles(const IndexView& index, const FacesView& faces) {
 /// Counting sort by the leaf of the corner that comes first in index order, then by the parts of each leaf that hold
 /// together.
 void Triangles::sort_faces(const IndexView& index, const FacesView& faces) {
-  const auto leaf_at = [&](const Corners& triangle) { return leaf_of(index.slot_at(std::ranges::min(triangle))); };
+  const auto leaf_at = [&](const TrianglePlaces& triangle) {
+    return leaf_of(index.slot_at(std::ranges::min(triangle)));
+  };
   std::vector<TriangleId> begin(index.leaf_count() + 1, 0);
-  for_each_triangle(index, faces, [&](std::size_t, const Corners& triangle, std::uint8_t) {
+  for_each_triangle(index, faces, [&](std::size_t, const TrianglePlaces& triangle, std::uint8_t) {
     ++begin[leaf_at(triangle) + std::size_t{1}];
   });
   add_up(begin);
   if (begin.back() == 0) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
   std::vector<TriangleId> next(begin.begin(), begin.end() - 1);
-  std::vector<Given> given(begin.back());
-  for_each_triangle(index, faces, [&](std::size_t f, const Corners& triangle, std::uint8_t diagonals) {
+  std::vector<GivenTriangle> given(begin.back());
+  for_each_triangle(index, faces, [&](std::size_t f, const TrianglePlaces& triangle, std::uint8_t diagonals) {
     given[next[leaf_at(triangle)]++] = {triangle, static_cast<std::uint32_t>(f), diagonals, 0};
   });
   LeafParts parts;
@@ -144,7 +146,7 @@ void Triangles::sort_faces(const IndexView& index, const FacesView& faces) {
     }
     if (begin[leaf] != begin[leaf + std::size_t{1}]) first_of_cluster.push_back(begin[leaf + std::size_t{1}]);
   }
-  for (const Given& triangle : given) {
+  for (const GivenTriangle& triangle : given) {
     corners.push_back(triangle.corners);
     face.push_back(triangle.face);
     flags.push_back(static_cast<std::uint8_t>(triangle.diagonals << 3U));
@@ -180,22 +182,22 @@ void Triangles::make_fans(std::size_t places) {
 namespace {
 
 /// A side of a triangle, seen from the end that comes first.
-struct Side {
+struct TriangleSide {
   std::uint32_t last;    // its other end
   std::uint32_t owner;   // the face of a diagonal
   std::uint32_t number;  // three times its triangle, plus its number there
   bool is_reversed;
 
-  [[nodiscard]] bool is_of(const Side& other) const { return last == other.last && owner == other.owner; }
+  [[nodiscard]] bool is_of(const TriangleSide& other) const { return last == other.last && owner == other.owner; }
 };
 
 }  // namespace
 
 /// The sides whose first end is a place, sorted so that those of a ring follow each other.
 void Triangles::join_sides(std::size_t places) {
-  constexpr std::uint32_t kNoFace = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint32_t kSharedSide = std::numeric_limits<std::uint32_t>::max();
   ring.resize(3 * size());
-  std::vector<Side> sides;
+  std::vector<TriangleSide> sides;
   for (std::uint32_t first = 0; first < places; ++first) {
     sides.clear();
     for (const TriangleId t : fan(first)) {
@@ -203,10 +205,10 @@ void Triangles::join_sides(std::size_t places) {
         const std::uint32_t a = corners[t][i];
         const std::uint32_t b = corners[t][(i + 1) % 3];
         if (std::min(a, b) != first) continue;
-        sides.push_back({std::max(a, b), (flags[t] >> (3 + i) & 1U) != 0 ? face[t] : kNoFace, 3 * t + i, a > b});
+        sides.push_back({std::max(a, b), (flags[t] >> (3 + i) & 1U) != 0 ? face[t] : kSharedSide, 3 * t + i, a > b});
       }
     }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
       return std::tie(a.last, a.owner, a.number) < std::tie(b.last, b.owner, b.number);
     });
     for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {

@@ -59,31 +59,31 @@ struct Twofold {
 
 /// A vector of numbers of either kind.
 template <class Real>
-struct Vector {
+struct RealVector {
   Real x;
   Real y;
   Real z;
 
-  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Vector operator*(const Real& s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend RealVector operator+(const RealVector& a, const RealVector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend RealVector operator-(const RealVector& a, const RealVector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend RealVector operator*(const Real& s, const RealVector& a) { return {s * a.x, s * a.y, s * a.z}; }
 
   [[nodiscard]] Point round() const { return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}; }
 };
 
 template <class Real>
-[[nodiscard]] Real dot(const Vector<Real>& a, const Vector<Real>& b) {
+[[nodiscard]] Real dot(const RealVector<Real>& a, const RealVector<Real>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 template <class Real>
-[[nodiscard]] Vector<Real> cross(const Vector<Real>& a, const Vector<Real>& b) {
+[[nodiscard]] RealVector<Real> cross(const RealVector<Real>& a, const RealVector<Real>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 /// `p` - `center`, times `scale`, a power of two, which does not round.
 template <class Real>
-[[nodiscard]] Vector<Real> offset_of(const Point& p, const Point& center, double scale) {
+[[nodiscard]] RealVector<Real> offset_of(const Point& p, const Point& center, double scale) {
   const auto axis = [&](double x, double from) -> Real {
     if constexpr (std::is_same_v<Real, double>) {
       return scale * (x - from);
