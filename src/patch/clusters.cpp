@@ -96,7 +96,7 @@ void Clusters::link(const Triangles& triangles, ClusterId cluster) {
   }
   std::sort(linked.begin() + first, linked.end());
   linked.erase(std::unique(linked.begin() + first, linked.end()), linked.end());
-  for (std::size_t i = static_cast<std::size_t>(first); i < linked.size(); ++i) {
+  for (auto i = static_cast<std::size_t>(first); i < linked.size(); ++i) {
     const ClusterId other = of_triangle[linked[i]];
     if (i > static_cast<std::size_t>(first) && links.back().cluster == other) continue;
     links.push_back({other, static_cast<std::uint32_t>(i)});

@@ -22,7 +22,7 @@ namespace {
 constexpr double kSlack = 0x1p-43;
 
 inline double squared_distance(const Point& q, const BoundingBox& box) {
-  const auto beyond = [](double x, double low, double high) { return std::max(std::max(low - x, x - high), 0.0); };
+  const auto beyond = [](double x, double low, double high) { return std::max({low - x, x - high, 0.0}); };
   const Point gap{beyond(q.x, box.low.x, box.high.x), beyond(q.y, box.low.y, box.high.y),
                   beyond(q.z, box.low.z, box.high.z)};
   return dot(gap, gap);
