@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -103,8 +104,21 @@ struct Case {
     }
     const PatchGap gap = searcher.gap(start, radius);
     EXPECT_EQ(gap.face == kNoFace, std::isinf(expected.gap));
-    if (gap.face != kNoFace) {
-      EXPECT_NEAR(gap.distance, expected.gap, 1e-12 * radius);
+    if (gap.face == kNoFace) return;
+    EXPECT_NEAR(gap.distance, expected.gap, 1e-12 * radius);
+    if (mesh.face(gap.face).size() == 3) {
+      EXPECT_THAT(triangles.faces_of(expected.faces), testing::Not(testing::Contains(gap.face)));
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double sum = 0;
+      double largest = radius;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double x = mesh.positions[3 * std::size_t{gap.vertices[i]} + axis];
+        sum += gap.weights[i] * x;
+        largest = std::max(largest, std::abs(x));
+      }
+      EXPECT_NEAR(gap.point[axis], sum, 1e-14 * largest);
+      EXPECT_THAT(mesh.face(gap.face), testing::IsSupersetOf(std::set(gap.vertices.begin(), gap.vertices.end())));
     }
   }
 
