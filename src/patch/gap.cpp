@@ -75,7 +75,7 @@ class GapSearch {
     std::size_t count = 0;
     for (std::size_t i = box * near.size(); i < std::min((box + 1) * near.size(), below.size()); ++i) {
       const double distance = squared_distance(q_, below[i]);
-      if (distance > squared_limit_ || (level == 1 && search_->has_cluster(static_cast<ClusterId>(i)))) continue;
+      if (distance > squared_limit_) continue;
       std::size_t at = count++;
       for (; at > 0 && distance < near[at - 1].first; --at) near[at] = near[at - 1];
       near[at] = {distance, i};
@@ -84,9 +84,10 @@ class GapSearch {
   }
 
   void visit_cluster(ClusterId cluster) {
+    if (search_->has_taken(cluster)) return;
     const std::vector<TriangleId>& first = state_->triangles.first_of_cluster;
     for (TriangleId t = first[cluster]; t < first[cluster + std::size_t{1}]; ++t) {
-      if (!search_->has(t)) offer(t);
+      if (!search_->has_seen(t)) offer(t);
     }
   }
 

@@ -33,10 +33,9 @@ class PatchSearch {
   [[nodiscard]] double volume() const;
 
   [[nodiscard]] const PatchBall& ball() const { return ball_; }
-  [[nodiscard]] bool has(TriangleId t) const {
-    return seen_[t] == epoch_ || has_cluster(state_->clusters.of_triangle[t]);
-  }
-  [[nodiscard]] bool has_cluster(ClusterId c) const { return kinds_.is_known(c) && kinds_[c] == Kind::Taken; }
+  /// A triangle is of the patch if it was seen, or its cluster taken.
+  [[nodiscard]] bool has_seen(TriangleId t) const { return seen_[t] == epoch_; }
+  [[nodiscard]] bool has_taken(ClusterId c) const { return kinds_.is_known(c) && kinds_[c] == Kind::Taken; }
 
   /// The numbers of the faces, ascending.
   [[nodiscard]] std::vector<std::size_t> faces() const;
