@@ -11,7 +11,7 @@ meshhood_own_target(meshhood_families)
 target_compile_options(meshhood_families PRIVATE $<$<CONFIG:Release>:-O1>)
 
 foreach(part
-    base/adjacency base/frame base/mesh shared/coarse_float shared/distance base/sphere base/reference base/error shared/helper_threads shared/parallel shared/raw_vector
+    base/adjacency base/frame base/mesh base/triangulate shared/coarse_float shared/distance base/sphere base/reference base/error shared/helper_threads shared/parallel shared/raw_vector
     base/cut_edges base/epoch_array base/number_set base/packed_positions base/face_graph
     aggregate/aggregate aggregate/listed_sums aggregate/smoothing
     batch/batch batch/joint_batch batch/packets batch/path_rows batch/position_sort batch/kept_packets batch/ring_rows batch/k_nearest batch/unconnected
@@ -22,7 +22,7 @@ foreach(part
     exact/search/component exact/search/descent exact/search/group_states exact/search/home_marks exact/search/leaf_bfs exact/search/leaf_bits
     exact/search/open_elements exact/output exact/search/reach exact/search/vertex_bfs exact/vertex_set exact/search/waves
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
-    surface/box_tree surface/clip surface/closest_point surface/submesh surface/surface
+    patch/patch surface/box_tree surface/clip surface/closest_point surface/submesh surface/surface
     curvature/bits curvature/corrected curvature/curvatures curvature/features curvature/filter curvature/moments curvature/packet_moments curvature/quadric curvature/sure_leaves
     simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels simd/path_kernels
     whole/arguments whole/metrics whole/outlives whole/robustness whole/same_bits whole/differential whole/metamorphic)

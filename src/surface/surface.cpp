@@ -108,6 +108,10 @@ const Normals& Surface::State::normals(TaskContext& task) const {
   });
 }
 
+const PatchState& Surface::State::patches() const {
+  return made_patches.get([&] { return PatchState(*index, faces().view()); });
+}
+
 // Of the positions in index order, for the sums and the bits of `vertex_areas`.
 const std::vector<double>& Surface::State::areas() const {
   return geometry->areas.get([&] {
@@ -195,6 +199,7 @@ std::size_t Surface::bytes() const {
   if (const FaceLists* const lists = state_->topology->lists.made()) bytes += lists->bytes();
   if (const FaceTree* const tree = state_->geometry->tree.made()) bytes += tree->bytes();
   if (state_->geometry->normals.made() != nullptr) bytes += 3 * sizeof(double) * vertex_count();
+  if (const PatchState* const patches = state_->made_patches.made()) bytes += patches->bytes();
   if (state_->geometry->areas.made() != nullptr) bytes += sizeof(double) * vertex_count();
   return bytes;
 }

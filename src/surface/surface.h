@@ -14,6 +14,7 @@
 #include "exact/bound_index.h"
 #include "exact/layout.h"
 #include "exact/stored_faces.h"
+#include "patch/state.h"
 #include "shared/distance.h"
 #include "shared/kept.h"
 #include "shared/raw_vector.h"
@@ -59,7 +60,8 @@ struct Surface::State {
   Frame frame;       // of the geometry
   std::shared_ptr<SurfaceFaces> topology;
   std::shared_ptr<SurfaceGeometry> geometry;
-  bool has_own_normals = false;  // which do not follow from faces
+  mutable Kept<PatchState> made_patches;  // of this index, with its walls
+  bool has_own_normals = false;           // which do not follow from faces
 
   State(const Index& given, FaceArrays faces);
   State(const Index& given, const State& other);
@@ -70,6 +72,7 @@ struct Surface::State {
   [[nodiscard]] const Normals& normals(TaskContext& task) const;
 
   [[nodiscard]] const std::vector<double>& areas() const;
+  [[nodiscard]] const PatchState& patches() const;
 
   /// Throws Error{InvalidOption} unless `other` is a refit of the index.
   void check_refit(const Index& other) const;
@@ -103,6 +106,12 @@ struct SurfaceAccess {
   [[nodiscard]] static const State& state(const Surface& surface) {
     surface.state_->index.check_current();
     return *surface.state_;
+  }
+
+  /// Keeps the state alive. Throws likewise.
+  [[nodiscard]] static std::shared_ptr<const State> share(const Surface& surface) {
+    static_cast<void>(state(surface));
+    return surface.state_.share();
   }
 
   /// Makes the normals if there are none. Throws likewise, and Error{InvalidMesh} if there are no faces.

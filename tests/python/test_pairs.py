@@ -174,6 +174,8 @@ CALLS = [
     Call("k_nearest", columns),
     Call("discs", lists),
     Call("nearest_unconnected", columns),
+    Call("invariants", columns),
+    Call("gaps", columns),
 ]
 
 
@@ -205,6 +207,8 @@ def asked_plainly(call, words, v, radius):
     plain |= {call.radius: radius, "vertices": [int(v)], "workers": 1}
     index = WITHOUT_WALLS if "walls" in words else INDEX
     has_other_edges = "like" in words or (call.name == "features" and words.get("metric") == "rings")
+    if call.name in ("invariants", "gaps") and "walls" in words:  # whose faces have numbers; see test_patches.py
+        index, plain["walls"] = INDEX, WALLS
     if has_other_edges and "walls" in words:  # whose values depend on the order or the mean length of all edges
         index, plain["walls"] = INDEX, WALLS
     if call.name == "nearest_unconnected" and "walls" in words:  # where a vertex without edges is not connected, too
@@ -677,7 +681,7 @@ CALLS_ELSE = {
 # Calls without options, and those of which other tests ask for all that they have.
 WITHOUT_PAIRS = {
     "nearest", "quality", "stroke", "rim", "geometric_radii", "open_parts", "persistence", "show_config",
-    "smoothing_radius", "plot_neighborhood", "view", "open", "ids", "masked",
+    "smoothing_radius", "plot_neighborhood", "view", "open", "ids", "masked", "patch",
 }  # fmt: skip
 
 

@@ -25,6 +25,7 @@ from ._moments import (
     persistence,
 )
 from ._partition import partition
+from ._patches import Gaps, Invariants
 from ._plot import plot_neighborhood
 from ._region_mesh import RegionMesh, RimLine, Submesh
 from ._view import Page, view
@@ -49,6 +50,8 @@ __all__ = [
     "Chunk",
     "CorrectedCurvature",
     "Curvature",
+    "Gaps",
+    "Invariants",
     "Mesh",
     "MeshIndex",
     "Page",

@@ -27,6 +27,7 @@ class Held:
     _checked: bytes  # the key of the faces given last
     _methods: Methods
     _last_surface: tuple[Any, Any]  # the key of its faces, and the surface
+    _last_patches: tuple[Any, Any]  # likewise
     _queries: Any
     _count: int
     _whole: Optional[Held]
@@ -41,6 +42,7 @@ class Held:
         self._last_masked = (None, None)
         self._methods = Methods(exact, None if whole is None else whole._methods)
         self._last_surface = (None, None)
+        self._last_patches = (None, None)
         self._queries = _core.queries(exact)
         self._count = exact.vertex_count
 

@@ -20,6 +20,7 @@ from ._instance import NeedsInstance
 from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_coarse, warn_if_no_faces, warn_if_unwelded
 from ._methods import Method
 from ._optional import optional
+from ._patches import Patches
 from ._progress import Progress, reporter
 from ._queries import Queries
 from ._region_mesh import Regions
@@ -73,7 +74,7 @@ class Quality(NamedTuple):
     gain: float
 
 
-class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions, metaclass=NeedsInstance):
+class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, metaclass=NeedsInstance):
     """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the part of the mesh inside the
     ball of radius r around v that is connected to v within the ball.
 

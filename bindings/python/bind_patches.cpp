@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/variant.h>
+
+#include "meshhood/patch.h"
+
+#include "arrays.h"
+#include "batch_query.h"
+#include "bindings.h"
+#include "interpreter.h"
+#include "methods.h"
+#include "pool.h"
+
+namespace nb = nanobind;
+
+namespace meshhood::python {
+namespace {
+
+/// The surface of an index, with searchers for single starts.
+class Patches {
+ public:
+  explicit Patches(Surface surface) : surface_(std::move(surface)) {}
+
+  auto measure(const std::optional<Rows>& vertices, const Radius& radius, unsigned threads, nb::handle progress) const {
+    const BatchQuery query = query_of(vertices, radius);
+    const Run run{.threads = threads, .progress = progress_to(progress)};
+    Invariants found = without_lock([&] { return invariants(surface_, query, run); });
+    return std::pair(owned<double>(std::move(found.area)), owned<double>(std::move(found.volume)));
+  }
+
+  /// Distances, faces, the vertices of their triangles, barycentric coordinates and points.
+  auto find_gaps(const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
+                 nb::handle progress) const {
+    const BatchQuery query = query_of(vertices, radius);
+    const Run run{.threads = threads, .progress = progress_to(progress)};
+    std::vector<double> distances;
+    std::vector<std::int64_t> faces;
+    std::vector<std::array<VertexId, 3>> corners;
+    std::vector<std::array<double, 3>> weights;
+    std::vector<SpacePoint> points;
+    without_lock([&] {
+      for (const PatchGap& gap : gaps(surface_, query, run)) {
+        distances.push_back(gap.distance);
+        faces.push_back(static_cast<std::int64_t>(gap.face));
+        corners.push_back(gap.vertices);
+        weights.push_back(gap.weights);
+        points.push_back(gap.point);
+      }
+    });
+    static_assert(static_cast<std::int64_t>(kNoFace) == -1);
+    const std::size_t rows = distances.size();
+    return std::tuple(owned<double>(std::move(distances)), owned<std::int64_t>(std::move(faces)),
+                      owned<std::int32_t>(std::move(corners), {rows, 3}), owned<double>(std::move(weights), {rows, 3}),
+                      owned<double>(std::move(points), {rows, 3}));
+  }
+
+  auto faces(VertexId vertex, std::optional<std::size_t> face, const SpacePoint& point, double radius) {
+    const PatchStart start = face ? PatchStart(*face, point) : PatchStart(vertex);
+    const std::vector<std::size_t> found =
+        searchers_.with([&] { return PatchSearcher(surface_); },
+                        [&](PatchSearcher& searcher) { return searcher.patch(start, radius); });
+    return owned<std::int64_t>(std::vector<std::int64_t>(found.begin(), found.end()));
+  }
+
+ private:
+  Surface surface_;
+  Pool<PatchSearcher> searchers_;
+};
+
+auto make_patches(const ExactMethod& method, const Surface& surface) {
+  return std::make_unique<Patches>(surface.on(method.index()));
+}
+
+}  // namespace
+
+void bind_patches(nb::module_& module) {
+  nb::class_<Patches>(module, "Patches")
+      .def("invariants", &Patches::measure, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
+      .def("gaps", &Patches::find_gaps, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
+      .def("faces", &Patches::faces, nb::arg("vertex"), nb::arg("face").none(), nb::arg("point"), nb::arg("radius"));
+  module.def("patches", &make_patches);
+}
+
+}  // namespace meshhood::python

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: MIT
+"""The surface in a ball, rather than its vertices: areas, volumes and gaps that do not depend on the triangles."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _convert, _core
+from ._held import Held
+from ._progress import Progress
+from ._rows import read_rows
+from ._types import AnyVertices, Ids, Mask, Radii, Reals, Scales, Unit
+
+
+class Invariants(NamedTuple):
+    """Area and volume of the surface in each ball (see `MeshIndex.invariants`).
+
+    area : (#rows,) of the patch, in the square of the unit of V.
+    volume : (#rows,) of the part of the ball behind the patch. NaN where a border of the mesh, or a side at which the
+        orientation changes, lies in the patch, or where there is no patch.
+
+    With `scales` each array has a leading axis.
+
+    >>> r = 0.5
+    >>> area, volume = meshhood.MeshIndex(V, F).invariants(r)
+    >>> mean = (2 * np.pi / 3 * r**3 - volume) * 4 / (np.pi * r**4)
+    >>> bool(abs(mean - 1).max() < 0.1)  # on the unit sphere
+    True
+    """
+
+    area: Reals
+    volume: Reals
+
+
+class Gaps(NamedTuple):
+    """The nearest point that is not of the patch (see `MeshIndex.gaps`).
+
+    distance : (#rows,) inf where there is none.
+    face : (#rows,) int64, the row of F; -1 where there is none.
+    vertices : (#rows, 3) int32, of the triangle of the face that has the point.
+    barycentric : (#rows, 3) its coordinates in this triangle.
+    point : (#rows, 3) in space.
+
+    >>> two = np.concatenate([V, 1.25 * V]), np.concatenate([F, F + len(V)])  # a ball in a shell
+    >>> gaps = meshhood.MeshIndex(*two).gaps(0.4)
+    >>> bool((abs(gaps.distance - 0.25) < 0.02).all())
+    True
+    """
+
+    distance: Reals
+    face: NDArray[np.int64]
+    vertices: Ids
+    barycentric: Reals
+    point: Reals
+
+
+class Patches(Held):
+    """The part of `MeshIndex` that answers with the surface.
+
+    The **patch** of a point of the surface and a radius r is the component, with the point, of the surface in the ball.
+    It is a set of faces: those with a point in the ball, joined where a corner or a side that they share has one. It
+    has the neighborhood of a vertex, and does not change if faces are divided. Faces are oriented counterclockwise,
+    seen from outside; one with a wall is not there.
+    """
+
+    def _patches(self, F: Any) -> Any:
+        """What is made of the faces, kept with the index."""
+        key, _ = self._keyed_faces(F)
+        kept, patches = self._last_patches
+        if kept != key:
+            patches = _core.patches(self._exact, self._surface(F))
+            self._last_patches = (key, patches)  # replaced as a whole
+        return patches
+
+    def invariants(
+        self,
+        r: Optional[Radii] = None,
+        vertices: AnyVertices = None,
+        *,
+        scales: Optional[Scales] = None,
+        F: Any = None,
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Invariants:
+        """The area of the patch of each vertex, and the volume of the part of the ball behind it: the integral
+        invariants of a surface (Manay et al. 2004; Pottmann et al. 2009). They are accurate to 1e-12 of pi r^2 and of
+        the ball, do not depend on how the surface is divided into triangles, and hardly on noise.
+
+        r : one radius, or one for each row. A point at exactly `r` counts.
+        vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`. Ignored vertices have no effect.
+        F : other faces than those that the index keeps. What is made of the faces is kept for the next call with the
+            same faces.
+
+        Returns `Invariants`: area, volume. A row depends on the index, the faces, its vertex and the radius alone.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> area, volume = index.invariants(0.5)
+        >>> index.invariants(scales=[0.2, 0.4]).volume.shape
+        (2, 642)
+        """
+        rows = read_rows(self, vertices, r, scales, "straight", walls, ignored, unit, workers, progress)
+        patches = rows.index._patches(F)
+        found = rows.for_each_scale(
+            "invariants",
+            lambda radius, report: patches.invariants(rows.vertices, radius, threads=rows.threads, progress=report),
+        )
+        return Invariants(*(rows.shaped(list(arrays)) for arrays in zip(*found)))
+
+    def gaps(
+        self,
+        r: Radii,
+        vertices: AnyVertices = None,
+        *,
+        F: Any = None,
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Gaps:
+        """The nearest point of the surface within `r` of each vertex that is not of its patch: the gap between sheets,
+        folds and parts, whatever the triangles. A point to which only a way outside the ball leads counts, too.
+
+        The arguments are those of `invariants`. Returns `Gaps`: distance, face, vertices, barycentric, point. Of several
+        faces at the same distance, it is the one with the smallest number.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> bool(np.isinf(index.gaps(0.3).distance).all())  # a sphere has no gap
+        True
+        """
+        rows = read_rows(self, vertices, r, None, "straight", walls, ignored, unit, workers, progress)
+        with rows.reporter("gaps") as report:
+            found = rows.index._patches(F).gaps(rows.vertices, rows.radii[0], threads=rows.threads, progress=report)
+        return Gaps(*(rows.shaped([array]) for array in found))
+
+    def patch(
+        self,
+        start: Union[int, "np.integer[Any]", ArrayLike],
+        r: float,
+        *,
+        face: Optional[int] = None,
+        F: Any = None,
+        walls: Mask = None,
+        unit: Unit = "mesh",
+    ) -> NDArray[np.int64]:
+        """The rows of F that have a point in the patch of `start` and the radius `r`, ascending.
+
+        start : a vertex; or, with `face`, a point of that face, 3 numbers, as `closest_point` returns them.
+        F, walls, unit : as for `invariants`.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> faces = index.patch(42, 0.3)
+        >>> face, _, point = index.closest_point([0, 0, 2.0])
+        >>> face in index.patch(point, 0.3, face=face)
+        True
+        """
+        radius = self._scale(unit) * _convert.radius(r)
+        patches = self._with_masks(walls, None)._patches(F)
+        if face is None:
+            vertex = _convert.vertex(start, self._count, "start")
+            return patches.faces(vertex=vertex, face=None, point=[0.0, 0.0, 0.0], radius=radius)
+        point = _convert.point(start, "start", "invariants, gaps")[0].tolist()
+        number = _convert.integer(face, "face", 0, 2**63 - 1)
+        return patches.faces(vertex=0, face=number, point=point, radius=radius)

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "meshhood/batch.h"
+#include "meshhood/mesh.h"
+#include "meshhood/owner.h"
+#include "meshhood/start.h"
+#include "meshhood/surface.h"
+#include "meshhood/unconnected.h"
+
+/// The surface in a ball, rather than its vertices: areas, volumes and gaps that do not depend on the triangles.
+///
+/// The **patch** of a point of the surface and a radius is the component, with the point, of the surface inside the
+/// closed ball. The part of a triangle in a ball is convex, so the patch is a set of faces: those with a point in the
+/// ball, joined where a corner or a side that they share has a point in the ball. It has the neighborhood of a vertex,
+/// and does not change if faces are divided.
+///
+///     const meshhood::Surface surface(index, faces);
+///     const auto [area, volume] = meshhood::invariants(surface, {.radius = 1.5});
+///     const auto thickness = meshhood::gaps(surface, {.radius = 1.5}).distances;
+///
+/// Faces are oriented counterclockwise, seen from outside. A polygon is triangulated, one that is not convex so that
+/// its area is its own; diagonals join triangles as sides do. A face with a wall (see masks.h), or with fewer than
+/// three corners, is not there. Vertices at the same place are not one: weld a mesh that has such.
+///
+/// A surface makes what all searches share at the first of them, and again after a refit: about 60 bytes a triangle, in
+/// O(#V + #corners log #corners). Error{InvalidMesh} if no face is there.
+namespace meshhood {
+
+/// No face.
+inline constexpr std::size_t kNoFace = std::numeric_limits<std::size_t>::max();
+
+/// A vertex, or a point on a face.
+class PatchStart {
+ public:
+  template <std::integral Integer>
+    requires(!std::same_as<Integer, bool>)
+  PatchStart(Integer v) : start_(v) {}
+
+  /// point  on the face, up to rounding (see `Surface::closest_point` and `point_on_face`).
+  PatchStart(std::size_t face, const SpacePoint& point) : start_(0), face_(face), point_(point) {}
+
+  /// The vertex, unless there is a face.
+  [[nodiscard]] VertexId vertex() const { return start_.vertex(); }
+  [[nodiscard]] const std::optional<std::size_t>& face() const { return face_; }
+  [[nodiscard]] const SpacePoint& point() const { return point_; }
+
+ private:
+  Start start_;
+  std::optional<std::size_t> face_;
+  SpacePoint point_{};
+};
+
+/// The area of a patch, and the volume of the part of its ball behind it.
+struct PatchMeasure {
+  double area;
+  double volume;
+};
+
+/// The nearest point of the surface in a ball that is not of its patch. As it stands: there is none.
+struct PatchGap {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  std::size_t face = kNoFace;                                         ///< its number
+  std::array<VertexId, 3> vertices{kNoVertex, kNoVertex, kNoVertex};  ///< of its triangle
+  std::array<double, 3> weights{kNone, kNone, kNone};                 ///< barycentric coordinates in it
+  SpacePoint point{kNone, kNone, kNone};
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+/// Answers one start at a time; one for each thread. Owns 8 bytes for each vertex and triangle.
+///
+/// radius  >= 0 or infinite. A point at exactly `radius` counts.
+/// All throw Error{VertexOutOfRange, InvalidRadius, InvalidOption}: InvalidOption for a face or point that is not of
+/// the mesh, and after a refit in place. O(k) for k triangles near the surface of the ball, and clusters inside.
+class PatchSearcher {
+ public:
+  explicit PatchSearcher(const Surface& surface);
+
+  /// The numbers of the faces, ascending. None for a vertex without faces.
+  [[nodiscard]] std::vector<std::size_t> patch(const PatchStart& start, double radius);
+
+  /// Area and volume, each accurate to 1e-12 of pi r^2 and of the volume of the ball. They do not depend on how the
+  /// surface is divided into triangles.
+  ///
+  /// The volume is that of the part of the ball behind the patch, which other patches in the ball do not change. Where
+  /// a border of the mesh, or a side at which its orientation changes, lies in the patch, or where there is no patch,
+  /// it is NaN. A sheet without thickness has nothing behind it.
+  [[nodiscard]] PatchMeasure measure(const PatchStart& start, double radius);
+
+  /// The nearest point of the surface in the ball that is not of the patch; of several faces at the same distance, the
+  /// one with the smallest number. It is none where there is no patch. Accurate as `Surface::closest_point`.
+  [[nodiscard]] PatchGap gap(const PatchStart& start, double radius);
+
+ private:
+  struct State;
+  detail::Owner<State> state_;
+};
+
+/// One for each row; #radii by #rows if the query has scales.
+struct Invariants {
+  std::vector<double> area;
+  std::vector<double> volume;
+};
+
+/// `PatchSearcher::measure` of many vertices: the integral invariants of a surface (Manay et al. 2004; Pottmann,
+/// Wallner, Huang, Yang, "Integral invariants for robust geometry processing", 2009). On a sphere with outward normals,
+/// (2 pi / 3 r^3 - volume) 4 / (pi r^4) is its mean curvature.
+///
+/// query  as of a batch. Error{InvalidOption} unless its metric is `Straight`.
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
+[[nodiscard]] Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run = {});
+
+/// `PatchSearcher::gap` of many vertices, one for each row. Throws as `invariants`, and InvalidRadius for scales.
+[[nodiscard]] std::vector<PatchGap> gaps(const Surface& surface, const BatchQuery& query, const Run& run = {});
+
+}  // namespace meshhood

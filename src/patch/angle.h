@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace meshhood {
+
+using Complex = std::complex<double>;
+
+/// A product, without the functions of the standard library for infinite factors.
+[[nodiscard]] inline Complex times(const Complex& a, const Complex& b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+/// The arctangent of t, |t| < 0.67: the rational function of the library Cephes (S. L. Moshier).
+[[nodiscard]] inline double small_arctangent(double t) {
+  const double z = t * t;
+  const double above =
+      (((-8.750608600031904122785e-1 * z - 1.615753718733365076637e1) * z - 7.500855792314704667340e1) * z -
+       1.228866684490136173410e2) *
+          z -
+      6.485021904942025371773e1;
+  const double below =
+      ((((z + 2.485846490142306297962e1) * z + 1.650270098316988542046e2) * z + 4.328810604912902668951e2) * z +
+       4.853903996359136964868e2) *
+          z +
+      1.945506571482613964425e2;
+  return t + t * (z * above / below);
+}
+
+/// The argument in [-pi, pi], 0 of 0. The function of the standard library rounds differently on some processors.
+[[nodiscard]] inline double argument(const Complex& number) {
+  constexpr double kPi = std::numbers::pi;
+  const double x = std::abs(number.real());
+  const double y = std::abs(number.imag());
+  const double low = std::min(x, y);
+  const double high = std::max(x, y);
+  if (high == 0) return 0;
+  const bool is_steep = low > 0.66 * high;
+  const double eighth =
+      is_steep ? kPi / 4 + small_arctangent((low - high) / (low + high)) : small_arctangent(low / high);
+  const double quarter = y > x ? kPi / 2 - eighth : eighth;
+  return std::copysign(number.real() < 0 ? kPi - quarter : quarter, number.imag());
+}
+
+}  // namespace meshhood

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "patch/clusters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <variant>
+
+#include "base/vector.h"
+
+namespace meshhood {
+namespace {
+
+void enclose(ClusterBox& box, const ClusterBox& other) {
+  box.low = {std::min(box.low.x, other.low.x), std::min(box.low.y, other.low.y), std::min(box.low.z, other.low.z)};
+  box.high = {std::max(box.high.x, other.high.x), std::max(box.high.y, other.high.y),
+              std::max(box.high.z, other.high.z)};
+}
+
+constexpr ClusterBox kNoBox{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+
+Point position(const IndexView& index, std::uint32_t place) {
+  return std::visit([&](auto xyz) { return point(xyz, place); }, index.positions);
+}
+
+/// The sums over the triangles `begin .. end - 1`, and their box. Corners are seen from the center of the sphere, so
+/// that the moment is as accurate far from the origin.
+Cluster add_up(const IndexView& index, const Triangles& triangles, TriangleId begin, TriangleId end, ClusterBox& box) {
+  box = kNoBox;
+  for (TriangleId t = begin; t < end; ++t) {
+    for (const std::uint32_t place : triangles.corners[t]) {
+      const Point p = position(index, place);
+      enclose(box, {p, p});
+    }
+  }
+  Cluster sums{0.5 * box.low + 0.5 * box.high, 0, 0, {0, 0, 0}, 0, 0, 0, false};
+  for (TriangleId t = begin; t < end; ++t) {
+    std::array<Point, 3> corners{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners[i] = index.frame.scale * (position(index, triangles.corners[t][i]) - sums.center);
+      sums.radius = std::max(sums.radius, length(corners[i]));
+      sums.has_border |= triangles.is_border(t, static_cast<unsigned>(i));
+    }
+    const Point area = 0.5 * doubled_vector_area(corners[0], corners[1], corners[2]);
+    sums.area += length(area);
+    sums.vector_area = sums.vector_area + area;
+    sums.moment += dot(area, corners[0]);
+  }
+  return sums;
+}
+
+}  // namespace
+
+Clusters::Clusters(const IndexView& index, const Triangles& triangles) : of_triangle(triangles.size()) {
+  const std::size_t count = triangles.first_of_cluster.size() - 1;
+  for (ClusterId cluster = 0; cluster < count; ++cluster) {
+    const TriangleId end = triangles.first_of_cluster[cluster + std::size_t{1}];
+    for (TriangleId t = triangles.first_of_cluster[cluster]; t < end; ++t) of_triangle[t] = cluster;
+  }
+  const auto set_first = [&] {
+    clusters.back().first_link = static_cast<std::uint32_t>(links.size());
+    clusters.back().first_hub = static_cast<std::uint32_t>(hubs.size());
+  };
+  levels.emplace_back(count);
+  for (ClusterId cluster = 0; cluster < count; ++cluster) {
+    const TriangleId end = triangles.first_of_cluster[cluster + std::size_t{1}];
+    clusters.push_back(add_up(index, triangles, triangles.first_of_cluster[cluster], end, levels.front()[cluster]));
+    set_first();
+    link(triangles, cluster);
+  }
+  clusters.push_back({});
+  set_first();
+  links.push_back({0, static_cast<std::uint32_t>(linked.size())});
+  stack_boxes();
+}
+
+/// The triangles of other clusters at the corners of a cluster.
+void Clusters::link(const Triangles& triangles, ClusterId cluster) {
+  const auto first = static_cast<std::ptrdiff_t>(linked.size());
+  const TriangleId begin = triangles.first_of_cluster[cluster];
+  const TriangleId end = triangles.first_of_cluster[cluster + std::size_t{1}];
+  std::vector<std::uint32_t> places;
+  for (TriangleId t = begin; t < end; ++t) {
+    places.insert(places.end(), triangles.corners[t].begin(), triangles.corners[t].end());
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  for (const std::uint32_t place : places) {
+    if (triangles.fan(place).size() > kMostLinked) {
+      hubs.push_back(place);
+      continue;
+    }
+    for (const TriangleId t : triangles.fan(place)) {
+      if (t < begin || t >= end) linked.push_back(t);
+    }
+  }
+  std::sort(linked.begin() + first, linked.end());
+  linked.erase(std::unique(linked.begin() + first, linked.end()), linked.end());
+  for (auto i = static_cast<std::size_t>(first); i < linked.size(); ++i) {
+    const ClusterId other = of_triangle[linked[i]];
+    if (i > static_cast<std::size_t>(first) && links.back().cluster == other) continue;
+    links.push_back({other, static_cast<std::uint32_t>(i)});
+  }
+}
+
+void Clusters::stack_boxes() {
+  while (levels.back().size() > 1) {
+    const std::vector<ClusterBox>& below = levels.back();
+    std::vector<ClusterBox> boxes((below.size() + kBoxes - 1) / kBoxes, kNoBox);
+    for (std::size_t i = 0; i < below.size(); ++i) enclose(boxes[i / kBoxes], below[i]);
+    levels.push_back(std::move(boxes));
+  }
+}
+
+std::size_t Clusters::bytes() const {
+  const auto bytes_of = [](const auto& array) { return array.size() * sizeof(array[0]); };
+  std::size_t bytes = bytes_of(clusters) + bytes_of(links) + bytes_of(linked) + bytes_of(hubs) + bytes_of(of_triangle);
+  for (const std::vector<ClusterBox>& level : levels) bytes += bytes_of(level);
+  return bytes;
+}
+
+}  // namespace meshhood

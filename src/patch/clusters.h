@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "exact/layout.h"
+#include "patch/triangles.h"
+#include "shared/distance.h"
+
+namespace meshhood {
+
+using ClusterId = std::uint32_t;
+
+/// Sums over the triangles of a cluster. Lengths are in the frame, points in the unit of the mesh.
+struct Cluster {
+  Point center;  // of its bounding sphere
+  double radius;
+  double area;
+  Point vector_area;         // the sum of area times normal
+  double moment;             // the sum of area times the distance of the plane from `center`, along the normal
+  std::uint32_t first_link;  // in `Clusters::links`
+  std::uint32_t first_hub;   // in `Clusters::hubs`
+  bool has_border;
+};
+
+/// The triangles of one other cluster that share a corner with a cluster, if that is no hub.
+struct ClusterLink {
+  ClusterId cluster;
+  std::uint32_t first;  // in `Clusters::linked`
+};
+
+/// A box in the unit of the mesh.
+struct ClusterBox {
+  Point low;
+  Point high;
+};
+
+/// What a search takes at once where it lies inside a ball, and finds at once where it lies far away.
+struct Clusters {
+  static constexpr std::size_t kBoxes = 8;
+
+  /// A corner of more triangles is a hub: links do not list its triangles, which many clusters would.
+  static constexpr std::size_t kMostLinked = 64;
+
+  std::vector<Cluster> clusters;                // and one more, for the end of the last links and hubs
+  std::vector<ClusterLink> links;               // and one more, for the end of the last triangles
+  std::vector<TriangleId> linked;               // ascending
+  std::vector<std::uint32_t> hubs;              // places
+  std::vector<ClusterId> of_triangle;           // the cluster of each
+  std::vector<std::vector<ClusterBox>> levels;  // of each cluster, then of eight such boxes each; one at last
+
+  Clusters(const IndexView& index, const Triangles& triangles);
+
+  [[nodiscard]] std::size_t bytes() const;
+
+  [[nodiscard]] std::size_t size() const { return clusters.size() - 1; }
+
+  [[nodiscard]] std::span<const ClusterLink> links_of(ClusterId cluster) const {
+    return std::span(links).subspan(clusters[cluster].first_link,
+                                    clusters[cluster + std::size_t{1}].first_link - clusters[cluster].first_link);
+  }
+
+  [[nodiscard]] std::span<const std::uint32_t> hubs_of(ClusterId cluster) const {
+    return std::span(hubs).subspan(clusters[cluster].first_hub,
+                                   clusters[cluster + std::size_t{1}].first_hub - clusters[cluster].first_hub);
+  }
+
+  /// `link` must be an element of `links`.
+  [[nodiscard]] std::span<const TriangleId> linked_by(const ClusterLink& link) const {
+    return std::span(linked).subspan(link.first, (&link + 1)->first - link.first);
+  }
+
+ private:
+  void link(const Triangles& triangles, ClusterId cluster);
+  void stack_boxes();
+};
+
+}  // namespace meshhood

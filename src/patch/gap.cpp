@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// The boxes of the clusters, the nearest first, but those that the patch has as a whole.
+#include "patch/gap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <variant>
+
+#include "base/vector.h"
+#include "patch/section.h"
+#include "patch/twofold.h"
+#include "surface/triangle_point.h"
+
+namespace meshhood {
+namespace {
+
+// The distance of a triangle is off by a few units in the last place of itself and of the sides. A box that is farther
+// away than this much more cannot have a nearer one.
+constexpr double kSlack = 0x1p-43;
+
+inline double squared_distance(const Point& q, const ClusterBox& box) {
+  const auto beyond = [](double x, double low, double high) { return std::max({low - x, x - high, 0.0}); };
+  const Point gap{beyond(q.x, box.low.x, box.high.x), beyond(q.y, box.low.y, box.high.y),
+                  beyond(q.z, box.low.z, box.high.z)};
+  return dot(gap, gap);
+}
+
+/// The distance of a triangle from `q`, in twice the precision.
+double far_distance(const Point& q, const std::array<Point, 3>& corners, double scale) {
+  std::array<RealVector<Twofold>, 3> p{offset_of<Twofold>(corners[0], q, scale),
+                                       offset_of<Twofold>(corners[1], q, scale),
+                                       offset_of<Twofold>(corners[2], q, scale)};
+  const RealVector<Twofold> area = cross(p[1] - p[0], p[2] - p[0]);
+  const double size = length(area.round());
+  double least = kInfinity;
+  bool has_foot = size > 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const RealVector<Twofold> side = p[(i + 1) % 3] - p[i];
+    has_foot = has_foot && static_cast<double>(dot(area, cross(p[i], side))) > 0;
+    const Twofold square = dot(side, side);
+    Twofold share = static_cast<double>(square) > 0 ? Twofold(0) - dot(p[i], side) / square : Twofold(0);
+    if (!(static_cast<double>(share) > 0)) share = Twofold(0);
+    if (static_cast<double>(share) > 1) share = Twofold(1);
+    least = std::min(least, length((p[i] + share * side).round()));
+  }
+  return (has_foot ? std::abs(static_cast<double>(dot(area, p[0]))) / size : least) / scale;
+}
+
+template <class Real>
+class GapSearch {
+ public:
+  GapSearch(const PatchState& state, const PatchSearch& search, std::span<const Real> xyz, double radius)
+      : state_(&state), search_(&search), xyz_(xyz), q_(search.ball().center), radius_(radius) {
+    set_limit(radius);
+  }
+
+  PatchGap run() {
+    visit(state_->clusters.levels.size() - 1, 0);
+    return gap_;
+  }
+
+ private:
+  void set_limit(double distance) {
+    const double limit = distance + kSlack * (distance + 4 / search_->ball().scale);
+    squared_limit_ = limit * limit;
+  }
+
+  void visit(std::size_t level, std::size_t box) {
+    if (level == 0) return visit_cluster(static_cast<ClusterId>(box));
+    const std::vector<ClusterBox>& below = state_->clusters.levels[level - 1];
+    std::array<std::pair<double, std::size_t>, Clusters::kBoxes> near{};
+    std::size_t count = 0;
+    for (std::size_t i = box * near.size(); i < std::min((box + 1) * near.size(), below.size()); ++i) {
+      const double distance = squared_distance(q_, below[i]);
+      if (distance > squared_limit_) continue;
+      std::size_t at = count++;
+      for (; at > 0 && distance < near[at - 1].first; --at) near[at] = near[at - 1];
+      near[at] = {distance, i};
+    }
+    for (std::size_t i = 0; i < count && near[i].first <= squared_limit_; ++i) visit(level - 1, near[i].second);
+  }
+
+  void visit_cluster(ClusterId cluster) {
+    if (search_->has_taken(cluster)) return;
+    const std::vector<TriangleId>& first = state_->triangles.first_of_cluster;
+    for (TriangleId t = first[cluster]; t < first[cluster + std::size_t{1}]; ++t) {
+      if (!search_->has_seen(t)) offer(t);
+    }
+  }
+
+  void offer(TriangleId t) {
+    const auto& places = state_->triangles.corners[t];
+    const std::array<Point, 3> corners{point(xyz_, places[0]), point(xyz_, places[1]), point(xyz_, places[2])};
+    const auto box_of = [&](auto less) {
+      return Point{less(less(corners[0].x, corners[1].x), corners[2].x),
+                   less(less(corners[0].y, corners[1].y), corners[2].y),
+                   less(less(corners[0].z, corners[1].z), corners[2].z)};
+    };
+    const ClusterBox box{box_of([](double a, double b) { return std::min(a, b); }),
+                         box_of([](double a, double b) { return std::max(a, b); })};
+    if (squared_distance(q_, box) > squared_limit_) return;
+    TrianglePoint found = nearest_in_triangle(q_, corners, search_->ball().scale);
+    if (is_far(corners)) found.distance = far_distance(q_, corners, search_->ball().scale);
+    const std::size_t face = state_->triangles.face[t];
+    if (found.distance > radius_ || found.distance > gap_.distance) return;
+    if (found.distance == gap_.distance && gap_.face <= face) return;
+    gap_ = {face, {}, found.weights, {found.point.x, found.point.y, found.point.z}, found.distance};
+    for (std::size_t i = 0; i < 3; ++i) gap_.vertices[i] = state_->index->id(places[i]);
+    set_limit(found.distance);
+  }
+
+  [[nodiscard]] bool is_far(const std::array<Point, 3>& corners) const {
+    return std::ranges::any_of(
+        corners, [&](const Point& p) { return squared_distance(p, q_) > kFar * kFar * radius_ * radius_; });
+  }
+
+  const PatchState* state_;
+  const PatchSearch* search_;
+  std::span<const Real> xyz_;
+  Point q_;
+  double radius_;
+  double squared_limit_ = 0;
+  PatchGap gap_{};
+};
+
+}  // namespace
+
+PatchGap find_gap(const PatchState& state, const PatchSearch& search, double radius) {
+  return std::visit([&](auto xyz) { return GapSearch(state, search, xyz, radius).run(); }, state.index->positions);
+}
+
+}  // namespace meshhood

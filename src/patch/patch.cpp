@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/patch.h"
+
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "meshhood/error.h"
+
+#include "base/validate.h"
+#include "batch/rows.h"
+#include "exact/query/arguments.h"
+#include "patch/gap.h"
+#include "patch/search.h"
+#include "patch/state.h"
+#include "shared/parallel.h"
+#include "surface/surface.h"
+#include "surface/triangle_point.h"
+
+namespace meshhood {
+namespace {
+
+constexpr std::size_t kPatchesAtOnce = 32;
+
+/// Runs the search around a vertex. Returns whether there is a patch.
+bool run_at(const PatchState& state, PatchSearch& search, VertexId v, double radius, bool measures) {
+  const std::uint32_t slot = state.index->slot[v];
+  const std::uint32_t place = state.index->leaf_begin[leaf_of(slot)] + lane_of(slot);
+  const std::span<const TriangleId> fan = state.triangles.fan(place);
+  search.run(state.index->position(leaf_of(slot), lane_of(slot)), radius, fan, measures);
+  return !fan.empty();
+}
+
+/// Calls `f(search, row)` after a search for each row, on any thread.
+template <class F>
+void for_each_row(const PatchState& state, const Rows& rows, TaskContext& task, bool measures, F&& f) {
+  std::vector<std::pair<std::uint32_t, std::size_t>> in_order(rows.size());
+  for (std::size_t row = 0; row < rows.size(); ++row) in_order[row] = {state.index->slot[rows.vertex(row)], row};
+  std::sort(in_order.begin(), in_order.end());
+  std::vector<std::unique_ptr<PatchSearch>> searches(task.threads());
+  task.parallel_for(rows.size(), kPatchesAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
+    if (!searches[thread]) searches[thread] = std::make_unique<PatchSearch>(state);
+    for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
+      const std::size_t row = in_order[i].second;
+      const bool exists = run_at(state, *searches[thread], rows.vertex(row), rows.radius(row), measures);
+      f(*searches[thread], row, exists);
+      task.advance(thread, 1);
+    }
+  });
+}
+
+void check_metric(const BatchQuery& query) {
+  if (query.metric == Metric::Straight) return;
+  raise(ErrorCode::InvalidOption, "a patch by another metric, expected the distance in space");
+}
+
+}  // namespace
+
+struct PatchSearcher::State {
+  explicit State(const Surface& given)
+      : owner(SurfaceAccess::share(given)), surface(&owner->patches()), search(*surface) {}
+
+  std::shared_ptr<const SurfaceState> owner;
+  const PatchState* surface;
+  PatchSearch search;
+  std::vector<TriangleId> starts;
+
+  /// Returns whether there is a patch.
+  bool run(const PatchStart& start, double radius, bool measures) {
+    owner->index.check_current();
+    check_radius(radius);
+    if (!start.face()) {
+      check_vertex(start.vertex(), surface->index->vertex_count(), "vertex");
+      return run_at(*surface, search, start.vertex(), radius, measures);
+    }
+    check_point(start.point(), "point: ");
+    find_start(*start.face(), {start.point()[0], start.point()[1], start.point()[2]});
+    search.run({start.point()[0], start.point()[1], start.point()[2]}, radius, starts, measures);
+    return !starts.empty();
+  }
+
+  /// The triangle of a face that is nearest to a point.
+  void find_start(std::size_t face, const Point& p) {
+    const Triangles& all = surface->triangles;
+    if (face >= surface->face_count()) {
+      raise(ErrorCode::InvalidOption, "face " + std::to_string(face) + ", expected one of the mesh, which has " +
+                                          std::to_string(surface->face_count()));
+    }
+    starts.clear();
+    double least = kInfinity;
+    for (const TriangleId t : all.of_face(face)) {
+      const double distance = std::visit(
+          [&](auto xyz) {
+            const auto& [a, b, c] = all.corners[t];
+            return nearest_in_triangle(p, {point(xyz, a), point(xyz, b), point(xyz, c)}, surface->index->frame.scale)
+                .distance;
+          },
+          surface->index->positions);
+      if (!(distance < least)) continue;
+      least = distance;
+      starts.assign(1, t);
+    }
+  }
+};
+
+PatchSearcher::PatchSearcher(const Surface& surface) : state_(std::make_unique<State>(surface)) {}
+
+std::vector<std::size_t> PatchSearcher::patch(const PatchStart& start, double radius) {
+  state_->run(start, radius, false);
+  return state_->search.faces();
+}
+
+PatchMeasure PatchSearcher::measure(const PatchStart& start, double radius) {
+  state_->run(start, radius, true);
+  return {state_->search.area(), state_->search.volume()};
+}
+
+PatchGap PatchSearcher::gap(const PatchStart& start, double radius) {
+  return state_->run(start, radius, false) ? find_gap(*state_->surface, state_->search, radius) : PatchGap{};
+}
+
+Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run) {
+  const PatchState& state = SurfaceAccess::state(surface).patches();
+  check_metric(query);
+  const std::vector<BatchRadius> passes = radius_of_passes(query.radius);
+  Rows rows({.vertices = query.vertices, .radius = passes.front()}, state.index->vertex_count());
+  TaskContext task(run.threads, run.progress, passes.size() * rows.size());
+  Invariants result{std::vector<double>(passes.size() * rows.size()), std::vector<double>(passes.size() * rows.size())};
+  for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+    if (query.radius.scales()) rows.set_radius(passes[pass].common());
+    for_each_row(state, rows, task, true, [&](PatchSearch& search, std::size_t row, bool) {
+      result.area[pass * rows.size() + row] = search.area();
+      result.volume[pass * rows.size() + row] = search.volume();
+    });
+  }
+  task.finish();
+  return result;
+}
+
+std::vector<PatchGap> gaps(const Surface& surface, const BatchQuery& query, const Run& run) {
+  const PatchState& state = SurfaceAccess::state(surface).patches();
+  check_metric(query);
+  const Rows rows(query, state.index->vertex_count());
+  TaskContext task(run.threads, run.progress, rows.size());
+  std::vector<PatchGap> result(rows.size());
+  for_each_row(state, rows, task, false, [&](PatchSearch& search, std::size_t row, bool exists) {
+    if (exists) result[row] = find_gap(state, search, rows.radius(row));
+  });
+  task.finish();
+  return result;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "patch/rim.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/vector.h"
+
+namespace meshhood {
+namespace {
+
+// An arc that is longer has nearly opposite ends, or more than that, and is added in four parts.
+constexpr double kLong = 2;
+
+// One of these is far from the rim, unless it is everywhere.
+constexpr std::array<Point, 6> kPoles{{{0.48, 0.6, 0.64},
+                                       {-0.48, -0.6, -0.64},
+                                       {0.64, -0.48, -0.6},
+                                       {-0.64, 0.48, 0.6},
+                                       {0.6, -0.64, 0.48},
+                                       {-0.6, 0.64, -0.48}}};
+
+double squared_size(const Complex& z) { return z.real() * z.real() + z.imag() * z.imag(); }
+
+/// Only the argument of a product counts.
+Complex rescaled(const Complex& z) {
+  const double size = squared_size(z);
+  return size > 1e-100 && size < 1e100 ? z : (1 / std::sqrt(size)) * z;
+}
+
+/// A number whose argument is half the signed area of a spherical triangle.
+Complex half_area(const Point& n, const Point& u, const Point& w) {
+  return {1 + dot(n, u) + dot(u, w) + dot(w, n), dot(n, cross(u, w))};
+}
+
+}  // namespace
+
+void RimArcs::clear() {
+  ends_.clear();
+  product_ = 1;
+  sum_ = 0;
+  count_ = 0;
+}
+
+void RimArcs::add(const Point& n, double h, double theta, const Point& u, const Point& w) {
+  const double sign = h < 0 ? -1 : 1;
+  sum_ += sign * theta * (1 - sign * h);
+  ++count_;
+  if (theta < kLong) return add_part(sign * n, u, w);
+  const Point foot = h * n;
+  const double size = std::sqrt((1 - h) * (1 + h));
+  const auto middle = [&](const Point& toward) {
+    const double norm = length(toward);
+    return norm > 0 ? foot + (size / norm) * toward : foot;
+  };
+  const Point chord = w - u;
+  const bool is_nearly_whole = theta > 1.5 * std::numbers::pi;
+  const Point half = middle(is_nearly_whole ? 2.0 * foot - (u + w) : cross(chord, n));
+  const Point first = middle(cross(half - u, n));
+  const Point last = middle(cross(w - half, n));
+  add_part(sign * n, u, first);
+  add_part(sign * n, first, half);
+  add_part(sign * n, half, last);
+  add_part(sign * n, last, w);
+}
+
+void RimArcs::add_part(const Point& n, const Point& u, const Point& w) {
+  product_ = rescaled(times(product_, std::conj(half_area(n, u, w))));
+  ends_.emplace_back(u, w);
+}
+
+void RimArcs::add_circle(double h) {
+  sum_ += 2 * std::numbers::pi * (1 - h);
+  ++count_;
+}
+
+double RimArcs::area_behind() const {
+  constexpr double kSphere = 4 * std::numbers::pi;
+  constexpr double kFarPole = 0.25;   // of the squared factor of an arc
+  constexpr double kSlack = 0x1p-46;  // of an arc
+  Complex best = 1;
+  double most = -1;
+  for (const Point& pole : kPoles) {
+    Complex product = product_;
+    double least = kFarPole;
+    for (const auto& [u, w] : ends_) {
+      const Complex factor = half_area(pole, u, w);
+      least = std::min(least, squared_size(factor));
+      if (least <= most) break;
+      product = rescaled(times(product, factor));
+    }
+    if (least <= most) continue;
+    most = least;
+    best = product;
+    if (least == kFarPole) break;
+  }
+  const double area = std::fmod(-(sum_ + 2 * argument(best)), kSphere);
+  const double positive = area < 0 ? area + kSphere : area;
+  return positive > kSphere - kSlack * static_cast<double>(count_ + 8) ? 0 : positive;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// The volume behind a patch is (sum of d A + r S) / 3, by the divergence theorem: d is the distance of a triangle's
+// plane from the center, along its normal, A the area of its part in the ball, S that of the part of the sphere behind.
+// The sum of d A over a cluster is linear in the center.
+#include "patch/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "base/vector.h"
+
+namespace meshhood {
+
+PatchSearch::PatchSearch(const PatchState& state)
+    : state_(&state),
+      inside_(state.index->vertex_count()),
+      seen_(state.triangles.size()),
+      kinds_(state.clusters.size()),
+      triangles_(state.triangles.size() + 1) {}
+
+double PatchSearch::area() const { return area_ / ball_.scale / ball_.scale; }
+
+double PatchSearch::volume() const {
+  if (has_border_ || seen_count_ == 0) return kNan;
+  const double r = ball_.radius;
+  const bool is_inward = rim_.empty() && moment_ < 0;  // all of the ball but what the patch encloses
+  const double behind = is_inward ? 4 * std::numbers::pi : rim_.empty() ? 0 : rim_.area_behind();
+  const double cone = behind == 0 ? 0 : behind * r * r * r;
+  return (moment_ + cone) / 3 / ball_.scale / ball_.scale / ball_.scale;
+}
+
+std::vector<std::size_t> PatchSearch::faces() const {
+  const Triangles& all = state_->triangles;
+  std::vector<std::size_t> faces;
+  for (const TriangleId t : std::span(triangles_).first(seen_count_)) faces.push_back(all.face[t]);
+  for (const ClusterId c : clusters_) {
+    for (TriangleId t = all.first_of_cluster[c]; t < all.first_of_cluster[c + std::size_t{1}]; ++t) {
+      faces.push_back(all.face[t]);
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+/// Whole if the bounding sphere of a cluster lies in the ball, or its box.
+inline PatchSearch::Kind PatchSearch::kind_of(ClusterId cluster) {
+  constexpr double kSlack = 0x1p-46;
+  if (kinds_.is_known(cluster)) return kinds_[cluster];
+  const Cluster& sums = state_->clusters.clusters[cluster];
+  const double distance = ball_.scale * length(sums.center - ball_.center);
+  const double inner = ball_.radius * (1 - kSlack);
+  bool is_whole = distance + sums.radius <= inner;
+  if (!is_whole && distance < inner) {
+    const ClusterBox& box = state_->clusters.levels.front()[cluster];
+    const Point low = ball_.center - box.low;
+    const Point high = box.high - ball_.center;
+    const Point far{std::max(low.x, high.x), std::max(low.y, high.y), std::max(low.z, high.z)};
+    is_whole = ball_.scale * length(far) <= inner;
+  }
+  return kinds_.set(cluster, is_whole ? Kind::Whole : Kind::Partial);
+}
+
+/// Without a branch, because it is seldom clear what was seen before.
+inline void PatchSearch::visit(TriangleId t) {
+  triangles_[seen_count_] = t;
+  seen_count_ += static_cast<std::size_t>(seen_[t] != epoch_);
+  seen_[t] = epoch_;
+}
+
+inline void PatchSearch::visit_fan(std::uint32_t place) {
+  for (const TriangleId t : state_->triangles.fan(place)) visit(t);
+}
+
+/// Steps from the triangles seen and the clusters taken until there are no more.
+template <class Real>
+void PatchSearch::spread(std::span<const Real> xyz) {
+  std::size_t next_cluster = 0;
+  for (std::size_t next = 0; next < seen_count_ || next_cluster < clusters_.size();) {
+    if (next == seen_count_) {
+      leave(clusters_[next_cluster++]);
+      continue;
+    }
+    const TriangleId t = triangles_[next++];
+    const ClusterId cluster = state_->clusters.of_triangle[t];
+    const Kind kind = kind_of(cluster);
+    if (kind == Kind::Whole) take(cluster);
+    if (kind != Kind::Partial) continue;
+    PatchTriangle triangle{{}, state_->triangles.corners[t], {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t place = triangle.places[i];
+      triangle.corners[i] = point(xyz, place);
+      if (!inside_.is_known(place)) {
+        inside_.set(place, ball_.contains(triangle.corners[i]));
+        if (inside_[place]) visit_fan(place);
+      }
+      triangle.inside[i] = inside_[place];
+    }
+    if (triangle.inside[0] && triangle.inside[1] && triangle.inside[2]) {
+      if (measures_) add_whole(t, triangle);
+    } else {
+      add_cut(t, triangle);
+    }
+  }
+}
+
+void PatchSearch::run(const Point& center, double radius, std::span<const TriangleId> starts, bool measures) {
+  const double scale = state_->index->frame.scale;
+  ball_ = {center, squared_radius(radius), scale, scale * radius, radius > 0 ? 1 / radius : kInfinity};
+  measures_ = measures;
+  inside_.forget();
+  kinds_.forget();
+  if (++epoch_ == 0) {
+    std::ranges::fill(seen_, 0U);
+    epoch_ = 1;
+  }
+  seen_count_ = 0;
+  clusters_.clear();
+  rim_.clear();
+  has_border_ = false;
+  area_ = 0;
+  moment_ = 0;
+  for (const TriangleId t : starts) visit(t);
+  std::visit([&](auto xyz) { spread(xyz); }, state_->index->positions);
+}
+
+void PatchSearch::take(ClusterId cluster) {
+  kinds_[cluster] = Kind::Taken;
+  clusters_.push_back(cluster);
+  const Cluster& sums = state_->clusters.clusters[cluster];
+  area_ += sums.area;
+  moment_ += sums.moment + dot(sums.vector_area, ball_.scale * (sums.center - ball_.center));
+  has_border_ |= sums.has_border;
+}
+
+/// All corners of a cluster that is taken are in the ball.
+void PatchSearch::leave(ClusterId cluster) {
+  const Clusters& clusters = state_->clusters;
+  for (const ClusterLink& link : clusters.links_of(cluster)) {
+    const Kind kind = kind_of(link.cluster);
+    if (kind == Kind::Whole) take(link.cluster);
+    if (kind != Kind::Partial) continue;
+    for (const TriangleId t : clusters.linked_by(link)) visit(t);
+  }
+  for (const std::uint32_t place : clusters.hubs_of(cluster)) {
+    if (inside_.is_known(place)) continue;
+    inside_.set(place, true);
+    visit_fan(place);
+  }
+}
+
+void PatchSearch::visit_ring(TriangleId t, std::size_t side) {
+  const std::uint32_t begin = 3 * t + static_cast<std::uint32_t>(side);
+  for (std::uint32_t i = state_->triangles.ring[begin]; i != begin; i = state_->triangles.ring[i]) visit(i / 3);
+}
+
+void PatchSearch::add_whole(TriangleId t, const PatchTriangle& triangle) {
+  const auto& [a, b, c] = triangle.corners;
+  const Point area = 0.5 * cross(ball_.scale * (b - a), ball_.scale * (c - a));
+  area_ += length(area);
+  moment_ += dot(area, ball_.scale * (a - ball_.center));
+  has_border_ |= state_->triangles.has_border(t);
+}
+
+void PatchSearch::add_cut(TriangleId t, const PatchTriangle& triangle) {
+  const auto add_side = [&](std::size_t i, bool is_met) {
+    has_border_ |= is_met && state_->triangles.is_border(t, static_cast<unsigned>(i));
+  };
+  if (!std::isfinite(ball_.unit)) {  // a ball that is next to nothing
+    for (std::size_t i = 0; i < 3; ++i) add_side(i, triangle.inside[i] || triangle.inside[(i + 1) % 3]);
+    return;
+  }
+  Section section(ball_, triangle);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (section.dips(i)) visit_ring(t, i);
+    add_side(i, section.meets(i));
+  }
+  if (!measures_) return;
+  const double r = ball_.radius;
+  const auto [area, distance] = section.measure(rim_);
+  area_ += area * r * r;
+  moment_ += area * distance * r * r * r;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/epoch_array.h"
+#include "patch/rim.h"
+#include "patch/section.h"
+#include "patch/state.h"
+#include "shared/distance.h"
+
+namespace meshhood {
+
+/// A search over triangles from a start, for one thread. A cluster inside the ball is one step.
+///
+/// The triangles of a patch are joined by the corners and sides that they share, where these have a point in the ball.
+/// A side has one if an end has; then its triangles share a corner in the ball. So a search steps from a triangle to
+/// those at its corners in the ball, and over sides only where they dip into the ball between their ends.
+class PatchSearch {
+ public:
+  /// Borrows the state.
+  explicit PatchSearch(const PatchState& state);
+
+  /// Finds the patch around `center` that has the triangles `starts`. `measures`: its area and volume, too.
+  void run(const Point& center, double radius, std::span<const TriangleId> starts, bool measures);
+
+  /// Of the last run, with `measures`; in the unit of the mesh.
+  [[nodiscard]] double area() const;
+  [[nodiscard]] double volume() const;
+
+  [[nodiscard]] const PatchBall& ball() const { return ball_; }
+  /// A triangle is of the patch if it was seen, or its cluster taken.
+  [[nodiscard]] bool has_seen(TriangleId t) const { return seen_[t] == epoch_; }
+  [[nodiscard]] bool has_taken(ClusterId c) const { return kinds_.is_known(c) && kinds_[c] == Kind::Taken; }
+
+  /// The numbers of the faces, ascending.
+  [[nodiscard]] std::vector<std::size_t> faces() const;
+
+ private:
+  /// Whole: inside the ball, not reached yet.
+  enum class Kind : std::uint8_t { Partial, Whole, Taken };
+
+  template <class Real>
+  void spread(std::span<const Real> xyz);
+  void visit(TriangleId t);
+  [[nodiscard]] Kind kind_of(ClusterId cluster);
+  void take(ClusterId cluster);
+  void leave(ClusterId cluster);
+  void visit_fan(std::uint32_t place);
+  void visit_ring(TriangleId t, std::size_t side);
+  void add_whole(TriangleId t, const PatchTriangle& triangle);
+  void add_cut(TriangleId t, const PatchTriangle& triangle);
+
+  const PatchState* state_;
+  EpochArray<bool> inside_;            // by place
+  std::vector<std::uint32_t> seen_;    // by triangle: the last run that has seen it
+  EpochArray<Kind> kinds_;             // by cluster
+  std::uint32_t epoch_ = 0;            // the number of the run
+  std::vector<TriangleId> triangles_;  // seen, in this order; and room for one more than all
+  std::size_t seen_count_ = 0;
+  std::vector<ClusterId> clusters_;  // taken
+  RimArcs rim_;
+  PatchBall ball_{};
+  bool measures_ = false;
+  bool has_border_ = false;
+  double area_ = 0;    // these two in the frame
+  double moment_ = 0;  // the sum of area times distance
+};
+
+}  // namespace meshhood

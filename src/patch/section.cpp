@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "patch/section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/vector.h"
+
+namespace meshhood {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+constexpr std::size_t after(std::size_t i) { return i == 2 ? 0 : i + 1; }
+
+RealVector<double> as_vector(const Point& p) { return {p.x, p.y, p.z}; }
+
+template <class Real>
+RealVector<Real> offset(const PatchBall& ball, const Point& p) {
+  return offset_of<Real>(p, ball.center, ball.scale);
+}
+
+}  // namespace
+
+Section::Section(const PatchBall& ball, const PatchTriangle& triangle) : ball_(&ball), triangle_(&triangle) {
+  double farthest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners_[i] = ball.unit * (triangle.corners[i] - ball.center);
+    farthest = std::max(farthest, dot(corners_[i], corners_[i]));
+  }
+  is_far_ = !(farthest <= kFar * kFar);
+  for (std::size_t i = 0; i < 3; ++i) {
+    sides_[i].is_cut = triangle.inside[i] || triangle.inside[after(i)];
+    if (sides_[i].is_cut || !may_dip(i)) continue;
+    find_nearest(i);
+    sides_[i].is_cut = sides_[i].dips = sides_[i].is_between && dot(sides_[i].nearest, sides_[i].nearest) <= 1;
+  }
+}
+
+/// The nearest point of the line from `begin` along `whole`, both times `unit`. `sign`: of the direction of the side.
+template <class Real>
+void Section::set_line(Side& side, const RealVector<Real>& begin, const RealVector<Real>& whole, double unit,
+                       double sign) {
+  const Real square = dot(whole, whole);
+  const auto rounded = static_cast<double>(square);
+  if (rounded == 0) {
+    side.nearest = unit * begin.round();
+    side.along = {0, 0, 0};
+    side.is_between = false;
+    return;
+  }
+  const Real share = Real(0) - dot(begin, whole) / square;
+  side.nearest = unit * (begin + share * whole).round();
+  side.along = (sign / std::sqrt(rounded)) * whole.round();
+  side.is_between = static_cast<double>(share) > 0 && static_cast<double>(share) < 1;
+}
+
+/// Whether the nearest point of a line lies between the ends and in the ball, but for rounding.
+bool Section::may_dip(std::size_t i) const {
+  constexpr double kSlack = 1e-9;
+  if (is_far_) return true;
+  const Point& a = corners_[i];
+  const Point side = corners_[after(i)] - a;
+  const double along = dot(a, side);
+  const double square = dot(side, side);
+  return along <= kSlack * square && along >= -(1 + kSlack) * square &&
+         dot(a, a) * square - along * along <= (1 + kSlack) * square;
+}
+
+/// From the same end for all triangles that have the side.
+void Section::find_nearest(std::size_t i) {
+  const bool is_reversed = triangle_->places[after(i)] < triangle_->places[i];
+  const std::size_t begin = is_reversed ? after(i) : i;
+  const std::size_t end = is_reversed ? i : after(i);
+  const double sign = is_reversed ? -1 : 1;
+  if (is_far_) {
+    const auto from = offset<Twofold>(*ball_, triangle_->corners[begin]);
+    const auto to = offset<Twofold>(*ball_, triangle_->corners[end]);
+    set_line(sides_[i], from, to - from, 1 / ball_->radius, sign);
+  } else {
+    const auto from = as_vector(corners_[begin]);
+    set_line(sides_[i], from, as_vector(corners_[end]) - from, 1, sign);
+  }
+}
+
+void Section::find_chord(std::size_t i) {
+  Side& side = sides_[i];
+  if (!side.dips) find_nearest(i);
+  side.half = std::sqrt(std::max(0.0, 1 - dot(side.nearest, side.nearest)));
+  side.from = triangle_->inside[i] ? dot(corners_[i], side.along) : -side.half;
+  side.to = triangle_->inside[after(i)] ? dot(corners_[after(i)], side.along) : side.half;
+}
+
+/// The turn of the boundary at a corner between two sides that are cut.
+Complex Section::turn_at(std::size_t corner) const {
+  const Point& before = sides_[after(after(corner))].along;
+  const Point& behind = sides_[corner].along;
+  return {dot(before, behind), dot(normal_, cross(before, behind))};
+}
+
+/// The angle of the arc from where side `from` leaves the ball to where the one `steps` sides later enters it.
+///
+/// The boundary turns at both ends of the arc, each time by the argument of (offset, half), and along the arc. All of
+/// it is the turn at the corners in between: at the next corner; or, one side later, 2 pi without that at the corner
+/// that both sides have; or 2 pi for the same side again. So the numbers are divided, and the angle is an argument, in
+/// [0, 2 pi]; in [0, pi] for the next side, since both ends of the arc are seen from the corner that is outside. Near
+/// the ends of the first range the angles themselves are subtracted.
+double Section::angle_of_arc(std::size_t from, std::size_t steps) const {
+  const Side& to = sides_[(from + steps) % 3];
+  const Complex leaves{sides_[from].offset, sides_[from].half};
+  const Complex enters{to.offset, to.half};
+  const Complex turn = steps == 1 ? turn_at(after(from)) : steps == 2 ? std::conj(turn_at(from)) : 1;
+  const Complex arc = times(turn, std::conj(times(leaves, enters)));
+  const double angle = argument(arc);
+  if (steps == 1) return angle >= 0 ? angle : arc.real() > 0 ? 0 : 2 * kPi + angle;
+  if (std::abs(arc.imag()) > 1e-6 * arc.real()) return angle < 0 ? 2 * kPi + angle : angle;
+  const double all = 2 * kPi - (steps == 2 ? std::abs(argument(turn)) : 0);  // without an area, its sign is noise
+  return std::clamp(all - argument(leaves) - argument(enters), 0.0, 2 * kPi);
+}
+
+/// From the longest chord, whose line is near.
+double Section::distance_of_plane() const {
+  const Side* longest = nullptr;
+  for (const Side& side : sides_) {
+    if (!side.is_cut) continue;
+    if (longest == nullptr || side.to - side.from > longest->to - longest->from) longest = &side;
+  }
+  return std::clamp(dot(normal_, longest->nearest), -1.0, 1.0);
+}
+
+/// The vector area of the triangle and whether the foot of the center on its plane lies in it, in the frame.
+template <class Real>
+Section::Plane Section::find_plane() const {
+  std::array<RealVector<Real>, 3> corners{offset<Real>(*ball_, triangle_->corners[0]),
+                                          offset<Real>(*ball_, triangle_->corners[1]),
+                                          offset<Real>(*ball_, triangle_->corners[2])};
+  const RealVector<Real> area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const Point rounded = area.round();
+  const double size = length(rounded);
+  if (size == 0) return {};
+  bool has_foot = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const RealVector<Real> over = cross(corners[i], corners[after(i)] - corners[i]);
+    has_foot = has_foot && static_cast<double>(dot(area, over)) > 0;
+  }
+  return {(1 / size) * rounded, static_cast<double>(dot(area, corners[0])) / size / ball_->radius, has_foot};
+}
+
+/// No side is cut: the plane meets the ball in a disc within the triangle, or beside it.
+Section::Measure Section::measure_disc(const Plane& plane, RimArcs& rim) {
+  if (!plane.has_foot || !(std::abs(plane.distance) < 1)) return {0, 0};
+  rim.add_circle(plane.distance);
+  return {kPi * (1 - plane.distance) * (1 + plane.distance), plane.distance};
+}
+
+Section::Measure Section::measure(RimArcs& rim) {
+  const bool is_cut = sides_[0].is_cut || sides_[1].is_cut || sides_[2].is_cut;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (sides_[i].is_cut) find_chord(i);
+  }
+  if (is_far_ || !is_cut) {
+    const Plane plane = is_far_ ? find_plane<Twofold>() : find_plane<double>();
+    if (!is_cut) return measure_disc(plane, rim);
+    normal_ = plane.normal;
+  } else {
+    normal_ = cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
+    const double size = length(normal_);
+    normal_ = size > 0 ? (1 / size) * normal_ : Point{0, 0, 0};
+  }
+  if (normal_.x == 0 && normal_.y == 0 && normal_.z == 0) return {0, 0};  // no area
+  const double distance = distance_of_plane();
+  const double disc = (1 - distance) * (1 + distance);  // the square of its radius
+  double doubled = 0;
+  for (Side& side : sides_) {
+    if (!side.is_cut) continue;
+    side.offset = dot(side.nearest, cross(side.along, normal_));
+    doubled += side.offset * (side.to - side.from);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!sides_[i].is_cut || triangle_->inside[after(i)]) continue;
+    std::size_t steps = 1;
+    while (!sides_[(i + steps) % 3].is_cut) ++steps;
+    const Side& next = sides_[(i + steps) % 3];
+    const double angle = angle_of_arc(i, steps);
+    doubled += disc * angle;
+    rim.add(normal_, distance, angle, sides_[i].nearest + sides_[i].half * sides_[i].along,
+            next.nearest - next.half * next.along);
+  }
+  return {doubled / 2, distance};
+}
+
+}  // namespace meshhood

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "patch/angle.h"
+#include "patch/rim.h"
+#include "patch/twofold.h"
+#include "shared/distance.h"
+
+namespace meshhood {
+
+/// A ball, and the unit of the frame.
+struct PatchBall {
+  Point center;
+  double squared;  // of the predicate
+  double scale;    // of the frame, a power of two
+  double radius;   // in the frame
+  double unit;     // 1 / radius in the unit of the mesh; infinite if that is next to nothing
+
+  [[nodiscard]] bool contains(const Point& p) const { return squared_distance(center, p) <= squared; }
+};
+
+/// A corner farther away than so many radii is far. In double, the nearest point of a line is off by a few 2^-53 of its
+/// corners' distance: below 1e-13 of the radius, unless a corner is far.
+inline constexpr double kFar = 64;
+
+/// A triangle by its corners in the unit of the mesh, with what is known of them.
+struct PatchTriangle {
+  std::array<Point, 3> corners;
+  std::array<std::uint32_t, 3> places;
+  std::array<bool, 3> inside;
+};
+
+/// The part of a triangle in a ball that does not contain all of its corners. Lengths are in units of the radius, from
+/// the center of the ball.
+///
+/// Its boundary runs along chords, the parts of the sides in the ball, and along arcs from where a side leaves the ball
+/// to where the next one enters it. All of it follows from the point of each side's line that is nearest to the center.
+/// Where a corner is far away beside the radius, this point is computed in twice the precision. Triangles that share a
+/// side have the same point, bit for bit.
+class Section {
+ public:
+  Section(const PatchBall& ball, const PatchTriangle& triangle);
+
+  /// Whether side `i`, from corner `i`, has a point in the ball, and whether it has one although no corner is.
+  [[nodiscard]] bool meets(std::size_t i) const { return sides_[i].is_cut; }
+  [[nodiscard]] bool dips(std::size_t i) const { return sides_[i].dips; }
+
+  struct Measure {
+    double area;
+    double distance;  // of the plane, along the normal
+  };
+
+  /// Adds the arcs to `rim`.
+  [[nodiscard]] Measure measure(RimArcs& rim);
+
+ private:
+  /// All but the flags is set only where the side is cut.
+  struct Side {
+    Point nearest;  // of its line
+    Point along;    // a unit vector; 0 if the corners are at the same place
+    double half;    // of the chord of the line
+    double from;    // its part in the ball, from `nearest` on
+    double to;
+    double offset;    // of the line, from the foot of the center on the plane, to the right
+    bool is_between;  // whether `nearest` lies between the ends
+    bool is_cut = false;
+    bool dips = false;
+  };
+
+  struct Plane {
+    Point normal{0, 0, 0};
+    double distance = 0;
+    bool has_foot = false;  // of the perpendicular from the center, within the triangle
+  };
+
+  template <class Real>
+  static void set_line(Side& side, const RealVector<Real>& begin, const RealVector<Real>& whole, double unit,
+                       double sign);
+  void find_nearest(std::size_t i);
+  void find_chord(std::size_t i);
+  template <class Real>
+  [[nodiscard]] Plane find_plane() const;
+  [[nodiscard]] static Measure measure_disc(const Plane& plane, RimArcs& rim);
+  [[nodiscard]] bool may_dip(std::size_t i) const;
+  [[nodiscard]] Complex turn_at(std::size_t corner) const;
+  [[nodiscard]] double angle_of_arc(std::size_t from, std::size_t steps) const;
+  [[nodiscard]] double distance_of_plane() const;
+
+  const PatchBall* ball_;
+  const PatchTriangle* triangle_;
+  std::array<Point, 3> corners_;  // from the center
+  std::array<Side, 3> sides_;
+  bool is_far_;
+  Point normal_{0, 0, 0};  // a unit vector
+};
+
+}  // namespace meshhood

@@ -1,0 +1,573 @@
+// SPDX-License-Identifier: MIT
+// Patches, their areas, volumes and gaps, against a search in breadth with closed forms in long double.
+#include "meshhood/patch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/index.h"
+#include "meshhood/masks.h"
+#include "meshhood/refit.h"
+#include "meshhood/start.h"
+#include "meshhood/surface.h"
+
+#include "base/triangulate.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/patch_reference.h"
+#include "support/random.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+using Reference = PatchReference<long double>;
+
+constexpr double kPi = std::numbers::pi;
+
+Point corner_of(const TestMesh& mesh, std::uint32_t v) {
+  return {mesh.positions[3 * std::size_t{v}], mesh.positions[3 * std::size_t{v} + 1],
+          mesh.positions[3 * std::size_t{v} + 2]};
+}
+
+/// The triangles of the faces, and the face of each.
+struct TestTriangles {
+  explicit TestTriangles(const TestMesh& mesh) {
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+      std::vector<Point> points;
+      for (const std::uint32_t v : mesh.face(f)) points.push_back(corner_of(mesh, v));
+      Triangulation parts;
+      triangulate(points, parts);
+      const auto owner = [&](std::size_t a, std::size_t b) {
+        const bool is_side = (a + 1) % points.size() == b || (b + 1) % points.size() == a;
+        return static_cast<std::uint32_t>(is_side ? 0 : f + 1);
+      };
+      for (const auto& [a, b, c] : parts) {
+        corners.push_back({mesh.face(f)[a], mesh.face(f)[b], mesh.face(f)[c]});
+        owners.push_back({owner(a, b), owner(b, c), owner(c, a)});
+        faces.push_back(f);
+      }
+    }
+  }
+
+  std::vector<Reference::Triangle> corners;
+  std::vector<Reference::Triangle> owners;
+  std::vector<std::size_t> faces;
+
+  [[nodiscard]] std::vector<std::size_t> faces_of(const std::vector<std::size_t>& triangles) const {
+    std::vector<std::size_t> result;
+    for (const std::size_t t : triangles) result.push_back(faces[t]);
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+};
+
+/// A mesh with everything that is asked of it.
+struct Case {
+  explicit Case(const TestMesh& given)
+      : mesh(given),
+        triangles(mesh),
+        reference(mesh.positions, triangles.corners, triangles.owners),
+        index(build(mesh.view())),
+        surface(index, mesh.view().faces),
+        searcher(surface) {}
+
+  /// Compares what the library says with the reference.
+  void expect_same(const PatchStart& start, const Reference::Answer& expected, double radius) {
+    EXPECT_EQ(searcher.patch(start, radius), triangles.faces_of(expected.faces));
+    const PatchMeasure measure = searcher.measure(start, radius);
+    const double disc = kPi * radius * radius;
+    EXPECT_NEAR(measure.area / disc, expected.area / disc, 1e-12 * std::max(1.0, expected.area / disc));
+    EXPECT_EQ(std::isnan(measure.volume), std::isnan(expected.volume));
+    if (!std::isnan(expected.volume)) {
+      const double ball = 4 * kPi / 3 * radius * radius * radius;
+      const double scale = std::max(1.0, std::abs(expected.volume) / ball);
+      const double error = std::abs(measure.volume - expected.volume) / ball;
+      // Whether a sheet without thickness is next to nothing or next to all is rounding.
+      const bool is_sheet = std::min(std::abs(expected.volume), std::abs(expected.volume - ball)) < 1e-11 * ball;
+      EXPECT_LT(is_sheet ? std::min(error, std::abs(error - 1)) : error, 1e-12 * scale)
+          << measure.volume << " and " << expected.volume;
+    }
+    const PatchGap gap = searcher.gap(start, radius);
+    EXPECT_EQ(gap.face == kNoFace, std::isinf(expected.gap));
+    if (gap.face == kNoFace) return;
+    EXPECT_NEAR(gap.distance, expected.gap, 1e-12 * radius);
+    if (mesh.face(gap.face).size() == 3) {
+      EXPECT_THAT(triangles.faces_of(expected.faces), testing::Not(testing::Contains(gap.face)));
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double sum = 0;
+      double largest = radius;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double x = mesh.positions[3 * std::size_t{gap.vertices[i]} + axis];
+        sum += gap.weights[i] * x;
+        largest = std::max(largest, std::abs(x));
+      }
+      EXPECT_NEAR(gap.point[axis], sum, 1e-14 * largest);
+      EXPECT_THAT(mesh.face(gap.face), testing::IsSupersetOf(std::set(gap.vertices.begin(), gap.vertices.end())));
+    }
+  }
+
+  TestMesh mesh;
+  TestTriangles triangles;
+  Reference reference;
+  Index index;
+  Surface surface;
+  PatchSearcher searcher;
+};
+
+/// Whether the reference is accurate: no side is a million times as long as the radius, and no cube underflows.
+bool is_within_reach(const TestMesh& mesh, double radius) {
+  const double farthest = *std::ranges::max_element(mesh.positions, {}, [](double x) { return std::abs(x); });
+  return radius > 1e-100 && radius < 1e100 && std::abs(farthest) < 1e6 * radius;
+}
+
+class PatchFamilies : public testing::TestWithParam<Family> {};
+
+TEST_P(PatchFamilies, AreThoseOfTheReference) {
+  for (std::uint64_t seed = 0; seed < scaled(20, 2); ++seed) {
+    SCOPED_TRACE(seed);
+    const TestMesh mesh = make_mesh(GetParam(), seed, 150);
+    if (TestTriangles(mesh).corners.empty()) continue;
+    Case test(mesh);
+    Random random(seed);
+    const double edge = mean_edge_length(test.index);
+    for (std::size_t i = 0; i < 20; ++i) {
+      const auto v = static_cast<std::uint32_t>(random.below(test.mesh.size()));
+      const double radius = edge * std::exp2(random.uniform(-3, 4));
+      SCOPED_TRACE("vertex " + std::to_string(v) + ", radius " + std::to_string(radius));
+      if (!is_within_reach(mesh, radius)) continue;
+      const Reference::Answer expected = test.reference.around_vertex(v, radius);
+      if (expected.faces.empty()) continue;
+      test.expect_same(v, expected, radius);
+      if (HasFailure()) return;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, PatchFamilies,
+                         testing::ValuesIn(surface_families().begin(), surface_families().end()), family_name);
+INSTANTIATE_TEST_SUITE_P(Extremes, PatchFamilies,
+                         testing::ValuesIn(extreme_families().begin(), extreme_families().end()), family_name);
+INSTANTIATE_TEST_SUITE_P(Traps, PatchFamilies, testing::ValuesIn(trap_families().begin(), trap_families().end()),
+                         family_name);
+
+/// A box whose sides are grids of squares, cut into triangles; outward normals.
+TestMesh make_box(std::array<std::uint32_t, 3> cells, double edge) {
+  TestMesh mesh;
+  std::map<std::array<std::uint32_t, 3>, std::uint32_t> ids;
+  const auto vertex = [&](const std::array<std::uint32_t, 3>& p) {
+    const auto [found, is_new] = ids.try_emplace(p, static_cast<std::uint32_t>(ids.size()));
+    if (is_new) mesh.add_vertex(edge * p[0], edge * p[1], edge * p[2]);
+    return found->second;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t u = (axis + 1) % 3;
+    const std::size_t v = (axis + 2) % 3;
+    for (std::uint32_t i = 0; i < cells[u]; ++i) {
+      for (std::uint32_t j = 0; j < cells[v]; ++j) {
+        for (const bool is_high : {false, true}) {
+          const auto at = [&](std::uint32_t di, std::uint32_t dj) {
+            std::array<std::uint32_t, 3> p{};
+            p[axis] = is_high ? cells[axis] : 0;
+            p[u] = i + (is_high ? di : dj);
+            p[v] = j + (is_high ? dj : di);
+            return vertex(p);
+          };
+          mesh.add_face({at(0, 0), at(1, 0), at(1, 1)});
+          mesh.add_face({at(0, 0), at(1, 1), at(0, 1)});
+        }
+      }
+    }
+  }
+  return mesh.finish(false);
+}
+
+/// Each triangle becomes four, with new corners in the middle of its sides.
+TestMesh divided(const TestMesh& mesh) {
+  TestMesh result;
+  result.positions = mesh.positions;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+  const auto middle = [&](std::uint32_t v, std::uint32_t w) {
+    const auto [found, is_new] = middles.try_emplace(std::minmax(v, w), static_cast<std::uint32_t>(result.size()));
+    if (is_new) {
+      const Point p = corner_of(mesh, v);
+      const Point q = corner_of(mesh, w);
+      result.add_vertex((p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2);
+    }
+    return found->second;
+  };
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const std::uint32_t a = mesh.face(f)[0];
+    const std::uint32_t b = mesh.face(f)[1];
+    const std::uint32_t c = mesh.face(f)[2];
+    const std::uint32_t ab = middle(a, b);
+    const std::uint32_t bc = middle(b, c);
+    const std::uint32_t ca = middle(c, a);
+    result.add_face({a, ab, ca});
+    result.add_face({ab, b, bc});
+    result.add_face({ca, bc, c});
+    result.add_face({ab, bc, ca});
+  }
+  return result.finish(false);
+}
+
+/// An octahedron whose faces are divided into four, several times, with corners on the unit sphere.
+TestMesh make_ball(int times) {
+  TestMesh mesh;
+  for (const auto& [x, y, z] : {std::array{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
+    mesh.add_vertex(x, y, z);
+  }
+  for (const std::uint32_t top : {4U, 5U}) {
+    for (const std::uint32_t x : {0U, 1U}) {
+      for (const std::uint32_t y : {2U, 3U}) {
+        const bool is_turned = (top + x + y) % 2 != 0;
+        mesh.add_face({top, is_turned ? y : x, is_turned ? x : y});
+      }
+    }
+  }
+  for (int i = 0; i < times; ++i) {
+    mesh = divided(mesh);
+    for (std::size_t v = 0; v < mesh.size(); ++v) {
+      double* const p = &mesh.positions[3 * v];
+      const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+      for (std::size_t axis = 0; axis < 3; ++axis) p[axis] /= length;
+    }
+  }
+  return mesh.finish(false);
+}
+
+std::uint32_t find_vertex(const TestMesh& mesh, const std::array<double, 3>& p) {
+  for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+    const Point q = corner_of(mesh, v);
+    if (q.x == p[0] && q.y == p[1] && q.z == p[2]) return v;
+  }
+  ADD_FAILURE() << "no such vertex";
+  return 0;
+}
+
+TEST(Patch, OfACubeIsExact) {
+  Case cube(make_box({2, 2, 2}, 1));
+  // The sphere of radius 1 touches corners and sides.
+  for (const double r : {0.3, 0.9, 1.0}) {
+    SCOPED_TRACE(r);
+    const auto expect = [&](const std::array<double, 3>& at, double area, double volume) {
+      const PatchMeasure found = cube.searcher.measure(find_vertex(cube.mesh, at), r);
+      EXPECT_NEAR(found.area, area * kPi * r * r, 1e-15 * 10 * r * r);
+      EXPECT_NEAR(found.volume, volume * kPi * r * r * r, 1e-15 * 10 * r * r * r);
+    };
+    expect({0, 0, 0}, 3.0 / 4, 1.0 / 6);
+    expect({1, 0, 0}, 1, 1.0 / 3);
+    expect({1, 1, 0}, 1, 2.0 / 3);
+  }
+}
+
+TEST(Patch, OfASphereHasItsMeanCurvature) {
+  Case ball(make_ball(6));
+  const double r = 0.5;
+  const PatchMeasure found = ball.searcher.measure(7, r);
+  EXPECT_NEAR(found.area, kPi * r * r, 2e-4);
+  EXPECT_NEAR(found.volume, 2 * kPi / 3 * r * r * r - kPi / 4 * r * r * r * r, 2e-4);
+  EXPECT_NEAR((2 * kPi / 3 * r * r * r - found.volume) * 4 / (kPi * r * r * r * r), 1, 4e-3);
+}
+
+TEST(Patch, OfAPlateOfTwelveTrianglesHasItsThickness) {
+  TestMesh mesh = make_box({1, 1, 1}, 1);
+  for (std::size_t v = 0; v < mesh.size(); ++v) {
+    mesh.positions[3 * v] *= 100;
+    mesh.positions[3 * v + 1] *= 100;
+  }
+  Case plate(mesh.finish(false));
+  const Surface faces(plate.index, mesh.view().faces);
+  for (double x = 5; x < 100; x += 9) {
+    for (double y = 5; y < 100; y += 9) {
+      const SurfacePoint on = faces.closest_point({x, y, 2});
+      const PatchGap gap = plate.searcher.gap({on.face, on.point}, 2);
+      EXPECT_EQ(gap.distance, 1);
+      EXPECT_NEAR(gap.point[0], x, 1e-13);
+      EXPECT_NEAR(gap.point[1], y, 1e-13);
+      EXPECT_EQ(gap.point[2], 0);
+      const PatchMeasure found = plate.searcher.measure({on.face, on.point}, 2);
+      EXPECT_NEAR(found.area, 4 * kPi, 1e-11);
+      EXPECT_NEAR(found.volume, 16 * kPi / 3, 1e-11);
+    }
+  }
+}
+
+/// Faces a million times the radius and more, as those of CAD; sides that dip into the ball.
+TEST(Patch, OfHugeFacesIsExact) {
+  Random random(7);
+  for (const double size : {10.0, 1e3, 1e6}) {
+    for (std::size_t i = 0; i < scaled(200, 20); ++i) {
+      TestMesh mesh;
+      for (std::size_t v = 0; v < 4; ++v) {
+        mesh.add_vertex(size * random.uniform(-1, 1), size * random.uniform(-1, 1), size * random.uniform(-1, 1));
+      }
+      mesh.add_face({0, 1, 2});
+      mesh.add_face({0, 3, 1});
+      mesh.add_face({1, 3, 2});
+      mesh.add_face({2, 3, 0});
+      Case test(mesh.finish(false));
+      const double share = random.uniform();
+      const double inner = i % 3 == 0 ? 0 : random.uniform() / size;  // on a side, or near it
+      const std::array<double, 3> weights{(1 - inner) * share, (1 - inner) * (1 - share), inner};
+      const std::array<VertexId, 3> corners{0, 1, 2};
+      const SpacePoint point = point_on_face(test.index, corners, weights);
+      SCOPED_TRACE(std::to_string(size) + ", " + std::to_string(i));
+      const double radius = random.uniform(0.5, 2);
+      test.expect_same({0, point}, test.reference.around_point({point[0], point[1], point[2]}, 0, radius), radius);
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+}
+
+/// Slivers and needles: a fan of a hub over a ring of random steps, some of them tiny.
+TEST(Patch, OfNeedlesIsExact) {
+  Random random(11);
+  for (std::size_t i = 0; i < scaled(100, 10); ++i) {
+    TestMesh mesh;
+    const std::uint32_t top = mesh.add_vertex(0, 0, 0.1);
+    const std::uint32_t bottom = mesh.add_vertex(0, 0, -0.1);
+    double angle = 0;
+    while (angle < 6.2) {
+      const double size = random.uniform(0.8, 1.2);
+      mesh.add_vertex(size * std::cos(angle), size * std::sin(angle), 0.01 * random.uniform(-1, 1));
+      angle += std::exp2(random.uniform(-40, 0));
+    }
+    const auto count = static_cast<std::uint32_t>(mesh.size()) - 2;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      mesh.add_face({top, 2 + k, 2 + (k + 1) % count});
+      mesh.add_face({bottom, 2 + (k + 1) % count, 2 + k});
+    }
+    Case test(mesh.finish(false));
+    for (std::size_t k = 0; k < 5; ++k) {
+      const auto v = static_cast<std::uint32_t>(random.below(mesh.size()));
+      const double radius = std::exp2(random.uniform(-8, 1));
+      SCOPED_TRACE(std::to_string(i) + ", vertex " + std::to_string(v) + ", radius " + std::to_string(radius));
+      test.expect_same(v, test.reference.around_vertex(v, radius), radius);
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+}
+
+TEST(Patch, DoesNotChangeWhereFacesAreDivided) {
+  Random random(3);
+  TestMesh mesh = make_ball(2);
+  for (double& x : mesh.positions) x += random.uniform(-0.1, 0.1);
+  Case coarse(mesh.finish(false));
+  Case fine(divided(divided(mesh)));
+  for (std::uint32_t v = 0; v < coarse.mesh.size(); ++v) {
+    const double r = random.uniform(0.1, 1.5);
+    const PatchMeasure a = coarse.searcher.measure(v, r);
+    const PatchMeasure b = fine.searcher.measure(v, r);
+    EXPECT_NEAR(a.area, b.area, 1e-12 * kPi * r * r);
+    EXPECT_NEAR(a.volume, b.volume, 1e-12 * 4 * kPi / 3 * r * r * r);
+    const double gap = coarse.searcher.gap(v, 2 * r).distance;
+    const double other = fine.searcher.gap(v, 2 * r).distance;
+    EXPECT_TRUE(gap == other || std::abs(gap - other) < 1e-14) << gap << " and " << other;
+  }
+}
+
+TEST(Patch, IsWholeInABallOfAnySize) {
+  TestMesh mesh = make_ball(3);
+  Case outward(mesh);
+  const PatchMeasure whole = outward.searcher.measure(0, kInfinity);
+  EXPECT_NEAR(whole.area, 4 * kPi, 0.3);
+  EXPECT_NEAR(whole.volume, 4 * kPi / 3, 0.2);
+  EXPECT_EQ(outward.searcher.patch(0, kInfinity).size(), mesh.face_count());
+  for (const double r : {2.5, 1e6}) {
+    EXPECT_EQ(outward.searcher.measure(0, r).area, whole.area);
+    EXPECT_EQ(outward.searcher.measure(0, r).volume, whole.volume);
+  }
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) std::swap(mesh.corners[3 * f], mesh.corners[3 * f + 1]);
+  Case inward(mesh);
+  EXPECT_NEAR(inward.searcher.measure(0, 3).volume, 36 * kPi - whole.volume, 1e-11);
+  EXPECT_EQ(inward.searcher.measure(0, kInfinity).volume, kInfinity);
+  EXPECT_EQ(inward.searcher.measure(0, 0).area, 0);
+  EXPECT_EQ(inward.searcher.measure(0, 0).volume, 0);
+}
+
+/// A long box in the ball is a band with two rims.
+TEST(Patch, OfSeveralRims) {
+  Case beam(make_box({1, 1, 40}, 1));
+  const std::uint32_t v = find_vertex(beam.mesh, {0, 0, 20});
+  const double r = 3;
+  beam.expect_same(v, beam.reference.around_vertex(v, r), r);
+  // The box cut by the sphere, by a quadrature over its cross section.
+  double volume = 0;
+  constexpr int kSteps = 1000;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      const double x = (i + 0.5) / kSteps;
+      const double y = (j + 0.5) / kSteps;
+      volume += 2 * std::sqrt(r * r - x * x - y * y) / kSteps / kSteps;
+    }
+  }
+  EXPECT_NEAR(beam.searcher.measure(v, r).volume, volume, 1e-6);
+}
+
+TEST(Patch, HasNoVolumeAtABorder) {
+  const TestMesh sheet = make_grid(9, 9, false);
+  Case test(sheet);
+  const std::uint32_t v = find_vertex(sheet, {4, 4, 0});
+  EXPECT_NEAR(test.searcher.measure(v, 3.9).volume, 2 * kPi / 3 * 3.9 * 3.9 * 3.9, 1e-11);
+  EXPECT_NEAR(test.searcher.measure(v, 3.9).area, kPi * 3.9 * 3.9, 1e-12);
+  EXPECT_TRUE(std::isnan(test.searcher.measure(v, 4.1).volume));
+  EXPECT_LT(test.searcher.measure(v, 4.1).area, kPi * 4.1 * 4.1);
+}
+
+/// Two boxes that share an edge are one solid there; a wing at an edge bounds nothing.
+TEST(Patch, AtEdgesThatAreNotManifold) {
+  TestMesh boxes = make_box({1, 1, 1}, 1);
+  const TestMesh other = make_box({1, 1, 1}, 1);
+  std::vector<std::uint32_t> place;
+  for (std::uint32_t v = 0; v < other.size(); ++v) {
+    const Point p = corner_of(other, v);
+    place.push_back(p.x == 0 && p.y == 0 ? find_vertex(boxes, {1, 1, p.z}) : boxes.add_vertex(p.x + 1, p.y + 1, p.z));
+  }
+  for (std::size_t f = 0; f < other.face_count(); ++f) {
+    boxes.add_face({place[other.face(f)[0]], place[other.face(f)[1]], place[other.face(f)[2]]});
+  }
+  Case both(boxes.finish(false));
+  const std::uint32_t v = find_vertex(both.mesh, {1, 1, 0});
+  EXPECT_NEAR(both.searcher.measure(v, 0.5).volume, 2 * kPi / 6 * 0.125, 1e-15);
+  EXPECT_NEAR(both.searcher.measure(v, 0.5).area, 2 * 3 * kPi / 4 * 0.25, 1e-15);
+  boxes.add_vertex(1, 2, 0);
+  boxes.add_face({v, find_vertex(boxes, {1, 1, 1}), static_cast<std::uint32_t>(boxes.size()) - 1});
+  Case wing(boxes.finish(false));
+  EXPECT_TRUE(std::isnan(wing.searcher.measure(v, 0.5).volume));
+}
+
+/// As if the faces with a wall were not there.
+TEST(Patch, DoesNotHaveFacesWithAWall) {
+  const TestMesh mesh = make_ball(3);
+  Case all(mesh);
+  std::vector<std::uint8_t> walls(mesh.size(), 0);
+  Random random(5);
+  for (std::uint8_t& wall : walls) wall = static_cast<std::uint8_t>(random.below(10) == 0);
+  TestMesh cut = mesh;
+  cut.offsets = {0};
+  cut.corners.clear();
+  std::vector<std::size_t> kept;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    if (std::ranges::any_of(mesh.face(f), [&](std::uint32_t v) { return walls[v] != 0; })) continue;
+    cut.add_face(mesh.face(f));
+    kept.push_back(f);
+  }
+  Case without(cut);
+  const Index view = masked(all.index, {.walls = walls});
+  const Surface surface(view, mesh.view().faces);
+  PatchSearcher searcher(surface);
+  for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+    std::vector<std::size_t> expected = without.searcher.patch(v, 0.6);
+    for (std::size_t& face : expected) face = kept[face];
+    EXPECT_EQ(searcher.patch(v, 0.6), expected);
+    EXPECT_NEAR(searcher.measure(v, 0.6).area, without.searcher.measure(v, 0.6).area, 1e-14);
+    EXPECT_EQ(searcher.gap(v, 0.6).distance, without.searcher.gap(v, 0.6).distance);
+    if (walls[v] != 0) {
+      EXPECT_TRUE(searcher.patch(v, 0.6).empty());
+      EXPECT_TRUE(std::isnan(searcher.measure(v, 0.6).volume));
+      EXPECT_EQ(searcher.gap(v, 0.6).face, kNoFace);
+    }
+  }
+}
+
+TEST(Patch, IsTheSameFarFromTheOrigin) {
+  TestMesh mesh = make_ball(3);
+  for (double& x : mesh.positions) x = std::round(x * 0x1p20) / 0x1p20;
+  Case near(mesh.finish(false));
+  for (double& x : mesh.positions) x += 0x1p30;
+  Case far(mesh.finish(false));
+  for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+    EXPECT_EQ(near.searcher.patch(v, 0.3), far.searcher.patch(v, 0.3));
+    EXPECT_NEAR(near.searcher.measure(v, 0.3).area, far.searcher.measure(v, 0.3).area, 1e-12 * kPi * 0.09);
+    EXPECT_NEAR(near.searcher.measure(v, 0.3).volume, far.searcher.measure(v, 0.3).volume, 1e-12 * kPi * 0.036);
+  }
+}
+
+/// The corners of an L are listed from each of them; those of its fan would cover what is outside.
+TEST(Patch, OfAPolygonIsItsOwn) {
+  const std::vector<std::array<double, 2>> corners{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  for (std::size_t first = 0; first < corners.size(); ++first) {
+    TestMesh mesh;
+    std::vector<std::uint32_t> face;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto& [x, y] = corners[(first + i) % corners.size()];
+      face.push_back(mesh.add_vertex(x, y, 0));
+    }
+    mesh.add_face(face);
+    Case test(mesh.finish(true));
+    EXPECT_NEAR(test.searcher.measure(0, 10).area, 3, 1e-14);
+    EXPECT_NEAR(test.searcher.measure({0, {0.5, 0.5, 0}}, 0.5).area, kPi / 4, 1e-15);
+    EXPECT_THAT(test.searcher.patch({0, {0.5, 0.5, 0}}, 0.5), testing::ElementsAre(0));
+  }
+}
+
+TEST(PatchBatch, HasTheSameBitsForAnyThreadsAndRows) {
+  Case test(make_ball(4));
+  const std::vector<double> scales{0.1, 0.4, 1};
+  const Invariants one = invariants(test.surface, {.radius = BatchRadius::scales(scales)}, {.threads = 1});
+  const Invariants three = invariants(test.surface, {.radius = BatchRadius::scales(scales)}, {.threads = 3});
+  EXPECT_EQ(one.area, three.area);
+  EXPECT_EQ(one.volume, three.volume);
+  const std::size_t rows = test.mesh.size();
+  std::vector<VertexId> some{5, 900, 5, 17};
+  const std::vector<double> radii{0.4, 0.1, 1, 0.4};
+  const Invariants listed = invariants(test.surface, {.vertices = some, .radius = radii}, {.threads = 2});
+  const std::vector<PatchGap> nearest = gaps(test.surface, {.vertices = some, .radius = radii}, {.threads = 2});
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const auto scale = static_cast<std::size_t>(std::ranges::find(scales, radii[i]) - scales.begin());
+    EXPECT_EQ(listed.area[i], one.area[scale * rows + some[i]]);
+    EXPECT_EQ(listed.volume[i], one.volume[scale * rows + some[i]]);
+    EXPECT_EQ(listed.area[i], test.searcher.measure(some[i], radii[i]).area);
+    EXPECT_EQ(nearest[i].distance, test.searcher.gap(some[i], radii[i]).distance);
+  }
+}
+
+TEST(PatchBatch, RefusesWhatIsWrong) {
+  const TestMesh mesh = make_box({1, 1, 1}, 1);
+  Case test(mesh);
+  PatchSearcher& searcher = test.searcher;
+  expect_refused(ErrorCode::VertexOutOfRange, "vertex 8", [&] { static_cast<void>(searcher.patch(8, 1)); });
+  expect_refused(ErrorCode::InvalidRadius, "radius", [&] { static_cast<void>(searcher.measure(0, -1)); });
+  expect_refused(ErrorCode::InvalidOption, "face 12", [&] { static_cast<void>(searcher.gap({12, {0, 0, 0}}, 1)); });
+  expect_refused(ErrorCode::InvalidOption, "point: coordinate 1",
+                 [&] { static_cast<void>(searcher.gap({0, {0, kInfinity, 0}}, 1)); });
+  const std::vector<VertexId> vertices{0, 9};
+  expect_refused(ErrorCode::VertexOutOfRange, "row 1",
+                 [&] { static_cast<void>(gaps(test.surface, {.vertices = vertices, .radius = 1})); });
+  expect_refused(ErrorCode::InvalidRadius, "", [&] { static_cast<void>(gaps(test.surface, {})); });
+  expect_refused(ErrorCode::InvalidOption, "metric",
+                 [&] { static_cast<void>(invariants(test.surface, {.radius = 1, .metric = Metric::Rings})); });
+  expect_refused(ErrorCode::Cancelled, "", [&] {
+    static_cast<void>(
+        invariants(test.surface, {.radius = 1}, {.progress = [](std::size_t, std::size_t) { return false; }}));
+  });
+  TestMesh edges;
+  edges.add_vertex(0, 0, 0);
+  edges.add_vertex(1, 0, 0);
+  edges.add_face({0, 1});
+  edges.finish(true);
+  const Index index = build(edges.view());
+  expect_refused(ErrorCode::InvalidMesh, "no face of three corners",
+                 [&] { static_cast<void>(invariants(Surface(index, edges.view().faces), {.radius = 1})); });
+  test.index.refit_in_place(mesh.positions_view());
+  expect_refused(ErrorCode::InvalidOption, "", [&] { static_cast<void>(searcher.patch(0, 1)); });
+}
+
+}  // namespace
+}  // namespace meshhood::test
