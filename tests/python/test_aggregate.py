@@ -156,7 +156,7 @@ def test_errors_name_the_argument(plates):
         ("scales: expected a list", ValueError, lambda: index.aggregate(values, scales=[])),
         ("r: missing, expected a number", TypeError, lambda: index.aggregate(values)),
         ("r: given, but so are scales", TypeError, lambda: index.aggregate(values, 1, scales=[1])),
-        ("sort: no argument", TypeError, lambda: index.aggregate(values, 1, sort="id")),
+        ("unexpected keyword argument .sort.", TypeError, lambda: index.aggregate(values, 1, sort="id")),
         ("reduce: 'median'", ValueError, lambda: index.aggregate(values, 1, "median")),
         ("kernel: 'gauss'", ValueError, lambda: index.aggregate(values, 1, kernel="gauss")),
         ("kernel: 'biweight', expected None with reduce='max'", ValueError, lambda: index.aggregate(values, 1, "max", kernel="biweight")),

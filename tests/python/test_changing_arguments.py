@@ -74,9 +74,9 @@ FILTERED = "scales=r, walls=walls, ignored=ignored, progress=p"
 FILTER = {"r": "r", "walls": "walls", "ignored": "ignored"}
 
 CALLS = {
-    "neighborhoods": ("index.neighborhoods(r, v)", {"v": "vertices", "r": "radii"}),
-    "counts": ("index.counts(r, v)", {"v": "vertices", "r": "radii"}),
-    "along edges": ("index.neighborhoods(r, v, metric='path')", {"v": "vertices", "r": "radii"}),
+    "neighborhoods": ("index.neighborhoods(r, v, progress=p)", {"v": "vertices", "r": "radii"}),
+    "counts": ("index.counts(r, v, progress=p)", {"v": "vertices", "r": "radii"}),
+    "along edges": ("index.neighborhoods(r, v, metric='path', progress=p)", {"v": "vertices", "r": "radii"}),
     "aggregate": (
         "index.aggregate(values, scales=r, weights=weights, vertices=v, progress=p)",
         {"values": "values", "r": "r", "weights": "weights", "v": "vertices"},

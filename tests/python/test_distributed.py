@@ -356,7 +356,7 @@ def test_files_that_were_changed_are_refused(folder, tmp_path):
             changed = data[:middle] if cut else data[:middle] + bytes([data[middle] ^ 1]) + data[middle + 1 :]
             replace(forged / "part-00003" / name, changed)
             with pytest.raises(ValueError, match=f"part-00003/{name}"):
-                meshhood.open_parts(forged).count(1).compute()
+                meshhood.open_parts(forged).counts(1).compute()
             changes += 1
     assert changes == 8
 
@@ -383,7 +383,7 @@ def test_a_part_of_another_mesh_is_refused(mesh, folder, tmp_path):
     os.rename(forged / "part-00002", tmp_path / "old")
     os.rename(other / "part-00002", forged / "part-00002")
     with pytest.raises(ValueError, match="part-00002/.*is of another mesh"):
-        meshhood.open_parts(forged).count(1).compute()
+        meshhood.open_parts(forged).counts(1).compute()
     opened = meshhood.open_parts(folder)
     with pytest.raises(ValueError, match="holds 7 parts of another mesh"):
         meshhood.partition(tmp_path / "other.ply", folder, parts=7, halo=HALO)
@@ -491,7 +491,7 @@ def test_parts_that_were_replaced_are_right_or_refused(mesh, tmp_path, how):
     with pytest.raises(ValueError, match="other parts have replaced those that were opened"):
         old.open(2)
     with pytest.raises(ValueError, match="other parts have replaced those that were opened"):
-        old.count(3.0).compute()
+        old.counts(3.0).compute()
     np.testing.assert_array_equal(part.index.counts(3.0, part.owned), counts)
     with pytest.raises(ValueError, match="part-00001/face_corners.npy"):
         part.mesh
@@ -499,7 +499,7 @@ def test_parts_that_were_replaced_are_right_or_refused(mesh, tmp_path, how):
     with pytest.raises(FileNotFoundError, match="face_corners.npy"):
         part.mesh
     with pytest.raises(FileNotFoundError, match="manifest.json"):
-        new.count(3.0).compute()
+        new.counts(3.0).compute()
     assert old.open(1) is part
 
 
