@@ -17,8 +17,8 @@
 ///
 /// `Searcher`, for one vertex or point, and visitors are in search.h, batches over many vertices in batch.h, sums over
 /// neighborhoods in aggregate.h and moments.h, walls in masks.h, meshes that deform in refit.h. `Surface`, for closest
-/// points, regions as meshes and curvature, is in surface.h; areas, volumes and gaps in a ball are in patch.h. Files are
-/// in io/mesh_io.h and io/index_io.h. Meshes of other libraries are in eigen.h, cgal.h, openmesh.h and
+/// points, regions as meshes and curvature, is in surface.h; areas, volumes and gaps in a ball are in patch.h. Files
+/// are in io/mesh_io.h and io/index_io.h. Meshes of other libraries are in eigen.h, cgal.h, openmesh.h and
 /// geometry_central.h. `meshhood::paper` has the same calls with the approximate neighborhoods of the paper.
 
 #include "meshhood/adjacency.h"            // IWYU pragma: export

@@ -78,8 +78,8 @@ void RimArcs::add_circle(double h) {
 
 double RimArcs::area_behind() const {
   constexpr double kSphere = 4 * std::numbers::pi;
-  constexpr double kFarPole = 0.25;   // of the squared factor of an arc
-  constexpr double kSlack = 0x1p-46;  // of an arc
+  constexpr double kFarPole = 0.25;      // of the squared factor of an arc
+  constexpr double kArcSlack = 0x1p-46;  // of an arc
   Complex best = 1;
   double most = -1;
   for (const Point& pole : kPoles) {
@@ -98,7 +98,7 @@ double RimArcs::area_behind() const {
   }
   const double area = std::fmod(-(sum_ + 2 * argument(best)), kSphere);
   const double positive = area < 0 ? area + kSphere : area;
-  return positive > kSphere - kSlack * static_cast<double>(count_ + 8) ? 0 : positive;
+  return positive > kSphere - kArcSlack * static_cast<double>(count_ + 8) ? 0 : positive;
 }
 
 }  // namespace meshhood

@@ -46,11 +46,11 @@ std::vector<std::size_t> PatchSearch::faces() const {
 
 /// Whole if the bounding sphere of a cluster lies in the ball, or its box.
 inline PatchSearch::Kind PatchSearch::kind_of(ClusterId cluster) {
-  constexpr double kSlack = 0x1p-46;
+  constexpr double kDipSlack = 0x1p-46;
   if (kinds_.is_known(cluster)) return kinds_[cluster];
   const Cluster& sums = state_->clusters.clusters[cluster];
   const double distance = ball_.scale * length(sums.center - ball_.center);
-  const double inner = ball_.radius * (1 - kSlack);
+  const double inner = ball_.radius * (1 - kDipSlack);
   bool is_whole = distance + sums.radius <= inner;
   if (!is_whole && distance < inner) {
     const ClusterBox& box = state_->clusters.levels.front()[cluster];

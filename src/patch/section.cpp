@@ -58,14 +58,14 @@ void Section::set_line(Side& side, const RealVector<Real>& begin, const RealVect
 
 /// Whether the nearest point of a line lies between the ends and in the ball, but for rounding.
 bool Section::may_dip(std::size_t i) const {
-  constexpr double kSlack = 1e-9;
+  constexpr double kTouchSlack = 1e-9;
   if (is_far_) return true;
   const Point& a = corners_[i];
   const Point side = corners_[after(i)] - a;
   const double along = dot(a, side);
   const double square = dot(side, side);
-  return along <= kSlack * square && along >= -(1 + kSlack) * square &&
-         dot(a, a) * square - along * along <= (1 + kSlack) * square;
+  return along <= kTouchSlack * square && along >= -(1 + kTouchSlack) * square &&
+         dot(a, a) * square - along * along <= (1 + kTouchSlack) * square;
 }
 
 /// From the same end for all triangles that have the side.

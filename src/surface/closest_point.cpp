@@ -184,8 +184,7 @@ SurfacePoint Surface::closest_point(const SpacePoint& point) const {
   return ClosestPoint(*state.index, state.tree()).run({point[0], point[1], point[2]});
 }
 
-std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> points,
-                                                  const Run& run) const {
+std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> points, const Run& run) const {
   const State& state = SurfaceAccess::state(*this);
   for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points: row " + std::to_string(i) + ": ");
   const FaceTree& tree = state.tree();
