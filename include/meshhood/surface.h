@@ -82,8 +82,8 @@ struct Rim {
 /// points, and no area.
 ///
 /// What depends on the faces is made when it is first needed, and kept: 48 bytes a triangle for closest points, 24
-/// bytes a vertex for curvature, 8 bytes a corner for the faces of each vertex, 8 bytes a vertex for areas. The first
-/// call of its kind so takes O(#V + #corners).
+/// bytes a vertex for curvature, 4 bytes a corner and 8 a vertex for the faces of each vertex, 8 bytes a vertex for
+/// areas, 60 bytes a triangle for patches (see patch.h). The first call of its kind so takes O(#V + #corners).
 ///
 /// Any number of threads may use it, but for `refit_in_place`. Shares the memory of the index, as a searcher does: the
 /// index may be moved or destroyed. After a refit of the index in place, all throw Error{InvalidOption} until
@@ -109,8 +109,9 @@ class Surface {
   /// made. O(1). Throws Error{InvalidOption} if the index is of another mesh.
   [[nodiscard]] Surface on(const Index& index) const;
 
-  /// Follows a refit of its index. What has been made is renewed, and is then what a new surface would make; with
-  /// `changed`, for the faces of these vertices alone. No thread may use the surface meanwhile.
+  /// Follows a refit of its index: answers are then those of a new surface. With `changed`, boxes and normals are
+  /// renewed for the faces of these vertices alone, unless another surface shares them (see `on`) or a vertex has left
+  /// the frame of the index; all else is made again when it is needed. No thread may use the surface meanwhile.
   ///
   /// index    refitted in place, or a refitted copy.
   /// changed  ids of the vertices that have moved since, at least.
