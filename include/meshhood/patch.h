@@ -24,7 +24,7 @@
 ///
 ///     const meshhood::Surface surface(index, faces);
 ///     const auto [area, volume] = meshhood::invariants(surface, {.radius = 1.5});
-///     const auto thickness = meshhood::gaps(surface, {.radius = 1.5}).distances;
+///     const std::vector<meshhood::PatchGap> gaps = meshhood::gaps(surface, {.radius = 1.5});
 ///
 /// Faces are oriented counterclockwise, seen from outside. A polygon is triangulated, one that is not convex so that
 /// its area is its own; diagonals join triangles as sides do. A face with a wall (see masks.h), or with fewer than

@@ -17,6 +17,14 @@ namespace meshhood {
 /// A point in space, in the unit of the positions.
 using SpacePoint = std::array<double, 3>;
 
+namespace detail {
+
+template <class Handle>
+concept VertexHandle = std::is_class_v<Handle> && requires(const Handle& handle) { VertexId{handle}; } &&
+                       !requires(const Handle& handle) { bool{handle}; };
+
+}  // namespace detail
+
 /// Where a search starts: the center of its balls, and its seeds, the vertices from which it spreads. Borrows seeds
 /// that are given, which must outlive the call.
 class Start {
@@ -28,10 +36,7 @@ class Start {
       : vertex_(std::in_range<VertexId>(v) ? static_cast<VertexId>(v) : std::numeric_limits<VertexId>::max()) {}
 
   /// The vertex of another library's index that is a `VertexId` without a loss, as `CGAL::SM_Vertex_index`.
-  template <class Handle>
-    requires(
-        std::is_class_v<Handle> && requires(const Handle& handle) { VertexId{handle}; } &&
-        !requires(const Handle& handle) { bool{handle}; })
+  template <detail::VertexHandle Handle>
   Start(const Handle& v) : vertex_{v} {}
 
   /// center  any point in space: finite, no coordinate beyond 2^500 in magnitude.
