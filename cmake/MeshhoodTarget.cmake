@@ -67,7 +67,7 @@ function(meshhood_separate_parts target)
   foreach(source IN LISTS sources)
     if(source MATCHES "src/(exact/joint|exact/query|[a-z]+)/")
       set(part ${CMAKE_MATCH_1})
-      if(source MATCHES "/(base/(ball_searcher|cut_edges|face_graph|fingerprint)|shared/checksum|format/[a-z_]+|\
+      if(source MATCHES "/(base/(ball_searcher|cut_edges|face_graph|fingerprint|triangulate)|shared/checksum|format/[a-z_]+|\
 exact/(check|extract_graph|file|link_points|masked|quality|refit|reorder|verify[a-z_]*))\\.cpp$")
         set(part others)
       elseif(part MATCHES "^(base|shared|simd)$")
