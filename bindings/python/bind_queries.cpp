@@ -63,10 +63,6 @@ auto region(Queries& queries, Metric metric, const Center& center, const Seeds& 
   return std::tuple(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)), has_seed);
 }
 
-std::size_t count(Queries& queries, Metric metric, const Center& center, const Seeds& seeds, double radius) {
-  return queries.with(metric, [&](Searcher& searcher) { return searcher.count(start_of(center, seeds), radius); });
-}
-
 /// By vertices if there are no centers: then they are the seeds of the rows. Seeds that do not exist are -1.
 auto stroke(Queries& queries, Metric metric, const std::optional<Points>& centers, const SeedRows& seeds,
             const Reals& radii) {
@@ -137,7 +133,6 @@ void bind_queries(nb::module_& module) {
   const auto arg = nb::arg();
   nb::class_<Queries>(module, "Queries")
       .def("region", &region, arg, center, arg, arg)
-      .def("count", &count, arg, center, arg, arg)
       .def("stroke", &stroke, arg, center, arg, arg)
       .def("nested", &nested, arg, center, arg, arg)
       .def("contains", &contains, arg, center, arg, arg, arg)

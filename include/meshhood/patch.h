@@ -40,9 +40,10 @@ inline constexpr std::size_t kNoFace = std::numeric_limits<std::size_t>::max();
 /// A vertex, or a point on a face.
 class PatchStart {
  public:
-  template <std::integral Integer>
-    requires(!std::same_as<Integer, bool>)
-  PatchStart(Integer v) : start_(v) {}
+  /// A vertex, as for `Start`.
+  template <class Vertex>
+    requires(std::convertible_to<const Vertex&, Start> && !std::same_as<Vertex, Start>)
+  PatchStart(const Vertex& v) : start_(v) {}
 
   /// point  on the face, up to rounding (see `Surface::closest_point` and `point_on_face`).
   PatchStart(std::size_t face, const SpacePoint& point) : start_(0), face_(face), point_(point) {}

@@ -69,7 +69,7 @@ struct Rim {
   [[nodiscard]] std::size_t size() const { return closed.size(); }
 };
 
-/// The faces of a mesh beside its index, for all that a set of vertices does not tell: the nearest point of the
+/// The faces of a mesh beside its index, for what a set of vertices does not say: the nearest point of the
 /// surface, the faces of a neighborhood, its outline, its area and its shape.
 ///
 ///     const meshhood::Surface surface(index, faces);
@@ -86,8 +86,8 @@ struct Rim {
 /// areas, 60 bytes a triangle for patches (see patch.h). The first call of its kind so takes O(#V + #corners).
 ///
 /// Any number of threads may use it, but for `refit_in_place`. Shares the memory of the index, as a searcher does: the
-/// index may be moved or destroyed. After a refit of the index in place, all throw Error{InvalidOption} until
-/// `refit_in_place` of the surface; one that has been moved from can be assigned and destroyed.
+/// index may be moved or destroyed. After a refit of the index in place, calls throw Error{InvalidOption} until
+/// `refit_in_place` of the surface. A surface that has been moved from can be assigned and destroyed.
 class Surface {
  public:
   /// faces  those of the mesh that the index was built from; copied, 4 bytes a corner.

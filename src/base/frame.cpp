@@ -11,29 +11,16 @@
 namespace meshhood {
 namespace {
 
-struct Box {
-  Point low;
-  Point high;
-};
-
-void extend(Box& box, const Box& by) {
-  box.low = {std::min(box.low.x, by.low.x), std::min(box.low.y, by.low.y), std::min(box.low.z, by.low.z)};
-  box.high = {std::max(box.high.x, by.high.x), std::max(box.high.y, by.high.y), std::max(box.high.z, by.high.z)};
-}
-
 template <class Real>
-Box bounding_box(const StridedPositions<Real>& xyz, TaskContext& task) {
+BoundingBox bounding_box(const StridedPositions<Real>& xyz, TaskContext& task) {
   constexpr std::size_t kGrain = 8192;  // enough that passing them to a thread costs little
-  std::vector<Box> boxes((xyz.size() + kGrain - 1) / kGrain);
+  std::vector<BoundingBox> boxes((xyz.size() + kGrain - 1) / kGrain);
   task.parallel_for(xyz.size(), kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
-    Box box{point(xyz, begin), point(xyz, begin)};
-    for (std::size_t v = begin + 1; v < end; ++v) {
-      const Point p = point(xyz, v);
-      extend(box, {p, p});
-    }
+    BoundingBox box;
+    for (std::size_t v = begin; v < end; ++v) box.add(point(xyz, v));
     boxes[begin / kGrain] = box;
   });
-  for (const Box& box : boxes) extend(boxes.front(), box);
+  for (const BoundingBox& box : boxes) boxes.front().add(box);
   return boxes.front();
 }
 
@@ -53,7 +40,7 @@ Frame make_frame(const PositionsView& positions) {
 
 Frame make_frame(const PositionsView& positions, TaskContext& task) {
   if (positions.size() == 0) return {};
-  const Box box = positions.visit([&](const auto& xyz) { return bounding_box(xyz, task); });
+  const BoundingBox box = positions.visit([&](const auto& xyz) { return bounding_box(xyz, task); });
   assert(box.low.x <= box.high.x && box.low.y <= box.high.y && box.low.z <= box.high.z);  // so they are numbers
   const Point origin{box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2, box.low.z / 2 + box.high.z / 2};
   // Measured from the rounded center: half the width of the box may round to less.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -30,6 +31,20 @@ struct FrameSphere {
 [[nodiscard]] inline Point center_of(const FrameSphere& sphere) {
   return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
 }
+
+/// A box around points.
+struct BoundingBox {
+  Point low{kNone, kNone, kNone};
+  Point high{-kNone, -kNone, -kNone};
+
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+
+  void add(const Point& p) { add(BoundingBox{p, p}); }
+  void add(const BoundingBox& box) {
+    low = {std::min(low.x, box.low.x), std::min(low.y, box.low.y), std::min(low.z, box.low.z)};
+    high = {std::max(high.x, box.high.x), std::max(high.y, box.high.y), std::max(high.z, box.high.z)};
+  }
+};
 
 /// Coordinates in which every vertex lies in [-1, 1]^3, whatever the unit of the positions. The tree stores floats,
 /// which rounds a vertex by at most 2^-25 along each axis.

@@ -19,7 +19,7 @@ bool PathRows::run(std::span<const RowRun> runs) {
   const auto& [items, is_joint] = runs.front();
   queries_.clear();
   for (const auto& [row, vertex, position, radius] : items) {
-    queries_.push_back({view_.leaf_begin[leaf_of(position)] + lane_of(position), radius});
+    queries_.push_back({view_.place_at(position), radius});
   }
   if (is_joint) return packet_.run(queries_);
   packet_.run_single(queries_.front());

@@ -78,9 +78,9 @@ std::vector<double> measures_by_vertex(const OrientedIndex& surface, const Faces
   faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
     if (corners.size() < 3) return;
     face.clear();
-    const std::uint32_t first = place_of(index, corners[0]);
+    const std::uint32_t first = index.place(corners[0]);
     for (const VertexId corner : corners) {
-      const std::uint32_t place = place_of(index, corner);
+      const std::uint32_t place = index.place(corner);
       const Point x = index.frame.scale * (surface.position(place) - surface.position(first));
       face.push_back({x, surface.normal(place)});
     }
@@ -189,7 +189,7 @@ CorrectedCurvatures corrected_curvatures(const Surface& surface, const BatchQuer
   }
   result.d1.resize(3 * results);
   result.d2.resize(3 * results);
-  const auto normal = [&](std::size_t row) { return state.normal(place_of(*state.index, sum.vertices[row % rows])); };
+  const auto normal = [&](std::size_t row) { return state.normal(state.index->place(sum.vertices[row % rows])); };
   const CorrectedRows writer{sums, state.index->frame.scale, result};
   task.parallel_for(results, kPacketCapacity,
                     [&](unsigned, std::size_t begin, std::size_t end) { writer.write(begin, end, normal); });

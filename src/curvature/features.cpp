@@ -147,7 +147,7 @@ class FeatureExtraction {
     const std::size_t kinds = options_.kinds.size();
     for (std::size_t row = 0; row < rows_; ++row) {
       const double radius = radius_at(radius_of_rows, row);
-      const Point normal = state_.normal(place_of(*state_.index, vertices_[row]));
+      const Point normal = state_.normal(state_.index->place(vertices_[row]));
       for (std::size_t kind = 0; kind < kinds; ++kind) {
         if (!follows_from_areas(options_.kinds[kind])) continue;
         values[row * kinds + kind] = patch_feature(options_.kinds[kind], patch, row, normal, radius);

@@ -25,7 +25,7 @@ class PacketSummer {
 
   void visit(const PacketAnswer& packet) {
     const std::size_t size = packet.rows.size();
-    for (std::size_t i = 0; i < size; ++i) places_[i] = place_of(*index_, packet.vertices[i]);
+    for (std::size_t i = 0; i < size; ++i) places_[i] = index_->place(packet.vertices[i]);
     const auto places = std::span(places_).first(size);
     const LeafId leaf = leaf_of(index_->slot[packet.vertices.front()]);
     for (QueryWord left = first_lanes(static_cast<unsigned>(size)); left != 0;) {

@@ -167,6 +167,10 @@ struct IndexView {
     return permutation.empty() ? static_cast<VertexId>(vertex) : permutation[vertex];
   }
 
+  /// The place in index order of a slot, and of a vertex of the caller.
+  [[nodiscard]] std::uint32_t place_at(std::uint32_t at) const { return leaf_begin[leaf_of(at)] + lane_of(at); }
+  [[nodiscard]] std::uint32_t place(VertexId v) const { return place_at(slot[v]); }
+
   /// The slot of a vertex in index order.
   [[nodiscard]] std::uint32_t slot_at(std::size_t vertex) const { return slot[id(vertex)]; }
 

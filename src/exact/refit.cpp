@@ -60,10 +60,6 @@ bool stay_in_frame(std::span<const Move> moves, const Frame& frame) {
   return std::all_of(moves.begin(), moves.end(), [&](const Move& move) { return covers(frame, move.to); });
 }
 
-std::size_t vertex_at(const IndexView& index, std::uint32_t slot) {
-  return std::size_t{index.leaf_begin[leaf_of(slot)]} + lane_of(slot);
-}
-
 Point position_at(const IndexView& index, std::uint32_t slot) { return index.position(leaf_of(slot), lane_of(slot)); }
 
 /// The leaves of the vertices, ascending, as the moves do.
@@ -81,7 +77,7 @@ void write_moves(std::span<const Move> moves, const IndexView& index, OrderedPos
       [&](auto& xyz) {
         using Real = typename std::decay_t<decltype(xyz)>::value_type;
         for (const Move& move : moves) {
-          Real* const to = &xyz[3 * vertex_at(index, move.slot)];
+          Real* const to = &xyz[3 * index.place_at(move.slot)];
           to[0] = static_cast<Real>(move.to.x);
           to[1] = static_cast<Real>(move.to.y);
           to[2] = static_cast<Real>(move.to.z);

@@ -11,26 +11,16 @@
 namespace meshhood {
 namespace {
 
-void enclose(ClusterBox& box, const ClusterBox& other) {
-  box.low = {std::min(box.low.x, other.low.x), std::min(box.low.y, other.low.y), std::min(box.low.z, other.low.z)};
-  box.high = {std::max(box.high.x, other.high.x), std::max(box.high.y, other.high.y),
-              std::max(box.high.z, other.high.z)};
-}
-
-constexpr ClusterBox kNoBox{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-
 Point position(const IndexView& index, std::uint32_t place) {
   return std::visit([&](auto xyz) { return point(xyz, place); }, index.positions);
 }
 
 /// The sums over the triangles `begin .. end - 1`, and their box. Corners are seen from the center of the sphere, so
 /// that the moment is as accurate far from the origin.
-Cluster add_up(const IndexView& index, const Triangles& triangles, TriangleId begin, TriangleId end, ClusterBox& box) {
-  box = kNoBox;
+Cluster add_up(const IndexView& index, const Triangles& triangles, TriangleId begin, TriangleId end, BoundingBox& box) {
   for (TriangleId t = begin; t < end; ++t) {
     for (const std::uint32_t place : triangles.corners[t]) {
-      const Point p = position(index, place);
-      enclose(box, {p, p});
+      box.add(position(index, place));
     }
   }
   Cluster sums{0.5 * box.low + 0.5 * box.high, 0, 0, {0, 0, 0}, 0, 0, 0, false};
@@ -105,9 +95,9 @@ void Clusters::link(const Triangles& triangles, ClusterId cluster) {
 
 void Clusters::stack_boxes() {
   while (levels.back().size() > 1) {
-    const std::vector<ClusterBox>& below = levels.back();
-    std::vector<ClusterBox> boxes((below.size() + kBoxes - 1) / kBoxes, kNoBox);
-    for (std::size_t i = 0; i < below.size(); ++i) enclose(boxes[i / kBoxes], below[i]);
+    const std::vector<BoundingBox>& below = levels.back();
+    std::vector<BoundingBox> boxes((below.size() + kBoxes - 1) / kBoxes);
+    for (std::size_t i = 0; i < below.size(); ++i) boxes[i / kBoxes].add(below[i]);
     levels.push_back(std::move(boxes));
   }
 }
@@ -115,7 +105,7 @@ void Clusters::stack_boxes() {
 std::size_t Clusters::bytes() const {
   const auto bytes_of = [](const auto& array) { return array.size() * sizeof(array[0]); };
   std::size_t bytes = bytes_of(clusters) + bytes_of(links) + bytes_of(linked) + bytes_of(hubs) + bytes_of(of_triangle);
-  for (const std::vector<ClusterBox>& level : levels) bytes += bytes_of(level);
+  for (const std::vector<BoundingBox>& level : levels) bytes += bytes_of(level);
   return bytes;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/frame.h"
 #include "exact/layout.h"
 #include "patch/triangles.h"
 #include "shared/distance.h"
@@ -32,12 +33,6 @@ struct ClusterLink {
   std::uint32_t first;  // in `Clusters::linked`
 };
 
-/// A box in the unit of the mesh.
-struct ClusterBox {
-  Point low;
-  Point high;
-};
-
 /// What a search takes at once where it lies inside a ball, and finds at once where it lies far away.
 struct Clusters {
   static constexpr std::size_t kBoxes = 8;
@@ -45,12 +40,13 @@ struct Clusters {
   /// A corner of more triangles is a hub: links do not list its triangles, which many clusters would.
   static constexpr std::size_t kMostLinked = 64;
 
-  std::vector<Cluster> clusters;                // and one more, for the end of the last links and hubs
-  std::vector<ClusterLink> links;               // and one more, for the end of the last triangles
-  std::vector<TriangleId> linked;               // ascending
-  std::vector<std::uint32_t> hubs;              // places
-  std::vector<ClusterId> of_triangle;           // the cluster of each
-  std::vector<std::vector<ClusterBox>> levels;  // of each cluster, then of eight such boxes each; one at last
+  std::vector<Cluster> clusters;       // and one more, for the end of the last links and hubs
+  std::vector<ClusterLink> links;      // and one more, for the end of the last triangles
+  std::vector<TriangleId> linked;      // ascending
+  std::vector<std::uint32_t> hubs;     // places
+  std::vector<ClusterId> of_triangle;  // the cluster of each
+  std::vector<std::vector<BoundingBox>>
+      levels;  // in the unit of the mesh: of each cluster, then of eight such boxes each; one at last
 
   Clusters(const IndexView& index, const Triangles& triangles);
 

@@ -21,7 +21,7 @@ namespace {
 // away than this much more cannot have a nearer one.
 constexpr double kSlack = 0x1p-43;
 
-inline double squared_distance(const Point& q, const ClusterBox& box) {
+inline double squared_distance(const Point& q, const BoundingBox& box) {
   const auto beyond = [](double x, double low, double high) { return std::max({low - x, x - high, 0.0}); };
   const Point gap{beyond(q.x, box.low.x, box.high.x), beyond(q.y, box.low.y, box.high.y),
                   beyond(q.z, box.low.z, box.high.z)};
@@ -70,7 +70,7 @@ class GapSearch {
 
   void visit(std::size_t level, std::size_t box) {
     if (level == 0) return visit_cluster(static_cast<ClusterId>(box));
-    const std::vector<ClusterBox>& below = state_->clusters.levels[level - 1];
+    const std::vector<BoundingBox>& below = state_->clusters.levels[level - 1];
     std::array<std::pair<double, std::size_t>, Clusters::kBoxes> near{};
     std::size_t count = 0;
     for (std::size_t i = box * near.size(); i < std::min((box + 1) * near.size(), below.size()); ++i) {
@@ -94,13 +94,8 @@ class GapSearch {
   void offer(TriangleId t) {
     const auto& places = state_->triangles.corners[t];
     const std::array<Point, 3> corners{point(xyz_, places[0]), point(xyz_, places[1]), point(xyz_, places[2])};
-    const auto box_of = [&](auto less) {
-      return Point{less(less(corners[0].x, corners[1].x), corners[2].x),
-                   less(less(corners[0].y, corners[1].y), corners[2].y),
-                   less(less(corners[0].z, corners[1].z), corners[2].z)};
-    };
-    const ClusterBox box{box_of([](double a, double b) { return std::min(a, b); }),
-                         box_of([](double a, double b) { return std::max(a, b); })};
+    BoundingBox box;
+    for (const Point& corner : corners) box.add(corner);
     if (squared_distance(q_, box) > squared_limit_) return;
     TrianglePoint found = nearest_in_triangle(q_, corners, search_->ball().scale);
     if (is_far(corners)) found.distance = far_distance(q_, corners, search_->ball().scale);

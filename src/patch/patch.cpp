@@ -28,8 +28,7 @@ constexpr std::size_t kPatchesAtOnce = 32;
 /// Runs the search around a vertex. Returns whether there is a patch.
 bool run_at(const PatchState& state, PatchSearch& search, VertexId v, double radius, bool measures) {
   const std::uint32_t slot = state.index->slot[v];
-  const std::uint32_t place = state.index->leaf_begin[leaf_of(slot)] + lane_of(slot);
-  const std::span<const TriangleId> fan = state.triangles.fan(place);
+  const std::span<const TriangleId> fan = state.triangles.fan(state.index->place_at(slot));
   search.run(state.index->position(leaf_of(slot), lane_of(slot)), radius, fan, measures);
   return !fan.empty();
 }

@@ -53,7 +53,7 @@ inline PatchSearch::Kind PatchSearch::kind_of(ClusterId cluster) {
   const double inner = ball_.radius * (1 - kDipSlack);
   bool is_whole = distance + sums.radius <= inner;
   if (!is_whole && distance < inner) {
-    const ClusterBox& box = state_->clusters.levels.front()[cluster];
+    const BoundingBox& box = state_->clusters.levels.front()[cluster];
     const Point low = ball_.center - box.low;
     const Point high = box.high - ball_.center;
     const Point far{std::max(low.x, high.x), std::max(low.y, high.y), std::max(low.z, high.z)};

@@ -32,9 +32,8 @@ void for_each_triangle(const IndexView& index, const FacesView& faces, F&& f) {
   faces.for_each([&](std::size_t face, std::span<const VertexId> corners) {
     places.clear();
     for (const VertexId v : corners) {
-      const std::uint32_t slot = index.slot[v];
-      if (index.is_wall(leaf_of(slot), lane_of(slot))) return;
-      places.push_back(index.leaf_begin[leaf_of(slot)] + lane_of(slot));
+      places.push_back(index.place(v));
+      if (index.is_wall_at(places.back())) return;
     }
     if (places.size() == 3) return f(face, TrianglePlaces{places[0], places[1], places[2]}, std::uint8_t{0});
     points.clear();

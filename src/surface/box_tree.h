@@ -17,26 +17,13 @@
 
 namespace meshhood {
 
-/// A box around points, in the coordinates of a frame.
-struct BoundingBox {
-  Point low{kNone, kNone, kNone};
-  Point high{-kNone, -kNone, -kNone};
-
-  static constexpr double kNone = std::numeric_limits<double>::infinity();
-
-  void add(const Point& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
-
 /// Boxes around items, eight together, boxes around these, and so on up to eight: a tree whose nodes are numbered by
 /// their places alone. Items that follow each other should be near each other. 27 bytes an item.
 ///
 /// Boxes are floats that contain what they are made of. `search` measures in single precision, from a point that is
 /// rounded, too. Such a distance is off by less than 2^-22 of itself and 2^-22 of the largest coordinate of the point,
-/// or of 1, which covers the rounding of coordinates of the frame. It looks so much farther than it is asked to. Where
-/// that is much, far from the mesh, it measures in double.
+/// or of 1, which covers the rounding of coordinates of the frame. `search` adds this error to the distance it is asked
+/// for. Far from the mesh the error is large, so there it measures in double.
 class BoxTree {
  public:
   /// Makes a tree of `count` items, at least one. `box_of(i)` returns their boxes.
@@ -47,8 +34,8 @@ class BoxTree {
   template <class BoxOf>
   void renew(std::vector<std::size_t> items, BoxOf&& box_of);
 
-  /// Calls `visit(item)` for the items whose box is at most `reach()` away from `center`, near ones first, as far as
-  /// the order of nodes tells. `reach` is called again after each visit; it never grows. All are in the frame.
+  /// Calls `visit(item)` for the items whose box is at most `reach()` away from `center`, and for some others; those of
+  /// near nodes first. `reach` is called again after each visit; it never grows. All are in the frame.
   template <class Reach, class Visit>
   void search(const Point& center, Reach&& reach, Visit&& visit) const;
 

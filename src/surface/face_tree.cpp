@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "meshhood/error.h"
-
-#include "surface/surface.h"
 
 namespace meshhood {
 namespace {
@@ -19,7 +18,7 @@ template <class F>
 void for_each_triangle(const IndexView& index, const StoredFaces& faces, std::size_t face, F&& f) {
   const std::span<const VertexId> all = faces[face];
   for (std::size_t second = 1; second + 1 < all.size(); ++second) {
-    f(Triangle{{place_of(index, all[0]), place_of(index, all[second]), place_of(index, all[second + 1])},
+    f(Triangle{{index.place(all[0]), index.place(all[second]), index.place(all[second + 1])},
                static_cast<std::uint32_t>(face),
                static_cast<std::uint32_t>(second)});
   }
@@ -42,10 +41,6 @@ std::vector<Triangle> sorted_triangles(const IndexView& index, const StoredFaces
 
 FaceTree::FaceTree(const IndexView& index, const StoredFaces& faces) : triangles_(sorted_triangles(index, faces)) {
   if (triangles_.empty()) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
-  renew(index);
-}
-
-void FaceTree::renew(const IndexView& index) {
   boxes_.build(triangles_.size(), [&](std::size_t i) { return box_of(index, i); });
 }
 

@@ -29,9 +29,7 @@ class FaceTree {
   /// Throws Error{InvalidMesh} if no face has three corners.
   FaceTree(const IndexView& index, const StoredFaces& faces);
 
-  /// The boxes, after vertices have moved: all, or those of the triangles of `changed`, which are faces. The frame must
-  /// be the same for the latter.
-  void renew(const IndexView& index);
+  /// The boxes of the faces `changed`, after vertices have moved. The frame must be the same.
   void renew(const IndexView& index, const StoredFaces& faces, std::span<const std::uint32_t> changed);
 
   [[nodiscard]] const BoxTree& boxes() const { return boxes_; }

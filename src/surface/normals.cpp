@@ -93,11 +93,11 @@ void renew_normals(const IndexView& index, const StoredFaces& faces, const FaceL
       sum = sum + std::visit(
                       [&](auto xyz) {
                         return vector_area(xyz, index.frame.scale, corners.size(),
-                                           [&](std::size_t i) { return place_of(index, corners[i]); });
+                                           [&](std::size_t i) { return index.place(corners[i]); });
                       },
                       index.positions);
     }
-    normals.set(place_of(index, v), sum);
+    normals.set(index.place(v), sum);
   }
 }
 

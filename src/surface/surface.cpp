@@ -116,7 +116,7 @@ const PatchState& Surface::State::patches() const {
 const std::vector<double>& Surface::State::areas() const {
   return geometry->areas.get([&] {
     FaceArrays in_order = topology->arrays;
-    for (VertexId& corner : in_order.corners) corner = static_cast<VertexId>(place_of(*index, corner));
+    for (VertexId& corner : in_order.corners) corner = static_cast<VertexId>(index->place(corner));
     const StoredFaces all{in_order.corners, in_order.offsets};
     const std::vector<double> by_place = meshhood::vertex_areas(MeshView{searched.positions(), all.view()});
     std::vector<double> areas(by_place.size());

@@ -70,7 +70,6 @@ struct Surface::State {
   [[nodiscard]] const FaceLists& lists() const;
   [[nodiscard]] const FaceTree& tree() const;
   [[nodiscard]] const Normals& normals(TaskContext& task) const;
-
   [[nodiscard]] const std::vector<double>& areas() const;
   [[nodiscard]] const PatchState& patches() const;
 
@@ -123,12 +122,6 @@ struct SurfaceAccess {
 };
 
 using SurfaceState = SurfaceAccess::State;
-
-/// The position in index order of a vertex of the caller.
-[[nodiscard]] inline std::uint32_t place_of(const IndexView& index, VertexId v) {
-  const std::uint32_t slot = index.slot[v];
-  return index.leaf_begin[leaf_of(slot)] + lane_of(slot);
-}
 
 /// The normals of the vertices of faces.
 [[nodiscard]] Normals make_normals(const IndexView& index, const FacesView& faces, TaskContext& task);

@@ -89,7 +89,7 @@ TEST(CorrectedCurvature, OfNormalsThatPointToTheOtherSideIsStillOrdered) {
   const Surface surface(index, mesh.view());
   std::vector<double> opposite;
   for (VertexId v = 0; v < mesh.size(); ++v) {
-    const Point n = SurfaceAccess::oriented(surface).normal(place_of(IndexAccess::view(index), v));
+    const Point n = SurfaceAccess::oriented(surface).normal(IndexAccess::view(index).place(v));
     for (const double component : {-n.x, -n.y, -n.z}) opposite.push_back(component);
   }
   const auto found = corrected_curvatures(Surface::of_normals(index, opposite, mesh.view().faces), {{}, 3.0});

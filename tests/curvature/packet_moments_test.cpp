@@ -53,7 +53,7 @@ namespace {
 std::pair<QueryWord, const QueryMoments*> sum(PacketMoments& sums, const IndexView& index, const PacketAnswer& packet,
                                               QueryWord queries) {
   std::vector<std::uint32_t> places;
-  for (const VertexId v : packet.vertices) places.push_back(place_of(index, v));
+  for (const VertexId v : packet.vertices) places.push_back(index.place(v));
   const LeafId leaf = leaf_of(index.slot[packet.vertices.front()]);
   const QueryWord some = sums.begin(leaf, places, packet.radii, queries, packet.queries);
   for (const auto& [leaves, word, reached] : packet.pieces) {

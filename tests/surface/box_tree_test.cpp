@@ -41,7 +41,7 @@ class TreeOf : public testing::TestWithParam<std::size_t> {
       box.add(random_point(random, 1));
       const Point p = box.low;
       const double size = std::ldexp(1.0, -static_cast<int>(random.below(40)));
-      box.add({std::clamp(p.x + size, -1.0, 1.0), std::clamp(p.y + size, -1.0, 1.0), std::clamp(p.z, -1.0, 1.0)});
+      box.add(Point{std::clamp(p.x + size, -1.0, 1.0), std::clamp(p.y + size, -1.0, 1.0), std::clamp(p.z, -1.0, 1.0)});
     }
     tree.build(boxes.size(), [&](std::size_t i) { return boxes[i]; });
   }

@@ -83,7 +83,4 @@ def normals_of(normals: Any, count: int) -> Any:
         raise TypeError(f"normals: expected numbers, not {array.dtype}")
     if array.shape != (count, 3):
         raise ValueError(f"normals: expected an array of shape ({count}, 3), not {array.shape}")
-    if np.isinf(array).any():
-        row = int(np.isinf(array).any(axis=1).argmax())
-        raise ValueError(f"normals: the normal of vertex {row} is infinite, expected numbers, or NaN for no normal")
     return array.astype(np.float64).ravel()

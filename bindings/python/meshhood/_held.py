@@ -129,8 +129,17 @@ class Held:
             if F is not None and not needs_faces:
                 raise ValueError("F: expected None, because the normals are given")
             arrays = self._face_arrays(F) if needs_faces else (None, None)
-            return _core.surface_of_normals(self._exact, normals_of(normals, self._count), *arrays)
-        key, arrays = self._keyed_faces(F)
+            values = normals_of(normals, self._count)
+            try:
+                return _core.surface_of_normals(self._exact, values, *arrays)
+            except ValueError as error:
+                raise ValueError(f"normals: {error}") from None
+        return self._surface_of(*self._keyed_faces(F))
+
+    def _surface_of(self, key: bytes, arrays: tuple[Any, Any]) -> Any:
+        """The surface of faces, as `_keyed_faces` returns them."""
+        if self._whole is not None:
+            return self._whole._surface_of(key, arrays).on(self._exact)
         kept, surface = self._last_surface
         if kept != key:
             surface = _core.surface_of_faces(self._exact, *arrays)

@@ -68,10 +68,10 @@ class Patches(Held):
 
     def _patches(self, F: Any) -> Any:
         """What is made of the faces, kept with the index."""
-        key, _ = self._keyed_faces(F)
+        key, arrays = self._keyed_faces(F)
         kept, patches = self._last_patches
         if kept != key:
-            patches = _core.patches(self._exact, self._surface(F))
+            patches = _core.patches(self._exact, self._surface_of(key, arrays))
             self._last_patches = (key, patches)  # replaced as a whole
         return patches
 

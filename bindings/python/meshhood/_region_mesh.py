@@ -183,5 +183,6 @@ class Regions(Held):
 
     def _region_mesh(self, F: Any) -> RegionMesh:
         mesh = RegionMesh.__new__(RegionMesh)
-        mesh._hold(self._methods.positions, self._surface(F), self._face_arrays(F)[1] is None)
+        key, arrays = self._keyed_faces(F)
+        mesh._hold(self._methods.positions, self._surface_of(key, arrays), arrays[1] is None)
         return mesh

@@ -181,8 +181,8 @@ class SurfaceQueries(Held):
         >>> region = index.neighborhood(point, 0.3, face=face)
         """
         points = _convert.points(q, "q")
-        _, offsets = self._face_arrays(F)
-        surface = self._surface(F)
+        key, (corners, offsets) = self._keyed_faces(F)
+        surface = self._surface_of(key, (corners, offsets))
         threads = _convert.threads(workers)
         with reporter(progress, "closest_point", "points", len(points)) as report:
             faces, second, weights, found = surface.closest(points, threads=threads, progress=report)

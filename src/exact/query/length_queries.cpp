@@ -105,8 +105,7 @@ struct LengthQueries final : SingleQueries {
 
   /// Infinite if it is more than `radius`.
   double length_to(VertexId w, const Start& start, double radius) {
-    const std::uint32_t slot = index->slot[w];
-    const std::uint32_t place = index->leaf_begin[leaf_of(slot)] + lane_of(slot);
+    const std::uint32_t place = index->place(w);
     double length = kNoRadius;
     run(start, radius, [&](std::span<const Path> next) {
       for (const Path& path : next) {

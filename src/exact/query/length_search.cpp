@@ -20,7 +20,7 @@ class PathLengthSearch final : public LengthSearch {
   PathLengthSearch(const IndexView& index, KeptGraph& graph) : LengthSearch(index), paths_(index, graph) {}
 
   void run(std::uint32_t slot, double radius, const IsEnough& is_enough) override {
-    paths_.run(index_->leaf_begin[leaf_of(slot)] + lane_of(slot), radius,
+    paths_.run(index_->place_at(slot), radius,
                [&](std::span<const Path> found) { return is_enough && is_enough(without_ignored(found)); });
   }
 

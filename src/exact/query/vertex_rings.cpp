@@ -15,7 +15,7 @@ std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
     edges_to_.set(place, count);
     if (!index_->is_wall_at(place)) queue_.push_back(place);
   };
-  reach(index_->leaf_begin[leaf_of(slot)] + lane_of(slot), 0);
+  reach(index_->place_at(slot), 0);
   std::size_t count = 0;
   for (std::size_t head = 0; head < queue_.size(); ++head) {
     const std::uint32_t place = queue_[head];

@@ -47,8 +47,7 @@ void VertexBfs::make_searcher() {
 
 void VertexBfs::run(VertexId v, double squared_radius, VertexSet& answer) {
   if (!searcher_) make_searcher();
-  const std::uint32_t slot = index_->slot[v];
-  const auto vertex = static_cast<VertexId>(index_->leaf_begin[leaf_of(slot)] + lane_of(slot));
+  const auto vertex = static_cast<VertexId>(index_->place(v));
   found_->clear();  // a search that ran out of memory has left some
   for (const VertexId w : ReferenceAccess::search(*searcher_, vertex, squared_radius)) found_->insert(w);
   found_->take_words([&](std::size_t first, std::uint64_t bits) {
