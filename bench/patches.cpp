@@ -63,7 +63,7 @@ void compare(const Surface& surface, const Reference& reference, double edges, d
   const Run options{.threads = threads};
   Invariants found;
   const double measuring = time_of(rows, [&] { found = invariants(surface, query, options); });
-  std::vector<PatchGap> nearest;
+  std::vector<SurfacePoint> nearest;
   const double searching = time_of(rows, [&] { nearest = gaps(surface, query, options); });
   double area = 0;
   double volume = 0;

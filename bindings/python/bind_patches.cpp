@@ -53,7 +53,7 @@ class Patches {
     std::vector<std::array<double, 3>> weights;
     std::vector<SpacePoint> points;
     without_lock([&] {
-      for (const PatchGap& gap : gaps(surface_, query, run)) {
+      for (const SurfacePoint& gap : gaps(surface_, query, run)) {
         distances.push_back(gap.distance);
         faces.push_back(static_cast<std::int64_t>(gap.face));
         corners.push_back(gap.vertices);

@@ -57,25 +57,25 @@ Surface of_normals(const ExactMethod& method, const Radii& normals, const std::o
   return without_lock([&] { return Surface::of_normals(method.index(), values, faces); });
 }
 
-/// The faces, the second corner of the triangle of each, its barycentric coordinates, and the points.
+/// The faces, the places in them of the corners of their triangles, barycentric coordinates, and the points.
 auto closest_points(const Surface& surface, const Points& points, unsigned threads, nb::handle progress) {
   static_assert(sizeof(SpacePoint) == 3 * sizeof(double));
   const std::span<const SpacePoint> all(reinterpret_cast<const SpacePoint*>(points.data()), points.shape(0));
   const Run run{.threads = threads, .progress = progress_to(progress)};
   std::vector<std::int64_t> faces;
-  std::vector<std::int64_t> seconds;
+  std::vector<std::array<std::size_t, 3>> corners;
   std::vector<std::array<double, 3>> weights;
   std::vector<SpacePoint> found;
   without_lock([&] {
     for (const SurfacePoint& hit : surface.closest_points(all, run)) {
       faces.push_back(static_cast<std::int64_t>(hit.face));
-      seconds.push_back(static_cast<std::int64_t>(hit.second_corner));
+      corners.push_back(hit.corners);
       weights.push_back(hit.weights);
       found.push_back(hit.point);
     }
   });
   const std::size_t rows = all.size();
-  return std::tuple(owned<std::int64_t>(std::move(faces)), owned<std::int64_t>(std::move(seconds)),
+  return std::tuple(owned<std::int64_t>(std::move(faces)), owned<std::int64_t>(std::move(corners), {rows, 3}),
                     owned<double>(std::move(weights), {rows, 3}), owned<double>(std::move(found), {rows, 3}));
 }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <concepts>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -13,7 +11,6 @@
 #include "meshhood/owner.h"
 #include "meshhood/start.h"
 #include "meshhood/surface.h"
-#include "meshhood/unconnected.h"
 
 /// The surface in a ball, rather than its vertices: areas, volumes and gaps that do not depend on the triangles.
 ///
@@ -24,18 +21,15 @@
 ///
 ///     const meshhood::Surface surface(index, faces);
 ///     const auto [area, volume] = meshhood::invariants(surface, {.radius = 1.5});
-///     const std::vector<meshhood::PatchGap> gaps = meshhood::gaps(surface, {.radius = 1.5});
+///     const std::vector<meshhood::SurfacePoint> gaps = meshhood::gaps(surface, {.radius = 1.5});
 ///
-/// Faces are oriented counterclockwise, seen from outside. A polygon is triangulated, one that is not convex so that
-/// its area is its own; diagonals join triangles as sides do. A face with a wall (see masks.h), or with fewer than
-/// three corners, is not there. Vertices at the same place are not one: weld a mesh that has such.
+/// Faces are oriented counterclockwise, seen from outside. Polygons are the triangles of `Surface`; diagonals join them
+/// as sides do. A face with a wall (see masks.h), or with fewer than three corners, is not there. Vertices at the same
+/// place are not one: weld a mesh that has such.
 ///
 /// A surface makes what all searches share at the first of them, and again after a refit: about 60 bytes a triangle, in
 /// O(#V + #corners log #corners). Error{InvalidMesh} if no face is there.
 namespace meshhood {
-
-/// No face.
-inline constexpr std::size_t kNoFace = std::numeric_limits<std::size_t>::max();
 
 /// A vertex, or a point on a face.
 class PatchStart {
@@ -65,17 +59,6 @@ struct PatchMeasure {
   double volume;
 };
 
-/// The nearest point of the surface in a ball that is not of its patch. As it stands: there is none.
-struct PatchGap {
-  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-  std::size_t face = kNoFace;                                         ///< its number
-  std::array<VertexId, 3> vertices{kNoVertex, kNoVertex, kNoVertex};  ///< of its triangle
-  std::array<double, 3> weights{kNone, kNone, kNone};                 ///< barycentric coordinates in it
-  SpacePoint point{kNone, kNone, kNone};
-  double distance = std::numeric_limits<double>::infinity();
-};
-
 /// Answers one start at a time; one for each thread. Owns 8 bytes for each vertex and triangle.
 ///
 /// radius  >= 0 or infinite. A point at exactly `radius` counts.
@@ -98,7 +81,7 @@ class PatchSearcher {
 
   /// The nearest point of the surface in the ball that is not of the patch; of several faces at the same distance, the
   /// one with the smallest number. It is none where there is no patch. Accurate as `Surface::closest_point`.
-  [[nodiscard]] PatchGap gap(const PatchStart& start, double radius);
+  [[nodiscard]] SurfacePoint gap(const PatchStart& start, double radius);
 
  private:
   struct State;
@@ -120,6 +103,6 @@ struct Invariants {
 [[nodiscard]] Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run = {});
 
 /// `PatchSearcher::gap` of many vertices, one for each row. Throws as `invariants`, and InvalidRadius for scales.
-[[nodiscard]] std::vector<PatchGap> gaps(const Surface& surface, const BatchQuery& query, const Run& run = {});
+[[nodiscard]] std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, const Run& run = {});
 
 }  // namespace meshhood

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -13,17 +14,24 @@
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
 #include "meshhood/start.h"
+#include "meshhood/vertex_id.h"
 
 namespace meshhood {
 
-/// A point on a face.
+/// No face.
+inline constexpr std::size_t kNoFace = std::numeric_limits<std::size_t>::max();
+
+/// A point on a face. As it stands: there is none.
 struct SurfacePoint {
-  std::size_t face;                  ///< its number
-  std::size_t second_corner;         ///< of the fan of the face: the triangle of its corners 0, this one and the next
-  std::array<VertexId, 3> vertices;  ///< of this triangle
-  std::array<double, 3> weights;     ///< barycentric coordinates in it: >= 0, with the sum 1 up to rounding
-  SpacePoint point;
-  double distance;  ///< from the point that was asked for
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  std::size_t face = kNoFace;                                         ///< its number
+  std::array<std::size_t, 3> corners{};                               ///< of its triangle: their places in the face
+  std::array<VertexId, 3> vertices{kNoVertex, kNoVertex, kNoVertex};  ///< of its triangle
+  std::array<double, 3> weights{kNone, kNone,
+                                kNone};  ///< barycentric coordinates in it: >= 0, with the sum 1 up to rounding
+  SpacePoint point{kNone, kNone, kNone};
+  double distance = std::numeric_limits<double>::infinity();  ///< from the point that was asked for
 
   /// The search from the corners of the triangle, with the point as center: what a click on a surface gives. Borrows
   /// from this object.
@@ -78,8 +86,8 @@ struct Rim {
 ///     const auto part = surface.submesh(ids);
 ///     const auto [k1, k2, d1, d2, state, count] = meshhood::curvatures(surface, {.radius = 2.5});
 ///
-/// A polygon is the fan of the triangles of its corners 0, i and i + 1. A face with fewer than three corners has no
-/// points, and no area.
+/// A polygon is the fan of the triangles of its corners 0, i and i + 1 if it is convex; otherwise its ears are cut off,
+/// so that its triangles cover what it covers. A face with fewer than three corners has no points, and no area.
 ///
 /// What depends on the faces is made when it is first needed, and kept: 48 bytes a triangle for closest points, 24
 /// bytes a vertex for curvature, 4 bytes a corner and 8 a vertex for the faces of each vertex, 8 bytes a vertex for

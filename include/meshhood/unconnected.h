@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "meshhood/batch.h"
@@ -10,9 +9,6 @@
 
 /// What is near in space, but not connected nearby: the other side of a wall, the next fold, sheets that nearly touch.
 namespace meshhood {
-
-/// No vertex.
-inline constexpr VertexId kNoVertex = std::numeric_limits<VertexId>::max();
 
 /// For each row of a query, the nearest vertex in the ball that does not belong to the neighborhood.
 struct Unconnected {

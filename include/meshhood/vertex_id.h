@@ -6,11 +6,15 @@
 #endif
 
 #include <cstdint>
+#include <limits>
 
 namespace meshhood {
 
 /// A vertex, by its row in the caller's positions.
 using VertexId = std::uint32_t;
+
+/// No vertex.
+inline constexpr VertexId kNoVertex = std::numeric_limits<VertexId>::max();
 
 /// An index into a list of neighbors, in which each edge occurs twice.
 using EdgeOffset = std::uint32_t;

@@ -23,24 +23,36 @@ double turn(const Flat& a, const Flat& b, const Flat& c) {
 
 bool is_same(const Flat& a, const Flat& b) { return a.x == b.x && a.y == b.y; }
 
-/// The corners without the axis along which the polygon has its largest area, counterclockwise.
-std::vector<Flat> flatten(std::span<const Point> corners) {
-  const Point area = doubled_vector_area(corners.size(), [&](std::size_t i) { return corners[i]; });
-  const double x = std::abs(area.x);
-  const double y = std::abs(area.y);
-  const double z = std::abs(area.z);
-  std::vector<Flat> flat;
-  flat.reserve(corners.size());
-  for (const Point& p : corners) {
-    if (z >= x && z >= y) {
-      flat.push_back(area.z < 0 ? Flat{p.y, p.x} : Flat{p.x, p.y});
-    } else if (x >= y) {
-      flat.push_back(area.x < 0 ? Flat{p.z, p.y} : Flat{p.y, p.z});
-    } else {
-      flat.push_back(area.y < 0 ? Flat{p.x, p.z} : Flat{p.z, p.x});
-    }
+/// Leaves out the axis along which a polygon has its largest area, so that its corners turn left on the whole.
+class Flattening {
+ public:
+  explicit Flattening(std::span<const Point> corners)
+      : area_(doubled_vector_area(corners.size(), [&](std::size_t i) { return corners[i]; })) {}
+
+  [[nodiscard]] Flat operator()(const Point& p) const {
+    const double x = std::abs(area_.x);
+    const double y = std::abs(area_.y);
+    const double z = std::abs(area_.z);
+    if (z >= x && z >= y) return area_.z < 0 ? Flat{p.y, p.x} : Flat{p.x, p.y};
+    if (x >= y) return area_.x < 0 ? Flat{p.z, p.y} : Flat{p.y, p.z};
+    return area_.y < 0 ? Flat{p.x, p.z} : Flat{p.z, p.x};
   }
-  return flat;
+
+ private:
+  Point area_;
+};
+
+/// Whether it turns right at no corner.
+bool is_convex(std::span<const Point> corners, const Flattening& flat) {
+  Flat a = flat(corners[corners.size() - 2]);
+  Flat b = flat(corners.back());
+  for (const Point& p : corners) {
+    const Flat c = flat(p);
+    if (turn(a, b, c) < 0) return false;
+    a = b;
+    b = c;
+  }
+  return true;
 }
 
 /// What is left of a polygon, as a ring of corners.
@@ -56,10 +68,6 @@ class EarClipper {
     for (std::uint32_t i = 0; i < size; ++i) {
       if (turn_at(i) <= 0) blunt_.push_back(i);
     }
-  }
-
-  [[nodiscard]] bool is_convex() const {
-    return std::ranges::all_of(blunt_, [&](std::uint32_t i) { return turn_at(i) == 0; });
   }
 
   void run(Triangulation& out) {
@@ -121,8 +129,12 @@ void triangulate(std::span<const Point> corners, Triangulation& out) {
   out.clear();
   if (corners.size() < 3) return;
   if (corners.size() > 3) {
-    EarClipper clipper(flatten(corners));
-    if (!clipper.is_convex()) return clipper.run(out);
+    const Flattening flat(corners);
+    if (!is_convex(corners, flat)) {
+      std::vector<Flat> all(corners.size());
+      std::ranges::transform(corners, all.begin(), flat);
+      return EarClipper(std::move(all)).run(out);
+    }
   }
   for (std::uint32_t i = 1; i + 1 < corners.size(); ++i) out.push_back({0, i, i + 1});
 }

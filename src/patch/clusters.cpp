@@ -4,30 +4,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <variant>
 
 #include "base/vector.h"
+#include "surface/face_tree.h"
 
 namespace meshhood {
 namespace {
 
-Point position(const IndexView& index, std::uint32_t place) {
-  return std::visit([&](auto xyz) { return point(xyz, place); }, index.positions);
-}
-
 /// The sums over the triangles `begin .. end - 1`, and their box. Corners are seen from the center of the sphere, so
 /// that the moment is as accurate far from the origin.
-Cluster add_up(const IndexView& index, const Triangles& triangles, TriangleId begin, TriangleId end, BoundingBox& box) {
+Cluster add_up(const IndexView& index, const Triangles& triangles, TriangleId begin, TriangleId end) {
+  BoundingBox box;
   for (TriangleId t = begin; t < end; ++t) {
-    for (const std::uint32_t place : triangles.corners[t]) {
-      box.add(position(index, place));
-    }
+    for (const Point& corner : corners_of(index, triangles.corners[t])) box.add(corner);
   }
-  Cluster sums{0.5 * box.low + 0.5 * box.high, 0, 0, {0, 0, 0}, 0, 0, 0, false};
+  Cluster sums{box, 0, 0, {0, 0, 0}, 0, 0, 0, false};
   for (TriangleId t = begin; t < end; ++t) {
-    std::array<Point, 3> corners{};
+    std::array<Point, 3> corners = corners_of(index, triangles.corners[t]);
     for (std::size_t i = 0; i < 3; ++i) {
-      corners[i] = index.frame.scale * (position(index, triangles.corners[t][i]) - sums.center);
+      corners[i] = index.frame.scale * (corners[i] - sums.center());
       sums.radius = std::max(sums.radius, length(corners[i]));
       sums.has_border |= triangles.is_border(t, static_cast<unsigned>(i));
     }
@@ -51,17 +46,19 @@ Clusters::Clusters(const IndexView& index, const Triangles& triangles) : of_tria
     clusters.back().first_link = static_cast<std::uint32_t>(links.size());
     clusters.back().first_hub = static_cast<std::uint32_t>(hubs.size());
   };
-  levels.emplace_back(count);
   for (ClusterId cluster = 0; cluster < count; ++cluster) {
     const TriangleId end = triangles.first_of_cluster[cluster + std::size_t{1}];
-    clusters.push_back(add_up(index, triangles, triangles.first_of_cluster[cluster], end, levels.front()[cluster]));
+    clusters.push_back(add_up(index, triangles, triangles.first_of_cluster[cluster], end));
     set_first();
     link(triangles, cluster);
   }
   clusters.push_back({});
   set_first();
   links.push_back({0, static_cast<std::uint32_t>(linked.size())});
-  stack_boxes();
+  boxes.build(count, [&](std::size_t i) {
+    const BoundingBox& box = clusters[i].box;
+    return BoundingBox{index.frame.to_frame(box.low), index.frame.to_frame(box.high)};
+  });
 }
 
 /// The triangles of other clusters at the corners of a cluster.
@@ -93,20 +90,10 @@ void Clusters::link(const Triangles& triangles, ClusterId cluster) {
   }
 }
 
-void Clusters::stack_boxes() {
-  while (levels.back().size() > 1) {
-    const std::vector<BoundingBox>& below = levels.back();
-    std::vector<BoundingBox> boxes((below.size() + kBoxes - 1) / kBoxes);
-    for (std::size_t i = 0; i < below.size(); ++i) boxes[i / kBoxes].add(below[i]);
-    levels.push_back(std::move(boxes));
-  }
-}
-
 std::size_t Clusters::bytes() const {
   const auto bytes_of = [](const auto& array) { return array.size() * sizeof(array[0]); };
-  std::size_t bytes = bytes_of(clusters) + bytes_of(links) + bytes_of(linked) + bytes_of(hubs) + bytes_of(of_triangle);
-  for (const std::vector<BoundingBox>& level : levels) bytes += bytes_of(level);
-  return bytes;
+  return bytes_of(clusters) + bytes_of(links) + bytes_of(linked) + bytes_of(hubs) + bytes_of(of_triangle) +
+         boxes.bytes();
 }
 
 }  // namespace meshhood

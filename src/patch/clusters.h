@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "base/frame.h"
+#include "base/vector.h"
 #include "exact/layout.h"
 #include "patch/triangles.h"
 #include "shared/distance.h"
+#include "surface/box_tree.h"
 
 namespace meshhood {
 
@@ -17,14 +19,16 @@ using ClusterId = std::uint32_t;
 
 /// Sums over the triangles of a cluster. Lengths are in the frame, points in the unit of the mesh.
 struct Cluster {
-  Point center;  // of its bounding sphere
-  double radius;
+  BoundingBox box;
+  double radius;  // of a bounding sphere about the center
   double area;
   Point vector_area;         // the sum of area times normal
   double moment;             // the sum of area times the distance of the plane from `center`, along the normal
   std::uint32_t first_link;  // in `Clusters::links`
   std::uint32_t first_hub;   // in `Clusters::hubs`
   bool has_border;
+
+  [[nodiscard]] Point center() const { return 0.5 * box.low + 0.5 * box.high; }
 };
 
 /// The triangles of one other cluster that share a corner with a cluster, if that is no hub.
@@ -35,8 +39,6 @@ struct ClusterLink {
 
 /// What a search takes at once where it lies inside a ball, and finds at once where it lies far away.
 struct Clusters {
-  static constexpr std::size_t kBoxes = 8;
-
   /// A corner of more triangles is a hub: links do not list its triangles, which many clusters would.
   static constexpr std::size_t kMostLinked = 64;
 
@@ -45,8 +47,7 @@ struct Clusters {
   std::vector<TriangleId> linked;      // ascending
   std::vector<std::uint32_t> hubs;     // places
   std::vector<ClusterId> of_triangle;  // the cluster of each
-  std::vector<std::vector<BoundingBox>>
-      levels;  // in the unit of the mesh: of each cluster, then of eight such boxes each; one at last
+  BoxTree boxes;                       // of the clusters
 
   Clusters(const IndexView& index, const Triangles& triangles);
 
@@ -71,7 +72,6 @@ struct Clusters {
 
  private:
   void link(const Triangles& triangles, ClusterId cluster);
-  void stack_boxes();
 };
 
 }  // namespace meshhood

@@ -6,20 +6,16 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <utility>
 #include <variant>
 
 #include "base/vector.h"
 #include "patch/section.h"
 #include "patch/twofold.h"
+#include "surface/face_tree.h"
 #include "surface/triangle_point.h"
 
 namespace meshhood {
 namespace {
-
-// The distance of a triangle is off by a few units in the last place of itself and of the sides. A box that is farther
-// away than this much more cannot have a nearer one.
-constexpr double kSlack = 0x1p-43;
 
 inline double squared_distance(const Point& q, const BoundingBox& box) {
   const auto beyond = [](double x, double low, double high) { return std::max({low - x, x - high, 0.0}); };
@@ -53,37 +49,28 @@ template <class Real>
 class GapSearch {
  public:
   GapSearch(const PatchState& state, const PatchSearch& search, std::span<const Real> xyz, double radius)
-      : state_(&state), search_(&search), xyz_(xyz), q_(search.ball().center), radius_(radius) {
+      : state_(&state), search_(&search), xyz_(xyz), ball_(search.ball()), radius_(radius) {
+    nearest_.distance = kInfinity;
     set_limit(radius);
   }
 
-  PatchGap run() {
-    visit(state_->clusters.levels.size() - 1, 0);
-    return gap_;
+  SurfacePoint run() {
+    state_->clusters.boxes.search(
+        state_->index->frame.to_frame(ball_.center), [&] { return reach_; },
+        [&](std::size_t cluster) { visit(static_cast<ClusterId>(cluster)); });
+    if (nearest_.distance == kInfinity) return {};
+    return surface_point(*state_->index, *state_->faces, state_->triangles.face[triangle_],
+                         state_->triangles.corners[triangle_], nearest_);
   }
 
  private:
   void set_limit(double distance) {
-    const double limit = distance + kSlack * (distance + 4 / search_->ball().scale);
+    reach_ = reach_of(distance * ball_.scale, ball_.scale);
+    const double limit = reach_ / ball_.scale;
     squared_limit_ = limit * limit;
   }
 
-  void visit(std::size_t level, std::size_t box) {
-    if (level == 0) return visit_cluster(static_cast<ClusterId>(box));
-    const std::vector<BoundingBox>& below = state_->clusters.levels[level - 1];
-    std::array<std::pair<double, std::size_t>, Clusters::kBoxes> near{};
-    std::size_t count = 0;
-    for (std::size_t i = box * near.size(); i < std::min((box + 1) * near.size(), below.size()); ++i) {
-      const double distance = squared_distance(q_, below[i]);
-      if (distance > squared_limit_) continue;
-      std::size_t at = count++;
-      for (; at > 0 && distance < near[at - 1].first; --at) near[at] = near[at - 1];
-      near[at] = {distance, i};
-    }
-    for (std::size_t i = 0; i < count && near[i].first <= squared_limit_; ++i) visit(level - 1, near[i].second);
-  }
-
-  void visit_cluster(ClusterId cluster) {
+  void visit(ClusterId cluster) {
     if (search_->has_taken(cluster)) return;
     const std::vector<TriangleId>& first = state_->triangles.first_of_cluster;
     for (TriangleId t = first[cluster]; t < first[cluster + std::size_t{1}]; ++t) {
@@ -96,34 +83,36 @@ class GapSearch {
     const std::array<Point, 3> corners{point(xyz_, places[0]), point(xyz_, places[1]), point(xyz_, places[2])};
     BoundingBox box;
     for (const Point& corner : corners) box.add(corner);
-    if (squared_distance(q_, box) > squared_limit_) return;
-    TrianglePoint found = nearest_in_triangle(q_, corners, search_->ball().scale);
-    if (is_far(corners)) found.distance = far_distance(q_, corners, search_->ball().scale);
+    if (squared_distance(ball_.center, box) > squared_limit_) return;
+    TrianglePoint found = nearest_in_triangle(ball_.center, corners, ball_.scale);
+    if (is_far(corners)) found.distance = far_distance(ball_.center, corners, ball_.scale);
     const std::size_t face = state_->triangles.face[t];
-    if (found.distance > radius_ || found.distance > gap_.distance) return;
-    if (found.distance == gap_.distance && gap_.face <= face) return;
-    gap_ = {face, {}, found.weights, {found.point.x, found.point.y, found.point.z}, found.distance};
-    for (std::size_t i = 0; i < 3; ++i) gap_.vertices[i] = state_->index->id(places[i]);
+    if (found.distance > radius_ || found.distance > nearest_.distance) return;
+    if (found.distance == nearest_.distance && state_->triangles.face[triangle_] <= face) return;
+    nearest_ = found;
+    triangle_ = t;
     set_limit(found.distance);
   }
 
   [[nodiscard]] bool is_far(const std::array<Point, 3>& corners) const {
     return std::ranges::any_of(
-        corners, [&](const Point& p) { return squared_distance(p, q_) > kFar * kFar * radius_ * radius_; });
+        corners, [&](const Point& p) { return squared_distance(p, ball_.center) > kFar * kFar * radius_ * radius_; });
   }
 
   const PatchState* state_;
   const PatchSearch* search_;
   std::span<const Real> xyz_;
-  Point q_;
+  PatchBall ball_;
   double radius_;
+  double reach_ = 0;  // in the frame
   double squared_limit_ = 0;
-  PatchGap gap_{};
+  TrianglePoint nearest_{};
+  TriangleId triangle_ = 0;
 };
 
 }  // namespace
 
-PatchGap find_gap(const PatchState& state, const PatchSearch& search, double radius) {
+SurfacePoint find_gap(const PatchState& state, const PatchSearch& search, double radius) {
   return std::visit([&](auto xyz) { return GapSearch(state, search, xyz, radius).run(); }, state.index->positions);
 }
 

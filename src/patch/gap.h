@@ -9,6 +9,6 @@
 namespace meshhood {
 
 /// The nearest point within `radius` of the center of the last run of `search` on a triangle that it has not reached.
-[[nodiscard]] PatchGap find_gap(const PatchState& state, const PatchSearch& search, double radius);
+[[nodiscard]] SurfacePoint find_gap(const PatchState& state, const PatchSearch& search, double radius);
 
 }  // namespace meshhood

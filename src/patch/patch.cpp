@@ -17,6 +17,7 @@
 #include "patch/search.h"
 #include "patch/state.h"
 #include "shared/parallel.h"
+#include "surface/face_tree.h"
 #include "surface/surface.h"
 #include "surface/triangle_point.h"
 
@@ -83,24 +84,22 @@ struct PatchSearcher::State {
 
   /// The triangle of a face that is nearest to a point.
   void find_start(std::size_t face, const Point& p) {
+    const IndexView& index = *surface->index;
     const Triangles& all = surface->triangles;
-    if (face >= surface->face_count()) {
+    if (face >= surface->faces->size()) {
       raise(ErrorCode::InvalidOption, "face " + std::to_string(face) + ", expected one of the mesh, which has " +
-                                          std::to_string(surface->face_count()));
+                                          std::to_string(surface->faces->size()));
     }
     starts.clear();
     double least = kInfinity;
-    for (const TriangleId t : all.of_face(face)) {
-      const double distance = std::visit(
-          [&](auto xyz) {
-            const auto& [a, b, c] = all.corners[t];
-            return nearest_in_triangle(p, {point(xyz, a), point(xyz, b), point(xyz, c)}, surface->index->frame.scale)
-                .distance;
-          },
-          surface->index->positions);
-      if (!(distance < least)) continue;
-      least = distance;
-      starts.assign(1, t);
+    for (const VertexId corner : (*surface->faces)[face]) {
+      for (const TriangleId t : all.fan(index.place(corner))) {
+        if (all.face[t] != face) continue;
+        const double distance = nearest_in_triangle(p, corners_of(index, all.corners[t]), index.frame.scale).distance;
+        if (!(distance < least)) continue;
+        least = distance;
+        starts.assign(1, t);
+      }
     }
   }
 };
@@ -117,8 +116,8 @@ PatchMeasure PatchSearcher::measure(const PatchStart& start, double radius) {
   return {state_->search.area(), state_->search.volume()};
 }
 
-PatchGap PatchSearcher::gap(const PatchStart& start, double radius) {
-  return state_->run(start, radius, false) ? find_gap(*state_->surface, state_->search, radius) : PatchGap{};
+SurfacePoint PatchSearcher::gap(const PatchStart& start, double radius) {
+  return state_->run(start, radius, false) ? find_gap(*state_->surface, state_->search, radius) : SurfacePoint{};
 }
 
 Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run) {
@@ -139,12 +138,12 @@ Invariants invariants(const Surface& surface, const BatchQuery& query, const Run
   return result;
 }
 
-std::vector<PatchGap> gaps(const Surface& surface, const BatchQuery& query, const Run& run) {
+std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, const Run& run) {
   const PatchState& state = SurfaceAccess::state(surface).patches();
   check_metric(query);
   const Rows rows(query, state.index->vertex_count());
   TaskContext task(run.threads, run.progress, rows.size());
-  std::vector<PatchGap> result(rows.size());
+  std::vector<SurfacePoint> result(rows.size());
   for_each_row(state, rows, task, false, [&](PatchSearch& search, std::size_t row, bool exists) {
     if (exists) result[row] = find_gap(state, search, rows.radius(row));
   });

@@ -49,13 +49,12 @@ inline PatchSearch::Kind PatchSearch::kind_of(ClusterId cluster) {
   constexpr double kDipSlack = 0x1p-46;
   if (kinds_.is_known(cluster)) return kinds_[cluster];
   const Cluster& sums = state_->clusters.clusters[cluster];
-  const double distance = ball_.scale * length(sums.center - ball_.center);
+  const double distance = ball_.scale * length(sums.center() - ball_.center);
   const double inner = ball_.radius * (1 - kDipSlack);
   bool is_whole = distance + sums.radius <= inner;
   if (!is_whole && distance < inner) {
-    const BoundingBox& box = state_->clusters.levels.front()[cluster];
-    const Point low = ball_.center - box.low;
-    const Point high = box.high - ball_.center;
+    const Point low = ball_.center - sums.box.low;
+    const Point high = sums.box.high - ball_.center;
     const Point far{std::max(low.x, high.x), std::max(low.y, high.y), std::max(low.z, high.z)};
     is_whole = ball_.scale * length(far) <= inner;
   }
@@ -130,7 +129,7 @@ void PatchSearch::take(ClusterId cluster) {
   clusters_.push_back(cluster);
   const Cluster& sums = state_->clusters.clusters[cluster];
   area_ += sums.area;
-  moment_ += sums.moment + dot(sums.vector_area, ball_.scale * (sums.center - ball_.center));
+  moment_ += sums.moment + dot(sums.vector_area, ball_.scale * (sums.center() - ball_.center));
   has_border_ |= sums.has_border;
 }
 

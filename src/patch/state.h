@@ -12,15 +12,15 @@ namespace meshhood {
 
 /// What all searches of the patches of a surface share. The walls of the index are left out.
 struct PatchState {
-  /// Borrows the index.
-  PatchState(const IndexView& given, const FacesView& faces)
-      : index(&given), triangles(given, faces), clusters(given, triangles) {}
+  /// Borrows the index and the faces, of which `tree` is.
+  PatchState(const IndexView& given, const StoredFaces& all, const FaceTree& tree)
+      : index(&given), faces(&all), triangles(given, tree), clusters(given, triangles) {}
 
   const IndexView* index;
+  const StoredFaces* faces;
   Triangles triangles;
   Clusters clusters;
 
-  [[nodiscard]] std::size_t face_count() const { return triangles.first_of_face.size() - 1; }
   [[nodiscard]] std::size_t bytes() const { return triangles.bytes() + clusters.bytes(); }
 };
 

@@ -6,66 +6,28 @@
 #include <numeric>
 #include <string>
 #include <tuple>
-#include <variant>
 
 #include "meshhood/error.h"
-
-#include "base/triangulate.h"
-#include "base/vector.h"
 
 namespace meshhood {
 namespace {
 
-using TrianglePlaces = std::array<std::uint32_t, 3>;
-
-/// Whether two of the `size` corners of a polygon follow each other in neither direction.
-bool is_diagonal(std::uint32_t a, std::uint32_t b, std::size_t size) {
-  return (a + 1) % size != b && (b + 1) % size != a;
-}
-
-/// Calls `f(face, corners, diagonals)` for the triangles of all faces, with places as corners, and a bit for each side.
-template <class F>
-void for_each_triangle(const IndexView& index, const FacesView& faces, F&& f) {
-  std::vector<std::uint32_t> places;
-  std::vector<Point> points;
-  Triangulation triangles;
-  faces.for_each([&](std::size_t face, std::span<const VertexId> corners) {
-    places.clear();
-    for (const VertexId v : corners) {
-      places.push_back(index.place(v));
-      if (index.is_wall_at(places.back())) return;
-    }
-    if (places.size() == 3) return f(face, TrianglePlaces{places[0], places[1], places[2]}, std::uint8_t{0});
-    points.clear();
-    for (const std::uint32_t place : places)
-      points.push_back(index.frame.scale * std::visit([&](auto xyz) { return point(xyz, place); }, index.positions));
-    triangulate(points, triangles);
-    for (const auto& [a, b, c] : triangles) {
-      const unsigned diagonals = static_cast<unsigned>(is_diagonal(a, b, places.size())) |
-                                 static_cast<unsigned>(is_diagonal(b, c, places.size())) << 1U |
-                                 static_cast<unsigned>(is_diagonal(c, a, places.size())) << 2U;
-      f(face, TrianglePlaces{places[a], places[b], places[c]}, static_cast<std::uint8_t>(diagonals));
-    }
-  });
-}
-
 struct GivenTriangle {
-  TrianglePlaces corners;
-  std::uint32_t face;
-  std::uint8_t diagonals;
+  Triangle triangle;
+  std::uint32_t number;
   std::uint32_t part;
 };
 
 /// Finds the parts of a few triangles that are joined by corners.
 class LeafParts {
  public:
-  /// Sorts the triangles by their parts, each named by its first triangle, then by their faces.
+  /// Sorts the triangles by their parts, each named by its first triangle, then by their numbers.
   void sort(std::span<GivenTriangle> triangles) {
     parents_.resize(triangles.size());
     std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
     at_places_.clear();
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-      for (const std::uint32_t place : triangles[i].corners) at_places_.emplace_back(place, i);
+      for (const std::uint32_t place : triangles[i].triangle.corners) at_places_.emplace_back(place, i);
     }
     std::sort(at_places_.begin(), at_places_.end());
     for (std::size_t i = 1; i < at_places_.size(); ++i) {
@@ -73,7 +35,7 @@ class LeafParts {
     }
     for (std::uint32_t i = 0; i < triangles.size(); ++i) triangles[i].part = root(i);
     std::sort(triangles.begin(), triangles.end(), [](const GivenTriangle& a, const GivenTriangle& b) {
-      return std::tie(a.part, a.face, a.corners) < std::tie(b.part, b.face, b.corners);
+      return std::tie(a.part, a.number) < std::tie(b.part, b.number);
     });
   }
 
@@ -105,60 +67,51 @@ std::size_t bytes_of(const Arrays&... arrays) {
 
 }  // namespace
 
-std::size_t Triangles::bytes() const {
-  return bytes_of(corners, face, flags, ring, first_fan, fans, first_of_cluster, first_of_face, by_face);
-}
+std::size_t Triangles::bytes() const { return bytes_of(corners, face, flags, ring, first_fan, fans, first_of_cluster); }
 
-Triangles::Triangles(const IndexView& index, const FacesView& faces) {
-  if (faces.corner_count() > std::numeric_limits<std::uint32_t>::max() / 3) {
-    raise(ErrorCode::TooLarge, std::to_string(faces.corner_count()) + " corners, expected at most a third of 2^32 - 1");
+Triangles::Triangles(const IndexView& index, const FaceTree& all) {
+  if (all.triangles().size() > std::numeric_limits<std::uint32_t>::max() / 3) {
+    raise(ErrorCode::TooLarge, std::to_string(all.triangles().size()) + " triangles, expected at most 2^32 / 3");
   }
-  sort_faces(index, faces);
-  list_faces(faces.size());
+  cluster(index, all.triangles());
+  if (size() == 0) raise(ErrorCode::InvalidMesh, "every face of the mesh has a wall, expected one without");
   make_fans(index.vertex_count());
   join_sides(index.vertex_count());
 }
 
-/// Counting sort by the leaf of the corner that comes first in index order, then by the parts of each leaf that hold
-/// together.
-void Triangles::sort_faces(const IndexView& index, const FacesView& faces) {
-  const auto leaf_at = [&](const TrianglePlaces& triangle) {
-    return leaf_of(index.slot_at(std::ranges::min(triangle)));
-  };
-  std::vector<TriangleId> begin(index.leaf_count() + 1, 0);
-  for_each_triangle(index, faces, [&](std::size_t, const TrianglePlaces& triangle, std::uint8_t) {
-    ++begin[leaf_at(triangle) + std::size_t{1}];
-  });
-  add_up(begin);
-  if (begin.back() == 0) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
-  std::vector<TriangleId> next(begin.begin(), begin.end() - 1);
-  std::vector<GivenTriangle> given(begin.back());
-  for_each_triangle(index, faces, [&](std::size_t f, const TrianglePlaces& triangle, std::uint8_t diagonals) {
-    given[next[leaf_at(triangle)]++] = {triangle, static_cast<std::uint32_t>(f), diagonals, 0};
-  });
+/// The triangles are in the order of the leaves already.
+void Triangles::cluster(const IndexView& index, std::span<const Triangle> all) {
   LeafParts parts;
+  std::vector<GivenTriangle> given;  // of one leaf
+  LeafId leaf = 0;
   first_of_cluster.push_back(0);
-  for (LeafId leaf = 0; leaf < index.leaf_count(); ++leaf) {
-    parts.sort(std::span(given).subspan(begin[leaf], begin[leaf + std::size_t{1}] - begin[leaf]));
-    for (TriangleId t = begin[leaf]; t < begin[leaf + std::size_t{1}]; ++t) {
-      if (t > begin[leaf] && given[t].part != given[t - 1].part) first_of_cluster.push_back(t);
+  const auto end_leaf = [&] {
+    parts.sort(given);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      corners.push_back(given[i].triangle.corners);
+      face.push_back(given[i].triangle.face);
+      flags.push_back(static_cast<std::uint8_t>(given[i].triangle.diagonals << 3U));
+      const bool is_last = i + 1 == given.size() || given[i + 1].part != given[i].part;
+      if (is_last) first_of_cluster.push_back(static_cast<TriangleId>(size()));
     }
-    if (begin[leaf] != begin[leaf + std::size_t{1}]) first_of_cluster.push_back(begin[leaf + std::size_t{1}]);
+    given.clear();
+  };
+  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    std::uint32_t first = all[begin].corners[0];
+    bool has_wall = false;
+    for (end = begin; end < all.size() && all[end].face == all[begin].face; ++end) {
+      for (const std::uint32_t place : all[end].corners) {
+        first = std::min(first, place);
+        has_wall = has_wall || index.is_wall_at(place);
+      }
+    }
+    if (const LeafId next = leaf_of(index.slot_at(first)); next != leaf) {
+      end_leaf();
+      leaf = next;
+    }
+    for (std::size_t i = begin; !has_wall && i < end; ++i) given.push_back({all[i], static_cast<std::uint32_t>(i), 0});
   }
-  for (const GivenTriangle& triangle : given) {
-    corners.push_back(triangle.corners);
-    face.push_back(triangle.face);
-    flags.push_back(static_cast<std::uint8_t>(triangle.diagonals << 3U));
-  }
-}
-
-void Triangles::list_faces(std::size_t faces) {
-  first_of_face.assign(faces + 1, 0);
-  for (const std::uint32_t f : face) ++first_of_face[f + std::size_t{1}];
-  add_up(first_of_face);
-  std::vector<std::uint32_t> next(first_of_face.begin(), first_of_face.end() - 1);
-  by_face.resize(size());
-  for (TriangleId t = 0; t < size(); ++t) by_face[next[face[t]]++] = t;
+  end_leaf();
 }
 
 void Triangles::make_fans(std::size_t places) {

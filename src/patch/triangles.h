@@ -7,9 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "meshhood/mesh.h"
-
 #include "exact/layout.h"
+#include "surface/face_tree.h"
 
 namespace meshhood {
 
@@ -20,8 +19,8 @@ using TriangleId = std::uint32_t;
 ///
 /// A face with a wall, or with fewer than three corners, has none. A *side* joins two corners; the triangles at a side
 /// are a ring. A diagonal of a polygon is a side of its own, even where another face has the same corners. A
-/// *cluster* has the triangles whose corners that come first in index order are in one leaf, as far as corners join
-/// them.
+/// *cluster* has the triangles of faces whose corners that come first in index order are in one leaf, as far as corners
+/// join them.
 struct Triangles {
   std::vector<std::array<std::uint32_t, 3>> corners;  // places in index order
   std::vector<std::uint32_t> face;                    // of each: its number in the mesh
@@ -30,12 +29,10 @@ struct Triangles {
   std::vector<std::uint32_t> first_fan;      // by place, and one more: in `fans`
   std::vector<TriangleId> fans;              // the triangles at each place
   std::vector<TriangleId> first_of_cluster;  // by cluster, and one more
-  std::vector<std::uint32_t> first_of_face;  // by face of the mesh, and one more: in `by_face`
-  std::vector<TriangleId> by_face;
 
-  /// `faces` are valid for the index. Throws Error{InvalidMesh} if there is no triangle, and Error{TooLarge} beyond
-  /// 2^32 / 3.
-  Triangles(const IndexView& index, const FacesView& faces);
+  /// `all` has the triangles of the index without walls. Throws Error{InvalidMesh} if there is none left, and
+  /// Error{TooLarge} beyond 2^32 / 3.
+  Triangles(const IndexView& index, const FaceTree& all);
 
   [[nodiscard]] std::size_t size() const { return corners.size(); }
   [[nodiscard]] std::size_t bytes() const;
@@ -44,18 +41,13 @@ struct Triangles {
     return std::span(fans).subspan(first_fan[place], first_fan[place + std::size_t{1}] - first_fan[place]);
   }
 
-  [[nodiscard]] std::span<const TriangleId> of_face(std::size_t f) const {
-    return std::span(by_face).subspan(first_of_face[f], first_of_face[f + 1] - first_of_face[f]);
-  }
-
   /// Whether a side does not have as many triangles in one direction as in the other: a border of the surface, or where
   /// its orientation changes.
   [[nodiscard]] bool is_border(TriangleId t, unsigned side) const { return (flags[t] >> side & 1U) != 0; }
   [[nodiscard]] bool has_border(TriangleId t) const { return (flags[t] & 7U) != 0; }
 
  private:
-  void sort_faces(const IndexView& index, const FacesView& faces);
-  void list_faces(std::size_t faces);
+  void cluster(const IndexView& index, std::span<const Triangle> all);
   void make_fans(std::size_t places);
   void join_sides(std::size_t places);
 };

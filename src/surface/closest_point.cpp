@@ -24,13 +24,6 @@ namespace {
 
 constexpr std::size_t kPointsOfTask = 256;
 
-// The distance of a face is off by a few units in the last place of itself and of the sides, which are at most 4 in the
-// frame. A face whose box is farther away than this much more than another face cannot be nearer.
-constexpr double kFaceSlack = 0x1p-43;
-
-// Nor one that is farther away than this much, where squares of distances vanish.
-constexpr double kUnderflow = 0x1p-535;
-
 /// The point of a triangle nearest to the origin, by the regions of Ericson, "Real-Time Collision Detection" (2005),
 /// sec. 5.1.5. For slivers it may be another point of the triangle, or not a number.
 Point roughly_nearest(const std::array<Point, 3>& corners) {
@@ -84,8 +77,8 @@ std::vector<std::size_t> along_curve(std::span<const SpacePoint> points, const F
 /// excludes are measured exactly, at the end.
 class ClosestPoint {
  public:
-  ClosestPoint(const IndexView& index, const FaceTree& tree)
-      : index_(&index), tree_(&tree), scale_(index.frame.scale) {}
+  ClosestPoint(const IndexView& index, const StoredFaces& faces, const FaceTree& tree)
+      : index_(&index), faces_(&faces), tree_(&tree), triangles_(tree.triangles()), scale_(index.frame.scale) {}
 
   /// Begins with the last answer, which is near if the points are.
   SurfacePoint run(const Point& q) {
@@ -101,11 +94,7 @@ class ClosestPoint {
           if (i != first) compare(i);
         });
     measure();
-    const Triangle& triangle = (*tree_)[nearest_];
-    SurfacePoint found{triangle.face, triangle.second, {}, best_.weights, {best_.point.x, best_.point.y, best_.point.z},
-                       best_.distance};
-    for (std::size_t i = 0; i < 3; ++i) found.vertices[i] = index_->id(triangle.corners[i]);
-    return found;
+    return surface_point(*index_, *faces_, triangles_[nearest_].face, triangles_[nearest_].corners, best_);
   }
 
  private:
@@ -119,7 +108,7 @@ class ClosestPoint {
   void compare(std::size_t i) {
     std::array<Point, 3> from_q;
     for (std::size_t k = 0; k < 3; ++k) {
-      from_q[k] = index_->in_frame((*tree_)[i].corners[k]) - in_frame_;
+      from_q[k] = index_->in_frame(triangles_[i].corners[k]) - in_frame_;
     }
     const Point nearest = roughly_nearest(from_q);
     const double along = std::min({dot(nearest, from_q[0]), dot(nearest, from_q[1]), dot(nearest, from_q[2])});
@@ -134,29 +123,17 @@ class ClosestPoint {
   [[nodiscard]] bool is_far(double least) const { return least > reach_ * reach_; }
 
   /// There is a triangle at this distance, in the frame.
-  void limit_to(double distance) {
-    reach_ = std::min(reach_, distance + kFaceSlack * (distance + 4) + kUnderflow * scale_);
-  }
-
-  [[nodiscard]] std::array<Point, 3> corners_of(const Triangle& triangle) const {
-    return std::visit(
-        [&](auto xyz) {
-          const auto& [a, b, c] = triangle.corners;
-          return std::array{point(xyz, a), point(xyz, b), point(xyz, c)};
-        },
-        index_->positions);
-  }
+  void limit_to(double distance) { reach_ = std::min(reach_, reach_of(distance, scale_)); }
 
   /// The candidates that are left, exactly.
   void measure() {
     for (const Candidate& candidate : std::span(candidates_).first(std::exchange(size_, 0))) {
       if (is_far(candidate.least)) continue;
-      const Triangle& triangle = (*tree_)[candidate.triangle];
-      const TrianglePoint found = nearest_in_triangle(q_, corners_of(triangle), scale_);
-      const Triangle& nearest = (*tree_)[nearest_];
-      const bool is_nearer = found.distance < best_.distance ||
-                             (found.distance == best_.distance &&
-                              std::pair(triangle.face, triangle.second) < std::pair(nearest.face, nearest.second));
+      const Triangle& triangle = triangles_[candidate.triangle];
+      const TrianglePoint found = nearest_in_triangle(q_, corners_of(*index_, triangle.corners), scale_);
+      const std::pair rank(triangle.face, candidate.triangle);
+      const bool is_nearer = found.distance < best_.distance || (found.distance == best_.distance &&
+                                                                 rank < std::pair(triangles_[nearest_].face, nearest_));
       if (!is_nearer) continue;
       best_ = found;
       nearest_ = candidate.triangle;
@@ -165,7 +142,9 @@ class ClosestPoint {
   }
 
   const IndexView* index_;
+  const StoredFaces* faces_;
   const FaceTree* tree_;
+  std::span<const Triangle> triangles_;
   double scale_;
   Point q_{};
   Point in_frame_{};
@@ -181,7 +160,7 @@ class ClosestPoint {
 SurfacePoint Surface::closest_point(const SpacePoint& point) const {
   const State& state = SurfaceAccess::state(*this);
   check_point(point, "point: ");
-  return ClosestPoint(*state.index, state.tree()).run({point[0], point[1], point[2]});
+  return ClosestPoint(*state.index, state.faces(), state.tree()).run({point[0], point[1], point[2]});
 }
 
 std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> points, const Run& run) const {
@@ -192,7 +171,7 @@ std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> po
   TaskContext task(run.threads, run.progress, points.size());
   std::vector<SurfacePoint> found(points.size());
   task.parallel_for(points.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    ClosestPoint search(*state.index, tree);
+    ClosestPoint search(*state.index, state.faces(), tree);
     for (std::size_t i = begin; i < end; ++i) {
       const auto& [x, y, z] = points[in_order[i]];
       found[in_order[i]] = search.run({x, y, z});

@@ -19,4 +19,13 @@ struct TrianglePoint {
 /// a corner have the same distance there, bit for bit, whatever the order of their corners.
 [[nodiscard]] TrianglePoint nearest_in_triangle(const Point& q, const std::array<Point, 3>& corners, double scale);
 
+/// Boxes farther than this from a point have no triangle nearer than `distance`; both in the frame. The distance of a
+/// triangle is off by a few units in the last place of itself and of the sides, which are at most 4 there, and squares
+/// of distances may vanish.
+[[nodiscard]] inline double reach_of(double distance, double scale) {
+  constexpr double kSlack = 0x1p-43;
+  constexpr double kUnderflow = 0x1p-535;
+  return distance + kSlack * (distance + 4) + kUnderflow * scale;
+}
+
 }  // namespace meshhood

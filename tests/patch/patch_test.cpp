@@ -23,13 +23,13 @@
 #include "meshhood/start.h"
 #include "meshhood/surface.h"
 
-#include "base/triangulate.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/patch_reference.h"
 #include "support/random.h"
 #include "support/refusal.h"
 #include "support/scale.h"
+#include "support/test_triangles.h"
 
 namespace meshhood::test {
 namespace {
@@ -37,44 +37,6 @@ namespace {
 using Reference = PatchReference<long double>;
 
 constexpr double kPi = std::numbers::pi;
-
-Point corner_of(const TestMesh& mesh, std::uint32_t v) {
-  return {mesh.positions[3 * std::size_t{v}], mesh.positions[3 * std::size_t{v} + 1],
-          mesh.positions[3 * std::size_t{v} + 2]};
-}
-
-/// The triangles of the faces, and the face of each.
-struct TestTriangles {
-  explicit TestTriangles(const TestMesh& mesh) {
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-      std::vector<Point> points;
-      for (const std::uint32_t v : mesh.face(f)) points.push_back(corner_of(mesh, v));
-      Triangulation parts;
-      triangulate(points, parts);
-      const auto owner = [&](std::size_t a, std::size_t b) {
-        const bool is_side = (a + 1) % points.size() == b || (b + 1) % points.size() == a;
-        return static_cast<std::uint32_t>(is_side ? 0 : f + 1);
-      };
-      for (const auto& [a, b, c] : parts) {
-        corners.push_back({mesh.face(f)[a], mesh.face(f)[b], mesh.face(f)[c]});
-        owners.push_back({owner(a, b), owner(b, c), owner(c, a)});
-        faces.push_back(f);
-      }
-    }
-  }
-
-  std::vector<Reference::Triangle> corners;
-  std::vector<Reference::Triangle> owners;
-  std::vector<std::size_t> faces;
-
-  [[nodiscard]] std::vector<std::size_t> faces_of(const std::vector<std::size_t>& triangles) const {
-    std::vector<std::size_t> result;
-    for (const std::size_t t : triangles) result.push_back(faces[t]);
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
-  }
-};
 
 /// A mesh with everything that is asked of it.
 struct Case {
@@ -102,7 +64,7 @@ struct Case {
       EXPECT_LT(is_sheet ? std::min(error, std::abs(error - 1)) : error, 1e-12 * scale)
           << measure.volume << " and " << expected.volume;
     }
-    const PatchGap gap = searcher.gap(start, radius);
+    const SurfacePoint gap = searcher.gap(start, radius);
     EXPECT_EQ(gap.face == kNoFace, std::isinf(expected.gap));
     if (gap.face == kNoFace) return;
     EXPECT_NEAR(gap.distance, expected.gap, 1e-12 * radius);
@@ -296,7 +258,7 @@ TEST(Patch, OfAPlateOfTwelveTrianglesHasItsThickness) {
   for (double x = 5; x < 100; x += 9) {
     for (double y = 5; y < 100; y += 9) {
       const SurfacePoint on = faces.closest_point({x, y, 2});
-      const PatchGap gap = plate.searcher.gap({on.face, on.point}, 2);
+      const SurfacePoint gap = plate.searcher.gap({on.face, on.point}, 2);
       EXPECT_EQ(gap.distance, 1);
       EXPECT_NEAR(gap.point[0], x, 1e-13);
       EXPECT_NEAR(gap.point[1], y, 1e-13);
@@ -528,7 +490,7 @@ TEST(PatchBatch, HasTheSameBitsForAnyThreadsAndRows) {
   std::vector<VertexId> some{5, 900, 5, 17};
   const std::vector<double> radii{0.4, 0.1, 1, 0.4};
   const Invariants listed = invariants(test.surface, {.vertices = some, .radius = radii}, {.threads = 2});
-  const std::vector<PatchGap> nearest = gaps(test.surface, {.vertices = some, .radius = radii}, {.threads = 2});
+  const std::vector<SurfacePoint> nearest = gaps(test.surface, {.vertices = some, .radius = radii}, {.threads = 2});
   for (std::size_t i = 0; i < some.size(); ++i) {
     const auto scale = static_cast<std::size_t>(std::ranges::find(scales, radii[i]) - scales.begin());
     EXPECT_EQ(listed.area[i], one.area[scale * rows + some[i]]);

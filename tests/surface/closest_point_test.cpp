@@ -25,6 +25,7 @@
 #include "support/random.h"
 #include "support/refusal.h"
 #include "support/scale.h"
+#include "support/test_triangles.h"
 #include "surface/triangle_point.h"
 
 namespace meshhood::test {
@@ -32,23 +33,6 @@ namespace {
 
 using Long = long double;
 using LongPoint = std::array<Long, 3>;
-
-Point corner_of(const TestMesh& mesh, std::uint32_t v) {
-  return {mesh.positions[3 * std::size_t{v}], mesh.positions[3 * std::size_t{v} + 1],
-          mesh.positions[3 * std::size_t{v} + 2]};
-}
-
-/// Calls `f(face, second, corners)` for all triangles of the fans.
-template <class F>
-void for_each_triangle(const TestMesh& mesh, F&& f) {
-  for (std::size_t face = 0; face < mesh.face_count(); ++face) {
-    const auto all = mesh.face(face);
-    for (std::size_t second = 1; second + 1 < all.size(); ++second) {
-      f(face, second,
-        std::array{corner_of(mesh, all[0]), corner_of(mesh, all[second]), corner_of(mesh, all[second + 1])});
-    }
-  }
-}
 
 Long dot_of(const LongPoint& a, const LongPoint& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -97,10 +81,9 @@ TEST_P(ClosestPointIn, FindsTheFirstOfAScan) {
   std::size_t points = 0;
   for (const std::size_t vertices : {1U, 2U, 40U, 300U, 2000U}) {
     const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
-    bool has_triangles = false;
-    for_each_triangle(mesh, [&](auto&&...) { has_triangles = true; });
+    const TestTriangles triangles(mesh);
     const Index index = build(mesh.view());
-    if (!has_triangles) {
+    if (triangles.faces.empty()) {
       expect_refused(ErrorCode::InvalidMesh, "no face of three corners",
                      [&] { static_cast<void>(Surface(index, mesh.view().faces).closest_point({0, 0, 0})); });
       continue;
@@ -114,19 +97,20 @@ TEST_P(ClosestPointIn, FindsTheFirstOfAScan) {
       SpacePoint q = draw_start(random, mesh).plain.center;
       if (i % 7 == 6) q = {-q[1], q[2], 1e30};
       double expected = kInfinity;
-      std::size_t face = 0;
-      for_each_triangle(mesh, [&](std::size_t number, std::size_t, const std::array<Point, 3>& corners) {
+      std::size_t nearest = 0;
+      for (std::size_t t = 0; t < triangles.faces.size(); ++t) {
+        const auto& [a, b, c] = triangles.corners[t];
+        const std::array corners{corner_of(mesh, a), corner_of(mesh, b), corner_of(mesh, c)};
         const double distance = nearest_in_triangle({q[0], q[1], q[2]}, corners, scale).distance;
-        if (!(distance < expected)) return;
+        if (!(distance < expected)) continue;
         expected = distance;
-        face = number;
-      });
+        nearest = t;
+      }
       const SurfacePoint found = surface.closest_point(q);
-      ASSERT_EQ(found.face, face) << i;
+      ASSERT_EQ(found.face, triangles.faces[nearest]) << i;
       ASSERT_EQ(found.distance, expected) << i;
-      const auto corners = mesh.face(face);
-      ASSERT_THAT(found.vertices,
-                  testing::ElementsAre(corners[0], corners[found.second_corner], corners[found.second_corner + 1]));
+      ASSERT_EQ(found.vertices, triangles.corners[nearest]) << i;
+      for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(mesh.face(found.face)[found.corners[k]], found.vertices[k]);
       ASSERT_NEAR(found.weights[0] + found.weights[1] + found.weights[2], 1, 1e-15);
       ASSERT_GE(std::min({found.weights[0], found.weights[1], found.weights[2]}), 0);
     }
@@ -225,7 +209,7 @@ TEST(ClosestPoint, OfFacesThatMeetFindsTheOneWithTheSmallestNumber) {
   }
 }
 
-TEST(ClosestPoint, OfAPolygonIsItsFan) {
+TEST(ClosestPoint, OfAConvexPolygonIsThatOfItsFan) {
   TestMesh mesh;
   mesh.add_vertex(0, 0, 0);
   mesh.add_vertex(4, 0, 0);
@@ -236,11 +220,36 @@ TEST(ClosestPoint, OfAPolygonIsItsFan) {
   const Index index = build(mesh.finish(true).view());
   const SurfacePoint found = Surface(index, mesh.view().faces).closest_point({1, 3, 5});
   EXPECT_EQ(found.face, 1U);
-  EXPECT_EQ(found.second_corner, 2U);
+  EXPECT_THAT(found.corners, testing::ElementsAre(0, 2, 3));
   EXPECT_THAT(found.vertices, testing::ElementsAre(0, 2, 3));
   EXPECT_THAT(found.weights, testing::ElementsAre(0.25, 0.25, 0.5));
   EXPECT_EQ(found.point, (SpacePoint{1, 3, 0}));
   EXPECT_EQ(found.distance, 5);
+}
+
+/// The fan of an L covers points outside of it, which ones depends on its first corner.
+TEST(ClosestPoint, OfAnLDoesNotDependOnItsFirstCorner) {
+  const std::vector<VertexId> changed{3};
+  const std::vector<std::array<double, 2>> corners{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  for (std::uint32_t first = 0; first < corners.size(); ++first) {
+    TestMesh mesh;
+    std::vector<std::uint32_t> face;
+    for (std::uint32_t i = 0; i < corners.size(); ++i) {
+      mesh.add_vertex(corners[i][0], corners[i][1], 0);
+      face.push_back((first + i) % 6);
+    }
+    mesh.add_face(face);
+    const Index index = build(mesh.finish(false).view());
+    Surface surface(index, mesh.view().faces);
+    EXPECT_EQ(surface.closest_point({1.625, 1.75, 0}).distance, 0.625) << first;
+    // The corner of the notch moves out, which makes the face convex: its triangles are other ones.
+    mesh.positions[3 * 3] = mesh.positions[3 * 3 + 1] = 1.75;
+    Index moved = refit(index, mesh.positions_view());
+    surface.refit_in_place(moved, changed);
+    EXPECT_LT(surface.closest_point({1.625, 1.75, 0}).distance, 1e-15) << first;
+    EXPECT_EQ(surface.closest_point({1.7, 1.6, 0.5}).vertices,
+              Surface(moved, mesh.view().faces).closest_point({1.7, 1.6, 0.5}).vertices);
+  }
 }
 
 TEST(ClosestPoint, FindsAFaceThatOverhangsItsLeaf) {

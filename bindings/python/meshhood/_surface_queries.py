@@ -169,9 +169,9 @@ class SurfaceQueries(Held):
         face : an int, or (n,) int64, the row of F. Of several faces at the same distance, the one with the smallest
             number; faces that meet at a side or a corner have the same distance there, bit for bit.
         barycentric : (3,) or (n, 3) float64, >= 0, the weight of each corner of the face. Exactly 0 off a side. For
-            polygons there is a column for each corner of the largest face of the mesh. A polygon is the fan of the
-            triangles of its corners 0, i and i + 1; the others have weight 0. A face with fewer than three corners has
-            no points.
+            polygons there is a column for each corner of the largest face of the mesh; at most three have a weight.
+            A convex polygon is the fan of the triangles of its corners 0, i and i + 1; any other is divided so that
+            they cover what it covers. A face with fewer than three corners has no points.
         point : (3,) or (n, 3) float64.
 
         Use it for picks, instead of the nearest vertex, which may lie on another sheet:
@@ -185,9 +185,9 @@ class SurfaceQueries(Held):
         surface = self._surface_of(key, (corners, offsets))
         threads = _convert.threads(workers)
         with reporter(progress, "closest_point", "points", len(points)) as report:
-            faces, second, weights, found = surface.closest(points, threads=threads, progress=report)
+            faces, places, weights, found = surface.closest(points, threads=threads, progress=report)
         if offsets is not None:
-            weights = _of_polygons(second, weights, int(np.diff(offsets).max()))
+            weights = _of_polygons(places, weights, int(np.diff(offsets).max()))
         is_one = np.ndim(q) == 1 and len(points) == 1
         return ClosestPoint(int(faces[0]), weights[0], found[0]) if is_one else ClosestPoint(faces, weights, found)
 
@@ -283,11 +283,9 @@ def _nearest_options(rows: Rows, max_bytes: Any, copies: int) -> dict[str, Any]:
     }
 
 
-def _of_polygons(second: Any, weights: Any, corners: int) -> Reals:
-    """The barycentric coordinates of triangles of fans as those of polygons of up to `corners` corners."""
-    rows = np.arange(len(second))
-    wide = np.zeros((len(second), corners))
-    wide[rows, 0] = weights[:, 0]
-    wide[rows, second] = weights[:, 1]
-    wide[rows, second + 1] = weights[:, 2]
+def _of_polygons(places: Any, weights: Any, corners: int) -> Reals:
+    """The barycentric coordinates of triangles, by the places of their corners, as those of polygons of up to `corners`
+    corners."""
+    wide = np.zeros((len(places), corners))
+    np.put_along_axis(wide, places, weights, axis=1)
     return wide
