@@ -3,10 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 namespace meshhood {
 
 using VertexId = std::uint16_t;
+
+/// No vertex.
+inline constexpr VertexId kNoVertex = std::numeric_limits<VertexId>::max();
 using EdgeOffset = std::uint16_t;
 
 }  // namespace meshhood
