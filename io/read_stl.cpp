@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -65,6 +66,7 @@ class BinaryStl {
   void read() {
     const auto facets = facet_count(input_.ahead(kHeaderBytes));
     input_.skip(kHeaderBytes);
+    was_size_known_ = input_.left().has_value();
     are_followed_ = input_.left().value_or(0) > kFacetBytes * uint64_t{facets};
     // A closed surface has half as many vertices as triangles. The file has as many bytes as its header says, if the
     // number is known.
@@ -111,8 +113,15 @@ class BinaryStl {
     const Location location{.byte = input_.offset()};
     if (facets != 0 && !has_payload_) return builder_.warnings.add("bytes after the last facet", location);
     fail_at(input_.name(), location, ErrorCode::MalformedFile,
-            fmt::format("bytes after the last of {} facets, expected {}", facets,
-                        facets == 0 ? "the number of facets in the header" : "as many as the facets say"));
+            fmt::format("bytes after the last of {} facets, expected {}{}", facets,
+                        facets == 0 ? "the number of facets in the header" : "as many as the facets say", advice()));
+  }
+
+  /// Without the size, as from a pipe, bytes after a facet are not told from a color.
+  [[nodiscard]] std::string_view advice() const {
+    return has_payload_ && !was_size_known_
+               ? "; facets followed by bytes are not read from a pipe: store them in a file"
+               : "";
   }
 
   static float coordinate(std::string_view facet, std::size_t i) {
@@ -123,12 +132,13 @@ class BinaryStl {
     std::size_t i = 0;
     while (std::isfinite(coordinate(bytes, i))) ++i;
     fail_at(input_.name(), {.byte = input_.offset() + kNormalBytes + 4 * i}, ErrorCode::MalformedFile,
-            fmt::format("facet {}, vertex {}, {} is not finite", facet, i / 3, axis(i)));
+            fmt::format("facet {}, vertex {}, {} is not finite{}", facet, i / 3, axis(i), advice()));
   }
 
   InputBuffer& input_;
   MeshBuilder& builder_;
   VertexWelder<Real>& welder_;
+  bool was_size_known_ = false;
   bool are_followed_ = false;  // by bytes that belong to them
   bool has_payload_ = false;   // a facet says so, or has a color
 };

@@ -18,50 +18,47 @@
 #include "exact/query/any_center.h"
 #include "exact/query/nearest_first.h"
 #include "shared/distance.h"
+#include "simd/ball.h"
+#include "simd/kernels.h"
 
 namespace meshhood {
 namespace {
 
 constexpr double kNoGap = std::numeric_limits<double>::infinity();
 
-/// Whether many vertices lie in leaves so large in space that every ball meets them; then a search through the tree
-/// takes longer than a scan. From a sample.
-bool are_leaves_large(const IndexView& index) {
-  constexpr float kLarge = 0.5F;         // the frame reaches from -1 to 1
-  constexpr std::size_t kTimesScan = 8;  // what a vertex costs that is found through the tree
-  constexpr std::size_t kSample = 256;
-  const std::size_t stride = 1 + index.vertex_count() / kSample;
-  std::size_t large = 0;
-  for (std::size_t v = 0; v < index.vertex_count(); v += stride) {
-    large += static_cast<std::size_t>(index.leaves[leaf_of(index.slot[v])].bounds.radius > kLarge);
-  }
-  return kTimesScan * large * stride > index.vertex_count();
-}
+/// Where neighbors are not near in space, nodes are large, and a search through the tree visits most of them. To visit
+/// one for each so many vertices takes about as long as a scan, which then takes over.
+constexpr std::size_t kVerticesPerNode = 128;
+
+/// So many packets that follow are then scanned at once, because they are probably like this one.
+constexpr std::size_t kScans = 16;
 
 /// Searches around one packet at a time.
 class UnconnectedSearch {
  public:
   /// Borrows the index.
   UnconnectedSearch(const IndexView& index, Metric metric)
-      : index_(&index), metric_(metric), is_scanned_(are_leaves_large(index)) {}
+      : index_(&index), kernels_(&kernels(best_isa())), metric_(metric) {}
 
   void run(const PacketAnswer& packet) {
     pieces_ = packet.pieces;
+    all_ = packet.queries;
+    open_ = 0;
     queries_.clear();
     const LeafId home = leaf_of(index_->slot[packet.vertices.front()]);
     const Center center(index_->frame, center_of_leaf(home));
-    all_ = packet.queries;
     for (std::size_t i = 0; i < packet.vertices.size(); ++i) {
       const std::uint32_t slot = index_->slot[packet.vertices[i]];
       const Point p = index_->position(leaf_of(slot), lane_of(slot));
       const double from_center = std::sqrt(squared_distance(center.exact, p));
       const double radius = metric_ == Metric::Rings ? kNoGap : packet.radii[i];
-      queries_.push_back({Center(index_->frame, p), from_center, radius, squared_radius(radius)});
-      if (index_->is_wall(leaf_of(slot), lane_of(slot))) queries_.back().close();
+      queries_.push_back({Center(index_->frame, p), LeafBall(p, LeafBounds(radius)), from_center, radius});
+      open_ |= QueryWord{!index_->is_wall(leaf_of(slot), lane_of(slot))} << i;
     }
-    if (is_scanned_) return scan();
-    update_reach();
-    NearestFirst(*index_, center, *this).run();
+    if (scans_left_ == 0) search(center);
+    if (nodes_left_ > 0) return;
+    scans_left_ = scans_left_ == 0 ? kScans : scans_left_ - 1;
+    scan();
   }
 
   struct Found {
@@ -72,8 +69,12 @@ class UnconnectedSearch {
 
   [[nodiscard]] double reach() const { return reach_; }
 
-  /// Whether a query has not reached a vertex of the node.
-  [[nodiscard]] bool wants(NodeId node) const {
+  /// Whether a query has not reached a vertex of the node, and the search goes on.
+  [[nodiscard]] bool wants(NodeId node) {
+    if (nodes_left_ == 0 || --nodes_left_ == 0) {
+      reach_ = -1;
+      return false;
+    }
     const GroupRecord& record = index_->records[node / kFanOut];
     const Piece* const piece = find_piece(record.begin[node % kFanOut]);
     const bool is_reached = piece != nullptr && piece->is_run() && piece->queries == all_ &&
@@ -82,67 +83,56 @@ class UnconnectedSearch {
   }
 
   void visit_leaf(LeafId leaf) {
-    const QueryWord near = queries_near(leaf);
-    if (near == 0) return;
     const std::size_t begin = index_->leaf_begin[leaf];
-    const Piece* const piece = find_piece(begin);
-    bool has_shrunk = false;
-    std::visit(
-        [&](auto xyz) {
-          for (std::size_t v = begin; v < index_->leaf_begin[leaf + 1]; ++v) {
-            for_each_query(near & ~reached(piece, v), [&](std::size_t i) { has_shrunk |= offer(i, v, point(xyz, v)); });
-          }
-        },
-        index_->positions);
-    if (has_shrunk) update_reach();
+    if (offer_all(queries_near(leaf), begin, index_->leaf_begin[leaf + 1], find_piece(begin))) update_reach();
   }
 
  private:
   struct Query {
     Center center;
-    double from_center;    // of the search
-    double limit;          // the distance of the nearest vertex so far, or the radius
-    double squared_limit;  // of the predicate
+    LeafBall ball;       // of the limit
+    double from_center;  // of the search
+    double limit;        // the distance of the nearest vertex so far, or the radius
     VertexId vertex = kNoVertex;
     double gap = kNoGap;
-
-    [[nodiscard]] bool has(const Point& p) const { return squared_distance(center.exact, p) <= squared_limit; }
-
-    /// The query of a wall finds nothing.
-    void close() {
-      limit = 0;
-      squared_limit = -1;
-    }
   };
+
+  /// Visits the nodes around the center, until none are left to visit.
+  void search(const Center& center) {
+    nodes_left_ = 1 + index_->vertex_count() / kVerticesPerNode;
+    update_reach();
+    NearestFirst(*index_, center, *this).run();
+  }
 
   /// Compares all vertices with all queries.
   void scan() {
     std::size_t next = 0;
     for (const Piece& piece : pieces_) {
-      scan(next, index_->leaf_begin[piece.leaves.begin], nullptr);
-      next = index_->leaf_begin[piece.leaves.end];
-      scan(index_->leaf_begin[piece.leaves.begin], next, &piece);
+      const std::size_t begin = index_->leaf_begin[piece.leaves.begin];
+      const std::size_t end = index_->leaf_begin[piece.leaves.end];
+      offer_all(open_, next, begin, nullptr);
+      offer_all(open_, begin, end, &piece);
+      next = end;
     }
-    scan(next, index_->vertex_count(), nullptr);
+    offer_all(open_, next, index_->vertex_count(), nullptr);
   }
 
-  /// Compares vertices that are not in a piece, or all in the same.
-  void scan(std::size_t begin, std::size_t end, const Piece* piece) {
-    const auto offer_all = [&](std::size_t i, auto xyz) {
-      for (std::size_t v = begin; v < end; ++v) {
-        const Point p = point(xyz, v);
-        if (queries_[i].has(p) && (reached(piece, v) >> i & 1U) == 0) offer(i, v, p);
+  /// Compares vertices, in index order, with those queries that have not reached them. They are in no piece, or all in
+  /// the same. Returns whether a limit has shrunk.
+  bool offer_all(QueryWord queries, std::size_t begin, std::size_t end, const Piece* piece) {
+    bool has_shrunk = false;
+    if (piece != nullptr) queries &= ~piece->queries;
+    const QueryWord* const reached = piece != nullptr ? piece->reached : nullptr;
+    for_each_query(queries, [&](std::size_t i) {
+      for (std::size_t first = begin; first < end; first += kLeafCapacity) {
+        const std::size_t size = std::min<std::size_t>(end - first, kLeafCapacity);
+        for_each_lane(kernels_->within(index_->positions, first, size, queries_[i].ball), [&](unsigned lane) {
+          const bool is_reached = reached != nullptr && (reached[lane] >> i & 1U) != 0;
+          if (!is_reached) has_shrunk |= offer(queries_[i], first + lane);
+        });
       }
-    };
-    const QueryWord queries = piece != nullptr && piece->is_run() ? all_ & ~piece->queries : all_;
-    for_each_query(queries,
-                   [&](std::size_t i) { std::visit([&](auto xyz) { offer_all(i, xyz); }, index_->positions); });
-  }
-
-  /// The queries that have reached a vertex of a piece; of none if it is null.
-  [[nodiscard]] QueryWord reached(const Piece* piece, std::size_t vertex) const {
-    if (piece == nullptr) return 0;
-    return piece->is_run() ? piece->queries : piece->reached[vertex - index_->leaf_begin[piece->leaves.begin]];
+    });
+    return has_shrunk;
   }
 
   /// The piece that holds a vertex, by its place in index order; null if no query has reached it.
@@ -161,40 +151,44 @@ class UnconnectedSearch {
   /// The queries for which the leaf may hold a vertex that is near enough.
   [[nodiscard]] QueryWord queries_near(LeafId leaf) const {
     QueryWord near = 0;
-    for (std::size_t i = 0; i < queries_.size(); ++i) {
+    for_each_query(open_, [&](std::size_t i) {
       const double low = squared_distances(index_->leaves[leaf].bounds, queries_[i].center).low;
-      near |= QueryWord{low <= queries_[i].squared_limit} << i;
-    }
+      near |= QueryWord{low <= queries_[i].ball.squared_radius} << i;
+    });
     return near;
   }
 
-  /// Compares a vertex, in index order, with a query that has not reached it. Returns whether its limit has shrunk.
-  bool offer(std::size_t i, std::size_t vertex, const Point& p) {
-    Query& query = queries_[i];
-    if (!query.has(p) || index_->is_wall_at(vertex) || index_->is_ignored_at(vertex)) return false;
-    const double distance = std::sqrt(squared_distance(query.center.exact, p));
+  /// Compares a vertex with a query that has not reached it, and whose ball held it before this leaf. Returns whether
+  /// the limit has shrunk.
+  bool offer(Query& query, std::size_t vertex) const {
+    if (index_->is_wall_at(vertex) || index_->is_ignored_at(vertex)) return false;
+    const Point p = std::visit([&](auto xyz) { return point(xyz, vertex); }, index_->positions);
+    const double distance = std::sqrt(squared_distance(query.ball.center, p));
     const VertexId id = index_->id(vertex);
-    if (distance == query.gap && query.vertex < id) return false;
+    if (distance > query.limit || (distance == query.gap && query.vertex < id)) return false;
     const bool has_shrunk = distance < query.limit;
     query.vertex = id;
     query.gap = query.limit = distance;
-    query.squared_limit = squared_radius(distance);
+    if (has_shrunk) query.ball = LeafBall(query.ball.center, LeafBounds(distance));
     return has_shrunk;
   }
 
   /// What is farther from the center is farther from each query than its limit.
   void update_reach() {
-    double reach = 0;
-    for (const Query& query : queries_) reach = std::max(reach, query.limit + query.from_center);
+    double reach = -1;
+    for_each_query(open_, [&](std::size_t i) { reach = std::max(reach, queries_[i].limit + queries_[i].from_center); });
     reach_ = reach_of(reach);
   }
 
   const IndexView* index_;
+  const Kernels* kernels_;
   Metric metric_;
   std::span<const Piece> pieces_;
   std::vector<Query> queries_;
-  bool is_scanned_;
   QueryWord all_ = 0;
+  QueryWord open_ = 0;          // those that are no walls, of which the others find nothing
+  std::size_t nodes_left_ = 0;  // to visit; after the last one, all vertices are scanned
+  std::size_t scans_left_ = 0;
   double reach_ = 0;
 };
 

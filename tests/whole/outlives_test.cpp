@@ -113,6 +113,22 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
   all["Surface: closest_point"] = [=] { return Answer{faces->closest_point({3.2, 4.1, 7}).distance}; };
   const auto surface = kept(Surface(index, mesh.view()));
   all["Surface: curvatures"] = [=] { return numbers(curvatures(*surface, {.radius = kRadius}).k1); };
+  const auto region = kept(Searcher(index).neighborhood(v, kRadius));
+  const SpacePoint at{mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
+  all["Surface: clip"] = [=] { return Answer{surface->clip(*region, at, 1e3).area}; };
+  all["Surface: vertex_areas"] = [=] {
+    const auto areas = surface->vertex_areas();
+    return Answer(areas.begin(), areas.end());
+  };
+  all["Surface: closest_points"] = [=] {
+    const std::vector<SpacePoint> points{{3.2, 4.1, 7}};
+    return Answer{surface->closest_points(points).front().distance};
+  };
+  all["Surface: invariants"] = [=] { return numbers(invariants(*surface, {.radius = kRadius}).area); };
+  all["Surface: gaps"] = [=] { return Answer{gaps(*surface, {.radius = kRadius})[v].distance}; };
+  const auto patches = kept(PatchSearcher(*surface));
+  all["PatchSearcher: measure"] = [=] { return Answer{patches->measure(v, kRadius).area}; };
+  all["PatchSearcher: patch"] = [=] { return numbers(patches->patch(v, kRadius)); };
   all["Surface: features"] = [=] { return numbers(features(*surface, {.radius = BatchRadius::scales({kRadius})})); };
   return all;
 }
@@ -271,6 +287,10 @@ TEST_F(Outlives, WhatHasBeenMovedFromRefusesUntilItIsAssigned) {
   expect_moved_from_refused<paper::Searcher>("paper::Searcher", paper::Searcher(approximate), find);
   expect_moved_from_refused<paper::Index>("paper::Index", paper::build(mesh.view()),
                                           [](paper::Index& made) { static_cast<void>(made.vertex_count()); });
+  const Surface patched(index, mesh.view());
+  expect_moved_from_refused<PatchSearcher>("PatchSearcher", PatchSearcher(patched), [](PatchSearcher& made) {
+    static_cast<void>(made.measure(VertexId{44}, kRadius));
+  });
   expect_moved_from_refused<Surface>("Surface", Surface(index, mesh.view()),
                                      [](Surface& made) { static_cast<void>(curvatures(made, {.radius = kRadius})); });
 }
