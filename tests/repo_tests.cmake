@@ -71,9 +71,9 @@ endif()
 # that a faulty file can take the place of one, when the mutants are run and not before.
 add_test(NAME mutants.list COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run)
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
-  file(STRINGS mutants/mutants.txt mutant_tests REGEX "^\\[")
-  string(REGEX MATCHALL "[a-z_]+(/[a-z_]+)+" mutant_tests "${mutant_tests}")
-  list(REMOVE_DUPLICATES mutant_tests)
+  execute_process(COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run --tests
+    OUTPUT_VARIABLE mutant_tests OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\n" ";" mutant_tests "${mutant_tests}")
   list(TRANSFORM mutant_tests APPEND _test.cpp)
   add_library(mutant_tests OBJECT EXCLUDE_FROM_ALL ${mutant_tests})
   get_target_property(mutant_sources meshhood_parts SOURCES)
