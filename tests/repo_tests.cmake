@@ -85,6 +85,7 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release")
   add_library(mutant_library STATIC EXCLUDE_FROM_ALL ${core_sources} ${mutant_sources} ${mutant_readers} support/small_disk.cpp)
   target_link_libraries(mutant_library PRIVATE nlohmann_json::nlohmann_json)
   add_dependencies(mutant_library meshhood_families meshhood_io meshhood_test_support)
+  target_compile_definitions(mutant_tests PRIVATE MESHHOOD_GOLDEN_DIR="${CMAKE_CURRENT_SOURCE_DIR}/golden")
   foreach(target mutant_tests mutant_library)
     target_include_directories(${target} PRIVATE
       $<TARGET_PROPERTY:meshhood,INCLUDE_DIRECTORIES> ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
