@@ -346,20 +346,6 @@ TEST_F(Aggregate, OfLargeNeighborhoodsEqualsTheDefinition) {
   std::printf("%zu numbers compared\n", scene.compared());
 }
 
-TEST_F(Aggregate, HasTheSameBitsForAnyNumberOfThreads) {
-  for (const Reduce reduce : kReductions) {
-    for (const SmoothingKernel kernel : kKernels) {
-      if (kernel != SmoothingKernel::Box && !may_have_kernel(reduce)) continue;
-      for (const Nesting nesting : {Nesting::Own, Nesting::Patch}) {
-        const AggregateQuery query{
-            .radius = BatchRadius::scales({4, 12}), .reduce = reduce, .kernel = kernel, .nesting = nesting};
-        const auto once = bits_of(run(query));
-        for (const unsigned threads : {2U, 3U, 8U, 0U}) EXPECT_EQ(bits_of(run(query, threads)), once);
-      }
-    }
-  }
-}
-
 TEST_F(Aggregate, OfSeveralRadiiEqualsThatOfEachRadius) {
   for (const Reduce reduce : kReductions) {
     const std::vector<double> both = run({.radius = BatchRadius::scales({6, 2}), .reduce = reduce});

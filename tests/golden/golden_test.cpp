@@ -129,15 +129,14 @@ TEST(Golden, BytesOfLargeIndexesBuiltTodayAreThoseOfTheFormat) {
 
 /// Digests of the exact index and of the paper's index, for graphs that are unlike a surface: those of the families that
 /// are made without functions that differ between C libraries.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kOddMeshes{{
-    {"star", ""},
-    {"path", ""},
-    {"comb", ""},
-    {"clique", ""},
-    {"soup", ""},
-    {"shells", ""},
-    {"isolated vertices", ""},
-    {"random faces", ""},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kOddMeshes{{
+    {"star", "2a9b1d44590b63c8f61ca64ee0b4332f"},
+    {"comb", "5ed2275210faee3e7e2890670e2dfec1"},
+    {"clique", "df078a822a429b4967b978a857e3389b"},
+    {"soup", "9f3aa2330fed70dd08e2fcf9f5cba01a"},
+    {"shells", "7998f570d7b0e1352ab578de6dc47cd0"},
+    {"isolated vertices", "1b512963b7665a5e7a30a8e1e67b06e7"},
+    {"random faces", "f0b8798d7e1f606fc5eba257003299e6"},
 }};
 
 TEST(Golden, BytesOfIndexesOfOddMeshesBuiltTodayAreThoseOfTheFormat) {
