@@ -24,7 +24,7 @@ foreach(part
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
     patch/patch surface/box_tree surface/clip surface/closest_point surface/submesh surface/surface
     curvature/bits curvature/corrected curvature/curvatures curvature/features curvature/filter curvature/moments curvature/packet_moments curvature/quadric curvature/sure_leaves
-    simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels simd/path_kernels
+    simd/joint_kernels simd/kernels simd/moment_kernels simd/path_kernels
     whole/arguments whole/metrics whole/outlives whole/robustness whole/same_bits whole/differential whole/metamorphic)
   meshhood_test(${part} meshhood_families)
 endforeach()
