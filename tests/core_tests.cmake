@@ -33,7 +33,7 @@ meshhood_test(exact/build_threads meshhood_families meshhood_test_support)
 meshhood_test(exact/query_meshes meshhood_test_support meshhood_families)
 meshhood_test(exact/refit_meshes meshhood_test_support)
 meshhood_test(exact/reorder meshhood_families meshhood_test_support)
-meshhood_test(exact/search_meshes meshhood_test_support meshhood_shapes)
+meshhood_test(exact/index_meshes meshhood_test_support)
 meshhood_test(exact/joint_meshes meshhood_test_support meshhood_families meshhood_shapes)
 
 meshhood_test(whole/allocation ALONE meshhood_families)

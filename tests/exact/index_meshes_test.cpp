@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Exact answers on real meshes and on sheets that lie close together. The long run is tools/verify.
-#include <algorithm>
+// The indexes of real meshes. Answers on them: query_meshes_test.cpp, joint_meshes_test.cpp, and tools/verify.
 #include <cstdio>
-#include <initializer_list>
-#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "shapes/shapes.h"
-#include "support/exact_answer.h"
-#include "support/scale.h"
+#include "meshhood/index.h"
+
 #include "support/shared_meshes.h"
 
 namespace meshhood::test {
