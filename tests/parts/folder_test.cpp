@@ -76,8 +76,11 @@ class Folder : public testing::Test {
 TEST_F(Folder, IsUnchangedByASecondRun) {
   EXPECT_EQ(run(folder).kept, 0U);
   const auto before = contents(folder);
+  const fs::path file = folder / parts::part_name(0) / "index.mhi";
+  const auto written = fs::last_write_time(file);
   EXPECT_EQ(run(folder).kept, 4U);
   EXPECT_EQ(contents(folder), before);
+  EXPECT_EQ(fs::last_write_time(file), written) << "a part was written again";
 }
 
 TEST_F(Folder, LosesNoFinishedPartWhenARunIsCancelled) {
