@@ -127,8 +127,8 @@ TEST(Golden, BytesOfLargeIndexesBuiltTodayAreThoseOfTheFormat) {
   }
 }
 
-/// Digests of the exact index and of the paper's index, for graphs that are unlike a surface: those of the families that
-/// are made without functions that differ between C libraries.
+/// Digests of the exact index and of the paper's index, for graphs that are unlike a surface: those of the families
+/// that are made without functions that differ between C libraries.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kOddMeshes{{
     {"star", "2a9b1d44590b63c8f61ca64ee0b4332f"},
     {"comb", "5ed2275210faee3e7e2890670e2dfec1"},

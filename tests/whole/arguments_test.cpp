@@ -54,7 +54,8 @@ class Arguments : public testing::Test {
       expect_refused(code, cause, [&] { search(v, radius, out); });
       EXPECT_THAT(out, ElementsAre(7));
     }
-    expect_refused(code, cause, [&] { static_cast<void>(BallSearcher(mesh.positions_view()).neighborhood(v, radius)); });
+    expect_refused(code, cause,
+                   [&] { static_cast<void>(BallSearcher(mesh.positions_view()).neighborhood(v, radius)); });
   }
 
   TestMesh mesh = two_grids();
