@@ -15,16 +15,16 @@ foreach(part
     base/cut_edges base/epoch_array base/number_set base/packed_positions base/face_graph
     aggregate/aggregate aggregate/listed_sums aggregate/smoothing
     batch/batch batch/joint_batch batch/packets batch/path_rows batch/position_sort batch/kept_packets batch/ring_rows batch/k_nearest batch/unconnected
-    exact/cell_components exact/collect_rows exact/cells exact/edge_buckets exact/edge_source exact/masked exact/forest exact/joint_search exact/kd_order exact/layout exact/leaf_spheres exact/leaves exact/link_points
-    exact/links exact/node_groups exact/node_links exact/node_parts exact/path_packet exact/quality exact/refit exact/root_tree exact/tree exact/check exact/damage exact/file exact/index exact/verify
+    exact/collect_rows exact/edge_buckets exact/edge_source exact/masked exact/joint_search exact/link_points
+    exact/node_parts exact/path_packet exact/quality exact/refit exact/check exact/damage exact/file exact/index exact/verify
     exact/search_differential exact/search_order exact/search_rare exact/search_traps exact/threads
     exact/query/any_center exact/query/length_queries exact/query/nearest exact/query/path_order exact/query/path_queue exact/query/path_search exact/query/straight_queries
-    exact/search/component exact/search/descent exact/search/group_states exact/search/home_marks exact/search/leaf_bfs exact/search/leaf_bits
-    exact/search/open_elements exact/output exact/search/reach exact/search/vertex_bfs exact/vertex_set exact/search/waves
+    exact/search/component exact/search/group_states exact/search/leaf_bfs exact/search/leaf_bits
+    exact/output exact/search/vertex_bfs exact/vertex_set
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
     patch/patch surface/box_tree surface/clip surface/closest_point surface/submesh surface/surface
     curvature/bits curvature/corrected curvature/curvatures curvature/features curvature/filter curvature/moments curvature/packet_moments curvature/quadric curvature/sure_leaves
-    simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels simd/path_kernels
+    simd/joint_kernels simd/kernels simd/moment_kernels simd/path_kernels
     whole/arguments whole/metrics whole/outlives whole/robustness whole/same_bits whole/differential whole/metamorphic)
   meshhood_test(${part} meshhood_families)
 endforeach()
@@ -33,7 +33,7 @@ meshhood_test(exact/build_threads meshhood_families meshhood_test_support)
 meshhood_test(exact/query_meshes meshhood_test_support meshhood_families)
 meshhood_test(exact/refit_meshes meshhood_test_support)
 meshhood_test(exact/reorder meshhood_families meshhood_test_support)
-meshhood_test(exact/search_meshes meshhood_test_support meshhood_shapes)
+meshhood_test(exact/index_meshes meshhood_test_support)
 meshhood_test(exact/joint_meshes meshhood_test_support meshhood_families meshhood_shapes)
 
 meshhood_test(whole/allocation ALONE meshhood_families)

@@ -31,7 +31,7 @@ endif()
 
 meshhood_watch_system_calls(power)
 target_sources(io_save_power_test PRIVATE support/disk_model.cpp)
-foreach(stem full kill race)
+foreach(stem full race)
   meshhood_test(io/save_${stem} ALONE meshhood_save_trial)
 endforeach()
 

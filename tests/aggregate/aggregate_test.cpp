@@ -346,20 +346,6 @@ TEST_F(Aggregate, OfLargeNeighborhoodsEqualsTheDefinition) {
   std::printf("%zu numbers compared\n", scene.compared());
 }
 
-TEST_F(Aggregate, HasTheSameBitsForAnyNumberOfThreads) {
-  for (const Reduce reduce : kReductions) {
-    for (const SmoothingKernel kernel : kKernels) {
-      if (kernel != SmoothingKernel::Box && !may_have_kernel(reduce)) continue;
-      for (const Nesting nesting : {Nesting::Own, Nesting::Patch}) {
-        const AggregateQuery query{
-            .radius = BatchRadius::scales({4, 12}), .reduce = reduce, .kernel = kernel, .nesting = nesting};
-        const auto once = bits_of(run(query));
-        for (const unsigned threads : {2U, 3U, 8U, 0U}) EXPECT_EQ(bits_of(run(query, threads)), once);
-      }
-    }
-  }
-}
-
 TEST_F(Aggregate, OfSeveralRadiiEqualsThatOfEachRadius) {
   for (const Reduce reduce : kReductions) {
     const std::vector<double> both = run({.radius = BatchRadius::scales({6, 2}), .reduce = reduce});
@@ -649,8 +635,8 @@ TEST_F(Aggregate, RefusesWrongArguments) {
   refuse(ErrorCode::InvalidOption, "ddof is 1 and there are weights", {values, 1, weights},
          {.radius = 1, .reduce = Reduce::Variance, .ddof = 1});
   for (const double bad : {-1.0, kNan, kInfinity}) {
-    weights[17] = bad;
-    refuse(ErrorCode::InvalidOption, "vertex 17: the weight is ", {values, 1, weights}, query);
+    weights[0] = bad;
+    refuse(ErrorCode::InvalidOption, "vertex 0: the weight is ", {values, 1, weights}, query);
   }
   weights.pop_back();
   refuse(ErrorCode::InvalidOption, "3599 weights", {values, 1, weights}, query);
@@ -698,12 +684,14 @@ TEST_F(Aggregate, CopiesItsListsWhenTheCallBegins) {
 }
 
 TEST(VertexAreas, SumToTheAreaOfTheMesh) {
-  const TestMesh mesh = make_grid(4, 6, true).finish(false);
-  const std::vector<double> areas = vertex_areas(mesh.view());
-  double sum = 0;
-  for (const double area : areas) sum += area;
-  EXPECT_DOUBLE_EQ(sum, 15);
-  EXPECT_EQ(areas.front(), 0.25);
+  for (const bool quads : {true, false}) {
+    const TestMesh mesh = make_grid(4, 6, quads).finish(false);
+    const std::vector<double> areas = vertex_areas(mesh.view());
+    double sum = 0;
+    for (const double area : areas) sum += area;
+    EXPECT_DOUBLE_EQ(sum, 15);
+    EXPECT_DOUBLE_EQ(areas.front(), quads ? 0.25 : 1.0 / 3);
+  }
 }
 
 TEST(VertexAreas, AreRightAtAnyScaleAndInAnyPolygon) {

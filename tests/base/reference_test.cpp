@@ -14,7 +14,6 @@
 #include "base/reference_access.h"
 #include "support/families.h"
 #include "support/oracle.h"
-#include "support/refusal.h"
 #include "support/scale.h"
 
 namespace meshhood::test {
@@ -111,57 +110,6 @@ TEST(Ball, EqualsTheOracle) {
     }
   }
   std::printf("%zu queries, 0 mismatches\n", queries);
-}
-
-TEST(ReferenceSearcher, ALargerRadiusGivesASuperset) {
-  for (const Family& family : families()) {
-    const TestMesh mesh = make_mesh(family, 3, 200);
-    if (mesh.size() == 0) continue;
-    const Oracle oracle(mesh);
-    ReferenceSearcher searcher(mesh.view());
-    std::vector<double> radii{0, kInfinity};
-    for (std::size_t w = 0; w < mesh.size(); w += 5) radii.push_back(oracle.distance(0, w));
-    std::sort(radii.begin(), radii.end());
-    std::vector<VertexId> smaller;
-    std::vector<VertexId> out;
-    for (const double radius : radii) {
-      searcher.neighborhood(0, radius, out);
-      std::sort(out.begin(), out.end());
-      ASSERT_TRUE(std::ranges::includes(out, smaller)) << mesh.name << ", radius " << radius;
-      std::swap(smaller, out);
-    }
-  }
-}
-
-TEST(Reference, InvalidArgumentsAreRefusedAndResultsStayUnchanged) {
-  const TestMesh mesh = make_grid(3, 3, false);
-  ReferenceSearcher searcher(mesh.view());
-  std::vector<VertexId> out{1, 2};
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto exact = [&](VertexId v, double r) { return [&, v, r] { searcher.neighborhood(v, r, out); }; };
-  const auto scan = [&](VertexId v, double r) {
-    return [&, v, r] { BallSearcher(mesh.positions_view()).neighborhood(v, r, out); };
-  };
-  const auto once = [&](VertexId v, double r) {
-    return [&, v, r] { static_cast<void>(exact_neighborhood(mesh.view(), v, r)); };
-  };
-  const auto expect_all_refused = [&](ErrorCode code, const char* cause, VertexId v, double r) {
-    expect_refused(code, cause, exact(v, r));
-    expect_refused(code, cause, scan(v, r));
-    expect_refused(code, cause, once(v, r));
-  };
-  expect_all_refused(ErrorCode::VertexOutOfRange, "vertex 9, but the mesh has 9 vertices", 9, 1);
-  expect_all_refused(ErrorCode::VertexOutOfRange, "but the mesh has 9 vertices", static_cast<VertexId>(-1), 1);
-  expect_all_refused(ErrorCode::InvalidRadius, "radius nan, expected a number >= 0", 0, nan);
-  expect_all_refused(ErrorCode::InvalidRadius, "radius -0.5, expected a number >= 0", 0, -0.5);
-  expect_all_refused(ErrorCode::InvalidRadius, "radius -inf, expected a number >= 0", 0, -kInfinity);
-  EXPECT_THAT(out, ElementsAre(1, 2));
-}
-
-TEST(Reference, RadiusMayBeMinusZeroOrInfinite) {
-  const TestMesh mesh = make_grid(3, 3, false);
-  EXPECT_THAT(exact_neighborhood(mesh.view(), 4, -0.0), ElementsAre(4));
-  EXPECT_EQ(exact_neighborhood(mesh.view(), 4, kInfinity).size(), 9U);
 }
 
 }  // namespace

@@ -174,15 +174,6 @@ TEST_F(Packets, SumASignalAsTheReferenceDoes) {
   }
 }
 
-TEST_F(Packets, GiveSumsWithTheSameBitsForAnyNumberOfThreads) {
-  const std::vector<double> expected = sums({.vertices = vertices, .radius = radii}, 1);
-  const std::vector<double> all = sums({.radius = 6}, 1);
-  for (const unsigned threads : {2U, 5U}) {
-    EXPECT_EQ(sums({.vertices = vertices, .radius = radii}, threads), expected);
-    EXPECT_EQ(sums({.radius = 6}, threads), all);
-  }
-}
-
 /// Requires that the pieces ascend, without runs that could be one; adds up how many have several leaves, and how many
 /// have words.
 void check_pieces(const PacketAnswer& answer, const Index& index, std::size_t& long_runs, std::size_t& with_words) {

@@ -81,61 +81,6 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
-/// How many of the rows differ from those of the same vertices among all.
-std::size_t different(const Subject& s, const std::vector<std::vector<double>>& all, const std::vector<VertexId>& rows,
-                      double radius, unsigned threads) {
-  const auto found = results(s, {.vertices = rows, .radius = radius}, threads);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) count += static_cast<std::size_t>(!same_bits(found[i], all[rows[i]]));
-  return count;
-}
-
-void expect_equal_bits(const Subject& s, double radius, Random& random) {
-  const auto all = results(s, {.radius = radius}, 1);
-  const auto count = static_cast<VertexId>(s.mesh.size());
-  std::vector<VertexId> shuffled(count);
-  std::iota(shuffled.begin(), shuffled.end(), VertexId{0});
-  for (std::size_t i = count; i > 1; --i) std::swap(shuffled[i - 1], shuffled[random.below(i)]);
-  EXPECT_EQ(different(s, all, shuffled, radius, 1), 0U) << "shuffled";
-  EXPECT_EQ(different(s, all, shuffled, radius, 4), 0U) << "threads";
-  for (const std::size_t part : {std::size_t{2}, std::size_t{10}, std::size_t{50}}) {
-    std::vector<VertexId> some(shuffled.begin(), shuffled.begin() + static_cast<std::ptrdiff_t>(count / part));
-    if (!some.empty()) some.push_back(some.front());
-    EXPECT_EQ(different(s, all, some, radius, 2), 0U) << "one of " << part << " vertices, one twice";
-  }
-  for (std::size_t i = 0; i < std::min<std::size_t>(count, scaled(40, 8)); ++i) {
-    EXPECT_EQ(different(s, all, {shuffled[i]}, radius, 1), 0U) << "vertex " << shuffled[i] << " alone";
-  }
-}
-
-TEST(Bits, OfARowDependOnIndexVertexAndRadiusAlone) {
-  Random random(9);
-  const Subject bumps(bumpy_grid(40).finish(false));
-  for (const double radius : {1.5, 3.0, 7.0, 20.0}) {
-    SCOPED_TRACE(radius);
-    expect_equal_bits(bumps, radius, random);
-  }
-}
-
-TEST(Bits, OfARowDependOnIndexVertexAndRadiusAloneOnEveryFamily) {
-  Random random(10);
-  std::size_t meshes = 0;
-  for (const Family& family : families()) {
-    TestMesh mesh = make_mesh(family, 3, 300);
-    if (mesh.size() < 10 || mesh.face_count() == 0) continue;
-    SCOPED_TRACE(family.name);
-    const Subject s(std::move(mesh));
-    const Adjacency graph = adjacency(s.mesh.view());
-    const double edge = mean_edge_length(GraphView{s.mesh.view().positions, graph.view()});
-    const bool radii_are_valid = edge > 0 && 4 * edge < std::numeric_limits<double>::infinity();
-    if (!radii_are_valid) continue;
-    for (const double edges : {1.2, 4.0}) expect_equal_bits(s, edges * edge, random);
-    ++meshes;
-  }
-  EXPECT_GT(meshes, 15U);
-  std::printf("%zu meshes\n", meshes);
-}
-
 /// Which vertices and radii are queried.
 struct Rows {
   std::vector<VertexId> vertices;

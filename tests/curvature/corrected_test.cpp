@@ -61,28 +61,6 @@ TEST(CorrectedCurvature, OfACylinderIsThatOfTheFormula) {
   }
 }
 
-TEST(CorrectedCurvature, HasTheSameBitsForAnyNumberOfThreads) {
-  const TestMesh mesh = bumpy_grid(15).finish(false);
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view());
-  std::vector<VertexId> listed;
-  for (VertexId v = 0; v < 45; ++v) listed.push_back(7 * v % 225);
-  const std::vector<double> scales{2.0, 4.0};
-  const BatchQuery query{.vertices = listed, .radius = BatchRadius::scales(scales)};
-  const auto expected = corrected_curvatures(surface, query, {.threads = 1});
-  ASSERT_EQ(expected.k1.size(), 90U);
-  for (const unsigned threads : {2U, 3U}) {
-    const auto found = corrected_curvatures(surface, query, {.threads = threads});
-    EXPECT_EQ(found.k1, expected.k1);
-    EXPECT_EQ(found.k2, expected.k2);
-    EXPECT_EQ(found.d1, expected.d1);
-    EXPECT_EQ(found.d2, expected.d2);
-    EXPECT_EQ(found.area, expected.area);
-    EXPECT_EQ(found.gaussian, expected.gaussian);
-    EXPECT_EQ(found.measures, expected.measures);
-  }
-}
-
 TEST(CorrectedCurvature, OfNormalsThatPointToTheOtherSideIsStillOrdered) {
   const TestMesh mesh = bumpy_grid(15).finish(false);
   const Index index = build(mesh.view());

@@ -277,18 +277,6 @@ TEST(Curvatures, DoNotDependOnTheNumbering) {
   EXPECT_LT(largest_difference(a, back), 1e-10);
 }
 
-TEST(Curvatures, HaveTheSameBitsForAnyNumberOfThreads) {
-  const Case one(bumpy_grid(40).finish(false));
-  const Curvatures expected = curvatures(one.surface, {.radius = 4.0}, {}, {.threads = 1});
-  for (const unsigned threads : {2U, 3U, 0U}) {
-    const Curvatures k = curvatures(one.surface, {.radius = 4.0}, {}, {.threads = threads});
-    EXPECT_EQ(k.k1, expected.k1);
-    EXPECT_EQ(k.k2, expected.k2);
-    EXPECT_EQ(k.d1, expected.d1);
-    EXPECT_EQ(k.d2, expected.d2);
-  }
-}
-
 TEST(Curvatures, NormalsHaveTheSameBitsForAnyNumberOfThreads) {
   std::size_t meshes = 0;
   for (const Family& family : families()) {

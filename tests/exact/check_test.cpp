@@ -10,6 +10,7 @@
 
 #include "exact/index_access.h"
 #include "support/families.h"
+#include "support/family_name.h"
 #include "support/forged_index.h"
 
 namespace meshhood::test {
@@ -44,9 +45,16 @@ void expect_found(const char* fault, const std::function<void(IndexData&)>& dama
   EXPECT_LE(faults.size(), 16U);
 }
 
-TEST(IndexCheck, FindsNothingInAnIndexOfTheMesh) {
-  EXPECT_THAT(faults_after([](IndexData&) {}), IsEmpty());
+class IndexCheckOfFamilies : public testing::TestWithParam<Family> {};
+
+TEST_P(IndexCheckOfFamilies, FindsNothingInAnIndexOfTheMesh) {
+  for (const std::size_t vertices : {1U, 50U, 3000U, 20000U}) {
+    const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
+    EXPECT_THAT(build(mesh.view()).check(mesh.view()), IsEmpty()) << mesh.name;
+  }
 }
+
+INSTANTIATE_TEST_SUITE_P(Families, IndexCheckOfFamilies, testing::ValuesIn(families()), family_name);
 
 TEST(IndexCheck, FindsAWrongNumbering) {
   expect_found("does not have the slot of its position",

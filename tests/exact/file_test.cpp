@@ -79,14 +79,6 @@ TEST_P(Serialize, RestoresTheIndex) {
   std::printf("%s: %zu queries\n", std::string(GetParam().name).c_str(), queries);
 }
 
-TEST_P(Serialize, GivesTheSameBytesForAnyThreads) {
-  const TestMesh mesh = make_mesh(GetParam(), 6, 5000);
-  const std::vector<std::byte> expected = saved(build(mesh.view(), {.threads = 1}));
-  for (const unsigned threads : {2U, 3U, 8U}) {
-    EXPECT_EQ(saved(build(mesh.view(), {.threads = threads})), expected) << threads << " threads";
-  }
-}
-
 TEST_P(Serialize, RestoresTheGraphOfTheMesh) {
   const TestMesh mesh = make_mesh(GetParam(), 8, 1000);
   const Adjacency expected = adjacency(mesh.view());

@@ -11,6 +11,7 @@
 
 #include "meshhood/meshhood.h"
 
+#include "exact/build/leaves.h"
 #include "exact/index_access.h"
 #include "support/families.h"
 #include "support/forged_index.h"
@@ -34,6 +35,13 @@ TEST(IndexBuild, LeavesOfASurfaceAreConnected) {
   for (std::size_t leaf = 0; leaf < index.leaf_count(); ++leaf) {
     EXPECT_EQ(index.leaves[leaf].connected, index.leaves[leaf].size > 0) << leaf;
   }
+}
+
+TEST(IndexBuild, SlotsOfTheLargestNumberOfLeavesHave32Bits) {
+  check_leaf_count(kMaxLeaves);
+  EXPECT_EQ(std::uint64_t{kMaxLeaves} * kLeafCapacity, std::uint64_t{1} << 32U);
+  expect_refused(ErrorCode::TooLarge, "134217729 leaves in the index, but the limit is 134217728",
+                 [] { check_leaf_count(kMaxLeaves + 1); });
 }
 
 TEST(IndexLevels, DescribeTheLeavesAndTheTreeAboveThem) {

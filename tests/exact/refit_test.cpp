@@ -359,36 +359,6 @@ TEST_P(RefitFamilies, SearchersThatAreBoundAgainGiveTheAnswersOfNewOnes) {
   }
 }
 
-TEST(RefitInPlace, IsRefusedBySearchersThatAreNotBoundAgain) {
-  const Sculpted sculpted;
-  Index index = build(sculpted.mesh.view());
-  Searcher searcher(index);
-  Searcher regions(index);
-  Searcher edges(index, Metric::Path);
-  const Surface surface(index, sculpted.mesh.view());
-  index.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
-  const char* const cause = "the index was refitted in place";
-  expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(searcher.count(0, 1)); });
-  expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(regions.count(0, 1)); });
-  expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(regions.contains(0, 1, 1)); });
-  expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(regions.connecting_radius(0, 1)); });
-  expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(edges.count(0, 1)); });
-  std::vector<VertexId> ids;
-  std::vector<std::size_t> counts;
-  expect_refused(ErrorCode::InvalidOption, cause, [&] { edges.nested(0, std::array{1.0}, ids, counts); });
-  expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(curvatures(surface, {.radius = 2.0})); });
-}
-
-TEST(RefitInPlace, LeavesAnIndexMadeByRefitAsItIs) {
-  const Sculpted sculpted;
-  Index index = build(sculpted.mesh.view());
-  const Index copy = refit(index, sculpted.mesh.positions_view());
-  Searcher of_copy(copy);
-  index.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
-  EXPECT_THAT(differences(copy, build(sculpted.mesh.view())), IsEmpty());
-  EXPECT_EQ(of_copy.neighborhood(7, 2), Searcher(copy).neighborhood(7, 2));
-}
-
 TEST(Searchers, AreBoundToAnotherIndex) {
   const TestMesh small = bumpy_grid(20);
   const TestMesh large = bumpy_grid(70);

@@ -413,20 +413,5 @@ TEST(Rare, MeshesOfNoneToThirtyThreeVertices) {
   }
 }
 
-TEST(Rare, InvalidArgumentsLeaveTheOutputUnchanged) {
-  const TestMesh mesh = make_grid(5, 5, false);
-  const Index index = build(mesh.view());
-  Searcher searcher(index);
-  std::vector<VertexId> ids{7};
-  std::vector<double> distances{3};
-  expect_refused(ErrorCode::VertexOutOfRange, "vertex 25, but the mesh has 25",
-                 [&] { searcher.neighborhood(25, 1, ids); });
-  expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { searcher.neighborhood(1, -1, ids, distances); });
-  expect_refused(ErrorCode::InvalidRadius, "nan", [&] { static_cast<void>(searcher.ranges(1, std::nan(""))); });
-  EXPECT_THAT(ids, testing::ElementsAre(7));
-  EXPECT_THAT(distances, testing::ElementsAre(3));
-  EXPECT_EQ(searcher.count(1, -0.0), 1U);
-}
-
 }  // namespace
 }  // namespace meshhood::test

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "exact/query/single_queries.h"
-#include "support/outward_search.h"
+#include "support/search_case.h"
 #include "support/sheets.h"
 
 namespace meshhood::test {

@@ -171,14 +171,5 @@ TEST_F(IndexFile, AMappingKeepsTheOldFile) {
   EXPECT_THAT(differences(mapped, old), IsEmpty());
 }
 
-TEST_F(IndexFile, AFailureKeepsTheOldFile) {
-  const Index old = index_of(10);
-  io::save(file, old);
-  expect_refused(ErrorCode::IoFailure, "cannot create", [&] { io::save(scratch.path() / "no" / "x.mhi", old); });
-  EXPECT_THAT(differences(io::load(file), old), IsEmpty());
-  if (!std::filesystem::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  expect_refused(ErrorCode::IoFailure, "/dev/full: cannot write: No space left", [&] { io::save("/dev/full", old); });
-}
-
 }  // namespace
 }  // namespace meshhood::test

@@ -298,6 +298,10 @@ TEST(Text, QuotedTextIsCutAndEscaped) {
   EXPECT_LT(result.message.size(), 200U);
   const auto name = refusal("a\nb.obj", "v x\n");
   EXPECT_THAT(name.message, HasSubstr("a\\x0ab.obj:1:3: "));
+  // What is no character of UTF-8: too long, half of a pair, beyond the last.
+  EXPECT_THAT(refusal("\xe0\x80\x80.obj", "v x\n").message, HasSubstr("\\xe0\\x80\\x80.obj"));
+  EXPECT_THAT(refusal("\xed\xa0\x80.obj", "v x\n").message, HasSubstr("\\xed\\xa0\\x80.obj"));
+  EXPECT_THAT(refusal("\xf4\x90\x80\x80.obj", "v x\n").message, HasSubstr("\\xf4\\x90\\x80\\x80.obj"));
 }
 
 TEST(Format, AGitLfsPointerIsRefusedWithAHint) {

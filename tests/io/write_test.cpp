@@ -201,18 +201,6 @@ TEST_F(WritePly, OptionsThatDoNotFitAreRefusedAndNothingIsWritten) {
   EXPECT_EQ(files_in(scratch.path()), 0U);
 }
 
-TEST_F(WritePly, AFailureNamesPathAndReasonAndLeavesTheOldFile) {
-  const auto missing = refused(scratch.path() / "no" / "out.ply", triangle);
-  EXPECT_EQ(missing.code, ErrorCode::IoFailure);
-  EXPECT_THAT(missing.message, HasSubstr("out.ply: cannot create: No such file"));
-
-  const auto folder = scratch.path() / "folder";
-  std::filesystem::create_directory(folder);
-  EXPECT_THAT(refused(folder, triangle).message, HasSubstr("Is a directory"));
-  EXPECT_TRUE(std::filesystem::is_directory(folder));
-  EXPECT_EQ(files_in(scratch.path()), 1U) << "no temporary file stays";
-}
-
 TEST_F(WritePly, AFullDeviceIsAnErrorAndStaysADevice) {
   if (!std::filesystem::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
   const auto full = refused("/dev/full", triangle);

@@ -11,7 +11,6 @@
 #include "meshhood/meshhood.h"
 
 #include "support/families.h"
-#include "support/refusal.h"
 
 namespace meshhood::paper {
 
@@ -167,34 +166,6 @@ TEST(Query, SeveralSearchersCanShareAnIndex) {
   paper::Searcher first(index);
   paper::Searcher second(index);
   for (VertexId v = 0; v < mesh.size(); v += 7) ASSERT_EQ(first.count(v, 6), second.count(v, 6));
-}
-
-// Rows A1 and A2 of docs/reliability.md.
-TEST(Query, InvalidArgumentsAreRefusedAndResultsStayUnchanged) {
-  const TestMesh mesh = make_grid(4, 4, false);
-  const paper::Index index = paper::build(mesh.view());
-  paper::Searcher searcher(index);
-  std::vector<VertexId> out{9, 8, 7};
-  const auto search = [&](VertexId v, double radius, double factor) {
-    return [&searcher, &out, v, radius, factor] {
-      searcher.set_options({.radius_ratio = factor});
-      searcher.neighborhood(v, radius, out);
-    };
-  };
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  expect_refused(ErrorCode::VertexOutOfRange, "vertex 16, but the mesh has 16 vertices", search(16, 1, 10));
-  expect_refused(ErrorCode::VertexOutOfRange, "but the mesh has 16", search(static_cast<VertexId>(-1), 1, 10));
-  expect_refused(ErrorCode::InvalidRadius, "radius -1", search(0, -1, 10));
-  expect_refused(ErrorCode::InvalidRadius, "radius nan", search(0, nan, 10));
-  expect_refused(ErrorCode::InvalidRadius, "radius -inf", search(0, -kInfinity, 10));
-  expect_refused(ErrorCode::InvalidOption, "radius_ratio is 0", search(0, 1, 0));
-  expect_refused(ErrorCode::InvalidOption, "radius_ratio is -2", search(0, 1, -2));
-  expect_refused(ErrorCode::InvalidOption, "radius_ratio is nan", search(0, 1, nan));
-  expect_refused(ErrorCode::InvalidOption, "radius_ratio is inf", search(0, 1, kInfinity));
-  expect_refused(ErrorCode::InvalidRadius, "radius nan", [&] { static_cast<void>(searcher.count(0, nan)); });
-  EXPECT_THAT(out, testing::ElementsAre(9, 8, 7));
-  searcher.neighborhood(5, -0.0, out);
-  EXPECT_THAT(out, testing::ElementsAre(5));
 }
 
 }  // namespace

@@ -181,7 +181,10 @@ TEST_F(Folder, HasItsDamagedPartsWrittenAgain) {
       const auto number = static_cast<std::size_t>(name[9] - '0');
       expect_refused(ErrorCode::MalformedIndex, name,
                      [&] { verify_part(folder / parts::part_name(number), manifest.parts[number]); });
+      const fs::path kept = folder / parts::part_name((number + 1) % 4) / "index.mhi";
+      const auto written = fs::last_write_time(kept);
       EXPECT_EQ(run(folder).kept, 3U) << name;
+      EXPECT_EQ(fs::last_write_time(kept), written) << "a part that is whole was written again";
       EXPECT_EQ(contents(folder), expected);
       ++damaged;
     }

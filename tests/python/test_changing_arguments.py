@@ -27,22 +27,6 @@ def run(program):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("name", ("neighborhoods", "counts"))
-@pytest.mark.parametrize("which", ("v", "r"))
-def test_a_progress_function_may_write_to_the_arguments(method, name, which):
-    run(f"""
-v, r = np.arange(len(index), dtype=np.int32), np.full(len(index), 3.0)
-call = lambda **options: getattr(index, {name!r})(r, v, method={method!r}, **options)
-wanted = call()
-written = {which}
-value = {{"v": -2**31, "r": np.nan}}[{which!r}]
-def write(done, total):
-    written[:] = value
-np.testing.assert_equal(call(progress=write), wanted)
-""")
-
-
 # Arguments of each call that takes a progress function, and values that would be refused or change the result. There are
 # enough channels, radii and rows for several passes.
 ARGUMENTS = """

@@ -6,7 +6,7 @@ from pathlib import Path
 import meshhood
 import numpy as np
 import pytest
-from meshes import grid, shared, triangles
+from meshes import grid, shared
 
 _KEPT = Path(__file__).parent / "libigl_curvature.npz"
 
@@ -126,18 +126,6 @@ def test_an_ellipsoid_has_the_curvatures_of_the_formula():
     assert (c.shape_index > 0.5).all()
 
 
-def test_several_radii_add_an_axis():
-    V, F = ellipsoid(3)
-    index = meshhood.MeshIndex(V, F)
-    both = index.curvature(scales=[0.5, 1.0], vertices=[3, 7], F=F)
-    assert both.k1.shape == (2, 2)
-    assert both.d1.shape == (2, 2, 3)
-    for i, r in enumerate((0.5, 1.0)):
-        one = index.curvature(r, [3, 7], F=F)
-        assert (both.k1[i] == one.k1).all()
-        assert (both.d2[i] == one.d2).all()
-
-
 def test_quads_polygons_and_normals_are_accepted():
     V, quads = grid(12)
     V[:, 2] = 0.02 * (V[:, 0] - 5.5) ** 2
@@ -148,14 +136,6 @@ def test_quads_polygons_and_normals_are_accepted():
     up = np.tile([0.0, 0.0, 2.0], (len(V), 1))
     given = meshhood.MeshIndex(V, quads).curvature(3, normals=up)
     np.testing.assert_allclose(given.k2, -0.04 / (1 + (0.04 * (V[:, 0] - 5.5)) ** 2) ** 1.5, rtol=0.05)
-
-
-def test_the_result_does_not_depend_on_workers():
-    V, F = ellipsoid(4)
-    index = meshhood.MeshIndex(V, F)
-    one, many = (index.curvature(0.4, F=F, workers=workers) for workers in (1, 3))
-    for a, b in zip(one, many):
-        assert (a == b).all()
 
 
 def test_the_normals_are_kept_only_for_the_same_faces():
@@ -256,14 +236,3 @@ def test_wrong_arguments_are_refused_by_name():
             index.curvature(**arguments)
     with pytest.warns(UserWarning, match="libigl raises"):
         meshhood.principal_curvature(V, F, 1)
-
-
-def test_progress_may_end_the_call():
-    V, F = ellipsoid(4)
-    index = meshhood.MeshIndex(V, triangles(F) if F.shape[1] == 4 else F)
-
-    def stop(done, total):
-        raise RuntimeError("enough")
-
-    with pytest.raises(RuntimeError, match="enough"):
-        index.curvature(1, F=F, progress=stop)

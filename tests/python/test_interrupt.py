@@ -169,30 +169,6 @@ def test_ctrl_c_in_a_build_of_the_paper(index, ctrl_c):
     print(f"hierarchy: KeyboardInterrupt after {1000 * seconds:.0f} ms")
 
 
-def check_reports(call):
-    calls = []
-    call(lambda done, total: calls.append((done, total)))
-    assert calls[0][0] == 0
-    assert calls == sorted(calls)
-    assert len({total for _, total in calls}) == 1
-    assert calls[-1][0] == calls[-1][1]
-
-
-@pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
-def test_progress_of_a_batch(index, method):
-    check_reports(lambda watch: index.neighborhoods(3.0, range(100), method=method, progress=watch))
-    check_reports(lambda watch: index.counts(3.0, range(100), method=method, progress=watch))
-
-
-@pytest.mark.parametrize("call", (aggregate, curvature))
-def test_progress_of_sums_over_neighborhoods(index, call):
-    check_reports(lambda watch: call(index, 3.0, vertices=range(100), progress=watch))
-
-
-def test_progress_of_a_build():
-    check_reports(lambda watch: meshhood.MeshIndex(*meshes.two_plates(20), progress=watch))
-
-
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
 def test_an_exception_of_progress_ends_the_call(index, method):
     def enough(done, total):

@@ -37,15 +37,6 @@ def test_moments_are_sums_of_powers(plates, degree):
         np.testing.assert_allclose(got[v], weights[ids] @ powers(V[ids] - V[v], degree), rtol=1e-11, atol=1e-11)
 
 
-def test_a_radius_for_each_row_and_a_list_of_vertices(plates):
-    V, _, _, index = plates
-    rows, radii = [5, 5, 17], [1.0, 2.5, 2.5]
-    got = index.moments(radii, rows, degree=1)
-    assert got.shape == (3, 4)
-    for row, (v, r) in enumerate(zip(rows, radii)):
-        np.testing.assert_allclose(got[row], index.moments(r, [v], degree=1)[0], rtol=1e-12, atol=1e-12)
-
-
 def test_principal_components_are_those_of_the_covariance(plates):
     V, F, edges, index = plates
     areas = meshhood.vertex_areas(V, F)
@@ -59,45 +50,6 @@ def test_principal_components_are_those_of_the_covariance(plates):
         np.testing.assert_allclose(abs((got.axes[v] * vectors.T).sum(axis=1)), 1, atol=1e-6)
         np.testing.assert_allclose(got.surface_variation[v], values[0] / values.sum(), atol=1e-12)
     np.testing.assert_array_equal(got.normal, got.axes[:, 0])
-
-
-def measures_of_faces(V, F, u):
-    """m0, m1, m2 and mXY of each triangle, as CGAL 6 has them in Interpolated_corrected_curvatures.h."""
-    (x0, x1, x2), (u0, u1, u2) = V[F].transpose(1, 0, 2), u[F].transpose(1, 0, 2)
-    um = (u0 + u1 + u2) / 3
-    dot = lambda a, b: (a * b).sum(axis=1)  # noqa: E731
-    m0 = dot(um, np.cross(x1 - x0, x2 - x0)) / 2
-    m1 = dot(um, np.cross(u2 - u1, x0) + np.cross(u0 - u2, x1) + np.cross(u1 - u0, x2)) / 2
-    m2 = dot(u0, np.cross(u1, u2)) / 2
-    mxy = np.empty((len(F), 3, 3))
-    for i, e in enumerate(np.eye(3)):
-        along01 = dot(um, np.cross(e, x1 - x0))
-        along02 = dot(um, np.cross(e, x2 - x0))
-        mxy[:, i] = ((u2 - u0) * along01[:, None] - (u1 - u0) * along02[:, None]) / 2
-    return m0, m1, m2, mxy
-
-
-def test_corrected_curvature_has_the_measures_of_cgal():
-    V, F = ellipsoid(3)
-    index = meshhood.MeshIndex(V, F)
-    c = index.corrected_curvature(0.9, F=F)
-    edges = oracle.triangle_graph(len(V), F)
-    normals = np.zeros_like(V)
-    for corner in F.T:
-        np.add.at(normals, corner, np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]))
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
-    held = [np.zeros((len(V),) + m.shape[1:]) for m in measures_of_faces(V, F, normals)]
-    for to, measure in zip(held, measures_of_faces(V, F, normals)):
-        for corner in F.T:
-            np.add.at(to, corner, measure / 3)
-    for v in range(0, len(V), 11):
-        ids = oracle.neighborhood(V, edges, v, 0.9)
-        m0, m1, m2, mxy = (measure[ids].sum(axis=0) for measure in held)
-        np.testing.assert_allclose([c.area[v], c.mean[v], c.gaussian[v]], [m0, m1 / (2 * m0), m2 / m0], rtol=1e-10)
-        np.testing.assert_allclose(c.measures[v], [m0, m1, m2, *mxy.ravel()], rtol=1e-9, atol=1e-13)
-        tangent = np.linalg.svd(normals[v][None])[2][1:]
-        low, high = np.linalg.eigvalsh(tangent @ (mxy + mxy.T) / 2 @ tangent.T)
-        np.testing.assert_allclose([c.k1[v], c.k2[v]], [-low / m0, -high / m0], rtol=1e-9)
 
 
 def test_corrected_curvature_is_near_that_of_the_formula():
@@ -165,14 +117,3 @@ def test_wrong_arguments_are_refused_by_name(plates):
     ):
         with pytest.raises(ValueError, match=message):
             call()
-
-
-@pytest.mark.parametrize("name", ("moments", "principal_components", "corrected_curvature", "features"))
-def test_progress_may_end_the_call(plates, name):
-    _, F, _, index = plates
-
-    def stop(done, total):
-        raise RuntimeError("enough")
-
-    with pytest.raises(RuntimeError, match="enough"):
-        getattr(index, name)(2.5, F=F, progress=stop)

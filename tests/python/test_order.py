@@ -55,51 +55,6 @@ def test_of_a_new_index_for_each_query(case):
         assert same(meshhood.MeshIndex(V, F).neighborhood(*row, return_distance=True), want), row
 
 
-@pytest.mark.parametrize("workers", (1, 2))
-def test_of_many_queries_in_one_call(case, workers):
-    _, _, index, rows, wanted = case
-    v, r = np.array([v for v, _ in rows]), np.array([r for _, r in rows])
-    indptr, indices, distances = index.neighborhoods(r, v, return_distance=True)
-    for i, want in enumerate(wanted):
-        part = slice(indptr[i], indptr[i + 1])
-        assert same((indices[part], distances[part]), want), rows[i]
-
-
-@pytest.mark.parametrize("order", ("query", "index"))
-def test_of_chunks(case, order):
-    _, _, index, rows, wanted = case
-    answers = {(v, r): want for (v, r), want in zip(rows, wanted)}
-    vertices = sorted({v for v, _ in rows})
-    for r in RADII:
-        for chunk in index.iter_neighborhoods(r, vertices, chunk=3, order=order, return_distance=True):
-            for i, v in enumerate(chunk.vertices):
-                part = slice(chunk.indptr[i], chunk.indptr[i + 1])
-                assert same((chunk.indices[part], chunk.distances[part]), answers[int(v), r]), (v, r)
-
-
-def test_of_regions_and_of_rings_of_nested_radii(case):
-    V, _, index, rows, wanted = case
-    open_mesh = np.zeros(len(V), bool)
-    answers = {(v, r): want for (v, r), want in zip(rows, wanted)}
-    for (v, r), want in answers.items():
-        assert same(index.neighborhood(v, r, return_distance=True), want), (v, r)
-        assert same(index.neighborhood(v, r, walls=open_mesh, return_distance=True), want), (v, r)
-    for v in sorted({v for v, _ in rows}):
-        for walls in (None, open_mesh):
-            counts, indices = index.nested(v, RADII, walls=walls)
-            begin, before = 0, np.zeros(0, int)
-            for r, end in zip(RADII, counts):
-                ids = answers[v, r][0]
-                np.testing.assert_array_equal(indices[begin:end], ids[~np.isin(ids, before)])
-                begin, before = end, ids
-
-
-def test_sorted_answers_ascend(case):
-    _, _, index, rows, wanted = case
-    for (v, r), want in zip(rows, wanted):
-        np.testing.assert_array_equal(index.neighborhood(v, r, sort="id"), np.sort(want[0]))
-
-
 def test_of_threads(case):
     _, _, index, rows, wanted = case
     with concurrent.futures.ThreadPoolExecutor(4) as pool:

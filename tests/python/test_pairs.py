@@ -47,13 +47,14 @@ PLAIN = {
 
 
 class Watch:
-    """Progress that must ascend, and end with the total."""
+    """Progress that must begin with 0, ascend, and end with the total."""
 
     def __init__(self):
         self.last, self.total = -1, None
 
     def __call__(self, done, total):
         assert self.last <= done <= total and self.total in (None, total)
+        assert done == 0 or self.last >= 0
         self.last, self.total = done, total
 
 
@@ -423,6 +424,15 @@ def test_a_wrong_value_is_refused_by_name(call):
         words = call.words(("vertices", vertex), (option, object()))
         with pytest.raises((ValueError, TypeError), match=rf"\b{option}\b"):
             next(iter(call.ask(INDEX, words)), None)
+
+
+@pytest.mark.parametrize("call", [call for call in CALLS if "progress" in call.parameters()], ids=lambda call: call.name)
+def test_an_exception_of_progress_ends_the_call(call):
+    def enough(done, total):
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        call.ask(INDEX, {**call.words(), "progress": enough})
 
 
 @pytest.mark.parametrize("call", [call for call in CALLS if "max_bytes" in call.parameters()], ids=lambda call: call.name)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""`positions`, `mean_edge_length`, `unit="edge"`, bool masks, and copies of subclasses."""
+"""`positions`, `mean_edge_length`, `unit="edge"`, and copies of subclasses."""
 
-import copy
 import pickle
 
 import meshes
@@ -35,40 +34,12 @@ def test_the_mean_edge_length_counts_each_edge_once():
     assert meshhood.MeshIndex(V, np.zeros((0, 3), int)).mean_edge_length == 0
 
 
-@pytest.mark.parametrize("method", ("exact", "bfs", "ball", "paper"))
-def test_radii_in_edges_are_multiples_of_the_mean_edge_length(method):
-    index = meshhood.MeshIndex(V, F)
-    unit = index.mean_edge_length
-    for r in (0, 1, 2.5, np.inf):
-        np.testing.assert_array_equal(
-            index.neighborhood(30, r, unit="edge", method=method, sort="id"),
-            index.neighborhood(30, r * unit, method=method, sort="id"),
-        )
-    radii = np.linspace(0, 4, len(V))
-    np.testing.assert_array_equal(
-        index.counts(radii, unit="edge", method=method),
-        index.counts(unit * radii, method=method),
-    )
-
-
 def test_radii_in_edges_need_edges():
     index = meshhood.MeshIndex(V, np.zeros((0, 3), int))
     with pytest.raises(ValueError, match="unit: 'edge', but the mesh has no edges of positive length"):
         index.neighborhood(0, 1, unit="edge")
     with pytest.raises(ValueError, match="unit: 'inch', expected 'mesh' or 'edge'"):
         index.neighborhood(0, 1, unit="inch")
-
-
-def test_a_bool_mask_selects_rows():
-    index = meshhood.MeshIndex(V, F)
-    for mask in (V[:, 0] > 3, np.zeros(len(V), bool), np.ones(len(V), bool)):
-        wanted = index.neighborhoods(2.0, np.flatnonzero(mask), sort="id")
-        for got in (index.neighborhoods(2.0, mask, sort="id"), index.neighborhoods(2.0, mask.tolist(), sort="id")):
-            np.testing.assert_array_equal(got[0], wanted[0])
-            np.testing.assert_array_equal(got[1], wanted[1])
-        np.testing.assert_array_equal(index.counts(2.0, mask), np.diff(wanted[0]))
-    with pytest.raises(ValueError, match=r"vertices: a bool mask of shape \(80,\), expected \(81,\)"):
-        index.neighborhoods(1.0, np.ones(80, bool))
 
 
 class Named(meshhood.MeshIndex):
@@ -100,8 +71,3 @@ def test_a_pickled_subclass_travels_out_of_band():
     assert len(buffers) == 2 and len(saved) < 1000  # the index and its faces
     got = pickle.loads(saved, buffers=buffers)
     assert type(got) is Named and got.name == "hand" and len(got) == len(V)
-
-
-def test_a_copy_is_the_index_itself():
-    index = meshhood.MeshIndex(V, F)
-    assert copy.copy(index) is index and copy.deepcopy(index) is index

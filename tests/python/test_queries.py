@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""More kinds of queries: regions around any point, nested radii, connecting radii, filters, path distances, rims."""
+"""Nearest vertices, cut edges, faces and rims; refused arguments. test_pairs.py has the answers of all calls."""
 
 import numpy as np
 import pytest
-from meshes import folded, grid, shared, triangles, two_plates
-from oracle import triangle_graph
-from scipy.sparse.csgraph import connected_components, dijkstra
+from meshes import folded, grid, two_plates
 
 import meshhood
 
@@ -16,24 +14,12 @@ pytestmark = pytest.mark.filterwarnings("ignore:.*point is farther than r")
 @pytest.fixture(params=[two_plates, folded], ids=["plates", "folded"])
 def mesh(request):
     V, F = request.param(12)
-    return V, F, meshhood.MeshIndex(V, F), triangle_graph(len(V), F)
+    return V, F, meshhood.MeshIndex(V, F)
 
 
 def distances(V, p):
     dx, dy, dz = (V.astype(np.float64) - np.asarray(p, np.float64)).T
     return np.sqrt((dx * dx + dy * dy) + dz * dz)
-
-
-def region(V, graph, p, seeds, r, walls=None, ignored=None):
-    """Sorted, by the connected components of SciPy."""
-    inside = distances(V, p) <= r
-    if walls is not None:
-        inside &= ~walls
-    ids = np.flatnonzero(inside)
-    labels = connected_components(graph[ids][:, ids], directed=False)[1] if len(ids) else np.empty(0, int)
-    own = np.isin(labels, labels[np.isin(ids, seeds)])
-    found = ids[own]
-    return found if ignored is None else found[~ignored[found]]
 
 
 def random_starts(V, F, random, count):
@@ -43,139 +29,15 @@ def random_starts(V, F, random, count):
         yield weights @ V[face].astype(np.float64), face
 
 
-def test_region_of_a_point_on_a_face_is_that_of_scipy(mesh):
-    V, F, index, graph = mesh
-    random = np.random.default_rng(1)
-    for p, face in random_starts(V, F, random, 40):
-        for r in (0.3, 1.0, 2.5, 7.0):
-            found, lengths = index.neighborhood(p, r, seeds=face, sort="id", return_distance=True)
-            np.testing.assert_array_equal(found, region(V, graph, p, face, r))
-            np.testing.assert_array_equal(lengths, distances(V, p)[found])
-
-
-def test_region_of_a_vertex_is_its_neighborhood(mesh):
-    V, _, index, _ = mesh
-    for v in range(0, len(V), 17):
-        np.testing.assert_array_equal(index.neighborhood(v, 3.0, sort="id"), index.neighborhood(v, 3.0, sort="id"))
-
-
-def test_walls_are_not_passed_and_ignored_vertices_are(mesh):
-    V, F, index, graph = mesh
-    random = np.random.default_rng(2)
-    for p, face in random_starts(V, F, random, 30):
-        walls, ignored = random.random(len(V)) < 0.2, random.random(len(V)) < 0.3
-        found = index.neighborhood(p, 4.0, seeds=face, walls=walls, ignored=ignored, sort="id")
-        np.testing.assert_array_equal(found, region(V, graph, p, face, 4.0, walls, ignored))
-
-
-def test_seeds_are_by_default_the_nearest_vertex(mesh):
-    V, _, index, graph = mesh
+def test_nearest_is_that_of_a_scan(mesh):
+    V, _, index = mesh
     p = V[30] + [0.2, 0.1, 0]
     vertex, distance = index.nearest(p)
     assert vertex == np.argmin(distances(V, p)) and distance == distances(V, p).min()
-    np.testing.assert_array_equal(index.neighborhood(p, 3, sort="id"), region(V, graph, p, [vertex], 3))
     for none in ([], np.empty((0, 3))):
         assert [len(found) for found in index.nearest(none)] == [0, 0]
     vertices, _ = index.nearest(V[:50])
     np.testing.assert_array_equal(vertices, np.arange(50))
-
-
-def test_stroke_is_the_union_of_its_regions(mesh):
-    V, F, index, graph = mesh
-    starts = list(random_starts(V, F, np.random.default_rng(3), 9))
-    points = np.array([p for p, _ in starts])
-    seeds = np.array([face for _, face in starts])
-    parts = [region(V, graph, p, face, 1.5) for p, face in starts]
-    found = index.stroke(points, 1.5, seeds=seeds, sort="id")
-    np.testing.assert_array_equal(found, np.unique(np.concatenate(parts)))
-    parts = [index.neighborhood(p, 1.5) for p in points]
-    np.testing.assert_array_equal(index.stroke(points, 1.5, sort="id"), np.unique(np.concatenate(parts)))
-    assert len(index.stroke(np.empty((0, 3)), 1.5)) == 0
-
-
-def test_nested_radii_give_each_region(mesh):
-    V, _, index, graph = mesh
-    radii = [0, 1, 1.5, 4, 9, np.inf]
-    counts, ids = index.nested(5, radii)
-    for r, count in zip(radii, counts):
-        np.testing.assert_array_equal(np.sort(ids[:count]), region(V, graph, V[5], [5], r))
-
-
-def test_connecting_radius_is_the_first_that_contains(mesh):
-    V, _, index, graph = mesh
-    for w in range(0, len(V), 13):
-        r = index.connecting_radius(7, w)
-        radii = np.unique(distances(V, V[7]))
-        expected = [one for one in radii if w in region(V, graph, V[7], [7], one)]
-        assert r == (expected[0] if expected else np.inf)
-        assert index.contains(7, w, r) == bool(expected)
-        assert not index.contains(7, w, np.nextafter(r, 0)) or r == 0
-
-
-def test_nearest_connected_vertices_ascend_by_connecting_radius(mesh):
-    _, _, index, _ = mesh
-    ids, radii = index.nearest_connected(7, 40)
-    assert len(ids) == len(set(ids)) == 40 and ids[0] == 7
-    assert (np.diff(radii) >= 0).all()
-    assert [index.connecting_radius(7, w) for w in ids] == list(radii)
-    nearer = index.neighborhood(7, np.nextafter(radii[-1], 0))
-    assert set(nearer) <= set(ids)
-
-
-def lengths_graph(V, graph):
-    edges = graph.tocoo()
-    edges.sum_duplicates()
-    edges.data = np.array([distances(V[[j]], V[i])[0] for i, j in zip(edges.row, edges.col)])
-    return edges.tocsr()
-
-
-def test_path_distances_are_those_of_scipy_to_the_last_bit(mesh):
-    V, _, index, graph = mesh
-    matrix = lengths_graph(V, graph)
-    for v in (0, 77):
-        expected = dijkstra(matrix, directed=False, indices=v, limit=6)
-        ids, lengths = index.neighborhood(v, 6, metric="path", return_distance=True)
-        np.testing.assert_array_equal(np.sort(ids), np.flatnonzero(np.isfinite(expected)))
-        np.testing.assert_array_equal(lengths, expected[ids])
-        assert (np.diff(lengths) >= 0).all()
-
-
-def test_paths_do_not_pass_walls(mesh):
-    V, _, index, graph = mesh
-    random = np.random.default_rng(4)
-    for v in (3, 60):
-        walls, ignored = random.random(len(V)) < 0.2, random.random(len(V)) < 0.3
-        walls[v] = False
-        free = np.flatnonzero(~walls)
-        matrix = lengths_graph(V, graph)[free][:, free]
-        expected = np.full(len(V), np.inf)
-        expected[free] = dijkstra(matrix, directed=False, indices=np.searchsorted(free, v), limit=5)
-        options = {"metric": "path", "walls": walls, "ignored": ignored, "return_distance": True}
-        ids, lengths = index.neighborhood(v, 5, **options)
-        np.testing.assert_array_equal(np.sort(ids), np.flatnonzero(np.isfinite(expected) & ~ignored))
-        np.testing.assert_array_equal(lengths, expected[ids])
-        by_id, lengths = index.neighborhood(v, 5, sort="id", **options)
-        np.testing.assert_array_equal(by_id, np.sort(ids))
-        np.testing.assert_array_equal(lengths, expected[by_id])
-
-
-def test_batch_along_edges_has_the_rows_of_single_queries(mesh):
-    _, _, index, _ = mesh
-    rows = [3, 50, 3, 99]
-    indptr, indices, lengths = index.neighborhoods(3, rows, metric="path", return_distance=True, sort="id")
-    for i, v in enumerate(rows):
-        ids, expected = index.neighborhood(v, 3, metric="path", return_distance=True, sort="id")
-        np.testing.assert_array_equal(indices[indptr[i] : indptr[i + 1]], ids)
-        np.testing.assert_array_equal(lengths[indptr[i] : indptr[i + 1]], expected)
-    np.testing.assert_array_equal(index.counts(3, rows, metric="path"), np.diff(indptr))
-
-
-def test_rings_count_edges(mesh):
-    _, _, index, graph = mesh
-    hops = dijkstra(graph, directed=False, unweighted=True, indices=20)
-    counts, ids = index.nested(20, range(5), metric="rings")
-    for i, count in enumerate(counts):
-        np.testing.assert_array_equal(np.sort(ids[:count]), np.flatnonzero(hops <= i))
 
 
 def test_cut_edges_are_not_crossed():
@@ -187,7 +49,7 @@ def test_cut_edges_are_not_crossed():
 
 
 def test_faces_and_submesh_of_a_region(mesh):
-    V, F, index, _ = mesh
+    V, F, index = mesh
     mesher = meshhood.RegionMesh(V, F)
     ids = index.neighborhood(5, 3.2)
     inside = np.isin(F, ids)
@@ -199,7 +61,7 @@ def test_faces_and_submesh_of_a_region(mesh):
 
 
 def test_rim_lies_at_the_radius(mesh):
-    V, F, index, _ = mesh
+    V, F, index = mesh
     p, face = next(random_starts(V, F, np.random.default_rng(8), 1))
     lines = meshhood.RegionMesh(V, F).rim(index.neighborhood(p, 2.7, seeds=face), p, 2.7)
     assert lines
@@ -214,16 +76,6 @@ def test_rim_of_polygons_on_a_sheet_is_one_loop():
     center = 6 * 12 + 6
     (line,) = meshhood.RegionMesh(V, quads).rim(index.neighborhood(center, 3.3), center, 3.3)
     assert line.closed
-
-
-def test_rims_on_a_scan_are_loops_where_the_mesh_is_closed(tmp_path):
-    V, F = meshhood.read_mesh(shared("scan/armadillo_43k.ply.zst", tmp_path))
-    index = meshhood.MeshIndex(V, F)
-    mesher = meshhood.RegionMesh(V, F)
-    r = 12 * index.mean_edge_length
-    for v in range(0, len(V), 4321):
-        lines = mesher.rim(index.neighborhood(v, r), v, r)
-        assert lines and all(line.closed for line in lines)
 
 
 @pytest.mark.parametrize(

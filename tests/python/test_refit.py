@@ -126,21 +126,6 @@ def test_other_threads_search_the_old_index_meanwhile(mesh):
     assert not np.array_equal(wanted[id(kept[0])], wanted[id(kept[1])])
 
 
-def test_arguments_that_a_callback_changes_during_the_call_have_no_effect(mesh):
-    V, F = mesh
-    index = meshhood.MeshIndex(V, F)
-    moved, changed = bent(V, 2), np.arange(50)
-
-    def spoil(done, total):
-        moved[:] = np.nan
-        changed[:] = 10**9
-
-    wanted = moved.copy()
-    expect_answers_of(index.refit(moved, progress=spoil), wanted, F)
-    with pytest.raises(ValueError, match="V: vertex 0: x is nan"):
-        index.refit(moved, np.arange(50), progress=spoil)
-
-
 def test_a_mesh_is_accepted_for_its_positions():
     trimesh = pytest.importorskip("trimesh")
     V, F = meshes.folded(SIDE)

@@ -5,7 +5,6 @@ import concurrent.futures
 import copy
 import multiprocessing
 import pickle
-import warnings
 from pathlib import Path
 
 import meshes
@@ -166,14 +165,6 @@ def test_indexes_saved_by_the_cpp_library_are_loaded(file):
         np.testing.assert_array_equal(ids, index.neighborhood(v, 1.0, sort="id", method="bfs"))
 
 
-def test_progress_of_loading(file):
-    for mmap in (False, True):
-        calls = []
-        meshhood.load(file, mmap=mmap, progress=lambda done, total: calls.append((done, total)))
-        assert calls[0][0] == 0 and calls[-1][0] == calls[-1][1] > 0
-        assert calls == sorted(calls) and len({total for _, total in calls}) == 1
-
-
 @pytest.mark.parametrize("mmap", (False, True))
 def test_an_exception_of_progress_ends_loading(file, mmap):
     def enough(done, total):
@@ -181,13 +172,6 @@ def test_an_exception_of_progress_ends_loading(file, mmap):
 
     with pytest.raises(LookupError, match="enough"):
         meshhood.load(file, mmap=mmap, progress=enough)
-
-
-def test_progress_of_saving(index, tmp_path):
-    calls = []
-    index.save(tmp_path / "index", progress=lambda done, total: calls.append((done, total)))
-    assert calls[0][0] == 0 and calls[-1][0] == calls[-1][1] > 0
-    assert calls == sorted(calls) and len({total for _, total in calls}) == 1
 
 
 def test_an_exception_of_progress_leaves_the_old_file(index, file):
@@ -238,17 +222,6 @@ def run_query(index, v):
     return index.neighborhood(v, 3.5)
 
 
-@pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())
-def test_other_processes_may_query(index, method):
-    wanted = [index.neighborhood(v, 3.5) for v in range(5)]
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)  # of forking where there are threads
-        pool = concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context(method))
-        with pool:
-            for got, want in zip(pool.map(run_query, [index] * 5, range(5)), wanted):
-                np.testing.assert_array_equal(got, want)
-
-
 _mapped = None
 
 
@@ -266,11 +239,3 @@ def test_processes_may_share_a_file(index, file):
     with concurrent.futures.ProcessPoolExecutor(2, context, initializer=map_index, initargs=(file,)) as pool:
         for v, got in enumerate(pool.map(query_mapped, range(5))):
             np.testing.assert_array_equal(got, index.neighborhood(v, 3.5))
-
-
-class Mine(meshhood.MeshIndex):
-    pass
-
-
-def test_subclasses_keep_their_class():
-    assert type(pickle.loads(pickle.dumps(Mine(*meshes.two_plates(3))))) is Mine

@@ -6,7 +6,7 @@ import warnings
 import numpy as np
 import pytest
 from meshes import folded, grid, triangles, two_plates
-from oracle import distances, neighborhood, triangle_graph
+from oracle import triangle_graph
 
 import meshhood
 
@@ -15,25 +15,6 @@ import meshhood
 def mesh(request):
     V, F = request.param(12)
     return V, F, meshhood.MeshIndex(V, F), triangle_graph(len(V), F)
-
-
-def unconnected(V, edges, v, r):
-    near = distances(V, v)
-    near[neighborhood(V, edges, v, r)] = np.inf
-    near[near > r] = np.inf
-    other = int(near.argmin())
-    return (other, near[other]) if near[other] < np.inf else (-1, np.inf)
-
-
-@pytest.mark.parametrize("r", [0.1, 0.25, 1.0, 3.5, np.inf])
-def test_nearest_unconnected_is_that_of_a_scan(mesh, r):
-    V, _, index, edges = mesh
-    other, gap = index.nearest_unconnected(r)
-    assert other.dtype == np.int32 and gap.dtype == np.float64
-    for v in range(0, len(V), 5):
-        assert (other[v], gap[v]) == unconnected(V, edges, v, r)
-    some = [7, 3, 3]
-    np.testing.assert_array_equal(index.nearest_unconnected(r, some, workers=1)[0], other[some])
 
 
 def test_nearest_unconnected_takes_a_mask_radii_and_a_unit(mesh):
@@ -105,35 +86,6 @@ def test_closest_point_takes_other_faces_and_keeps_what_it_made():
         bare.closest_point([0, 0, 0], F=np.empty((0, 3), int))
 
 
-def test_a_region_starts_from_the_corners_of_a_face(mesh):
-    V, F, index, _ = mesh
-    random = np.random.default_rng(4)
-    q = random.uniform(V.min(0), V.max(0), (25, 3))
-    faces, _, points = index.closest_point(q)
-    for face, point in zip(faces, points):
-        found = index.neighborhood(point, 2.5, face=face)
-        np.testing.assert_array_equal(found, index.neighborhood(point, 2.5, seeds=F[face]))
-    np.testing.assert_array_equal(
-        index.stroke(points, 1.5, face=faces), index.stroke(points, 1.5, seeds=F[faces])
-    )
-
-
-def test_every_search_from_a_point_starts_from_the_corners_of_its_face(mesh):
-    V, F, index, _ = mesh
-    random = np.random.default_rng(9)
-    walls = random.random(len(V)) < 0.1
-    faces, _, points = index.closest_point(random.uniform(V.min(0), V.max(0), (12, 3)))
-    for face, point in zip(faces, points):
-        for call in (
-            lambda **start: index.nested(point, [1.0, 2.5], walls=walls, **start),
-            lambda **start: [index.contains(point, w, 2.5, walls=walls, **start) for w in range(0, len(V), 9)],
-            lambda **start: [index.connecting_radius(point, w, walls=walls, **start) for w in range(0, len(V), 9)],
-            lambda **start: index.nearest_connected(point, 15, walls=walls, **start),
-        ):
-            for found, wanted in zip(call(face=face), call(seeds=F[face])):
-                np.testing.assert_array_equal(found, wanted)
-
-
 def test_a_region_of_a_polygon_starts_from_all_its_corners():
     V, quads = grid(4)
     corners = np.concatenate([quads.ravel(), [0, 1, 4]])
@@ -165,55 +117,11 @@ def test_a_face_as_start_is_refused_where_it_means_nothing(mesh):
         meshhood.MeshIndex(V, F, keep_faces=False).neighborhood([0.0, 0.0, 0.0], 1.0, face=1)
 
 
-def test_k_nearest_is_nearest_connected_row_by_row(mesh):
-    V, _, index, _ = mesh
-    walls = np.zeros(len(V), bool)
-    walls[::7] = True
-    ignored = np.zeros(len(V), bool)
-    ignored[::5] = True
-    for filters in ({}, {"walls": walls}, {"walls": walls, "ignored": ignored}):
-        ids, radii = index.k_nearest(9, **filters)
-        assert ids.shape == radii.shape == (len(V), 9)
-        for v in range(0, len(V), 9):
-            expected, expected_radii = index.nearest_connected(v, 9, **filters)
-            count = len(expected)
-            np.testing.assert_array_equal(ids[v, :count], expected)
-            np.testing.assert_array_equal(radii[v, :count], expected_radii)
-            assert (ids[v, count:] == -1).all() and (radii[v, count:] == np.inf).all()
-
-
-def test_k_nearest_by_path_begins_as_the_path_neighborhood(mesh):
-    V, _, index, _ = mesh
-    ids, lengths = index.k_nearest(30, range(0, len(V), 9), metric="path", r=3.0, fill=len(V), workers=2)
-    for row, v in enumerate(range(0, len(V), 9)):
-        expected, expected_lengths = index.neighborhood(v, 3.0, metric="path", return_distance=True)
-        count = min(30, len(expected))
-        np.testing.assert_array_equal(ids[row, :count], expected[:count])
-        np.testing.assert_array_equal(lengths[row, :count], expected_lengths[:count])
-        assert (ids[row, count:] == len(V)).all()
-
-
 def test_k_nearest_of_one_vertex_is_one_row(mesh):
     _, _, index, _ = mesh
     ids, radii = index.k_nearest(4, 5)
     assert ids.shape == radii.shape == (4,) and ids[0] == 5 and radii[0] == 0
     np.testing.assert_array_equal(ids, index.k_nearest(4, [5])[0][0])
-
-
-@pytest.mark.parametrize("metric", ["straight", "path"])
-def test_discs_have_the_area(mesh, metric):
-    V, F, index, _ = mesh
-    areas = meshhood.vertex_areas(V, F)
-    indptr, ids, distances = index.discs(7.5, metric=metric)
-    all_ids, all_distances = index.k_nearest(40, metric=metric)
-    for v in range(0, len(V), 11):
-        row = ids[indptr[v] : indptr[v + 1]]
-        np.testing.assert_array_equal(row, all_ids[v, : len(row)])
-        np.testing.assert_array_equal(distances[indptr[v] : indptr[v + 1]], all_distances[v, : len(row)])
-        sums = np.cumsum(areas[row])
-        assert sums[-1] >= 7.5 > sums[-2]
-    same = index.discs(7.5, metric=metric, weights=areas)
-    np.testing.assert_array_equal(same[1], ids)
 
 
 def test_nearest_vertices_refuse_wrong_arguments(mesh):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The arguments that calls on many vertices share mean the same in each: rows, radii, scales, masks, metric, order."""
+"""Arguments that calls share: what is refused, masks, faces, types. test_pairs.py has their answers, in all pairs."""
 
 import inspect
 import pickle
@@ -7,10 +7,7 @@ import pickle
 import meshes
 import meshhood
 import numpy as np
-import oracle
 import pytest
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
 
 V, F = meshes.two_plates(9)
 INDEX = meshhood.MeshIndex(V, F)
@@ -33,59 +30,10 @@ CALLS = {
     "components": lambda r=None, **words: INDEX.principal_components(r, **words),
     "features": lambda r=None, **words: INDEX.features(r, kinds=("area", "crease"), **words),
 }
-PATH_CALLS = ("counts", "aggregate", "maximum", "variance", "kernel")
 
 
 def arrays(result):
     return result if isinstance(result, tuple) else (result,)
-
-
-def rows_of(indptr, *columns):
-    return [tuple(column[begin:end] for column in columns) for begin, end in zip(indptr[:-1], indptr[1:])]
-
-
-def edges_without(walls):
-    kept = INDEX_EDGES[~walls[INDEX_EDGES].any(axis=1)]
-    both = np.concatenate([kept, kept[:, ::-1]])
-    return csr_array((np.ones(len(both)), both.T), shape=(COUNT, COUNT))
-
-
-def _edges():
-    sides = np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]])
-    return np.unique(np.sort(sides, axis=1), axis=0)
-
-
-INDEX_EDGES = _edges()
-
-
-@pytest.mark.parametrize("name", CALLS)
-def test_scales_are_a_leading_axis(name):
-    call = CALLS[name]
-    both = arrays(call(scales=[1.5, 2.5]))
-    for i, r in enumerate((1.5, 2.5)):
-        for one, all_scales in zip(arrays(call(r)), both):
-            np.testing.assert_array_equal(all_scales[i], one)
-    for one, single in zip(arrays(call(1.5)), arrays(call(scales=[1.5]))):
-        assert single.shape == (1, *one.shape)
-
-
-@pytest.mark.parametrize("name", CALLS)
-def test_vertices_are_the_rows(name):
-    call, some = CALLS[name], [5, 3, 3]
-    mask = np.zeros(COUNT, bool)
-    mask[[3, 5]] = True
-    for whole, rows, masked in zip(*(arrays(call(2.5, vertices=rows)) for rows in (None, some, mask))):
-        np.testing.assert_array_equal(rows, whole[some])
-        np.testing.assert_array_equal(masked, whole[[3, 5]])
-
-
-@pytest.mark.parametrize("name", CALLS)
-def test_one_radius_for_each_row(name):
-    call, radii = CALLS[name], RANDOM.uniform(1.2, 3, COUNT)
-    given = arrays(call(radii))
-    for v in range(0, COUNT, 7):
-        for column, one in zip(given, arrays(call(float(radii[v]), vertices=[v]))):
-            np.testing.assert_allclose(column[v], one[0], rtol=1e-9, atol=1e-9)
 
 
 @pytest.mark.parametrize("name", CALLS)
@@ -96,102 +44,6 @@ def test_a_list_of_another_length_is_never_guessed(name):
         CALLS[name](scales=2.0)
     with pytest.raises(TypeError, match="r: missing, expected a number"):
         CALLS[name]()
-
-
-@pytest.mark.parametrize("name", PATH_CALLS)
-def test_masks_give_what_a_mesh_without_the_walls_gives(name):
-    found = arrays(CALLS[name](2.5, walls=WALLS))
-    graph = edges_without(WALLS)
-    alone = meshhood.MeshIndex(V, graph)
-    free = ~WALLS
-    for column, wanted in zip(found, arrays(_with(alone, name, 2.5))):
-        np.testing.assert_allclose(column[free], wanted[free], rtol=1e-9, atol=1e-12)
-
-
-def _with(index, name, r):
-    if name == "counts":
-        return index.counts(r)
-    reduce = {"aggregate": "sum", "maximum": "max", "variance": "var", "kernel": "mean"}[name]
-    return index.aggregate(VALUES, r, reduce, kernel="biweight" if name == "kernel" else None)
-
-
-@pytest.mark.parametrize("metric", ("straight", "path"))
-def test_batches_with_masks_are_single_queries_with_masks(metric):
-    words = {**MASKS, "metric": metric, "return_distance": True, "sort": "id"}
-    many = rows_of(*INDEX.neighborhoods(2.5, **words))
-    for v, (ids, distances) in enumerate(many):
-        one = INDEX.neighborhood(v, 2.5, **words)
-        np.testing.assert_array_equal(ids, one[0])
-        np.testing.assert_array_equal(distances, one[1])
-        np.testing.assert_array_equal(ids, INDEX.neighborhood(v, 2.5, **MASKS, metric=metric, sort="id"))
-        assert not (WALLS | IGNORED)[ids].any()
-    np.testing.assert_array_equal(INDEX.counts(2.5, **MASKS, metric=metric), [len(ids) for ids, _ in many])
-
-
-@pytest.mark.parametrize("name", ("aggregate", "maximum", "variance", "kernel", "moments"))
-@pytest.mark.parametrize("metric", ("straight", "path", "rings"))
-def test_masks_and_metrics_in_values(name, metric):
-    found = CALLS[name](2.5, **MASKS, metric=metric)
-    listed = rows_of(*INDEX.neighborhoods(2.5, return_distance=True, **MASKS, metric=metric))
-    for v, (ids, distances) in enumerate(listed):
-        if name == "moments":
-            assert found[v, 0] == len(ids)
-            np.testing.assert_allclose(found[v, 1:4], (V[ids].astype(float) - V[v]).sum(axis=0), atol=1e-9)
-            continue
-        if not len(ids):
-            assert np.all(found[v] == 0) if name == "aggregate" else np.isnan(found[v]).all()
-            continue
-        weights = (1 - (distances / 2.5) ** 2) ** 2
-        wanted = {
-            "aggregate": lambda x: x.sum(axis=0),
-            "maximum": lambda x: x.max(axis=0),
-            "variance": lambda x: x.var(axis=0),
-            "kernel": lambda x: np.average(x, axis=0, weights=weights),
-        }[name](VALUES[ids])
-        np.testing.assert_allclose(found[v], wanted, rtol=1e-9, atol=1e-12)
-
-
-def test_rows_of_all_scales_follow_each_other():
-    indptr, indices, distances = INDEX.neighborhoods(vertices=[4, 9], scales=[1.0, 2.0], return_distance=True)
-    assert len(indptr) == 5
-    for (ids, lengths), (v, r) in zip(rows_of(indptr, indices, distances), ((4, 1.0), (9, 1.0), (4, 2.0), (9, 2.0))):
-        one = INDEX.neighborhood(v, r, return_distance=True)
-        np.testing.assert_array_equal(ids, one[0])
-        np.testing.assert_array_equal(lengths, one[1])
-    assert INDEX.counts(scales=[1.0, 2.0], vertices=4).tolist() == [len(INDEX.neighborhood(4, r)) for r in (1.0, 2.0)]
-    graph = INDEX.radius_neighbors_graph(scales=[1.0, 2.0], vertices=[4, 9])
-    assert graph.shape == (4, COUNT) and graph.nnz == len(indices)
-    with pytest.raises(MemoryError, match="max_bytes"):
-        INDEX.neighborhoods(scales=[1.0, 2.0], max_bytes=4 * int(INDEX.counts(2.0).sum()))
-
-
-@pytest.mark.parametrize("metric", ("straight", "path"))
-@pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
-def test_sort(method, metric):
-    if metric == "path" and method != "exact":
-        return
-    place = np.argsort(INDEX.permutation)
-    words = {"method": method, "metric": metric, "return_distance": True}
-    whole = rows_of(*INDEX.neighborhoods(2.5, **words))
-    keys_of = {"id": lambda i, d: i, "index": lambda i, d: place[i], "distance": lambda i, d: list(zip(d, i))}
-    for sort, key in keys_of.items():
-        rows = rows_of(*INDEX.neighborhoods(2.5, sort=sort, **words))
-        for v, ((ids, distances), (all_ids, _)) in enumerate(zip(rows, whole)):
-            assert sorted(ids) == sorted(all_ids)
-            keys = [tuple(k) if isinstance(k, tuple) else k for k in key(ids, distances)]
-            assert keys == sorted(keys)
-            np.testing.assert_array_equal(INDEX.neighborhood(v, 2.5, sort=sort, method=method, metric=metric), ids)
-    with pytest.raises(ValueError, match="sort: True, expected 'index' or 'id' or 'distance'"):
-        INDEX.neighborhood(0, 1.0, sort=True)
-
-
-def test_path_distances_are_those_of_dijkstra():
-    lengths = np.linalg.norm(V[INDEX_EDGES[:, 0]].astype(float) - V[INDEX_EDGES[:, 1]], axis=1)
-    matrix = csr_array((lengths, INDEX_EDGES.T), shape=(COUNT, COUNT))
-    expected = dijkstra(matrix, directed=False, limit=2.5)
-    graph = INDEX.radius_neighbors_graph(2.5, metric="path", mode="distance")
-    assert graph.nnz == np.isfinite(expected).sum()
-    np.testing.assert_allclose(graph.data, expected[np.repeat(np.arange(COUNT), np.diff(graph.indptr)), graph.indices])
 
 
 def test_types():
@@ -210,24 +62,6 @@ def test_types():
         INDEX.aggregate(VALUES, 2.0, dtype=np.int32)
 
 
-def test_the_graph_has_the_rows_that_are_asked():
-    whole, some = INDEX.radius_neighbors_graph(2.0), INDEX.radius_neighbors_graph(2.0, vertices=[7, 2, 7])
-    assert some.shape == (3, COUNT)
-    assert (some != whole[[7, 2, 7]]).nnz == 0
-
-
-@pytest.mark.parametrize("metric", ("straight", "path"))
-@pytest.mark.parametrize("weights", (None, "area"))
-def test_the_smoothing_matrix_smooths(metric, weights):
-    words = {"metric": metric, "weights": weights, **MASKS}
-    matrix = INDEX.smoothing_matrix(2.0, **words)
-    smooth = INDEX.smooth(VALUES, 2.0, **words)
-    alone = np.diff(matrix.indptr) == 0
-    np.testing.assert_allclose((matrix @ VALUES)[~alone], smooth[~alone], rtol=1e-11, atol=1e-13)
-    assert np.isnan(smooth[alone]).all() and alone.any()
-    np.testing.assert_allclose(matrix.sum(axis=1)[~alone], 1)
-
-
 def test_many_channels_are_each_channel_by_itself():
     many = RANDOM.normal(size=(COUNT, 70))
     many[3, 5] = np.nan
@@ -236,37 +70,6 @@ def test_many_channels_are_each_channel_by_itself():
         for channel in (0, 5, 69):
             alone = INDEX.smooth(many[:, channel], 2.0, **words)
             np.testing.assert_allclose(together[:, channel], alone, rtol=1e-11, atol=1e-13)
-
-
-def test_two_banks_are_not_mixed_along_paths():
-    """Two banks, 5 deep and 1 apart, joined at the bottom; a signal on one of them."""
-    width = 10
-    profile = [(0, 5 - i) for i in range(5)] + [(0, 0), (1, 0)] + [(1, i + 1) for i in range(5)]
-    points = np.array([(x, y, z) for x, z in profile for y in range(width)], float)
-    corner = (np.arange(len(profile) - 1)[:, None] * width + np.arange(width - 1)).ravel()
-    quads = np.column_stack([corner, corner + 1, corner + width + 1, corner + width])
-    index = meshhood.MeshIndex(points, quads)
-    signal = (points[:, 0] == 0).astype(float)
-    top = (points[:, 0] == 1) & (points[:, 2] == 5)
-    straight, path = (index.smooth(signal, 6.0, metric=metric)[top].max() for metric in ("straight", "path"))
-    assert straight > 0.4
-    assert path < 0.02
-
-
-def test_progress_ascends_over_all_scales():
-    for call in (
-        lambda watch: INDEX.curvature(scales=[1.0, 2.0, 3.0], progress=watch),
-        lambda watch: INDEX.counts(scales=[1.0, 2.0, 3.0], progress=watch),
-        lambda watch: INDEX.neighborhoods(scales=[1.0, 2.0], progress=watch),
-        lambda watch: INDEX.corrected_curvature(scales=[1.0, 2.0], progress=watch),
-        lambda watch: INDEX.aggregate(VALUES, scales=[1.0, 2.0], progress=watch),
-        lambda watch: INDEX.features(scales=[1.0, 2.0], kinds=("area", "crease"), progress=watch),
-    ):
-        reports = []
-        call(lambda done, total: reports.append((done, total)))
-        done, totals = zip(*reports)
-        assert list(done) == sorted(done)
-        assert set(totals) == {done[-1]}
 
 
 def test_a_bar_has_a_title_and_counts_vertices(monkeypatch):
@@ -463,25 +266,3 @@ def test_free_memory_is_what_a_control_group_leaves(tmp_path, monkeypatch):
         INDEX.neighborhoods(5.0)
     with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds max_bytes, 1000"):
         INDEX.aggregate(VALUES, 5.0)
-
-
-def test_a_ball_is_every_vertex_in_space():
-    edges = oracle.triangle_graph(COUNT, F)
-    for v in range(0, COUNT, 11):
-        ids = INDEX.neighborhood(v, 1.1, method="ball", sort="id")
-        np.testing.assert_array_equal(ids, np.flatnonzero(oracle.distances(V, v) <= 1.1))
-        assert len(ids) >= len(oracle.neighborhood(V, edges, v, 1.1))
-
-
-@pytest.mark.parametrize("masks", ({}, MASKS), ids=("all", "masks"))
-def test_rings_are_a_metric(masks):
-    words = {**masks, "metric": "rings", "return_distance": True, "sort": "id"}
-    for v, (ids, edges) in enumerate(rows_of(*INDEX.neighborhoods(2, **words))):
-        counts, wanted = INDEX.nested(v, range(3), metric="rings", **masks)
-        np.testing.assert_array_equal(ids, np.sort(wanted))
-        number = dict(zip(wanted, np.repeat(np.arange(len(counts)), np.diff(counts, prepend=0))))
-        assert edges.tolist() == [number[i] for i in ids]
-        np.testing.assert_array_equal(INDEX.neighborhood(v, 2, **words)[0], ids)
-        np.testing.assert_array_equal(INDEX.neighborhood(v, 2, **words)[0], ids)
-    with pytest.raises(ValueError, match="unit: expected 'mesh' with metric='rings'"):
-        INDEX.counts(2, metric="rings", unit="edge")

@@ -29,24 +29,7 @@ struct SearchCase {
   const Query& query;
   const Kernels& kernels;
 
-  /// The component of `v` within the ball of the query.
-  [[nodiscard]] Ids component_in_ball(std::uint32_t v) const {
-    std::vector<bool> seen(oracle.size());
-    Ids reached{v};
-    seen[v] = true;
-    for (std::size_t head = 0; head < reached.size(); ++head) {
-      for (const std::uint32_t w : oracle.neighbors(reached[head])) {
-        if (!seen[w] && is_in_ball(w)) reached.push_back(w);
-        seen[w] = true;
-      }
-    }
-    std::sort(reached.begin(), reached.end());
-    return reached;
-  }
-
-  [[nodiscard]] Ids ball() const { return oracle.ball(query.vertex, query.radius); }
   [[nodiscard]] Ids neighborhood() const { return oracle.exact(query.vertex, query.radius); }
-  [[nodiscard]] bool is_in_ball(std::uint32_t w) const { return oracle.distance(query.vertex, w) <= query.radius; }
   [[nodiscard]] std::uint32_t id(LeafId leaf, unsigned lane) const { return index.id(index.leaf_begin[leaf] + lane); }
   [[nodiscard]] LeafId leaf_of_id(std::uint32_t v) const { return leaf_of(index.slot[v]); }
 };

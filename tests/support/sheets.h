@@ -37,16 +37,6 @@ inline TestMesh make_hairpin(std::uint32_t width, std::uint32_t gap, std::uint32
   });
 }
 
-/// Two square pads, joined by a narrow bridge, from whose middle a long tail leads away.
-inline TestMesh make_bridged_pads() {
-  return cut_grid(91, 261, [](std::uint32_t x, std::uint32_t y) {
-    const bool in_pad = y <= 40 && (x <= 40 || x >= 50);
-    const bool in_bridge = y >= 20 && y <= 22;
-    const bool in_tail = x >= 44 && x <= 46 && y >= 22;
-    return in_pad || (in_bridge && y <= 22) || in_tail;
-  });
-}
-
 /// A sheet of `side` by twice as many vertices, in rows, that folds back over itself behind row `side - 1`. The upper
 /// half is at a height of 0.7, plus waves of the given height and 12 edges long.
 inline TestMesh make_folded_sheet(std::size_t side, double waves = 0) {

@@ -54,6 +54,8 @@ class Arguments : public testing::Test {
       expect_refused(code, cause, [&] { search(v, radius, out); });
       EXPECT_THAT(out, ElementsAre(7));
     }
+    expect_refused(code, cause,
+                   [&] { static_cast<void>(BallSearcher(mesh.positions_view()).neighborhood(v, radius)); });
   }
 
   TestMesh mesh = two_grids();
@@ -66,6 +68,12 @@ class Arguments : public testing::Test {
       {"exact", [this](VertexId v, double r, auto& out) { searcher.neighborhood(v, r, out); }},
       {"paper", [this](VertexId v, double r, auto& out) { paper_searcher.neighborhood(v, r, out); }},
       {"reference", [this](VertexId v, double r, auto& out) { reference.neighborhood(v, r, out); }},
+      {"once", [this](VertexId v, double r, auto& out) { out = exact_neighborhood(mesh.view(), v, r); }},
+      {"exact, distances",
+       [this](VertexId v, double r, auto& out) {
+         std::vector<double> distances;
+         searcher.neighborhood(v, r, out, distances);
+       }},
       {"exact, ranges",
        [this](VertexId v, double r, auto& out) {
          const std::span<const VertexRange> ranges = searcher.ranges(v, r);

@@ -212,23 +212,6 @@ TEST_F(Outlives, ARefittedIndexARefitOfItsOrigin) {
   EXPECT_EQ(Searcher(other).neighborhood(44, kRadius), expected);
 }
 
-TEST_F(Outlives, RebindMakesSearchersOfTheNewState) {
-  Searcher searcher(index);
-  Searcher edges(index, Metric::Path);
-  Searcher regions(index);
-  index.refit_in_place(moved.positions_view());
-  searcher.rebind(index);
-  edges.rebind(index);
-  regions.rebind(index);
-  EXPECT_EQ(searcher.neighborhood(44, kRadius), Searcher(index).neighborhood(44, kRadius));
-  EXPECT_EQ(regions.neighborhood(44, kRadius), Searcher(index).neighborhood(44, kRadius));
-  std::vector<VertexId> ids;
-  std::vector<VertexId> expected;
-  edges.neighborhood(44, kRadius, ids);
-  Searcher(index, Metric::Path).neighborhood(44, kRadius, expected);
-  EXPECT_EQ(ids, expected);
-}
-
 TEST(Rebind, RingsOfAHubAreThoseOfTheNewState) {
   TestMesh star;  // a graph unlike a surface, whose rings are found vertex by vertex
   star.add_vertex(0, 0, 0);

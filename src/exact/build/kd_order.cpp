@@ -178,14 +178,10 @@ std::size_t cut(std::span<const KdPoint> points, std::size_t unit, std::span<KdP
   return cut(chunks, unit, to, task);
 }
 
-/// Copies at most a few dozen points to `to`, ascending by id: the place of each is the number of smaller ids.
+/// Copies the points of a unit to `to`, ascending by id: the place of each is the number of smaller ids.
 void copy_by_id(std::span<const KdPoint> points, std::span<KdPoint> to) {
   constexpr std::size_t kMost = 32;
-  if (points.size() > kMost) {
-    std::copy(points.begin(), points.end(), to.begin());
-    std::sort(to.begin(), to.end(), [](const KdPoint& a, const KdPoint& b) { return a.id < b.id; });
-    return;
-  }
+  assert(points.size() <= kMost);
   std::array<std::uint32_t, kMost> ids;
   ids.fill(std::numeric_limits<std::uint32_t>::max());
   for (std::size_t i = 0; i < points.size(); ++i) ids[i] = points[i].id;
@@ -254,11 +250,6 @@ void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task) {
     moves = !moves;
   }
   task.parallel_for(runs.size(), 1, [&](unsigned, std::size_t i, std::size_t) { order(runs[i], unit, moves); });
-}
-
-void kd_order(std::span<KdPoint> points, std::size_t unit) {
-  TaskContext task;
-  kd_order(points, unit, task);
 }
 
 }  // namespace meshhood

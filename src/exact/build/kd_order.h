@@ -20,9 +20,8 @@ struct KdPoint {
 /// continues with both halves. Ties are broken by id, and each `unit` points are in ascending order of ids, so the
 /// result does not depend on the order given, nor on the number of threads. Throws Error{Cancelled}. O(n log(n /
 /// unit)).
+///
+/// unit  at most 32
 void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task);
-
-/// The same on one thread.
-void kd_order(std::span<KdPoint> points, std::size_t unit);
 
 }  // namespace meshhood

@@ -39,8 +39,6 @@ class HomeMarks {
   [[nodiscard]] std::span<const std::size_t> open_places() const { return open_places_; }
 
  private:
-  friend struct HomeMarksAccess;  // for tests, which take marks away
-
   void begin(const Query& query, const Reach& reach);
   void mark_nodes(std::uint32_t group);
   [[nodiscard]] unsigned covers(NodeId node) const;
