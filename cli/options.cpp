@@ -193,7 +193,8 @@ CLI::Option* add_file_option(CLI::App& command, const std::string& name, const s
 }
 
 void add_file(CLI::App& command, std::string& file) {
-  add_file_option(command, "FILE", "mesh (PLY, OBJ, OFF, STL, VTK or FreeSurfer) or index (made by meshhood build)", file)
+  add_file_option(command, "FILE", "mesh (PLY, OBJ, OFF, STL, VTK or FreeSurfer) or index (made by meshhood build)",
+                  file)
       ->required()
       ->type_name("");
 }
@@ -203,7 +204,8 @@ void add_mesh(CLI::App& command, std::string& file) {
 }
 
 void add_surface(CLI::App& command, std::string& file) {
-  add_file_option(command, "MESH", "PLY, OBJ, OFF, STL, VTK or FreeSurfer, or an index that was built with --faces", file)
+  add_file_option(command, "MESH", "PLY, OBJ, OFF, STL, VTK or FreeSurfer, or an index that was built with --faces",
+                  file)
       ->required()
       ->type_name("");
 }
