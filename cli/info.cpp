@@ -38,6 +38,8 @@ std::string_view format_name(io::Format format) {
     case io::Format::Obj: return "OBJ";
     case io::Format::Off: return "OFF";
     case io::Format::Stl: return "STL";
+    case io::Format::Vtk: return "VTK";
+    case io::Format::FreeSurfer: return "FreeSurfer";
   }
   return "?";
 }

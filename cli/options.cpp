@@ -193,17 +193,19 @@ CLI::Option* add_file_option(CLI::App& command, const std::string& name, const s
 }
 
 void add_file(CLI::App& command, std::string& file) {
-  add_file_option(command, "FILE", "mesh (PLY, OBJ, OFF or STL) or index (made by meshhood build)", file)
+  add_file_option(command, "FILE", "mesh (PLY, OBJ, OFF, STL, VTK or FreeSurfer) or index (made by meshhood build)",
+                  file)
       ->required()
       ->type_name("");
 }
 
 void add_mesh(CLI::App& command, std::string& file) {
-  add_file_option(command, "MESH", "PLY, OBJ, OFF or STL", file)->required()->type_name("");
+  add_file_option(command, "MESH", "PLY, OBJ, OFF, STL, VTK or FreeSurfer", file)->required()->type_name("");
 }
 
 void add_surface(CLI::App& command, std::string& file) {
-  add_file_option(command, "MESH", "PLY, OBJ, OFF or STL, or an index that was built with --faces", file)
+  add_file_option(command, "MESH", "PLY, OBJ, OFF, STL, VTK or FreeSurfer, or an index that was built with --faces",
+                  file)
       ->required()
       ->type_name("");
 }

@@ -11,9 +11,8 @@ namespace {
 /// Detects the format by content, or else by a file extension that is drawn from the content.
 io::Mesh read_any(io::InputBuffer& input, const io::ReaderOptions& options) {
   constexpr std::array kNames{"fuzz", "fuzz.ply", "fuzz.obj", "fuzz.off", "fuzz.stl"};
-  constexpr std::array<Reader, 4> kReaders{io::read_ply, io::read_obj, io::read_off, io::read_stl};
   const auto format = io::detect_format(input, kNames[input.size().value_or(0) % kNames.size()]);
-  return kReaders[static_cast<std::size_t>(format)](input, options);
+  return io::read_format(format, input, options);
 }
 
 }  // namespace

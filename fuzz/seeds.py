@@ -46,6 +46,12 @@ def stl_text(facets):
     return "\n".join(lines + ["endsolid a", ""]).encode()
 
 
+def vtk(encoding, points, cells, before=b"", version="4.2"):
+    head = f"# vtk DataFile Version {version}\nt\n{encoding}\nDATASET POLYDATA\n".encode()
+    return head + before + b"POINTS 3 float\n" + points + b"\n" + cells + b"\n"
+
+
+XYZ_BYTES = struct.pack(">9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
 FACETS = [(0, 0, 0, 1, 0, 0, 0, 1, 0), (1, 0, 0, 1, 1, 0, 0, 1, -0.0)]
 XYZ = "property float x\nproperty float y\nproperty float z\n"
 
@@ -91,6 +97,19 @@ SEEDS = {
         "nan": stl_binary(b"", [(float("nan"),) * 9]),
         "more": stl_binary(b"", FACETS) + b"more",
     },
+    "vtk": {
+        "text": vtk("ASCII", b"0 0 0 1 0 0\n0 1e2 -0\n", b"POLYGONS 2 7\n3 0 1 2\n2 0 1\n", b"FIELD a 1\nb 1 2 int\n1 2\n"),
+        "binary": vtk("BINARY", XYZ_BYTES, b"POLYGONS 1 4\n" + struct.pack(">4i", 3, 0, 1, 2)),
+        "offsets": vtk("ASCII", b"0 0 0 1 0 0 0 1 0", b"POLYGONS 2 3\nOFFSETS vtktypeint64\n0 3\nCONNECTIVITY vtktypeint64\n"
+                       b"0 1 2\nMETADATA\nx\n\nCELL_DATA 1\n", version="5.1"),
+        "binary_offsets": vtk("BINARY", XYZ_BYTES, b"POLYGONS 2 3\nOFFSETS vtktypeint64\n" + struct.pack(">2q", 0, 3)
+                              + b"\nCONNECTIVITY vtktypeint32\n" + struct.pack(">3i", 0, 1, 2), version="5.1"),
+        "grid": vtk("ASCII", b"0 0 0 1 0 0 0 1 0", b"CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n").replace(b"POLYDATA", b"UNSTRUCTURED_GRID"),
+    },
+    "freesurfer": {
+        "surface": b"\xff\xff\xfea\n\n" + struct.pack(">2i", 3, 1) + XYZ_BYTES + struct.pack(">3i", 0, 1, 2),
+        "center": b"\xff\xff\xfea\n\n" + struct.pack(">2i", 3, 0) + XYZ_BYTES + b"\0\0\0\x14valid = 1\ncras = 1 2 3\n",
+    },
     # vertices, surface (none, path, grid, star; rows), coordinates, exponent, seed; then coordinates and faces
     "mesh": {
         f"{surface}_{kind}_{seed}": struct.pack("<HBBhH", vertices, surface + 4 * 15, kind, exponent, seed) + bytes(body)
@@ -106,7 +125,8 @@ SEEDS["kernels"] = {f"random_{i}": bytes([i % 4]) + DRAW.randbytes(900) for i in
 SEEDS["kernels"] |= {f"small_{i}": bytes([i % 4, 31, 255, 255, 255, 255, 3])
                      + struct.pack("<99f" if i % 4 != 1 else "<99d", *(DRAW.uniform(-1, 1) for _ in range(99)))
                      for i in range(20)}
-SEEDS["any"] = {f"{kind}_{name}": data for kind in ("ply", "obj", "off", "stl") for name, data in SEEDS[kind].items()}
+SEEDS["any"] = {f"{kind}_{name}": data for kind in ("ply", "obj", "off", "stl", "vtk", "freesurfer")
+                for name, data in SEEDS[kind].items()}
 
 
 

@@ -33,6 +33,22 @@ constexpr std::array kCompressions{
     Compression{"\x1f\x8b", "gzip", "gunzip"}, Compression{"\x28\xb5\x2f\xfd", "Zstandard", "unzstd"},
     Compression{{"\xfd\x37zXZ\0", 6}, "xz", "unxz"}, Compression{"BZh", "bzip2", "bunzip2"}};
 
+/// A file that the Python package reads by another library: what it begins with, or what is in its first bytes.
+struct Foreign {
+  std::string_view mark;
+  bool is_first;
+  std::string_view name;
+};
+
+constexpr std::array kForeign{Foreign{"<VTKFile", false, "VTK's XML"},
+                              Foreign{"<GIFTI", false, "GIFTI"},
+                              Foreign{"glTF", true, "GLB"},
+                              Foreign{"\"asset\"", false, "glTF"},
+                              Foreign{"PK\x3\x4", true, "3MF or another ZIP"},
+                              Foreign{"$MeshFormat", true, "MSH"},
+                              Foreign{"\xff\xff\xff", true, "FreeSurfer's quads"},
+                              Foreign{"\xff\xff\xfd", true, "FreeSurfer's quads"}};
+
 bool is_index_start(InputBuffer& input) {
   return meshhood::is_index(std::as_bytes(std::span(input.ahead(kIndexMark))));
 }
@@ -43,6 +59,7 @@ std::optional<Format> format_of_extension(const std::string& name) {
   if (extension == ".obj") return Format::Obj;
   if (extension == ".off") return Format::Off;
   if (extension == ".stl") return Format::Stl;
+  if (extension == ".vtk") return Format::Vtk;
   return std::nullopt;
 }
 
@@ -64,6 +81,17 @@ void refuse_compressed(InputBuffer& input) {
   }
 }
 
+void refuse_foreign(InputBuffer& input) {
+  const auto head = input.ahead(kHead).substr(0, kHead);
+  for (const auto& [mark, is_first, name] : kForeign) {
+    if (is_first ? !head.starts_with(mark) : head.find(mark) == std::string_view::npos) continue;
+    raise(ErrorCode::UnsupportedFormat,
+          fmt::format("{0}: is {1}, which only the Python package reads; python3 -c 'import meshhood as m; "
+                      "m.write_mesh(\"mesh.ply\", m.read_mesh(\"{0}\"))' converts it",
+                      input.name(), name));
+  }
+}
+
 // The first word outside comments; empty if there is none.
 std::string_view first_word(std::string_view head) {
   for (;;) {
@@ -80,8 +108,10 @@ bool begins_obj(std::string_view head, std::string_view word) {
 }
 
 std::optional<Format> format_of_content(InputBuffer& input) {
-  if (has_binary_stl_size(input)) return Format::Stl;
   const auto head = input.ahead(kHead);
+  if (head.starts_with(kVtkMark)) return Format::Vtk;
+  if (head.starts_with(kFreeSurferMark)) return Format::FreeSurfer;
+  if (has_binary_stl_size(input)) return Format::Stl;
   const auto word = first_word(head);
   if (word == "ply") return Format::Ply;
   if (lower_case(std::string(word)) == "solid") return Format::Stl;
@@ -103,16 +133,17 @@ Format detect_format(InputBuffer& input, const std::string& name) {
           input.name() + ": is a Git LFS pointer, not the mesh; 'git lfs pull' downloads the mesh");
   }
   if (input.ahead(1).empty()) {
-    // Of the four formats, only OBJ allows an empty file: a mesh without vertices.
+    // Of all formats, only OBJ allows an empty file: a mesh without vertices.
     if (extension == Format::Obj) return Format::Obj;
     raise(ErrorCode::MalformedFile, input.name() + ": the file is empty");
   }
   const auto format = format_of_content(input);
   if (format) return *format;
   refuse_compressed(input);
+  refuse_foreign(input);
   if (extension) return *extension;
   raise(ErrorCode::UnsupportedFormat,
-        input.name() + ": is neither PLY, OBJ, OFF nor STL, by its first bytes or its extension");
+        input.name() + ": is neither PLY, OBJ, OFF, STL, VTK nor FreeSurfer, by its first bytes or its extension");
 }
 
 }  // namespace meshhood::io

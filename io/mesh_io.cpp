@@ -17,18 +17,8 @@
 namespace meshhood::io {
 namespace {
 
-Mesh read_format(InputBuffer& input, const std::string& name, const ReadOptions& options) {
-  switch (detect_format(input, name)) {
-    case Format::Ply: return read_ply(input, {options});
-    case Format::Obj: return read_obj(input, {options});
-    case Format::Off: return read_off(input, {options});
-    case Format::Stl: return read_stl(input, {options});
-  }
-  raise(ErrorCode::UnsupportedFormat, input.name() + ": unknown format");
-}
-
 Mesh read_whole(WatchedSource& source, InputBuffer& input, const std::string& name, const ReadOptions& options) {
-  Mesh mesh = read_format(input, name, options);
+  Mesh mesh = read_format(detect_format(input, name), input, {options});
   source.finish();
   return mesh;
 }
@@ -63,6 +53,18 @@ Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& opt
 #endif
 
 }  // namespace
+
+Mesh read_format(Format format, InputBuffer& input, const ReaderOptions& options) {
+  switch (format) {
+    case Format::Ply: return read_ply(input, options);
+    case Format::Obj: return read_obj(input, options);
+    case Format::Off: return read_off(input, options);
+    case Format::Stl: return read_stl(input, options);
+    case Format::Vtk: return read_vtk(input, options);
+    case Format::FreeSurfer: break;
+  }
+  return read_freesurfer(input, options);
+}
 
 MeshView Mesh::view() const& {
   const auto view_of_positions = [](const auto& xyz) { return PositionsView(xyz); };

@@ -15,11 +15,11 @@
 /// Reading and writing mesh files. Readers keep the vertex numbering and the polygons of the file.
 namespace meshhood::io {
 
-enum class Format { Ply, Obj, Off, Stl };
+enum class Format { Ply, Obj, Off, Stl, Vtk, FreeSurfer };
 
 /// The precision of the coordinates in memory.
 enum class Precision {
-  FromFile,  ///< as the file declares (PLY, binary STL); of other text float if that keeps what is written, else double
+  FromFile,  ///< as the file declares (PLY, binary STL, VTK, FreeSurfer); of other text float if that keeps what is written, else double
   Float,     ///< rounded to float
   Double,    ///< the double nearest to the text or value in the file
 };
@@ -61,9 +61,11 @@ struct Mesh {
   [[nodiscard]] MeshView view() const&& = delete;
 };
 
-/// Reads a PLY (ASCII or binary of either byte order), OBJ, OFF or STL (ASCII or binary) file. The format is detected
-/// by content; the extension is used only if the content fits no format or is empty. STL corners are welded by exact
-/// equality of positions (-0 equals 0) and numbered in order of first appearance.
+/// Reads a PLY (ASCII or binary of either byte order), OBJ, OFF or STL (ASCII or binary) file, the polygons of VTK's
+/// legacy format (ASCII or binary; polygonal data, or an unstructured grid of faces) or the triangles of FreeSurfer, in
+/// the coordinates of the surface. The format is detected by content; the extension is used only if the content fits no
+/// format or is empty. STL corners are welded by exact equality of positions (-0 equals 0) and numbered in order of
+/// first appearance.
 ///
 /// The coordinates of OBJ, OFF and STL text are read as double. They are stored as float if each float, printed with
 /// the digits that were written or with the fewest that tell it from others, is the number in the file; if vertices of

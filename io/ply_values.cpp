@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 #include <limits>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "io/binary.h"
 #include "io/number.h"
 #include "io/ply_layout.h"
 #include "io/text.h"
@@ -157,37 +157,26 @@ class TextValues final : public PlyValues {
   LongRow long_row_;
 };
 
-/// Reads the next value; false at the end of the file.
-template <class T>
-bool load(InputBuffer& input, bool swaps, T& value) {
-  const auto bytes = input.ahead(sizeof(T));
-  if (bytes.size() < sizeof(T)) return false;
-  std::array<char, sizeof(T)> raw;
-  std::copy_n(bytes.begin(), sizeof(T), raw.begin());
-  if (swaps) std::reverse(raw.begin(), raw.end());
-  std::memcpy(&value, raw.data(), sizeof(T));
-  input.skip(sizeof(T));
-  return true;
-}
-
 class BinaryValues final : public PlyValues {
  public:
-  BinaryValues(InputBuffer& input, bool big_endian, ReaderOptions options)
-      : input_(input), options_(std::move(options)), swaps_(big_endian != (std::endian::native == std::endian::big)) {}
+  BinaryValues(InputBuffer& input, std::endian order, ReaderOptions options)
+      : input_(input), options_(std::move(options)), order_(order) {}
 
   PlyRows vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
                       Positions& positions) override {
-    return swaps_ ? PlyRows() : io::vertex_rows(input_, options_, element, axes, positions);
+    if (order_ != std::endian::native) return {};
+    return io::vertex_rows(input_, options_, element, axes, positions);
   }
 
   PlyRows face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices, Faces& faces) override {
-    return swaps_ ? PlyRows() : io::face_rows(input_, options_, element, list, vertices, faces);
+    if (order_ != std::endian::native) return {};
+    return io::face_rows(input_, options_, element, list, vertices, faces);
   }
 
   Problem take_coordinate(PlyType type, Positions& positions) override {
     begin_ = input_.offset();
     return with_type(type, [&](auto example) -> Problem {
-      if (!load(input_, swaps_, example)) return std::string(kFileEnds);
+      if (!load(input_, order_, example)) return std::string(kFileEnds);
       const auto problem = positions.append(static_cast<double>(example));
       if (!problem) return std::nullopt;
       return std::string(*problem);
@@ -197,7 +186,7 @@ class BinaryValues final : public PlyValues {
   Problem take_integer(PlyType type, std::int64_t& value) override {
     begin_ = input_.offset();
     return with_type(type, [&](auto example) -> Problem {
-      if (!load(input_, swaps_, example)) return std::string(kFileEnds);
+      if (!load(input_, order_, example)) return std::string(kFileEnds);
       value = static_cast<std::int64_t>(+example);
       return std::nullopt;
     });
@@ -231,7 +220,7 @@ class BinaryValues final : public PlyValues {
  private:
   InputBuffer& input_;
   ReaderOptions options_;
-  bool swaps_;
+  std::endian order_;
   std::uint64_t begin_ = 0;
 };
 
@@ -239,7 +228,8 @@ class BinaryValues final : public PlyValues {
 
 std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& header, const ReaderOptions& options) {
   if (header.encoding == PlyEncoding::Ascii) return std::make_unique<TextValues>(input, header, options);
-  return std::make_unique<BinaryValues>(input, header.encoding == PlyEncoding::BigEndian, options);
+  const bool is_big = header.encoding == PlyEncoding::BigEndian;
+  return std::make_unique<BinaryValues>(input, is_big ? std::endian::big : std::endian::little, options);
 }
 
 }  // namespace meshhood::io

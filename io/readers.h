@@ -24,10 +24,19 @@ struct ReaderOptions : ReadOptions {
 [[nodiscard]] Mesh read_obj(InputBuffer& input, const ReaderOptions& options);
 [[nodiscard]] Mesh read_off(InputBuffer& input, const ReaderOptions& options);
 [[nodiscard]] Mesh read_stl(InputBuffer& input, const ReaderOptions& options);
+[[nodiscard]] Mesh read_vtk(InputBuffer& input, const ReaderOptions& options);
+[[nodiscard]] Mesh read_freesurfer(InputBuffer& input, const ReaderOptions& options);
+
+/// The reader of a format.
+[[nodiscard]] Mesh read_format(Format format, InputBuffer& input, const ReaderOptions& options);
 
 /// Detects the format by content or, if the content fits none, by the extension of `name`. Removes a byte-order mark
 /// from the front of `input`. Throws Error{UnsupportedFormat, MalformedFile}.
 [[nodiscard]] Format detect_format(InputBuffer& input, const std::string& name);
+
+/// The first bytes of files of VTK's legacy format, and of FreeSurfer's triangles.
+inline constexpr std::string_view kVtkMark = "# vtk DataFile Version ";
+inline constexpr std::string_view kFreeSurferMark = "\xff\xff\xfe";
 
 /// Whether a line of an OBJ file may begin with `word`.
 [[nodiscard]] bool is_obj_statement(std::string_view word);

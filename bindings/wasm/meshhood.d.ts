@@ -96,7 +96,7 @@ export interface ReadOptions {
 }
 
 /**
- * Reads a PLY, OBJ, OFF or STL file, with the readers of the command line.
+ * Reads a PLY, OBJ, OFF, STL, VTK (legacy) or FreeSurfer file, with the readers of the command line.
  *
  * @param bytes the file
  * @param name its name in messages; its extension decides only where the content does not

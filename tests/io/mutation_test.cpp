@@ -37,6 +37,16 @@ std::vector<std::pair<std::string, std::string>> seeds() {
        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e2 -0\nendloop\n"
        "endfacet\nendsolid a\n"},
       {"binary.stl", binary_stl({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 0, 0, 1, 0}}, "solid")},
+      {"text.vtk",
+       "# vtk DataFile Version 4.2\nt\nASCII\nDATASET POLYDATA\nFIELD a 1\nb 1 2 int\n1 2\nPOINTS 3 float\n"
+       "0 0 0 1 0 0 0 1e2 -0\nMETADATA\nx\n\nPOLYGONS 2 7\n3 0 1 2\n2 0 1\nPOINT_DATA 3\n"},
+      {"binary.vtk", "# vtk DataFile Version 5.1\nt\nBINARY\nDATASET POLYDATA\nPOINTS 3 float\n" +
+                         big(0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F) + "\nPOLYGONS 2 3\nOFFSETS vtktypeint64\n" +
+                         big(std::int64_t{0}, std::int64_t{3}) + "\nCONNECTIVITY vtktypeint32\n" + big(0, 1, 2) + "\n"},
+      {"lh.white",
+       "\xff\xff\xfe"
+       "a\n\n" +
+           big(3, 1, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0, 1, 2) + big(20) + "cras = 1 0 0\n"},
   };
 }
 

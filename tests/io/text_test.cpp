@@ -311,13 +311,29 @@ TEST(Format, AGitLfsPointerIsRefusedWithAHint) {
   }
 }
 
+TEST(Format, FilesForOtherLibrariesAreRefusedWithAWayOn) {
+  const std::string xml = "<?xml version=\"1.0\"?>\n";
+  for (const auto& [name, content, kind] :
+       std::vector<std::array<std::string, 3>>{{"a.vtp", xml + "<VTKFile type=\"PolyData\">\n", "VTK's XML"},
+                                               {"a.gii", xml + "<!DOCTYPE GIFTI>\n<GIFTI Version=\"1.0\">\n", "GIFTI"},
+                                               {"a.stl", "glTF\x02{\"asset\"", "GLB"},
+                                               {"a", "{\"asset\": {}}", "glTF"},
+                                               {"a.3mf", "PK\x03\x04", "3MF"},
+                                               {"a.msh", "$MeshFormat\n4.1 0 8\n", "MSH"},
+                                               {"lh.white", "\xff\xff\xfd", "FreeSurfer's quads"}}) {
+    expect_refused(name, content, ErrorCode::UnsupportedFormat, name + ": is " + kind,
+                   "write_mesh(\"mesh.ply\", m.read_mesh(\"" + name + "\"))");
+  }
+}
+
 TEST(Format, IsDetectedByContentThenByExtension) {
   EXPECT_EQ(read("wrong.obj", kOff).format, io::Format::Off);
   EXPECT_EQ(read("wrong.stl", "v 0 0 0\n").format, io::Format::Obj);
   EXPECT_EQ(read("wrong.ply", binary_stl({{0, 0, 0, 1, 0, 0, 0, 1, 0}})).format, io::Format::Stl);
   EXPECT_EQ(read("no_ending", "# only\n# comments\n\nv 0 0 0\n").format, io::Format::Obj);
   EXPECT_EQ(read("a.OBJ", "# only comments\n").format, io::Format::Obj);
-  expect_refused("no_ending", "something else\n", ErrorCode::UnsupportedFormat, "neither PLY, OBJ, OFF nor STL");
+  expect_refused("no_ending", "something else\n", ErrorCode::UnsupportedFormat,
+                 "neither PLY, OBJ, OFF, STL, VTK nor FreeSurfer");
   expect_refused("no_ending", std::string(4096, '\0'), ErrorCode::UnsupportedFormat, "neither");
   expect_refused("a.ply", "something else\n", ErrorCode::MalformedFile, "expected 'ply'");
   expect_refused("a.ply", "\x8bMHI\r\n\x1a\n", ErrorCode::UnsupportedFormat, "is an index, expected a mesh");

@@ -142,13 +142,6 @@ TEST_F(WritePly, VectorsAreThreeProperties) {
   EXPECT_THAT(content_of(file), HasSubstr("\n0 0 0 1 2 3 10\n1 0 0 4 5 6 20\n0 1 0 7 8 9 30\n"));
 }
 
-template <class... Values>
-std::string big(Values... values) {
-  std::string bytes;
-  for (std::string one : {little(values)...}) bytes.append(one.rbegin(), one.rend());
-  return bytes;
-}
-
 TEST_F(WritePly, VtkHasTheMeshAndItsValues) {
   const std::vector<float> normal = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   const std::vector<float> level = {10, 20, 30};

@@ -268,7 +268,7 @@ def test_a_mesh_file_is_not_an_index_file(tmp_path):
 @pytest.mark.parametrize(
     ("library", "call"),
     (
-        ("nibabel", lambda: meshhood.read_mesh("left.surf.gii")),
+        ("nibabel", lambda: meshhood.write_mesh("left.surf.gii", *meshes.two_plates(5))),
         ("scipy", lambda: INDEX.radius_neighbors_graph(1.0)),
         ("scipy", lambda: INDEX.smoothing_matrix(1.0)),
         ("pyvista", lambda: meshhood.plot_neighborhood(INDEX, 3, 1.0)),

@@ -237,7 +237,7 @@ def test_values_are_written_by_name(tmp_path):
     ):
         with pytest.raises(ValueError, match=message):
             meshhood.write_mesh(tmp_path / "b.ply", V, F, **words)
-    with pytest.raises(ValueError, match="path: the extension '.obj', expected .ply or .vtk"):
+    with pytest.raises(ValueError, match="path: the extension '.obj', expected .ply, .vtk"):
         meshhood.write_mesh(tmp_path / "b.obj", V, F)
     assert not (tmp_path / "b.ply").exists()
 

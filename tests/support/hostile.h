@@ -86,6 +86,11 @@ template <class... T>
   return (bytes_of(values) + ... + std::string());
 }
 
+template <class... T>
+[[nodiscard]] std::string big(T... values) {
+  return (bytes_of(values, std::endian::big) + ... + std::string());
+}
+
 /// A binary STL file of the given triangles, nine numbers each.
 [[nodiscard]] inline std::string binary_stl(const std::vector<std::array<float, 9>>& triangles,
                                             std::string_view header = "binary") {

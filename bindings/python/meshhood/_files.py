@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _convert, _core
+from ._atomic_file import atomic_file
 from ._index import MeshIndex
 from ._mesh import kept_faces, mesh_arrays
-from ._optional import optional
+from ._other_files import WRITERS, Writing, bytes_of, read_other
 from ._progress import Progress, reporter
 
 
@@ -31,18 +32,21 @@ class Mesh(NamedTuple):
 def read_mesh(
     path: Union[str, os.PathLike[str]], *, dtype: DTypeLike = None, workers: int = -1, progress: Progress = None
 ) -> Mesh:
-    """Reads a PLY, OBJ, OFF or STL file, whose format is recognized by content, or a GIFTI surface (.gii), which needs
-    nibabel; its coordinates are not transformed.
+    """Reads a PLY, OBJ, OFF or STL file, polygons of VTK's legacy format, or triangles of FreeSurfer; and with a library
+    that must be installed (`pip install meshhood[files]` installs all) GIFTI surfaces and FreeSurfer's quads (nibabel),
+    VTP and VTU (pyvista), MSH (meshio), GLB, glTF and 3MF (trimesh). The format is recognized by content.
 
-    dtype : of the positions, float32 or float64. Without it, what the file declares (PLY, binary STL, GIFTI); of other
-        text, float32 if that keeps what is written, else float64.
+    dtype : of the positions, float32 or float64. Without it, what the file declares (PLY, binary STL, VTK) or the
+        library gives; of other text, float32 if that keeps what is written, else float64.
     workers : as for `MeshIndex`. The result does not depend on it.
     progress : as for `MeshIndex`; the parts are bytes. Their total is 0 if the size is unknown (a pipe).
 
     Returns `Mesh(vertices, faces)`: positions (#V, 3); triangles (#F, 3) int32, or polygons as a tuple (offsets int64,
     corners int32). Vertices and faces are in the order of the file; STL corners with equal positions become one vertex.
-    Irregularities that could be read cause a warning, such as more numbers in a line of a PLY file than its header
-    declares, and so does float32 where the mesh is too fine for it.
+    The meshes of a scene (GLB, glTF, 3MF) are one, transformed as the scene says. Irregularities that could be read cause
+    a warning, such as more numbers in a line of a PLY file than its header declares, and so do a transform that is not
+    applied (GIFTI, FreeSurfer) and float32 where the mesh is too fine for it. `workers` and `progress` are for files that
+    need no library.
 
     Raises OSError, with errno and filename; ValueError, naming the file, place and element; KeyboardInterrupt on Ctrl-C.
 
@@ -50,10 +54,12 @@ def read_mesh(
     """
     path, threads = _convert.path(path), _convert.threads(workers)
     real = None if dtype is None else _convert.real_type(dtype)
-    if os.fsdecode(path).endswith((".gii", ".gii.gz")):
-        nibabel = optional("nibabel", f"{os.fsdecode(path)}: a GIFTI surface")
-        vertices, corners, _ = mesh_arrays(nibabel.load(os.fsdecode(path)), None)
-        return Mesh(vertices.astype(real or vertices.dtype), corners.astype(np.int32, copy=False).reshape(-1, 3))
+    read = read_other(os.fsdecode(path))
+    if read is not None:
+        vertices, faces, notes = read
+        for note in notes:
+            warnings.warn(f"{os.fsdecode(path)}: {note}", stacklevel=2)
+        return Mesh(vertices.astype(real or vertices.dtype, copy=False), faces)
     with reporter(progress, "read_mesh", "bytes") as report:
         vertices, corners, offsets, irregularities = _core.read_mesh(
             path, scalar_bytes=real.itemsize if real else 0, threads=threads, progress=report
@@ -72,12 +78,14 @@ def write_mesh(
     colors: Optional[ArrayLike] = None,
 ) -> None:
     """Writes a mesh with values of its vertices: PLY (.ply) for MeshLab, meshio and plyfile, or VTK's legacy format (.vtk)
-    for ParaView and PyVista, which ignore the values of PLY. Both are binary.
+    for ParaView and PyVista, which ignore the values of PLY. Both are binary. With a library that must be installed also
+    VTP (.vtp, pyvista), GLB (.glb, trimesh), and GIFTI (nibabel): a surface (.gii, .surf.gii), or the values alone as maps
+    (.shape.gii, .func.gii).
 
-    V, F : as for `MeshIndex`, but not a graph.
+    V, F : as for `MeshIndex`, but not a graph. GIFTI and GLB have triangles and float32.
     values : by name, numbers (#V,) or vectors (#V, 3), written as float32. A name is printable ASCII without blanks.
         MeshLab shows the one named "quality" as colors.
-    colors : (#V, 3) uint8, red, green and blue; PLY only.
+    colors : (#V, 3) uint8, red, green and blue; not for VTK's legacy format and GIFTI.
 
     The file appears whole or not at all. Raises OSError, with errno and filename; ValueError or TypeError, naming the
     argument.
@@ -89,16 +97,21 @@ def write_mesh(
     """
     path = _convert.path(path)
     extension = os.path.splitext(os.fsdecode(path))[1].lower()
-    if extension not in (".ply", ".vtk"):
-        raise ValueError(f"path: the extension {extension!r}, expected .ply or .vtk")
-    if colors is not None and extension == ".vtk":
-        raise ValueError("colors: expected None for .vtk")
+    if extension not in (".ply", ".vtk", *WRITERS):
+        raise ValueError(f"path: the extension {extension!r}, expected .ply, .vtk, {', '.join(WRITERS)}")
+    if colors is not None and extension in (".vtk", ".gii"):
+        raise ValueError(f"colors: expected None for {extension}")
     positions, corners, offsets = mesh_arrays(V, F)
     named = [(name, _scalars(numbers, f"values[{name!r}]", len(positions))) for name, numbers in (values or {}).items()]
     if colors is not None:
         colors = np.ascontiguousarray(_convert.as_array(colors, "colors"))
         if colors.dtype != np.uint8 or colors.shape != (len(positions), 3):
             raise ValueError(f"colors: {colors.dtype} of shape {colors.shape}, expected uint8 ({len(positions)}, 3)")
+    if extension in WRITERS:
+        content = bytes_of(extension, Writing(positions, corners, offsets, named, colors), os.fsdecode(path))
+        with atomic_file(path) as file:
+            file.write(content)
+        return
     _core.write_mesh(path, positions, corners, offsets=offsets, values=named, colors=colors, vtk=extension == ".vtk")
 
 

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: MIT
+"""Mesh files that other libraries read and write, if they are installed. The C++ library reads and writes the rest."""
+
+from __future__ import annotations
+
+import gzip
+import os
+import tempfile
+from collections.abc import Iterable
+from typing import Any, Callable, NamedTuple, Optional
+
+import numpy as np
+
+from ._mesh import mesh_arrays
+from ._optional import optional
+
+# Positions, faces, and what the reader has to say. Of a library, any form that `mesh_arrays` takes.
+_Read = tuple[Any, Any, list[str]]
+
+
+_GZIP = b"\x1f\x8b"
+
+
+class _Format(NamedTuple):
+    name: str
+    module: str
+    read: Callable[[Any, str], _Read]
+
+
+def read_other(path: str) -> Optional[_Read]:
+    """Positions and faces as `read_mesh` returns them, and warnings; None for a file that is for the C++ library."""
+    form = _format_of(_head(path))
+    if form is None:
+        return None
+    module = optional(form.module, f"{path}: {form.name}")
+    try:
+        V, F, notes = form.read(module, path)
+        positions, corners, offsets = mesh_arrays(V, F)
+    except ModuleNotFoundError as error:
+        needs = f"{path}: {form.name} needs {error.name}: pip install {error.name}"
+        raise ModuleNotFoundError(needs, name=error.name) from None
+    except Exception as error:  # each library has its own
+        library = form.module.partition(".")[0]
+        raise ValueError(f"{path}: {form.name} that {library} cannot read: {str(error) or type(error).__name__}") from error
+    corners = corners.astype(np.int32, copy=False)
+    if offsets is None or np.all(np.diff(offsets) == 3):
+        return positions, corners.reshape(-1, 3), notes
+    return positions, (offsets.astype(np.int64, copy=False), corners), notes
+
+
+def _head(path: str) -> bytes:
+    """The first bytes of a regular file: others can be read only once."""
+    if not os.path.isfile(path):
+        return b""
+    with open(path, "rb") as file:
+        head = file.read(4096)
+    if not head.startswith(_GZIP):
+        return head
+    try:
+        with gzip.open(path) as unpacked:
+            return b"<GIFTI" if b"<GIFTI" in unpacked.read(4096) else head
+    except (OSError, EOFError):
+        return head
+
+
+def _format_of(head: bytes) -> Optional[_Format]:
+    """By content, as `io/detect_format.cpp` knows these files."""
+    for mark, form in _FIRST.items():
+        if head.startswith(mark):
+            return form
+    return next((form for mark, form in _WITHIN.items() if mark in head), None)
+
+
+def _read_gifti(nibabel: Any, path: str) -> _Read:
+    with open(path, "rb") as file:
+        data = file.read()
+    image = nibabel.GiftiImage.from_bytes(gzip.decompress(data) if data.startswith(_GZIP) else data)
+    codes = nibabel.nifti1.xform_codes.label
+    notes = []
+    for array in image.get_arrays_from_intent("NIFTI_INTENT_POINTSET"):
+        system = array.coordsys
+        if system is not None and system.xform is not None and not np.array_equal(system.xform, np.eye(4)):
+            space, other = codes[system.dataspace], codes[system.xformspace]
+            notes.append(f"the coordinates are in the space {space!r}; the transform to {other!r} is not applied")
+    return image, None, notes
+
+
+def _read_quads(freesurfer: Any, path: str) -> _Read:
+    return (*freesurfer.read_geometry(path), [])
+
+
+def _read_vtk(pyvista: Any, path: str) -> _Read:
+    kind = "vtu" if b'type="UnstructuredGrid"' in _head(path) else "vtp"
+    mesh = pyvista.get_reader(path, force_ext=f".{kind}").read()
+    if kind == "vtp":
+        return mesh, None, []
+    faces = np.isin(mesh.celltypes, (5, 7, 9))  # triangle, polygon, quad
+    if not faces.all():
+        raise ValueError("has cells that are no faces; pyvista.read(path).extract_surface() has those of its boundary")
+    cells = mesh.GetCells()
+    return mesh.points, (np.asarray(cells.GetOffsetsArray()), np.asarray(cells.GetConnectivityArray())), []
+
+
+def _read_gmsh(gmsh: Any, path: str) -> _Read:
+    mesh = gmsh.read(path)
+    faces = [block for block in mesh.cells if block.type not in ("vertex", "line")]
+    notes = []
+    if faces and len(faces) < len(mesh.cells):
+        notes.append("points and lines, as of the boundary, are left out")
+        mesh.cells = faces
+    return mesh, None, notes
+
+
+def _reads_scene(kind: str) -> Callable[[Any, str], _Read]:
+    def read(trimesh: Any, path: str) -> _Read:
+        scene = trimesh.load_scene(path, file_type=kind, process=False)
+        return scene.to_mesh(), None, []  # with the transforms of all nodes
+
+    return read
+
+
+_QUADS = _Format("FreeSurfer's quads", "nibabel.freesurfer", _read_quads)
+_FIRST = {
+    b"\xff\xff\xff": _QUADS,
+    b"\xff\xff\xfd": _QUADS,
+    b"$MeshFormat": _Format("an MSH file", "meshio.gmsh", _read_gmsh),
+    b"glTF": _Format("a GLB file", "trimesh", _reads_scene("glb")),
+    b"PK\x03\x04": _Format("a 3MF file", "trimesh", _reads_scene("3mf")),
+}
+_WITHIN = {
+    b"<VTKFile": _Format("a file of VTK's XML", "pyvista", _read_vtk),
+    b"<GIFTI": _Format("a GIFTI surface", "nibabel", _read_gifti),
+    b'"asset"': _Format("a glTF file", "trimesh", _reads_scene("gltf")),
+}
+
+
+class Writing(NamedTuple):
+    """What is written: positions, triangles or polygons as for `MeshIndex`, values by name, colors or None."""
+
+    positions: Any
+    corners: Any
+    offsets: Any
+    values: list[tuple[str, Any]]
+    colors: Any
+
+    def triangles(self, extension: str) -> Any:
+        if self.offsets is not None and not np.all(np.diff(self.offsets) == 3):
+            raise ValueError(f"F: polygons, expected triangles for {extension}: triangulate() makes them")
+        return np.asarray(self.corners).reshape(-1, 3)
+
+
+def bytes_of(extension: str, writing: Writing, path: str) -> bytes:
+    """The file. `extension`: one of `WRITERS`."""
+    module, write = WRITERS[extension]
+    return write(optional(module, f"{path}: writing {extension}"), writing, path)
+
+
+def _gifti(nibabel: Any, arrays: Iterable[tuple[Any, str, str]]) -> bytes:
+    made = []
+    for data, intent, name in arrays:
+        array = nibabel.gifti.GiftiDataArray(np.ascontiguousarray(data), intent=f"NIFTI_INTENT_{intent}")
+        if name:
+            array.meta["Name"] = name
+        made.append(array)
+    return nibabel.GiftiImage(darrays=made).to_bytes()
+
+
+def _write_gifti(nibabel: Any, writing: Writing, path: str) -> bytes:
+    """A surface, or of .shape.gii and .func.gii the values alone, as programs expect them."""
+    kind = os.path.splitext(os.path.splitext(path)[0])[1].lower()
+    if kind not in (".shape", ".func"):
+        if writing.values:
+            raise ValueError("values: expected None for a surface; .shape.gii and .func.gii have values without it")
+        triangles = writing.triangles(".gii").astype(np.int32)
+        return _gifti(nibabel, [(writing.positions.astype(np.float32), "POINTSET", ""), (triangles, "TRIANGLE", "")])
+    if not writing.values:
+        raise ValueError(f"values: expected some for {kind}.gii, which has only values")
+    vectors = [name for name, numbers in writing.values if numbers.ndim > 1]
+    if vectors:
+        raise ValueError(f"values[{vectors[0]!r}]: vectors, expected numbers (#V,) for {kind}.gii")
+    intent = "SHAPE" if kind == ".shape" else "NONE"
+    return _gifti(nibabel, [(numbers, intent, name) for name, numbers in writing.values])
+
+
+def _write_vtp(pyvista: Any, writing: Writing, path: str) -> bytes:
+    corners, offsets = writing.corners, writing.offsets
+    if offsets is None:
+        offsets = np.arange(0, len(corners) + 1, 3)
+    faces = pyvista.CellArray.from_arrays(np.asarray(offsets, np.int64), np.asarray(corners, np.int64))
+    mesh = pyvista.PolyData()
+    mesh.points = writing.positions
+    mesh.SetPolys(faces)
+    for name, numbers in writing.values:
+        mesh.point_data[name] = numbers
+    if writing.colors is not None:
+        mesh.point_data["RGB"] = writing.colors
+    with tempfile.TemporaryDirectory() as folder:  # VTK writes only to a path
+        file = os.path.join(folder, "mesh.vtp")
+        mesh.save(file)
+        with open(file, "rb") as written:
+            return written.read()
+
+
+def _write_glb(trimesh: Any, writing: Writing, path: str) -> bytes:
+    mesh = trimesh.Trimesh(
+        writing.positions, writing.triangles(".glb"), vertex_colors=writing.colors, process=False, validate=False
+    )
+    mesh.vertex_attributes.update(writing.values)
+    return mesh.export(file_type="glb")
+
+
+WRITERS: dict[str, tuple[str, Callable[[Any, Writing, str], bytes]]] = {
+    ".gii": ("nibabel", _write_gifti),
+    ".vtp": ("pyvista", _write_vtp),
+    ".glb": ("trimesh", _write_glb),
+}

@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: MIT
+"""Mesh files that other libraries read and write, and those of other programs that the C++ library reads."""
+
+import struct
+import warnings
+from pathlib import Path
+
+import meshes
+import meshhood
+import numpy as np
+import pytest
+
+V, F = meshes.grid(6)
+F = np.concatenate([F[:, [0, 1, 2]], F[:, [0, 2, 3]]]).astype(np.int32)
+V = np.column_stack([V[:, :2], np.sin(V[:, 0])]).astype(np.float32)
+
+
+def expect(read, faces=F, points=V):
+    np.testing.assert_array_equal(read.vertices, points)
+    np.testing.assert_array_equal(read.faces, faces)
+    assert read.faces.dtype == np.int32
+    assert meshhood.MeshIndex(read).count(0, 1.5) == meshhood.MeshIndex(points, faces).count(0, 1.5)
+
+
+def renamed(file):
+    """The same under a name that says nothing."""
+    return Path(file.rename(file.parent / "mesh_without_a_name"))
+
+
+@pytest.mark.parametrize("binary", (True, False))
+def test_polygons_of_pyvista(tmp_path, binary):
+    pyvista = pytest.importorskip("pyvista")
+    file = tmp_path / "a.vtk"
+    pyvista.PolyData.from_regular_faces(V, F).save(file, binary=binary)
+    if binary:
+        expect(meshhood.read_mesh(renamed(file)))
+    else:
+        np.testing.assert_allclose(meshhood.read_mesh(file).vertices, V, rtol=1e-5)
+
+
+def test_a_grid_of_meshio(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    file = tmp_path / "a.vtk"
+    for form in ("vtk42", "vtk51"):
+        meshio.write_points_cells(file, V, [("triangle", F)], file_format=form)
+        expect(meshhood.read_mesh(file))
+
+
+@pytest.mark.parametrize("kind", ("vtp", "vtu"))
+def test_xml_of_vtk(tmp_path, kind):
+    pyvista = pytest.importorskip("pyvista")
+    file = tmp_path / f"a.{kind}"
+    mesh = pyvista.PolyData.from_regular_faces(V, F) if kind == "vtp" else pyvista.UnstructuredGrid({5: F}, V)
+    mesh.save(file)
+    expect(meshhood.read_mesh(renamed(file)))
+
+
+def test_quads_stay_quads(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    file = tmp_path / "a.vtp"
+    points, quads = meshes.grid(3)
+    pyvista.PolyData.from_regular_faces(points, quads).save(file)
+    offsets, corners = meshhood.read_mesh(file).faces
+    assert (offsets.dtype, corners.dtype) == (np.int64, np.int32)
+    np.testing.assert_array_equal(offsets, 4 * np.arange(len(quads) + 1))
+    np.testing.assert_array_equal(corners, quads.ravel())
+
+
+def test_cells_that_are_no_faces_are_refused(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    file = tmp_path / "a.vtu"
+    pyvista.UnstructuredGrid({10: np.array([[0, 1, 2, 7]])}, V).save(file)
+    with pytest.raises(ValueError, match="a.vtu: a file of VTK's XML that pyvista cannot read: .*extract_surface"):
+        meshhood.read_mesh(file)
+
+
+def test_msh(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    file = tmp_path / "a.msh"
+    meshio.write_points_cells(file, V.astype(float), [("triangle", F)], file_format="gmsh")
+    expect(meshhood.read_mesh(renamed(file)))
+    meshio.write_points_cells(file, V.astype(float), [("line", F[:1, :2]), ("triangle", F)], file_format="gmsh22")
+    with pytest.warns(UserWarning, match="a.msh: points and lines, as of the boundary, are left out"):
+        expect(meshhood.read_mesh(file))
+    meshio.write_points_cells(file, V.astype(float), [("tetra", np.array([[0, 1, 2, 7]]))], file_format="gmsh")
+    with pytest.raises(ValueError, match="a.msh: an MSH file that meshio cannot read: .*'tetra', expected a surface"):
+        meshhood.read_mesh(file)
+
+
+@pytest.mark.parametrize("kind", ("glb", "gltf"))
+def test_a_scene_is_transformed(tmp_path, kind):
+    trimesh = pytest.importorskip("trimesh")
+    scene, moved = trimesh.Scene(), np.diag([2.0, 2, 2, 1])
+    moved[:3, 3] = [10, 0, 0]
+    for transform in (np.eye(4), moved):
+        scene.add_geometry(trimesh.Trimesh(V, F, process=False), transform=transform)
+    files = scene.export(file_type=kind)
+    for name, data in (files if kind == "gltf" else {"model.glb": files}).items():
+        (tmp_path / name).write_bytes(data)
+    file = tmp_path / f"model.{kind}"
+    read = meshhood.read_mesh(file, dtype=np.float32)
+    there = 2 * V + np.float32([10, 0, 0])
+    both = [V, there] if read.vertices[0, 0] == 0 else [there, V]  # in any order
+    expect(read, np.concatenate([F, F + len(V)]), np.concatenate(both))
+    assert meshhood.read_mesh(renamed(file)).vertices.dtype == np.float64
+
+
+def test_3mf(tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    pytest.importorskip("lxml")
+    pytest.importorskip("networkx")
+    file = tmp_path / "a.3mf"
+    trimesh.Trimesh(V, F, process=False).export(file)
+    read = meshhood.read_mesh(renamed(file))
+    np.testing.assert_allclose(read.vertices, V, atol=1e-6)
+    np.testing.assert_array_equal(read.faces, F)
+
+
+def gifti(nibabel, file, xform=None):
+    system = nibabel.gifti.GiftiCoordSystem(2, 3, np.eye(4) if xform is None else xform)
+    arrays = [
+        nibabel.gifti.GiftiDataArray(V, intent="NIFTI_INTENT_POINTSET", coordsys=system),
+        nibabel.gifti.GiftiDataArray(F, intent="NIFTI_INTENT_TRIANGLE"),
+    ]
+    nibabel.save(nibabel.gifti.GiftiImage(darrays=arrays), file)
+    return file
+
+
+@pytest.mark.parametrize("end", ("gii", "gii.gz"))
+def test_gifti(tmp_path, end):
+    nibabel = pytest.importorskip("nibabel")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        expect(meshhood.read_mesh(gifti(nibabel, tmp_path / f"a.{end}")))
+        expect(meshhood.read_mesh(renamed(tmp_path / f"a.{end}")))
+    with pytest.warns(UserWarning, match="b.gii: the coordinates are in the space 'aligned'; .* to 'talairach' is not"):
+        expect(meshhood.read_mesh(gifti(nibabel, tmp_path / "b.gii", np.diag([2.0, 2, 2, 1]))))
+
+
+def test_surfaces_of_freesurfer(tmp_path):
+    freesurfer = pytest.importorskip("nibabel.freesurfer")
+    file = tmp_path / "lh.white"
+    freesurfer.write_geometry(file, V, F)
+    expect(meshhood.read_mesh(file))
+    info = {"head": [2, 0, 20], "valid": "1", "filename": "a", "volume": np.ones(3, int), "voxelsize": np.ones(3)}
+    axes = {f"{axis}ras": np.array([0.0, 1, 2]) for axis in "xyzc"}
+    freesurfer.write_geometry(file, V, F, volume_info={**info, **axes})
+    with pytest.warns(UserWarning, match="the center of the scan, 'cras   = .*1 .*2', is not added"):
+        expect(meshhood.read_mesh(file))
+    quads = b"\xff\xff\xff" + bytes([0, 0, 4, 0, 0, 1])
+    quads += struct.pack(">12h", 0, 0, 0, 100, 0, 0, 100, 100, 0, 0, 100, 0) + bytes([0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0, 3])
+    file.write_bytes(quads)
+    read = meshhood.read_mesh(file)
+    np.testing.assert_array_equal(read.vertices, [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    assert len(read.faces) == 2
+
+
+@pytest.mark.parametrize("content", (b"<VTKFile>", b"<GIFTI", b"glTF", b'{"asset": 1', b"PK\x03\x04", b"$MeshFormat"))
+def test_a_broken_file_is_an_error_that_names_it(tmp_path, content):
+    for library in ("pyvista", "nibabel", "trimesh", "meshio"):
+        pytest.importorskip(library)
+    file = tmp_path / "broken"
+    file.write_bytes(content)
+    with pytest.raises((ValueError, ModuleNotFoundError), match="broken: .* (that .* cannot read|needs)"):
+        meshhood.read_mesh(file)
+
+
+# Writing
+
+
+@pytest.mark.parametrize("extension", ("vtk", "vtp", "glb", "gii", "surf.gii"))
+def test_what_is_written_is_read(tmp_path, extension):
+    for library in ("pyvista", "trimesh", "nibabel"):
+        pytest.importorskip(library)
+    file = tmp_path / f"a.{extension}"
+    meshhood.write_mesh(file, V, F)
+    expect(meshhood.read_mesh(renamed(file)))
+
+
+def test_values_of_vtp(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    colors = np.arange(3 * len(V), dtype=np.uint8).reshape(-1, 3)
+    polygons = np.array([0, 3, 7]), np.array([0, 1, 2, 0, 1, 7, 6])
+    meshhood.write_mesh(tmp_path / "a.vtp", V, polygons, values={"h": V[:, 2], "n": V}, colors=colors)
+    mesh = pyvista.read(tmp_path / "a.vtp")
+    np.testing.assert_array_equal(mesh["h"], V[:, 2])
+    np.testing.assert_array_equal(mesh["n"], V)
+    np.testing.assert_array_equal(mesh["RGB"], colors)
+    np.testing.assert_array_equal(meshhood.read_mesh(tmp_path / "a.vtp").faces[1], polygons[1])
+
+
+def test_values_and_colors_of_glb(tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    colors = np.arange(3 * len(V), dtype=np.uint8).reshape(-1, 3)
+    meshhood.write_mesh(tmp_path / "a.glb", V, F, values={"h": V[:, 2]}, colors=colors)
+    mesh = trimesh.load_scene(tmp_path / "a.glb").to_mesh()
+    np.testing.assert_array_equal(mesh.vertex_attributes["_h"].ravel(), V[:, 2])
+    np.testing.assert_array_equal(mesh.visual.vertex_colors[:, :3], colors)
+
+
+@pytest.mark.parametrize("kind", ("shape", "func"))
+def test_maps_of_gifti(tmp_path, kind):
+    nibabel = pytest.importorskip("nibabel")
+    file = tmp_path / f"a.{kind}.gii"
+    meshhood.write_mesh(file, V, F, values={"h": V[:, 2], "x": V[:, 0]})
+    arrays = nibabel.load(file).darrays
+    assert [array.meta["Name"] for array in arrays] == ["h", "x"]
+    np.testing.assert_array_equal(arrays[0].data, V[:, 2])
+    with pytest.raises(ValueError, match=f"values: expected some for .{kind}.gii"):
+        meshhood.write_mesh(file, V, F)
+    with pytest.raises(ValueError, match=r"values\['n'\]: vectors"):
+        meshhood.write_mesh(file, V, F, values={"n": V})
+
+
+def test_what_a_format_has_not_is_refused(tmp_path):
+    for library in ("trimesh", "nibabel"):
+        pytest.importorskip(library)
+    quads = meshes.grid(6)[1]
+    for extension in ("gii", "glb"):
+        with pytest.raises(ValueError, match=f"F: polygons, expected triangles for .{extension}"):
+            meshhood.write_mesh(tmp_path / f"a.{extension}", V, quads)
+    with pytest.raises(ValueError, match="values: expected None for a surface"):
+        meshhood.write_mesh(tmp_path / "a.gii", V, F, values={"h": V[:, 2]})
+    with pytest.raises(ValueError, match="colors: expected None for .gii"):
+        meshhood.write_mesh(tmp_path / "a.gii", V, F, colors=np.zeros((len(V), 3), np.uint8))
+    assert not list(tmp_path.iterdir())
