@@ -45,9 +45,9 @@ std::array<double, 3> weights_inside(const std::array<Point, 3>& seen, const std
   const std::size_t k = (i + 2) % 3;
   std::array<double, 3> weights{};
   weights[k] = areas[k] / ((areas[0] + areas[1]) + areas[2]);
-  weights[j] =
-      std::clamp(-dot(sides[i], flat(seen[i]) - weights[k] * sides[k]) / dot(sides[i], sides[i]), 0.0, 1 - weights[k]);
-  weights[i] = (1 - weights[j]) - weights[k];
+  const double share = -dot(sides[i], flat(seen[i]) - weights[k] * sides[k]) / dot(sides[i], sides[i]);
+  weights[j] = std::clamp(share, 0.0, 1 - weights[k]);
+  weights[i] = std::max((1 - weights[j]) - weights[k], 0.0);
   return weights;
 }
 
