@@ -197,7 +197,7 @@ TEST_P(EveryIsa, BoxEntriesMeetsAllEightBoxes) {
     for (std::size_t i = 0; i < kFanOut; ++i) ASSERT_EQ(expected[i], found[i]);
     met += static_cast<std::size_t>(std::popcount(bits));
   }
-  EXPECT_GT(met, 1000U);
+  EXPECT_GT(met, 500U);
 }
 
 TEST_P(EveryIsa, CompressKeepsTheOrder) {
