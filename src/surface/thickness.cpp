@@ -26,7 +26,7 @@ constexpr std::size_t kVerticesOfTask = 256;
 constexpr double kOpposite = 0.6;
 
 // The first ball reaches as far as the frame.
-constexpr double kLargestRadius = 4;
+constexpr double kFirstRadius = 4;
 
 /// What is opposite to a vertex.
 class OppositeSide {
@@ -44,7 +44,7 @@ class OppositeSide {
     if (!has_normal()) return kNan;
     const double scale = index_->frame.scale;
     const double way = way_to_first(kOpposite);
-    double radius = std::min(way / 2, kLargestRadius / scale);
+    double radius = std::min(way / 2, kFirstRadius / scale);
     bool is_met = way < kInfinity;
     for (;;) {
       const TrianglePoint nearest = nearest_in_ball(radius);
