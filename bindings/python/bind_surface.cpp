@@ -15,6 +15,7 @@
 #include <nanobind/stl/tuple.h>
 
 #include "meshhood/surface.h"
+#include "meshhood/thickness.h"
 
 #include "arrays.h"
 #include "bindings.h"
@@ -57,26 +58,53 @@ Surface of_normals(const ExactMethod& method, const Radii& normals, const std::o
   return without_lock([&] { return Surface::of_normals(method.index(), values, faces); });
 }
 
-/// The faces, the places in them of the corners of their triangles, barycentric coordinates, and the points.
-auto closest_points(const Surface& surface, const Points& points, unsigned threads, nb::handle progress) {
+std::span<const SpacePoint> space_points(const Points& points) {
   static_assert(sizeof(SpacePoint) == 3 * sizeof(double));
-  const std::span<const SpacePoint> all(reinterpret_cast<const SpacePoint*>(points.data()), points.shape(0));
+  return {reinterpret_cast<const SpacePoint*>(points.data()), points.shape(0)};
+}
+
+/// The faces, the places in them of the corners of their triangles, barycentric coordinates, points and distances of
+/// what `find(run)` returns.
+template <class Find>
+auto columns(unsigned threads, nb::handle progress, const Find& find) {
   const Run run{.threads = threads, .progress = progress_to(progress)};
   std::vector<std::int64_t> faces;
   std::vector<std::array<std::size_t, 3>> corners;
   std::vector<std::array<double, 3>> weights;
-  std::vector<SpacePoint> found;
+  std::vector<SpacePoint> points;
+  std::vector<double> distances;
   without_lock([&] {
-    for (const SurfacePoint& hit : surface.closest_points(all, run)) {
-      faces.push_back(static_cast<std::int64_t>(hit.face));
+    for (const SurfacePoint& hit : find(run)) {
+      faces.push_back(static_cast<std::int64_t>(hit.face));  // -1 for kNoFace
       corners.push_back(hit.corners);
       weights.push_back(hit.weights);
-      found.push_back(hit.point);
+      points.push_back(hit.point);
+      distances.push_back(hit.distance);
     }
   });
-  const std::size_t rows = all.size();
+  const std::size_t rows = faces.size();
   return std::tuple(owned<std::int64_t>(std::move(faces)), owned<std::int64_t>(std::move(corners), {rows, 3}),
-                    owned<double>(std::move(weights), {rows, 3}), owned<double>(std::move(found), {rows, 3}));
+                    owned<double>(std::move(weights), {rows, 3}), owned<double>(std::move(points), {rows, 3}),
+                    owned<double>(std::move(distances)));
+}
+
+auto closest_points(const Surface& surface, const Points& points, unsigned threads, nb::handle progress) {
+  return columns(threads, progress, [&](const Run& run) { return surface.closest_points(space_points(points), run); });
+}
+
+auto first_hits(const Surface& surface, const Points& origins, const Points& directions, unsigned threads,
+                nb::handle progress) {
+  return columns(threads, progress, [&](const Run& run) {
+    return surface.first_hits(space_points(origins), space_points(directions), run);
+  });
+}
+
+Output<double> measure_thickness(const Surface& surface, const std::optional<IdList>& ids, bool by_sphere,
+                                 unsigned threads, nb::handle progress) {
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  const BatchVertices vertices = ids ? BatchVertices(id_span(*ids)) : BatchVertices();
+  const ThicknessMethod method = by_sphere ? ThicknessMethod::Sphere : ThicknessMethod::Ray;
+  return owned<double>(without_lock([&] { return thickness(surface, vertices, method, run); }));
 }
 
 Output<std::int64_t> faces(const Surface& surface, const IdList& ids, bool all) {
@@ -116,6 +144,9 @@ nb::class_<Surface> bind_surface(nb::module_& module) {
   surface.def_prop_ro("face_count", &Surface::face_count)
       .def("on", [](const Surface& whole, const ExactMethod& method) { return whole.on(method.index()); })
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none())
+      .def("first_hits", &first_hits, nb::arg(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
+      .def("thickness", &measure_thickness, nb::arg().none(), nb::arg("by_sphere"), nb::arg("threads"),
+           nb::arg("progress").none())
       .def("faces", &faces)
       .def("submesh", &submesh)
       .def("clip", &clip)

@@ -50,4 +50,5 @@
 #include "meshhood/serialize.h"            // IWYU pragma: export
 #include "meshhood/start.h"                // IWYU pragma: export
 #include "meshhood/surface.h"              // IWYU pragma: export
+#include "meshhood/thickness.h"            // IWYU pragma: export
 #include "meshhood/unconnected.h"          // IWYU pragma: export

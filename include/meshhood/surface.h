@@ -152,6 +152,28 @@ class Surface {
   /// the row, and Error{Cancelled}.
   [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const SpacePoint> points, const Run& run = {}) const;
 
+  /// The first point of the surface on the ray from `origin` along `direction`, seen from either side of a face; at the
+  /// origin if this lies on the surface. Of several faces at the same distance, the one with the smallest number; none
+  /// (see `SurfacePoint`) if the ray meets nothing.
+  ///
+  /// direction  finite and not 0, of any length. The distance is in the unit of the positions.
+  ///
+  /// No ray slips through where faces meet: a corner is seen from the origin in double, off by a few units in the last
+  /// place of its distance, at the same place whatever the face, and then decided exactly, as a ray on a side meets
+  /// both faces. Their distances are then the same, bit for bit, and weights off the side exactly 0. A triangle that
+  /// the ray sees from its side is not hit, but those that meet it are. The distance is off by a few units of those of
+  /// the corners, times the slope of the triangle against the ray.
+  ///
+  /// Throws Error{InvalidOption} as `closest_point` for `origin`, and for `direction`, and Error{InvalidMesh} if no
+  /// face has three corners. O(log #V) on most surfaces; O(#F) from farther away than 10^14 times the mesh. Allocates
+  /// nothing.
+  [[nodiscard]] SurfacePoint first_hit(const SpacePoint& origin, const SpacePoint& direction) const;
+
+  /// The same for each row of `origins` and `directions`. Throws as above, naming the row, Error{InvalidOption} if
+  /// there are not as many directions as origins, and Error{Cancelled}.
+  [[nodiscard]] std::vector<SurfacePoint> first_hits(std::span<const SpacePoint> origins,
+                                                     std::span<const SpacePoint> directions, const Run& run = {}) const;
+
   /// The faces with all corners in `ids`, or with at least one; ascending. A face without corners is never one.
   ///
   /// ids  vertices in [0, #V), in any order; repeats are allowed.

@@ -129,6 +129,29 @@ unsigned box_squares(const BoxGroup& boxes, const FramePoint& center, float limi
   return near;
 }
 
+unsigned box_entries(const BoxGroup& boxes, const BoxRay& ray, float limit, BoxGroup::Row& entries) {
+  unsigned met = 0;
+  const hn::CappedTag<float, kFanOut> d;
+  for (std::size_t i = 0; i < kFanOut; i += kLanes<decltype(d)>) {
+    auto entry = hn::Zero(d);
+    auto exit = hn::Set(d, limit);
+    const auto cross_slab = [&](const BoxRay::Axis& axis, const BoxGroup::Row& low, const BoxGroup::Row& high)
+                                HWY_ATTR {
+                                  const auto inverse = hn::Set(d, axis.inverse);
+                                  const auto enters = hn::Load(d, axis.is_backward ? &high[i] : &low[i]);
+                                  const auto leaves = hn::Load(d, axis.is_backward ? &low[i] : &high[i]);
+                                  entry = hn::Max(entry, hn::Mul(hn::Sub(enters, hn::Set(d, axis.enter)), inverse));
+                                  exit = hn::Min(exit, hn::Mul(hn::Sub(leaves, hn::Set(d, axis.leave)), inverse));
+                                };
+    cross_slab(ray.x, boxes.low.x, boxes.high.x);
+    cross_slab(ray.y, boxes.low.y, boxes.high.y);
+    cross_slab(ray.z, boxes.low.z, boxes.high.z);
+    hn::StoreU(entry, d, &entries[i]);
+    met |= bits_of(d, hn::Le(entry, hn::Mul(exit, hn::Set(d, kExitSlack)))) << i;
+  }
+  return met;
+}
+
 VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
   const Ids d;
   for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Ids>) {
@@ -138,7 +161,7 @@ VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
 }
 
 constexpr Kernels kBallKernels{within_float, within_exact<double>, cross_edges, reachable,
-                               classify,     box_squares,          compress};
+                               classify,     box_squares,          box_entries, compress};
 
 }  // namespace
 }  // namespace meshhood::HWY_NAMESPACE

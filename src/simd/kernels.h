@@ -49,6 +49,9 @@ struct Kernels {
   /// most `limit`.
   unsigned (*box_squares)(const BoxGroup& boxes, const FramePoint& center, float limit, BoxGroup::Row& squares);
 
+  /// Where the ray enters the boxes, in single precision; 0 inside. Returns a bit for each that it meets up to `limit`.
+  unsigned (*box_entries)(const BoxGroup& boxes, const BoxRay& ray, float limit, BoxGroup::Row& entries);
+
   /// Writes those of the 32 `ids` whose lane is set, in order, and returns the end of the output. May write up to 32
   /// ids beyond that end.
   VertexId* (*compress)(const VertexId* ids, LaneMask lanes, VertexId* out);

@@ -31,6 +31,23 @@ struct alignas(64) BoxGroup {
   Corners high;
 };
 
+/// The exit of a ray from a box counts as this much later, which covers the rounding of entries and exits.
+inline constexpr float kExitSlack = 1 + 0x1p-20F;
+
+/// A ray as boxes see it, in the frame. Along each axis it enters a box at `(wall - enter) * inverse` and leaves it at
+/// `(wall - leave) * inverse`, where the wall of entry is the lower one, or the higher one if `is_backward`.
+struct BoxRay {
+  struct Axis {
+    float enter;
+    float leave;
+    float inverse;
+    bool is_backward;
+  };
+  Axis x;
+  Axis y;
+  Axis z;
+};
+
 /// The relation of the nodes of a group to a ball, one bit a node. A node with neither of the first two bits is outside
 /// the ball.
 struct GroupContainment {

@@ -39,11 +39,22 @@ class BoxTree {
   template <class Reach, class Visit>
   void search(const Point& center, Reach&& reach, Visit&& visit) const;
 
+  /// The same for the boxes that the ray from `origin` meets up to `reach()` times `direction`, whose largest component
+  /// is 1 or -1: those that it enters first are first.
+  template <class Reach, class Visit>
+  void cast(const Point& origin, const Point& direction, Reach&& reach, Visit&& visit) const;
+
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  template <class Reach, class Visit>
-  class Search;
+  template <class Reach>
+  class Ball;
+  template <class Reach>
+  class Line;
+
+  /// Visits the items of a group for which `shape` has a bit, in the order of what it measures.
+  template <class Shape, class Visit>
+  void descend(std::size_t level, std::size_t number, Shape& shape, Visit& visit) const;
 
   /// That of all boxes of a group.
   [[nodiscard]] BoundingBox box_around(std::size_t level, std::size_t number) const;
@@ -104,62 +115,51 @@ inline BoundingBox BoxTree::box_around(std::size_t level, std::size_t number) co
   return box;
 }
 
-template <class Reach, class Visit>
-class BoxTree::Search {
+template <class Shape, class Visit>
+void BoxTree::descend(std::size_t level, std::size_t number, Shape& shape, Visit& visit) const {
+  struct Child {
+    float value;
+    unsigned place;
+  };
+  std::array<Child, kFanOut> children;
+  std::size_t size = 0;
+  BoxGroup::Row values;
+  unsigned met = shape.compare(levels_[level][number], values);
+  met &= (1U << std::min<std::size_t>(kFanOut, sizes_[level] - number * kFanOut)) - 1;
+  for (; met != 0; met &= met - 1) {
+    const auto place = static_cast<unsigned>(std::countr_zero(met));
+    std::size_t at = size++;
+    for (; at > 0 && children[at - 1].value > values[place]; --at) children[at] = children[at - 1];
+    children[at] = {values[place], place};
+  }
+  for (std::size_t i = 0; level > 0 && i < size; ++i) {
+    fetch_lines(&levels_[level - 1][number * kFanOut + children[i].place], sizeof(BoxGroup) / kCacheLine);
+  }
+  for (std::size_t i = 0; i < size && !(children[i].value > shape.limit()); ++i) {
+    const std::size_t child = number * kFanOut + children[i].place;
+    if (level > 0) {
+      descend(level - 1, child, shape, visit);
+    } else {
+      visit(child);
+      shape.update();
+    }
+  }
+}
+
+/// Measures squared distances from a point.
+template <class Reach>
+class BoxTree::Ball {
  public:
-  Search(const BoxTree& tree, const Point& center, Reach& reach, Visit& visit)
-      : tree_(&tree),
-        kernels_(&kernels(best_isa())),
+  Ball(const Point& center, Reach& reach)
+      : kernels_(&kernels(best_isa())),
         center_(center),
         rounded_{static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z)},
-        reach_(&reach),
-        visit_(&visit) {
+        reach_(&reach) {
     const double largest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), 1.0});
     is_far_ = largest > kFar;
     rounding_ = is_far_ ? 0x1p-50 : 0x1p-22;
     slack_ = rounding_ * largest;
-    limit();
-  }
-
-  void visit_group(std::size_t level, std::size_t number) {
-    std::array<Child, kFanOut> children;
-    const std::size_t size = near_children(level, number, children);
-    for (std::size_t i = 0; level > 0 && i < size; ++i) {
-      fetch_lines(&tree_->levels_[level - 1][number * kFanOut + children[i].place], sizeof(BoxGroup) / kCacheLine);
-    }
-    for (std::size_t i = 0; i < size && !(children[i].square > limit_); ++i) {
-      const std::size_t child = number * kFanOut + children[i].place;
-      if (level > 0) {
-        visit_group(level - 1, child);
-      } else {
-        (*visit_)(child);
-        limit();
-      }
-    }
-  }
-
- private:
-  static constexpr double kFar = 64;
-
-  struct Child {
-    float square;
-    unsigned place;
-  };
-
-  /// Those within the limit, in ascending order. Returns their number.
-  std::size_t near_children(std::size_t level, std::size_t number, std::array<Child, kFanOut>& children) const {
-    BoxGroup::Row squares;
-    unsigned near = compare(tree_->levels_[level][number], squares);
-    const std::size_t count = std::min<std::size_t>(kFanOut, tree_->sizes_[level] - number * kFanOut);
-    near &= (1U << count) - 1;
-    std::size_t size = 0;
-    for (; near != 0; near &= near - 1) {
-      const auto place = static_cast<unsigned>(std::countr_zero(near));
-      std::size_t at = size++;
-      for (; at > 0 && children[at - 1].square > squares[place]; --at) children[at] = children[at - 1];
-      children[at] = {squares[place], place};
-    }
-    return size;
+    update();
   }
 
   /// As the kernel, in double if the center is far.
@@ -174,6 +174,17 @@ class BoxTree::Search {
     return near;
   }
 
+  [[nodiscard]] float limit() const { return limit_; }
+
+  void update() {
+    const double distance = ((*reach_)() + slack_) * (1 + rounding_);
+    limit_in_double_ = distance * distance;
+    limit_ = next_above(limit_in_double_);  // infinite if it does not fit
+  }
+
+ private:
+  static constexpr double kFar = 64;
+
   [[nodiscard]] double square_in_double(const BoxGroup& group, std::size_t i) const {
     const Point below = at(group.low, i) - center_;
     const Point above = center_ - at(group.high, i);
@@ -182,13 +193,6 @@ class BoxTree::Search {
     return dot(gap, gap);
   }
 
-  void limit() {
-    const double distance = ((*reach_)() + slack_) * (1 + rounding_);
-    limit_in_double_ = distance * distance;
-    limit_ = next_above(limit_in_double_);  // infinite if it does not fit
-  }
-
-  const BoxTree* tree_;
   const Kernels* kernels_;
   Point center_;
   FramePoint rounded_;
@@ -198,12 +202,70 @@ class BoxTree::Search {
   double limit_in_double_ = 0;  // of squared distances
   float limit_ = 0;
   Reach* reach_;
-  Visit* visit_;
+};
+
+/// Measures the ways along a ray, from where it comes to the height of the frame along its main axis. All boxes are
+/// grown by `slack_`, more than the rounding of positions in single precision, and of origins far away.
+template <class Reach>
+class BoxTree::Line {
+ public:
+  Line(const Point& origin, const Point& direction, Reach& reach)
+      : kernels_(&kernels(best_isa())),
+        begin_(std::max({way_to_frame(origin.x, direction.x), way_to_frame(origin.y, direction.y),
+                         way_to_frame(origin.z, direction.z), 0.0})),
+        start_(origin + begin_ * direction),
+        slack_(0x1p-20 + 0x1p-48 * (std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)}) + begin_)),
+        ray_{axis(start_.x, direction.x), axis(start_.y, direction.y), axis(start_.z, direction.z)},
+        reach_(&reach) {
+    update();
+  }
+
+  /// Whether the ray may meet the frame, in which its direction changes a coordinate by at most 2.
+  [[nodiscard]] bool may_meet() const {
+    return std::max({std::abs(start_.x), std::abs(start_.y), std::abs(start_.z)}) <= 3 + slack_;
+  }
+
+  unsigned compare(const BoxGroup& group, BoxGroup::Row& entries) const {
+    return kernels_->box_entries(group, ray_, limit_, entries);
+  }
+
+  [[nodiscard]] float limit() const { return limit_; }
+
+  void update() { limit_ = next_above((*reach_)() - begin_ + slack_); }
+
+ private:
+  /// Along the main axis.
+  [[nodiscard]] static double way_to_frame(double origin, double direction) {
+    return std::abs(direction) == 1 ? -1 - origin * direction : 0;
+  }
+
+  /// No inverse is so large that it gives an infinite way.
+  [[nodiscard]] BoxRay::Axis axis(double from, double direction) const {
+    const double slack = std::copysign(slack_, direction);
+    const double along = std::copysign(std::max(std::abs(direction), 0x1p-100), direction);
+    return {static_cast<float>(from + slack), static_cast<float>(from - slack), static_cast<float>(1 / along),
+            std::signbit(direction)};
+  }
+
+  const Kernels* kernels_;
+  double begin_;  // the way that is left out
+  Point start_;
+  double slack_;
+  BoxRay ray_;
+  float limit_ = 0;
+  Reach* reach_;
 };
 
 template <class Reach, class Visit>
 void BoxTree::search(const Point& center, Reach&& reach, Visit&& visit) const {
-  Search(*this, center, reach, visit).visit_group(levels_.size() - 1, 0);
+  Ball ball(center, reach);
+  descend(levels_.size() - 1, 0, ball, visit);
+}
+
+template <class Reach, class Visit>
+void BoxTree::cast(const Point& origin, const Point& direction, Reach&& reach, Visit&& visit) const {
+  Line line(origin, direction, reach);
+  if (line.may_meet()) descend(levels_.size() - 1, 0, line, visit);
 }
 
 inline std::size_t BoxTree::bytes() const {

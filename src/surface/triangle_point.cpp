@@ -4,26 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
 
 #include "base/vector.h"
 
 namespace meshhood {
 namespace {
 
-bool is_before(const Point& a, const Point& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
-
 double length_of(const Point& offset) {
   return std::sqrt((offset.x * offset.x + offset.y * offset.y) + offset.z * offset.z);
-}
-
-/// Which share of the way from `a` to `b` leads to the point nearest to the origin. Ends have exactly 0 and 1.
-double share_of_side(const Point& a, const Point& b) {
-  const Point side = b - a;
-  const double square = dot(side, side);
-  if (square == 0) return 0;
-  const double share = -dot(a, side) / square;
-  return share > 0 ? std::min(share, 1.0) : 0;  // 0 where it is not a number
 }
 
 class Candidates {
@@ -69,7 +57,7 @@ class Candidates {
   /// it is right to eL. Where h < w, d < 2eL. Beyond, the distance is off by d^2/2h < eL. A normal would move it along
   /// by eL^2/w.
   void offer_inside() {
-    const std::size_t i = longest_side();
+    const std::size_t i = longest(sides_);
     const std::size_t j = (i + 1) % 3;
     const std::size_t k = (i + 2) % 3;
     const Point side = sides_[i];
@@ -91,11 +79,6 @@ class Candidates {
     offer(weights, (*corners_)[i] + offset, from_q_[i] + offset);
   }
 
-  [[nodiscard]] std::size_t longest_side() const {
-    const auto by_length = [](const Point& a, const Point& b) { return dot(a, a) < dot(b, b); };
-    return static_cast<std::size_t>(std::max_element(sides_.begin(), sides_.end(), by_length) - sides_.begin());
-  }
-
   void offer(const std::array<double, 3>& weights, const Point& point, const Point& offset) {
     const double distance = length_of(offset);
     if (has_one_ && !(distance < best_.distance)) return;
@@ -112,6 +95,19 @@ class Candidates {
 };
 
 }  // namespace
+
+double share_of_side(const Point& a, const Point& b) {
+  const Point side = b - a;
+  const double square = dot(side, side);
+  if (square == 0) return 0;
+  const double share = -dot(a, side) / square;
+  return share > 0 ? std::min(share, 1.0) : 0;  // 0 where it is not a number
+}
+
+std::size_t longest(const std::array<Point, 3>& sides) {
+  const auto by_length = [](const Point& a, const Point& b) { return dot(a, a) < dot(b, b); };
+  return static_cast<std::size_t>(std::max_element(sides.begin(), sides.end(), by_length) - sides.begin());
+}
 
 TrianglePoint nearest_in_triangle(const Point& q, const std::array<Point, 3>& corners, double scale) {
   return Candidates(q, corners, scale).best();

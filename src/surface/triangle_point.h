@@ -2,17 +2,30 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <tuple>
 
 #include "shared/distance.h"
 
 namespace meshhood {
 
-/// The point of a triangle that is nearest to another point.
+/// A point of a triangle, and its distance from another point.
 struct TrianglePoint {
   std::array<double, 3> weights;  // barycentric
   Point point;
   double distance;
 };
+
+/// A fixed order of points, in which all triangles that have a side see its ends.
+[[nodiscard]] inline bool is_before(const Point& a, const Point& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+/// Which share of the way from `a` to `b` leads to the point nearest to the origin. Ends have exactly 0 and 1.
+[[nodiscard]] double share_of_side(const Point& a, const Point& b);
+
+/// The number of the longest of three sides.
+[[nodiscard]] std::size_t longest(const std::array<Point, 3>& sides);
 
 /// The point of the triangle `a`, `b`, `c` nearest to `q`. `scale` makes lengths of the mesh about 1, so that products
 /// do not overflow; a power of two. For a corner, the distance is that of the predicate. Triangles that share a side or

@@ -140,6 +140,8 @@ CALLS = {
         {"v": "vertices", "weights": "weights", "walls": "walls", "ignored": "ignored"},
     ),
     "closest points": ("index.closest_point(q, F=F, progress=p)", {"q": "points", "F": "F"}),
+    "first hits": ("index.first_hit(q, -q, F=F, progress=p)", {"q": "points", "F": "F"}),
+    "thickness": ("index.thickness(v, F=F, progress=p)", {"v": "vertices", "F": "F"}),
     "points without faces": ("meshhood.MeshIndex.from_points(V, 1.5, progress=p)", {"V": "V"}),
     "faces as vertices": ("meshhood.MeshIndex.of_faces(V, F, progress=p)", {"V": "V", "F": "F"}),
 }

@@ -72,6 +72,56 @@ def test_closest_point_of_polygons_has_a_weight_for_each_corner():
     np.testing.assert_array_equal(point[0], [1.25, 1.5, 0])
 
 
+def test_first_hit_lies_on_the_ray_and_on_its_face(mesh):
+    V, F, index, _ = mesh
+    random = np.random.default_rng(3)
+    origins = random.uniform(V.min(0) - 1, V.max(0) + 1, (200, 3))
+    directions = V[random.integers(len(V), size=200)] + random.uniform(-0.2, 0.2, (200, 3)) - origins
+    face, barycentric, point, distance = index.first_hit(origins, directions)
+    hit = face >= 0
+    assert hit.sum() > 50
+    np.testing.assert_allclose(np.einsum("nc,ncx->nx", barycentric[hit], V[F[face[hit]]]), point[hit], atol=1e-12)
+    units = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    np.testing.assert_allclose((origins + distance[:, None] * units)[hit], point[hit], atol=1e-9)
+    assert np.isinf(distance[~hit]).all() and np.isnan(point[~hit]).all() and np.isnan(barycentric[~hit]).all()
+    i = np.flatnonzero(hit)[0]
+    one = index.first_hit(origins[i], directions[i])
+    assert type(one.face) is int and type(one.distance) is float
+    assert one.face == face[i] and one.distance == distance[i]
+    assert [part.shape for part in index.first_hit([], [])] == [(0,), (0, 3), (0, 3), (0,)]
+    with pytest.raises(ValueError, match="directions: row 1: it is 0"):
+        index.first_hit(origins[:2], [[0, 0, 1], [0, 0, 0]])
+    with pytest.raises(ValueError, match="1 directions, expected one for each of 2 origins"):
+        index.first_hit(origins[:2], [[0, 0, 1]])
+
+
+def test_first_hit_of_polygons_has_nan_where_nothing_is_met():
+    V, quads = grid(4)
+    offsets = np.arange(0, 4 * len(quads) + 1, 4)
+    index = meshhood.MeshIndex(V, (offsets, quads.ravel()))
+    face, barycentric, point, distance = index.first_hit([[1.25, 1.5, 3.0]] * 2, [[0, 0, -2], [0, 0, 2]])
+    assert face.tolist() == [4, -1] and distance.tolist() == [3, np.inf]
+    np.testing.assert_array_equal(barycentric[0] @ V[quads[4]], [1.25, 1.5, 0])
+    assert np.isnan(barycentric[1]).all() and np.isnan(point[1]).all()
+
+
+def test_thickness_of_a_box_by_both_methods():
+    V = np.array([[x, y, z] for z in (0, 0.5) for y in range(9) for x in range(9)], float)
+    F = []
+    for y in range(8):
+        for x in range(8):
+            a, b, c, d = 9 * y + x, 9 * y + x + 1, 9 * y + x + 10, 9 * y + x + 9
+            F += [[a, c, b], [a, d, c], [a + 81, b + 81, c + 81], [a + 81, c + 81, d + 81]]
+    index = meshhood.MeshIndex(V, np.array(F))
+    inner = np.flatnonzero(((V[:, :2] > 0.5) & (V[:, :2] < 7.5)).all(axis=1))
+    for method in ("ray", "sphere"):
+        np.testing.assert_array_equal(index.thickness(inner, method=method), 0.5)
+        assert index.thickness(int(inner[0]), method=method) == 0.5
+    assert index.thickness().shape == (len(V),)
+    with pytest.raises(ValueError, match="method"):
+        index.thickness(method="cone")
+
+
 def test_closest_point_takes_other_faces_and_keeps_what_it_made():
     V, F = folded(8)
     bare = meshhood.MeshIndex(V, F, keep_faces=False)

@@ -172,6 +172,34 @@ TEST_P(EveryIsa, BoxSquaresMeasuresAllEightBoxes) {
   EXPECT_GT(inside, 100U);
 }
 
+TEST_P(EveryIsa, BoxEntriesMeetsAllEightBoxes) {
+  std::size_t met = 0;
+  for (std::size_t round = 0; round < 4000; ++round) {
+    BoxGroup boxes;
+    for (BoxGroup::Row* row : {&boxes.low.x, &boxes.low.y, &boxes.low.z}) {
+      for (float& value : *row) value = static_cast<float>(random.uniform(-1, 1));
+    }
+    boxes.high = boxes.low;
+    for (BoxGroup::Row* row : {&boxes.high.x, &boxes.high.y, &boxes.high.z}) {
+      for (float& value : *row) value += static_cast<float>(random.uniform(0, 1));
+    }
+    const auto axis = [&] {
+      const auto from = static_cast<float>(random.uniform(-1, 1));
+      const auto along = static_cast<float>(random.uniform(-1, 1));
+      return BoxRay::Axis{from, from, 1 / along, along < 0};
+    };
+    const BoxRay ray{axis(), axis(), axis()};
+    const auto limit = static_cast<float>(random.uniform(0, 3));
+    BoxGroup::Row found;
+    BoxGroup::Row expected;
+    const unsigned bits = tried.box_entries(boxes, ray, limit, found);
+    ASSERT_EQ(bits, plain.box_entries(boxes, ray, limit, expected));
+    for (std::size_t i = 0; i < kFanOut; ++i) ASSERT_EQ(expected[i], found[i]);
+    met += static_cast<std::size_t>(std::popcount(bits));
+  }
+  EXPECT_GT(met, 500U);
+}
+
 TEST_P(EveryIsa, CompressKeepsTheOrder) {
   std::vector<VertexId> ids(kLeafCapacity);
   for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<VertexId>(100 + i);

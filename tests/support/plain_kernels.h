@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "simd/joint.h"
 #include "simd/kernels.h"
@@ -76,6 +77,25 @@ inline unsigned box_squares(const BoxGroup& boxes, const FramePoint& center, flo
     near |= unsigned{squares[i] <= limit} << i;
   }
   return near;
+}
+
+inline unsigned box_entries(const BoxGroup& boxes, const BoxRay& ray, float limit, BoxGroup::Row& entries) {
+  unsigned met = 0;
+  for (unsigned i = 0; i < kFanOut; ++i) {
+    float entry = 0;
+    float exit = limit;
+    const auto cross_slab = [&](const BoxRay::Axis& axis, float low, float high) {
+      if (axis.is_backward) std::swap(low, high);
+      entry = std::max(entry, (low - axis.enter) * axis.inverse);
+      exit = std::min(exit, (high - axis.leave) * axis.inverse);
+    };
+    cross_slab(ray.x, boxes.low.x[i], boxes.high.x[i]);
+    cross_slab(ray.y, boxes.low.y[i], boxes.high.y[i]);
+    cross_slab(ray.z, boxes.low.z[i], boxes.high.z[i]);
+    entries[i] = entry;
+    met |= unsigned{entry <= exit * kExitSlack} << i;
+  }
+  return met;
 }
 
 inline VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
@@ -276,7 +296,7 @@ inline void convert_points(const float* xyz, unsigned size, const FloatCenter& c
 
 inline constexpr Kernels kPlainKernels{plain::within<float>, plain::within<double>, plain::cross_edges,
                                        plain::reachable,     plain::classify,       plain::box_squares,
-                                       plain::compress};
+                                       plain::box_entries,   plain::compress};
 inline constexpr JointKernels kPlainJointKernels{plain::convert_points, plain::clear_words, plain::ball_words,
                                                  plain::spread_words,   plain::step_words,  plain::count_words,
                                                  plain::lanes_of,       plain::write_row};

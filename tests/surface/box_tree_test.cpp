@@ -89,6 +89,46 @@ TEST_P(TreeOf, FindsTheNearestBoxByAShrinkingReach) {
   EXPECT_LE(visits, rounds * (boxes.size() / 4 + 8));
 }
 
+/// Whether a ray meets a box up to `reach` times its direction.
+bool meets(const Point& origin, const Point& direction, const BoundingBox& box, Long reach) {
+  Long entry = 0;
+  Long exit = reach;
+  const auto cross_slab = [&](Long from, Long along, Long low, Long high) {
+    if (along == 0) {
+      if (from < low || from > high) exit = -1;
+      return;
+    }
+    entry = std::max(entry, std::min((low - from) / along, (high - from) / along));
+    exit = std::min(exit, std::max((low - from) / along, (high - from) / along));
+  };
+  cross_slab(origin.x, direction.x, box.low.x, box.high.x);
+  cross_slab(origin.y, direction.y, box.low.y, box.high.y);
+  cross_slab(origin.z, direction.z, box.low.z, box.high.z);
+  return entry <= exit;
+}
+
+TEST_P(TreeOf, VisitsEveryBoxThatARayMeetsOnce) {
+  std::size_t skipped = 0;
+  for (std::size_t round = 0; round < scaled(200, 40); ++round) {
+    const BoundingBox& target = boxes[random.below(boxes.size())];
+    Point direction = random_point(random, 1);
+    if (round % 3 == 0) direction.x = 0;
+    const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    direction = {direction.x / largest, direction.y / largest, direction.z / largest};
+    // Through a corner of a box, from inside or from far away.
+    const Point origin = target.low - std::ldexp(random.uniform(), static_cast<int>(random.below(40)) - 20) * direction;
+    const double reach = round % 4 == 0 ? std::numeric_limits<double>::infinity() : random.uniform(0, 2);
+    std::vector<int> visits(boxes.size(), 0);
+    tree.cast(origin, direction, [&] { return reach; }, [&](std::size_t i) { ++visits[i]; });
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      ASSERT_LE(visits[i], 1);
+      ASSERT_TRUE(visits[i] == 1 || !meets(origin, direction, boxes[i], reach)) << i;
+      skipped += static_cast<std::size_t>(visits[i] == 0);
+    }
+  }
+  EXPECT_TRUE(skipped > 0 || boxes.size() == 1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Sizes, TreeOf, testing::Values(1, 2, 7, 8, 9, 64, 65, 600, 5000));
 
 }  // namespace

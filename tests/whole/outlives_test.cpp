@@ -110,6 +110,7 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
     return numbers(from_points->neighborhood({{4.2, 5.1, 0}, seeds}, 2 * kRadius));
   };
   const auto faces = kept(Surface(index, mesh.view().faces));
+  all["Surface: first_hit"] = [=] { return Answer{faces->first_hit({3.2, 4.1, 7}, {0, 0, -1}).distance}; };
   all["Surface: closest_point"] = [=] { return Answer{faces->closest_point({3.2, 4.1, 7}).distance}; };
   const auto surface = kept(Surface(index, mesh.view()));
   all["Surface: curvatures"] = [=] { return numbers(curvatures(*surface, {.radius = kRadius}).k1); };

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -43,6 +43,19 @@ class ClosestPoint(NamedTuple):
     face: Any
     barycentric: Reals
     point: Reals
+
+
+class FirstHit(NamedTuple):
+    """The first point of the surface on a ray, or on several (see `MeshIndex.first_hit`).
+
+    >>> meshhood.MeshIndex(V, F).first_hit([0, 0, 0], [0, 0, 1]).point.shape
+    (3,)
+    """
+
+    face: Any
+    barycentric: Reals
+    point: Reals
+    distance: Any
 
 
 class Nearest(NamedTuple):
@@ -181,15 +194,81 @@ class SurfaceQueries(Held):
         >>> region = index.neighborhood(point, 0.3, face=face)
         """
         points = _convert.points(q, "q")
-        key, (corners, offsets) = self._keyed_faces(F)
-        surface = self._surface_of(key, (corners, offsets))
-        threads = _convert.threads(workers)
         with reporter(progress, "closest_point", "points", len(points)) as report:
-            faces, places, weights, found = surface.closest(points, threads=threads, progress=report)
+            found = self._surface_columns("closest", F, workers, report, points)
+        is_one = np.ndim(q) == 1 and len(points) == 1
+        return ClosestPoint(int(found[0][0]), *(part[0] for part in found[1:3])) if is_one else ClosestPoint(*found[:3])
+
+    def first_hit(
+        self, origins: ArrayLike, directions: ArrayLike, *, F: Any = None, workers: int = -1, progress: Progress = None
+    ) -> FirstHit:
+        """The first point of the surface on the ray from a point along a direction:
+        `FirstHit(face, barycentric, point, distance)`. For rays (n, 3) or [], four arrays.
+
+        origins, directions : 3 numbers each, or (n, 3). Directions are not 0, of any length.
+        F, workers, progress : as for `closest_point`.
+
+        face : an int, or (n,) int64, the row of F; -1 where the ray meets nothing. Of several faces at the same
+            distance, the one with the smallest number. Either side of a face is met; one that is seen exactly from its
+            side is not, but those that it meets are. No ray slips through between faces.
+        barycentric, point : as for `closest_point`; NaN where nothing is met.
+        distance : a float, or (n,) float64, in the unit of V; inf where nothing is met, 0 for an origin on the surface.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> face, barycentric, point, distance = index.first_hit([0, 0, 3.0], [0, 0, -1])
+        >>> region = index.neighborhood(point, 0.3, face=face)
+        """
+        starts, ways = _convert.points(origins, "origins"), _convert.points(directions, "directions")
+        with reporter(progress, "first_hit", "rays", len(starts)) as report:
+            found = self._surface_columns("first_hits", F, workers, report, starts, ways)
+        if np.ndim(origins) == 1 and len(starts) == 1:
+            face, barycentric, point, distance = (part[0] for part in found)
+            return FirstHit(int(face), barycentric, point, float(distance))
+        return FirstHit(*found)
+
+    def _surface_columns(self, name: str, F: Any, workers: int, report: Any, *points: Any) -> Any:
+        """Faces, barycentric coordinates in them, points and distances, as a call of the surface of `F` finds them."""
+        key, (corners, offsets) = self._keyed_faces(F)
+        find = getattr(self._surface_of(key, (corners, offsets)), name)
+        faces, places, weights, found, distances = find(
+            *points, threads=_convert.threads(workers), progress=report
+        )
         if offsets is not None:
             weights = _of_polygons(places, weights, int(np.diff(offsets).max()))
-        is_one = np.ndim(q) == 1 and len(points) == 1
-        return ClosestPoint(int(faces[0]), weights[0], found[0]) if is_one else ClosestPoint(faces, weights, found)
+        return faces, weights, found, distances
+
+    def thickness(
+        self,
+        vertices: AnyVertices = None,
+        *,
+        method: Literal["ray", "sphere"] = "ray",
+        F: Any = None,
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Any:
+        """The thickness of the wall at each vertex, in the unit of V: (#rows,) float64, or a float for a single vertex.
+
+        vertices, workers, progress : see `MeshIndex`.
+        method : "ray", the way against the normal of the vertex to the surface; or "sphere", the diameter of the
+            largest ball that touches the surface there from inside and has no point of an opposite face in it, one
+            whose normal turns from that of the vertex by more than 53 degrees (by a shrinking ball; Ma, Bae, Choi
+            2012).
+        F : other faces than those that the index keeps. They are oriented counterclockwise, seen from outside.
+
+        Faces with the vertex as a corner do not count. It is inf where nothing else is met, and NaN for a vertex without
+        a normal.
+
+        >>> across = meshhood.MeshIndex(V, F).thickness()
+        >>> bool((abs(across - 2) < 0.02).all())  # of the unit sphere
+        True
+        """
+        rows = read_rows(self, vertices, 0.0, None, "straight", None, None, "mesh", workers, progress)
+        by_sphere = _convert.choice(method, "method", ("ray", "sphere")) == "sphere"
+        with rows.reporter("thickness") as report:
+            found = self._surface(F).thickness(
+                rows.vertices, by_sphere=by_sphere, threads=rows.threads, progress=report
+            )
+        return float(found[0]) if rows.shape == () else found
 
     def k_nearest(
         self,
@@ -286,6 +365,6 @@ def _nearest_options(rows: Rows, max_bytes: Any, copies: int) -> dict[str, Any]:
 def _of_polygons(places: Any, weights: Any, corners: int) -> Reals:
     """The barycentric coordinates of triangles, by the places of their corners, as those of polygons of up to `corners`
     corners."""
-    wide = np.zeros((len(places), corners))
+    wide = np.where(np.isnan(weights[:, :1]), np.nan, np.zeros((len(places), corners)))
     np.put_along_axis(wide, places, weights, axis=1)
     return wide

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// The first point of a surface on a ray.
+#include "surface/first_hit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "meshhood/error.h"
+#include "meshhood/surface.h"
+
+#include "base/vector.h"
+#include "exact/query/arguments.h"
+#include "patch/twofold.h"
+#include "shared/parallel.h"
+#include "shared/text.h"
+#include "surface/surface.h"
+
+namespace meshhood {
+namespace {
+
+constexpr std::size_t kRaysOfTask = 256;
+
+double largest_of(const Point& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+/// Twice the area of the triangle of the origin and two points of the plane, with its sign; exact where it is 0. The
+/// rounding of the products keeps their order, unless they become equal.
+double doubled_area(const Point& a, const Point& b) {
+  const double left = a.x * b.y;
+  const double right = a.y * b.x;
+  return left != right ? left - right : Twofold::product(a.x, b.y).low - Twofold::product(a.y, b.x).low;
+}
+
+Point flat(const Point& p) { return {p.x, p.y, 0}; }
+
+/// The weights of the origin in a triangle of the plane, of which it lies inside: its share of the height over the
+/// longest side, then its share of this side. So it is off by a few units of this side, however thin the triangle is.
+std::array<double, 3> weights_inside(const std::array<Point, 3>& seen, const std::array<double, 3>& areas) {
+  const std::array sides{flat(seen[1] - seen[0]), flat(seen[2] - seen[1]), flat(seen[0] - seen[2])};
+  const std::size_t i = longest(sides);
+  const std::size_t j = (i + 1) % 3;
+  const std::size_t k = (i + 2) % 3;
+  std::array<double, 3> weights{};
+  weights[k] = areas[k] / ((areas[0] + areas[1]) + areas[2]);
+  const double share = -dot(sides[i], flat(seen[i]) - weights[k] * sides[k]) / dot(sides[i], sides[i]);
+  weights[j] = std::clamp(share, 0.0, 1 - weights[k]);
+  weights[i] = std::max((1 - weights[j]) - weights[k], 0.0);
+  return weights;
+}
+
+/// The same, on the line of the side from corner `i` to `j`, seen from the same end by all triangles that have it.
+std::array<double, 3> weights_on_side(const std::array<Point, 3>& corners, const std::array<Point, 3>& seen,
+                                      std::size_t i, std::size_t j) {
+  if (is_before(corners[j], corners[i])) std::swap(i, j);
+  std::array<double, 3> weights{};
+  weights[j] = share_of_side(flat(seen[i]), flat(seen[j]));
+  weights[i] = 1 - weights[j];
+  return weights;
+}
+
+void check_direction(const SpacePoint& d, std::string_view where) {
+  for (std::size_t axis = 0; axis < d.size(); ++axis) {
+    if (std::isfinite(d[axis])) continue;
+    raise(ErrorCode::InvalidOption, std::string(where) + "coordinate " + std::to_string(axis) + " is " +
+                                        to_text(d[axis]) + ", expected a finite number");
+  }
+  if (d == SpacePoint{}) raise(ErrorCode::InvalidOption, std::string(where) + "it is 0, expected a direction");
+}
+
+SurfacePoint hit(const SurfaceState& state, const FaceTree& tree, const SpacePoint& origin,
+                 const SpacePoint& direction) {
+  const Ray ray({origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, state.index->frame);
+  const TriangleHit first = find_first_hit(*state.index, tree, ray, [](auto&&...) { return true; });
+  if (first.at.distance == kInfinity) return {};
+  const Triangle& triangle = tree.triangles()[first.triangle];
+  return surface_point(*state.index, state.faces(), triangle.face, triangle.corners, first.at);
+}
+
+}  // namespace
+
+Ray::Ray(const Point& origin, const Point& direction, const Frame& frame)
+    : origin_(origin),
+      in_frame_(frame.to_frame(origin)),
+      direction_{direction.x / largest_of(direction), direction.y / largest_of(direction),
+                 direction.z / largest_of(direction)},
+      length_(length(direction_)),
+      frame_scale_(frame.scale),
+      scale_(std::ldexp(1.0, -std::ilogb(std::max(largest_of(origin - frame.origin), 1 / frame.scale)))),
+      main_axis_(std::abs(direction_.x) == 1   ? 0
+                 : std::abs(direction_.y) == 1 ? 1
+                                               : 2) {}
+
+Point Ray::see(const Point& p) const {
+  const Point offset = scale_ * (p - origin_);
+  switch (main_axis_) {
+    case 0: {
+      const double way = offset.x * direction_.x;
+      return {offset.y - direction_.y * way, offset.z - direction_.z * way, way};
+    }
+    case 1: {
+      const double way = offset.y * direction_.y;
+      return {offset.z - direction_.z * way, offset.x - direction_.x * way, way};
+    }
+    default: {
+      const double way = offset.z * direction_.z;
+      return {offset.x - direction_.x * way, offset.y - direction_.y * way, way};
+    }
+  }
+}
+
+std::optional<TrianglePoint> Ray::meet(const std::array<Point, 3>& corners) const {
+  const std::array seen{see(corners[0]), see(corners[1]), see(corners[2])};
+  const std::array areas{doubled_area(seen[1], seen[2]), doubled_area(seen[2], seen[0]),
+                         doubled_area(seen[0], seen[1])};
+  const auto [least, most] = std::minmax({areas[0], areas[1], areas[2]});
+  if ((least < 0 && most > 0) || (least == 0 && most == 0)) return std::nullopt;
+  TrianglePoint found{{}, {0, 0, 0}, 0};
+  const auto zero = static_cast<std::size_t>(std::ranges::find(areas, 0.0) - areas.begin());
+  found.weights = zero == areas.size() ? weights_inside(seen, areas)
+                                       : weights_on_side(corners, seen, (zero + 1) % 3, (zero + 2) % 3);
+  double way = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    found.point = found.point + found.weights[i] * corners[i];
+    way += found.weights[i] * seen[i].z;
+  }
+  if (!(way >= 0)) return std::nullopt;
+  found.distance = way / scale_ * length_;
+  return found;
+}
+
+SurfacePoint Surface::first_hit(const SpacePoint& origin, const SpacePoint& direction) const {
+  const State& state = SurfaceAccess::state(*this);
+  check_point(origin, "origin: ");
+  check_direction(direction, "direction: ");
+  return hit(state, state.tree(), origin, direction);
+}
+
+std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origins,
+                                              std::span<const SpacePoint> directions, const Run& run) const {
+  const State& state = SurfaceAccess::state(*this);
+  if (origins.size() != directions.size()) {
+    raise(ErrorCode::InvalidOption, std::to_string(directions.size()) + " directions, expected one for each of " +
+                                        std::to_string(origins.size()) + " origins");
+  }
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    check_point(origins[i], "origins: row " + std::to_string(i) + ": ");
+    check_direction(directions[i], "directions: row " + std::to_string(i) + ": ");
+  }
+  const FaceTree& tree = state.tree();
+  TaskContext task(run.threads, run.progress, origins.size());
+  std::vector<SurfacePoint> found(origins.size());
+  task.parallel_for(origins.size(), kRaysOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) found[i] = hit(state, tree, origins[i], directions[i]);
+    task.advance(thread, end - begin);
+  });
+  task.finish();
+  return found;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// The thickness of a wall: along a ray, and by a ball that shrinks until no opposite face lies in it.
+#include "meshhood/thickness.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "base/vector.h"
+#include "batch/rows.h"
+#include "shared/parallel.h"
+#include "surface/face_tree.h"
+#include "surface/first_hit.h"
+#include "surface/surface.h"
+#include "surface/triangle_point.h"
+
+namespace meshhood {
+namespace {
+
+constexpr std::size_t kVerticesOfTask = 256;
+
+// The cosine of the angle between the normals of a vertex and of a face from which on this is opposite. Common angles
+// of parts, as 90 and 120 degrees between sides, are far from it, so that rounding does not decide.
+constexpr double kOpposite = 0.6;
+
+// The first ball reaches as far as the frame.
+constexpr double kFirstRadius = 4;
+
+/// What is opposite to a vertex.
+class OppositeSide {
+ public:
+  OppositeSide(const OrientedIndex& oriented, const FaceTree& tree, std::size_t place)
+      : index_(oriented.index),
+        tree_(&tree),
+        place_(static_cast<std::uint32_t>(place)),
+        vertex_(oriented.position(place)),
+        inward_(-1.0 * oriented.normal(place)) {}
+
+  [[nodiscard]] double by_ray() const { return has_normal() ? way_to_first(0) : kNan; }
+
+  [[nodiscard]] double by_sphere() const {
+    if (!has_normal()) return kNan;
+    const double scale = index_->frame.scale;
+    const double way = way_to_first(kOpposite);
+    double radius = std::min(way / 2, kFirstRadius / scale);
+    bool is_met = way < kInfinity;
+    for (;;) {
+      const TrianglePoint nearest = nearest_in_ball(radius);
+      const Point offset = scale * (nearest.point - vertex_);
+      const double smaller = dot(offset, offset) / (2 * dot(inward_, offset)) / scale;
+      const bool has_shrunk = nearest.distance < radius && smaller > 0 && smaller < radius;
+      if (!has_shrunk) return is_met ? 2 * radius : kInfinity;
+      radius = smaller;
+      is_met = true;
+    }
+  }
+
+ private:
+  [[nodiscard]] bool has_normal() const { return !std::isnan(inward_.x); }
+
+  [[nodiscard]] bool touches(std::size_t i) const {
+    return std::ranges::count(tree_->triangles()[i].corners, place_) != 0;
+  }
+
+  [[nodiscard]] bool is_opposite(std::size_t i) const {
+    const auto [a, b, c] = corners(i);
+    const double scale = index_->frame.scale;
+    const Point area = doubled_vector_area(scale * a, scale * b, scale * c);
+    return dot(area, inward_) > -kOpposite * length(area);
+  }
+
+  [[nodiscard]] std::array<Point, 3> corners(std::size_t i) const {
+    return corners_of(*index_, tree_->triangles()[i].corners);
+  }
+
+  /// Along the ray, to the first face, or if `cosine` is not 0 to the first that is opposite.
+  [[nodiscard]] double way_to_first(double cosine) const {
+    const auto counts = [&](std::size_t i, const TrianglePoint& at) {
+      return at.distance > 0 && !touches(i) && (cosine == 0 || is_opposite(i));
+    };
+    return find_first_hit(*index_, *tree_, Ray(vertex_, inward_, index_->frame), counts).at.distance;
+  }
+
+  /// The point of an opposite face nearest to the center of the ball that touches at the vertex; at its radius if no
+  /// face is nearer.
+  [[nodiscard]] TrianglePoint nearest_in_ball(double radius) const {
+    const double scale = index_->frame.scale;
+    const Point center = vertex_ + radius * inward_;
+    TrianglePoint nearest{{}, vertex_, radius};
+    tree_->boxes().search(
+        index_->frame.to_frame(center), [&] { return reach_of(nearest.distance * scale, scale); },
+        [&](std::size_t i) {
+          if (touches(i) || !is_opposite(i)) return;
+          const TrianglePoint found = nearest_in_triangle(center, corners(i), scale);
+          if (found.distance < nearest.distance) nearest = found;
+        });
+    return nearest;
+  }
+
+  const IndexView* index_;
+  const FaceTree* tree_;
+  std::uint32_t place_;
+  Point vertex_;
+  Point inward_;
+};
+
+}  // namespace
+
+std::vector<double> thickness(const Surface& surface, const BatchVertices& vertices, ThicknessMethod method,
+                              const Run& run) {
+  const SurfaceState& state = SurfaceAccess::state(surface);
+  const Rows rows({.vertices = vertices, .radius = 0}, state.index->vertex_count());
+  TaskContext task(run.threads, run.progress, rows.size());
+  const FaceTree& tree = state.tree();
+  const OrientedIndex oriented = SurfaceAccess::oriented(surface, task);
+  std::vector<std::pair<std::uint32_t, std::size_t>> in_order(rows.size());
+  for (std::size_t row = 0; row < rows.size(); ++row) in_order[row] = {state.index->place(rows.vertex(row)), row};
+  std::sort(in_order.begin(), in_order.end());
+  std::vector<double> result(rows.size());
+  task.parallel_for(rows.size(), kVerticesOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
+      const OppositeSide side(oriented, tree, in_order[i].first);
+      result[in_order[i].second] = method == ThicknessMethod::Ray ? side.by_ray() : side.by_sphere();
+      task.advance(thread, 1);
+    }
+  });
+  task.finish();
+  return result;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+// The thickness of walls: of shapes for which it is known, and against a scan of all faces in long double.
+#include "meshhood/thickness.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "meshhood/index.h"
+#include "meshhood/surface.h"
+
+#include "support/random.h"
+#include "support/refusal.h"
+#include "support/round_meshes.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+using Long = long double;
+using LongPoint = std::array<Long, 3>;
+
+LongPoint operator-(const LongPoint& a, const LongPoint& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+LongPoint operator+(const LongPoint& a, const LongPoint& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+LongPoint operator*(Long s, const LongPoint& a) { return {s * a[0], s * a[1], s * a[2]}; }
+Long inner(const LongPoint& a, const LongPoint& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+LongPoint outer(const LongPoint& a, const LongPoint& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+using LongTriangle = std::array<LongPoint, 3>;
+
+LongPoint area_of(const LongTriangle& t) { return outer(t[1] - t[0], t[2] - t[0]); }
+
+Long distance_of(const LongPoint& q, const LongTriangle& t) {
+  const LongPoint area = area_of(t);
+  const Long size = std::sqrt(inner(area, area));
+  Long least = std::numeric_limits<Long>::infinity();
+  bool has_foot = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const LongPoint side = t[(i + 1) % 3] - t[i];
+    const Long share = std::clamp(inner(q - t[i], side) / inner(side, side), Long{0}, Long{1});
+    const LongPoint offset = t[i] + share * side - q;
+    least = std::min(least, std::sqrt(inner(offset, offset)));
+    has_foot = has_foot && inner(area, outer(side, q - t[i])) > 0;
+  }
+  return has_foot ? std::abs(inner(area, q - t[0])) / size : least;
+}
+
+/// The way along a ray to a triangle by Cramer's rule; infinite if it does not meet it.
+Long way_to(const LongPoint& p, const LongPoint& d, const LongTriangle& t) {
+  const LongPoint a = t[0] - p;
+  const LongPoint b = t[1] - p;
+  const LongPoint c = t[2] - p;
+  const std::array weights{inner(d, outer(b, c)), inner(d, outer(c, a)), inner(d, outer(a, b))};
+  const Long sum = weights[0] + weights[1] + weights[2];
+  const bool is_inside = std::ranges::all_of(weights, [&](Long w) { return w / sum >= -1e-15L; });
+  const Long way = inner(a, outer(b, c)) / sum;
+  return is_inside && way > 0 ? way : std::numeric_limits<Long>::infinity();
+}
+
+/// All triangles of a mesh, and what is opposite to a vertex by a scan of them.
+class Scan {
+ public:
+  explicit Scan(const TestMesh& mesh) : mesh_(&mesh), normals_(mesh.size()) {
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+      triangles_.push_back({at(mesh.face(f)[0]), at(mesh.face(f)[1]), at(mesh.face(f)[2])});
+      for (const std::uint32_t v : mesh.face(f)) normals_[v] = normals_[v] + area_of(triangles_.back());
+    }
+    for (LongPoint& n : normals_) n = (1 / std::sqrt(inner(n, n))) * n;
+  }
+
+  [[nodiscard]] double by_ray(std::uint32_t v) const {
+    Long least = std::numeric_limits<Long>::infinity();
+    for (std::size_t f = 0; f < triangles_.size(); ++f) {
+      if (!touches(f, v)) least = std::min(least, way_to(at(v), Long{-1} * normals_[v], triangles_[f]));
+    }
+    return static_cast<double>(least);
+  }
+
+  /// The least over all faces of the largest ball that each allows, by bisection.
+  [[nodiscard]] double by_sphere(std::uint32_t v) const {
+    Long least = 8;
+    for (std::size_t f = 0; f < triangles_.size(); ++f) {
+      const LongPoint area = area_of(triangles_[f]);
+      const bool is_opposite = inner(area, normals_[v]) < 0.6L * std::sqrt(inner(area, area));
+      if (touches(f, v) || !is_opposite || allows(v, f, least)) continue;
+      Long low = 0;
+      for (int step = 0; step < 70; ++step) (allows(v, f, (low + least) / 2) ? low : least) = (low + least) / 2;
+    }
+    return static_cast<double>(2 * least);
+  }
+
+ private:
+  [[nodiscard]] LongPoint at(std::uint32_t v) const {
+    return {mesh_->positions[3 * v], mesh_->positions[3 * v + 1], mesh_->positions[3 * v + 2]};
+  }
+  [[nodiscard]] bool touches(std::size_t f, std::uint32_t v) const {
+    return std::ranges::count(mesh_->face(f), v) != 0;
+  }
+  [[nodiscard]] bool allows(std::uint32_t v, std::size_t f, Long radius) const {
+    return distance_of(at(v) - radius * normals_[v], triangles_[f]) >= radius;
+  }
+
+  const TestMesh* mesh_;
+  std::vector<LongPoint> normals_;
+  std::vector<LongTriangle> triangles_;
+};
+
+std::vector<double> measure(const TestMesh& mesh, ThicknessMethod method) {
+  const Index index = build(mesh.view());
+  return thickness(Surface(index, mesh.view().faces), {}, method);
+}
+
+/// A sheet of n by n squares, each cut in two, from `corner` along `u` and `v`, with its inner vertices moved. The
+/// normal is the cross product of `u` and `v`. Returns its first vertex.
+std::uint32_t add_sheet(TestMesh& mesh, Random& random, const LongPoint& corner, const LongPoint& u, const LongPoint& v,
+                        std::uint32_t n) {
+  const auto first = static_cast<std::uint32_t>(mesh.size());
+  for (std::uint32_t i = 0; i <= n; ++i) {
+    for (std::uint32_t j = 0; j <= n; ++j) {
+      const auto share = [&](std::uint32_t k) {
+        return (static_cast<double>(k) + (k > 0 && k < n ? random.uniform(-0.4, 0.4) : 0)) / static_cast<double>(n);
+      };
+      const LongPoint p = corner + Long{share(i)} * u + Long{share(j)} * v;
+      mesh.add_vertex(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
+    }
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const std::uint32_t at = first + i * (n + 1) + j;
+      mesh.add_face({at, at + n + 1, at + 1});
+      mesh.add_face({at + 1, at + n + 1, at + n + 2});
+    }
+  }
+  return first;
+}
+
+TEST(Thickness, OfAPlateIsThatOfThePlateWhateverItsTriangles) {
+  constexpr double kThick = 0.3;
+  Random random(1);
+  TestMesh mesh;
+  add_sheet(mesh, random, {-2, -2, kThick}, {4, 0, 0}, {0, 4, 0}, 17);
+  add_sheet(mesh, random, {-2, -2, 0}, {0, 4, 0}, {4, 0, 0}, 5);
+  mesh.finish(false);
+  for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
+    const std::vector<double> found = measure(mesh, method);
+    std::size_t inner_ones = 0;
+    for (std::size_t v = 0; v < mesh.size(); ++v) {
+      if (std::max(std::abs(mesh.positions[3 * v]), std::abs(mesh.positions[3 * v + 1])) > 1.9) continue;
+      ASSERT_NEAR(found[v], kThick, 2e-16) << v;
+      ++inner_ones;
+    }
+    EXPECT_GT(inner_ones, 200U);
+  }
+}
+
+TEST(Thickness, OfAWedgeFollowsFromItsAngle) {
+  for (const double degrees : {3.0, 30.0, 60.0, 90.0, 110.0}) {
+    const double angle = degrees * M_PI / 180;
+    Random random(2);
+    TestMesh mesh;
+    add_sheet(mesh, random, {0, -4, 0}, {0, 8, 0}, {1, 0, 0}, 9);  // seen from below
+    const std::size_t lower = mesh.size();
+    const LongPoint up{std::cos(angle), 0, std::sin(angle)};
+    add_sheet(mesh, random, {0, -4, 0}, Long{20} * up, {0, 8, 0}, 6);
+    mesh.finish(false);
+    const std::vector<double> by_ray = measure(mesh, ThicknessMethod::Ray);
+    const std::vector<double> by_sphere = measure(mesh, ThicknessMethod::Sphere);
+    for (std::size_t v = 0; v < lower; ++v) {
+      const double x = mesh.positions[3 * v];
+      if (x == 0 || std::abs(mesh.positions[3 * v + 1]) > 3.5) continue;
+      ASSERT_TRUE(degrees > 80 || std::abs(by_ray[v] - x * std::tan(angle)) < 1e-14) << v;
+      ASSERT_NEAR(by_sphere[v], 2 * x * std::tan(angle / 2), 1e-14) << v << " at " << degrees;
+    }
+  }
+}
+
+/// The faces lie inside of the sphere by the height of their arcs.
+TEST(Thickness, OfABallIsItsDiameterUpToItsFaces) {
+  const TestMesh mesh = ball(48, 63);
+  for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
+    const std::vector<double> found = measure(mesh, method);
+    const auto [least, most] = std::ranges::minmax(found);
+    std::printf("%g to %g\n", least, most);
+    EXPECT_GT(least, 1.94);
+    EXPECT_LT(most, 2 + 1e-12);
+  }
+}
+
+TEST(Thickness, OfAPinIsItsDiameterUpToItsFaces) {
+  constexpr std::uint32_t kSides = 60;
+  TestMesh mesh;
+  for (std::uint32_t ring = 0; ring <= 20; ++ring) {
+    for (std::uint32_t i = 0; i < kSides; ++i) {
+      const double around = 2 * M_PI * i / kSides;
+      mesh.add_vertex(std::cos(around), std::sin(around), 0.3 * ring);
+    }
+  }
+  for (std::uint32_t ring = 0; ring < 20; ++ring) {
+    for (std::uint32_t i = 0; i < kSides; ++i) {
+      const std::uint32_t at = ring * kSides + i;
+      const std::uint32_t next = ring * kSides + (i + 1) % kSides;
+      mesh.add_face({at, next, next + kSides, at + kSides});
+    }
+  }
+  mesh.finish(false);
+  for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
+    const std::vector<double> found = measure(mesh, method);
+    for (std::size_t v = 5 * kSides; v < 15 * kSides; ++v) ASSERT_NEAR(found[v], 2, 0.01) << v;
+  }
+}
+
+TEST(Thickness, IsThatOfAScanOfAllFaces) {
+  Random random(3);
+  TestMesh mesh = ball(14, 17);
+  for (double& x : mesh.positions) x *= 1 + 0.04 * random.uniform(-1, 1);
+  mesh.add_face({3, 100, 200});  // not manifold
+  mesh.finish(false);
+  const Scan scan(mesh);
+  const std::vector<double> by_ray = measure(mesh, ThicknessMethod::Ray);
+  const std::vector<double> by_sphere = measure(mesh, ThicknessMethod::Sphere);
+  for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+    const double ray = scan.by_ray(v);
+    ASSERT_TRUE(by_ray[v] == ray || std::abs(by_ray[v] - ray) < 1e-13) << v << ": " << by_ray[v] << ", " << ray;
+    ASSERT_NEAR(by_sphere[v], scan.by_sphere(v), 1e-12) << v;
+  }
+}
+
+TEST(Thickness, OfSomeVerticesIsThatOfAll) {
+  const TestMesh mesh = ball(9, 11);
+  const Index index = build(mesh.view());
+  const Surface surface(index, mesh.view().faces);
+  const std::vector<VertexId> some{7, 3, 7, 40};
+  for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
+    const std::vector<double> all = thickness(surface, {}, method);
+    const std::vector<double> found = thickness(surface, some, method, {.threads = 3});
+    for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(found[i], all[some[i]]);
+  }
+}
+
+TEST(Thickness, IsInfiniteWhereNothingIsOppositeAndNanWithoutANormal) {
+  TestMesh mesh;
+  Random random(4);
+  add_sheet(mesh, random, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3);
+  const auto alone = mesh.add_vertex(0.5, 0.5, -1);
+  mesh.finish(false);
+  for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
+    const std::vector<double> found = measure(mesh, method);
+    EXPECT_EQ(found[0], kInfinity);
+    EXPECT_TRUE(std::isnan(found[alone]));
+  }
+}
+
+TEST(Thickness, RefusesWrongVerticesAndMeshesWithoutFaces) {
+  const TestMesh mesh = ball(5, 6);
+  const Index index = build(mesh.view());
+  const std::vector<VertexId> wrong{0, 1000};
+  expect_refused(ErrorCode::VertexOutOfRange,
+                 "row 1: ", [&] { static_cast<void>(thickness(Surface(index, mesh.view().faces), wrong)); });
+  expect_refused(ErrorCode::InvalidMesh, "face", [&] { static_cast<void>(thickness(Surface(index, FacesView{}))); });
+}
+
+}  // namespace
+}  // namespace meshhood::test
