@@ -11,13 +11,12 @@
 #include <gtest/gtest.h>
 
 #include "base/vector.h"
+#include "support/long_point.h"
 #include "support/random.h"
 #include "support/scale.h"
 
 namespace meshhood::test {
 namespace {
-
-using Long = long double;
 
 Long distance_of(const BoundingBox& box, const Point& p) {
   const auto gap = [](double low, double at, double high) {

@@ -22,6 +22,7 @@
 #include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/long_point.h"
 #include "support/random.h"
 #include "support/refusal.h"
 #include "support/scale.h"
@@ -30,16 +31,6 @@
 
 namespace meshhood::test {
 namespace {
-
-using Long = long double;
-using LongPoint = std::array<Long, 3>;
-
-Long dot_of(const LongPoint& a, const LongPoint& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-LongPoint minus(const Point& a, const Point& b) {
-  return {static_cast<Long>(a.x) - static_cast<Long>(b.x), static_cast<Long>(a.y) - static_cast<Long>(b.y),
-          static_cast<Long>(a.z) - static_cast<Long>(b.z)};
-}
 
 /// The distance by the regions of Ericson, "Real-Time Collision Detection" (2005), sec. 5.1.5, in long double.
 Long distance_by_regions(const Point& q, const std::array<Point, 3>& corners) {

@@ -24,6 +24,7 @@
 #include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/long_point.h"
 #include "support/random.h"
 #include "support/refusal.h"
 #include "support/round_meshes.h"
@@ -33,15 +34,7 @@
 namespace meshhood::test {
 namespace {
 
-using Long = long double;
-using LongPoint = std::array<Long, 3>;
-
 SpacePoint space(const Point& p) { return {p.x, p.y, p.z}; }
-
-LongPoint minus(const Point& a, const Point& b) {
-  return {static_cast<Long>(a.x) - static_cast<Long>(b.x), static_cast<Long>(a.y) - static_cast<Long>(b.y),
-          static_cast<Long>(a.z) - static_cast<Long>(b.z)};
-}
 
 Long determinant(const LongPoint& a, const LongPoint& b, const LongPoint& c) {
   return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
