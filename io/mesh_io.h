@@ -19,7 +19,8 @@ enum class Format { Ply, Obj, Off, Stl, Vtk, FreeSurfer };
 
 /// The precision of the coordinates in memory.
 enum class Precision {
-  FromFile,  ///< as the file declares (PLY, binary STL, VTK, FreeSurfer); of other text float if that keeps what is written, else double
+  FromFile,  ///< as the file declares (PLY, binary STL, VTK, FreeSurfer); of other text float if that keeps what is
+             ///< written, else double
   Float,     ///< rounded to float
   Double,    ///< the double nearest to the text or value in the file
 };

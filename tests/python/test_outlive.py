@@ -32,6 +32,8 @@ ARGUMENTS = {
     "radii": [1.0, 2.0],
     "points": V[:4] + np.float32(0.1),
     "q": V[:4] + np.float32(0.1),
+    "origins": V[:4] + np.float32(1),
+    "directions": np.array([[0.1, 0.2, -1], [-0.3, 0.1, -1], [-1, -1, -1], [1, 0, 0]]),
     "ids": meshhood.MeshIndex(V, F).neighborhood(42, 2.0),
     "values": RANDOM.normal(size=(COUNT, 2)),
     "V": V,
