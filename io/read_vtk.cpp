@@ -43,9 +43,10 @@ std::size_t size_of_type(std::string_view type) {
                                                                              {"vtktypeuint64", 8},
                                                                              {"double", 8},
                                                                              {"vtktypeuint8", 1}}};
-  const auto* const found =
-      std::find_if(kSizes.begin(), kSizes.end(), [type](const auto& size) { return size.first == type; });
-  return found == kSizes.end() ? 0 : found->second;
+  for (const auto& [name, size] : kSizes) {
+    if (name == type) return size;
+  }
+  return 0;
 }
 
 /// Words and numbers of a file in turn.
