@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -28,7 +30,7 @@ constexpr double kNoGap = std::numeric_limits<double>::infinity();
 
 /// Where neighbors are not near in space, nodes are large, and a search through the tree visits most of them. To visit
 /// one for each so many vertices takes about as long as a scan, which then takes over.
-constexpr std::size_t kVerticesPerNode = 128;
+constexpr std::size_t kVerticesPerNode = 32;
 
 /// So many packets that follow are then scanned at once, because they are probably like this one.
 constexpr std::size_t kScans = 16;
@@ -123,6 +125,7 @@ class UnconnectedSearch {
     bool has_shrunk = false;
     if (piece != nullptr) queries &= ~piece->queries;
     const QueryWord* const reached = piece != nullptr ? piece->reached : nullptr;
+    if (reached != nullptr) queries &= ~std::accumulate(reached, reached + (end - begin), all_, std::bit_and<>());
     for_each_query(queries, [&](std::size_t i) {
       for (std::size_t first = begin; first < end; first += kLeafCapacity) {
         const std::size_t size = std::min<std::size_t>(end - first, kLeafCapacity);
