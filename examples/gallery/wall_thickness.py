@@ -1,24 +1,20 @@
 # SPDX-License-Identifier: MIT
-"""Wall thickness: what is near but not connected
-=================================================
+"""Wall thickness: the largest ball inside
+==========================================
 
-A bowl of a CAD part is thin at its bottom. From a vertex of one side of the wall, the other side is near in space, but
-far along the surface. ``nearest_unconnected`` finds the nearest vertex of the ball that is not in the neighborhood: it
-is on the other side, and its distance is the thickness of the wall. There is none within 7 mm where the way over the
-rim lies in the ball (gray).
+A bowl of a CAD part is thin at its bottom. The thickness at a vertex is the diameter of the largest ball that touches
+the surface there from inside. It does not depend on how the other side is divided into triangles. ``method="ray"``
+measures along the normal instead, which at the rim leads far down the wall.
 """
 
 import meshhood
-import numpy as np
 import pyvista
 from made_meshes import bowl
 
 V, F = bowl()
-index = meshhood.MeshIndex(V, F)
-other, gap = index.nearest_unconnected(7.0)
 
 mesh = pyvista.PolyData.from_regular_faces(V, F)
-mesh["mm"] = np.where(other >= 0, gap, np.nan)
+mesh["mm"] = meshhood.MeshIndex(V, F).thickness(method="sphere")
 camera = [(30, -120, 60), (0, 0, -20), (0, 0, 1)]
 bar = {"vertical": True}
-mesh.clip("y", invert=False).plot(cmap="viridis", nan_color="lightgray", cpos=camera, scalar_bar_args=bar)
+mesh.clip("y", invert=False).plot(cmap="viridis", cpos=camera, scalar_bar_args=bar)

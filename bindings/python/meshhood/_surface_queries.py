@@ -148,9 +148,10 @@ class SurfaceQueries(Held):
         metric : see `MeshIndex`: what is connected. With "path", the ball is that of radius `r` in space, too; with
             "rings", all of space.
 
-        It is the thickness of a wall, the gap between two folds or sheets that nearly touch. *Not connected* is meant at
-        the scale of `r`: a vertex to which only a way outside the ball leads is not connected, so a surface that bends
-        back into the ball counts as well as another component. With r=inf only other components count.
+        It is how far folds or sheets that nearly touch are apart, by their vertices: `gaps` measures to the surface, and
+        `thickness` across a wall. *Not connected* is meant at the scale of `r`: a vertex to which only a way outside the
+        ball leads is not connected, so a surface that bends back into the ball counts as well as another component. With
+        r=inf only other components count.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> other, gap = index.nearest_unconnected(0.5)
