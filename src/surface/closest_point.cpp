@@ -24,6 +24,8 @@ namespace {
 
 constexpr std::size_t kPointsOfTask = 256;
 
+double share_of(double part, double whole) { return whole > 0 ? part / whole : 0; }
+
 /// The point of a triangle nearest to the origin, by the regions of Ericson, "Real-Time Collision Detection" (2005),
 /// sec. 5.1.5. For slivers it may be another point of the triangle, or not a number.
 Point roughly_nearest(const std::array<Point, 3>& corners) {
@@ -37,17 +39,17 @@ Point roughly_nearest(const std::array<Point, 3>& corners) {
   const double d4 = -dot(ac, b);
   if (d3 >= 0 && d4 <= d3) return b;
   const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + (d1 / (d1 - d3)) * ab;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + share_of(d1, d1 - d3) * ab;
   const double d5 = -dot(ab, c);
   const double d6 = -dot(ac, c);
   if (d6 >= 0 && d5 <= d6) return c;
   const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + (d2 / (d2 - d6)) * ac;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + share_of(d2, d2 - d6) * ac;
   const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b);
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + share_of(d4 - d3, (d4 - d3) + (d5 - d6)) * (c - b);
   // Rounding may bring several of them below 0.
   if (!(va >= 0 && vb >= 0 && vc >= 0)) return a;
-  const double share = 1 / (va + vb + vc);
+  const double share = share_of(1, va + vb + vc);
   return a + (vb * share) * ab + (vc * share) * ac;
 }
 

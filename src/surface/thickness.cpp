@@ -49,9 +49,10 @@ class OppositeSide {
     for (;;) {
       const TrianglePoint nearest = nearest_in_ball(radius);
       const Point offset = scale * (nearest.point - vertex_);
-      const double smaller = dot(offset, offset) / (2 * dot(inward_, offset)) / scale;
-      const bool has_shrunk = nearest.distance < radius && smaller > 0 && smaller < radius;
-      if (!has_shrunk) return is_met ? 2 * radius : kInfinity;
+      const double along = dot(inward_, offset);
+      const bool is_inside = nearest.distance < radius && along > 0;
+      const double smaller = is_inside ? dot(offset, offset) / (2 * along) / scale : radius;
+      if (!(smaller > 0 && smaller < radius)) return is_met ? 2 * radius : kInfinity;
       radius = smaller;
       is_met = true;
     }

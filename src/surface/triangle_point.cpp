@@ -62,6 +62,7 @@ class Candidates {
     const std::size_t k = (i + 2) % 3;
     const Point side = sides_[i];
     const double square = dot(side, side);
+    if (square == 0) return;
     const auto without_side = [&](const Point& p) { return p - (dot(p, side) / square) * side; };
     const auto across = [&](const Point& p) { return without_side(without_side(p)); };
     const Point third = -1.0 * sides_[k];
