@@ -86,8 +86,8 @@ void refuse_foreign(InputBuffer& input) {
   for (const auto& [mark, is_first, name] : kForeign) {
     if (is_first ? !head.starts_with(mark) : head.find(mark) == std::string_view::npos) continue;
     raise(ErrorCode::UnsupportedFormat,
-          fmt::format("{0}: is {1}, which only the Python package reads; python3 -c 'import meshhood as m; "
-                      "m.write_mesh(\"mesh.ply\", m.read_mesh(\"{0}\"))' converts it",
+          fmt::format("{}: is {}, which only the Python package reads; python3 -c 'import sys, meshhood as m; "
+                      "m.write_mesh(\"mesh.ply\", m.read_mesh(sys.argv[1]))' FILE converts it",
                       input.name(), name));
   }
 }

@@ -26,23 +26,13 @@ enum class Encoding { Text, Binary };
 
 /// The size of a number by the name of its type; 0 if it is none.
 std::size_t size_of_type(std::string_view type) {
-  constexpr std::array<std::pair<std::string_view, std::size_t>, 17> kSizes{{{"char", 1},
-                                                                             {"signed_char", 1},
-                                                                             {"unsigned_char", 1},
-                                                                             {"short", 2},
-                                                                             {"unsigned_short", 2},
-                                                                             {"int", 4},
-                                                                             {"unsigned_int", 4},
-                                                                             {"vtkidtype", 4},
-                                                                             {"vtktypeint32", 4},
-                                                                             {"float", 4},
-                                                                             {"long", 8},
-                                                                             {"unsigned_long", 8},
-                                                                             {"vtktypeint64", 8},
-                                                                             {"long_long", 8},
-                                                                             {"vtktypeuint64", 8},
-                                                                             {"double", 8},
-                                                                             {"vtktypeuint8", 1}}};
+  using Size = std::pair<std::string_view, std::size_t>;
+  constexpr std::array kSizes{Size{"char", 1},          Size{"signed_char", 1},  Size{"unsigned_char", 1},
+                              Size{"vtktypeuint8", 1},  Size{"short", 2},        Size{"unsigned_short", 2},
+                              Size{"int", 4},           Size{"unsigned_int", 4}, Size{"vtkidtype", 4},
+                              Size{"vtktypeint32", 4},  Size{"float", 4},        Size{"long", 8},
+                              Size{"unsigned_long", 8}, Size{"vtktypeint64", 8}, Size{"long_long", 8},
+                              Size{"vtktypeuint64", 8}, Size{"double", 8}};
   for (const auto& [name, size] : kSizes) {
     if (name == type) return size;
   }
@@ -75,7 +65,10 @@ class VtkValues {
     for (int word = 0; word < 4; ++word) text_.token();
   }
 
-  void skip_line() { text_.next_line(), text_.skip_line(); }
+  void skip_line() {
+    text_.next_line();
+    text_.skip_line();
+  }
 
   /// To the next line without words.
   void skip_paragraph() {
@@ -167,10 +160,15 @@ class VtkReader {
         builder_(input, options, declared()) {}
 
   Mesh read() {
-    type_ == "double" ? read_points<double>() : read_points<float>();
+    if (type_ == "double") {
+      read_points<double>();
+    } else {
+      read_points<float>();
+    }
     for (std::string word = values_.word(); !word.empty() && !word.ends_with("_data"); word = values_.word()) {
       read_section(word);
     }
+    if (need_types_) values_.malformed("the cells have no types, expected CELL_TYPES");
     return builder_.finish(Format::Vtk);
   }
 
@@ -240,7 +238,12 @@ class VtkReader {
     if (!are_faces && (has_offsets_ ? second : first) != 0) {
       values_.fail(ErrorCode::UnsupportedFormat, fmt::format("{} are not supported, expected only POLYGONS", word));
     }
-    has_offsets_ ? read_arrays(first, second) : read_lists(first, second);
+    if (has_offsets_) {
+      read_arrays(first, second);
+    } else {
+      read_lists(first, second);
+    }
+    need_types_ = word == "cells" && builder_.faces.size() != 0;
   }
 
   /// What may stand anywhere.
@@ -338,6 +341,8 @@ class VtkReader {
   void check_types() {
     constexpr std::array kFaces{5, 7, 9};  // triangle, polygon, quad
     const uint64_t cells = values_.count("cells");
+    if (cells != builder_.faces.size()) values_.malformed("{} types of {} cells", cells, builder_.faces.size());
+    need_types_ = false;
     values_.begin_numbers(cells, sizeof(std::int32_t), "types of cells");
     for (uint64_t cell = 0; cell < cells; ++cell) {
       const std::int64_t type = values_.integer(sizeof(std::int32_t));
@@ -353,6 +358,7 @@ class VtkReader {
   uint64_t vertices_;
   std::string type_;
   MeshBuilder builder_;
+  bool need_types_ = false;  // cells of a grid, which may be solids, without types so far
 };
 
 }  // namespace

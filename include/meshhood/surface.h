@@ -91,7 +91,8 @@ struct Rim {
 ///
 /// What depends on the faces is made when it is first needed, and kept: 48 bytes a triangle for closest points, 24
 /// bytes a vertex for curvature, 4 bytes a corner and 8 a vertex for the faces of each vertex, 8 bytes a vertex for
-/// areas, 60 bytes a triangle for patches (see patch.h). The first call of its kind so takes O(#V + #corners).
+/// areas, 60 bytes a triangle for patches (see patch.h), beside those for closest points. The first call of its kind so
+/// takes O(#V + #corners).
 ///
 /// Any number of threads may use it, but for `refit_in_place`. Shares the memory of the index, as a searcher does: the
 /// index may be moved or destroyed. After a refit of the index in place, calls throw Error{InvalidOption} until
@@ -158,11 +159,12 @@ class Surface {
   ///
   /// direction  finite and not 0, of any length. The distance is in the unit of the positions.
   ///
-  /// No ray slips through where faces meet: a corner is seen from the origin in double, off by a few units in the last
-  /// place of its distance, at the same place whatever the face, and then decided exactly, as a ray on a side meets
-  /// both faces. Their distances are then the same, bit for bit, and weights off the side exactly 0. A triangle that
-  /// the ray sees from its side is not hit, but those that meet it are. The distance is off by a few units of those of
-  /// the corners, times the slope of the triangle against the ray.
+  /// No ray slips through where faces meet. The place of a corner as the ray sees it is computed in double, off by a
+  /// few units in the last place of its distance, and is the same for all faces; on which side of a line the ray passes
+  /// is then decided exactly. A ray that meets a side or a corner meets all faces there: their distances are the same,
+  /// bit for bit, and the weights of other corners are exactly 0. A triangle that the ray sees exactly from its side is
+  /// not hit, but those that meet it are. The distance is off by a few units in the last place of those of the corners,
+  /// times the slope of the triangle against the ray.
   ///
   /// Throws Error{InvalidOption} as `closest_point` for `origin`, and for `direction`, and Error{InvalidMesh} if no
   /// face has three corners. O(log #V) on most surfaces; O(#F) from farther away than 10^14 times the mesh. Allocates

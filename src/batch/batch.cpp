@@ -43,12 +43,7 @@ BatchWorker& Batch::worker(unsigned thread) {
 
 std::vector<std::size_t> Batch::put_in_index_order() {
   block_.reset();
-  std::vector<std::pair<std::uint32_t, std::size_t>> by_position(rows_.size());
-  for (std::size_t row = 0; row < rows_.size(); ++row) by_position[row] = {factory_.position(rows_.vertex(row)), row};
-  sort_by_position(std::span(by_position), [](const auto& row) { return row.first; });
-  std::vector<std::size_t> order;
-  order.reserve(rows_.size());
-  for (const auto& [position, row] : by_position) order.push_back(row);
+  std::vector<std::size_t> order = rows_.in_order([&](VertexId v) { return factory_.position(v); });
   rows_.reorder(order);
   return order;
 }

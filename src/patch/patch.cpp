@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "meshhood/patch.h"
 
-#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
 #include <variant>
 
 #include "meshhood/error.h"
@@ -37,14 +35,12 @@ bool run_at(const PatchState& state, PatchSearch& search, VertexId v, double rad
 /// Calls `f(search, row)` after a search for each row, on any thread.
 template <class F>
 void for_each_row(const PatchState& state, const Rows& rows, TaskContext& task, bool measures, F&& f) {
-  std::vector<std::pair<std::uint32_t, std::size_t>> in_order(rows.size());
-  for (std::size_t row = 0; row < rows.size(); ++row) in_order[row] = {state.index->slot[rows.vertex(row)], row};
-  std::sort(in_order.begin(), in_order.end());
+  const std::vector<std::size_t> in_order = rows.in_order([&](VertexId v) { return state.index->slot[v]; });
   std::vector<std::unique_ptr<PatchSearch>> searches(task.threads());
   task.parallel_for(rows.size(), kPatchesAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
     if (!searches[thread]) searches[thread] = std::make_unique<PatchSearch>(state);
     for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
-      const std::size_t row = in_order[i].second;
+      const std::size_t row = in_order[i];
       const bool exists = run_at(state, *searches[thread], rows.vertex(row), rows.radius(row), measures);
       f(*searches[thread], row, exists);
       task.advance(thread, 1);

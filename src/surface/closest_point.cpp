@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::size_t kPointsOfTask = 256;
 
+/// 0 where squares of lengths vanish.
 double share_of(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 /// The point of a triangle nearest to the origin, by the regions of Ericson, "Real-Time Collision Detection" (2005),

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 #include "base/vector.h"
 #include "batch/rows.h"
@@ -38,12 +37,14 @@ class OppositeSide {
         vertex_(oriented.position(place)),
         inward_(-1.0 * oriented.normal(place)) {}
 
-  [[nodiscard]] double by_ray() const { return has_normal() ? way_to_first(0) : kNan; }
+  [[nodiscard]] double by_ray() const {
+    return has_normal() ? way_to_first([](std::size_t) { return true; }) : kNan;
+  }
 
   [[nodiscard]] double by_sphere() const {
     if (!has_normal()) return kNan;
     const double scale = index_->frame.scale;
-    const double way = way_to_first(kOpposite);
+    const double way = way_to_first([&](std::size_t i) { return is_opposite(i); });
     double radius = std::min(way / 2, kFirstRadius / scale);
     bool is_met = way < kInfinity;
     for (;;) {
@@ -76,10 +77,11 @@ class OppositeSide {
     return corners_of(*index_, tree_->triangles()[i].corners);
   }
 
-  /// Along the ray, to the first face, or if `cosine` is not 0 to the first that is opposite.
-  [[nodiscard]] double way_to_first(double cosine) const {
+  /// Along the ray, to the first of the faces for which `is_counted(i)`.
+  template <class IsCounted>
+  [[nodiscard]] double way_to_first(IsCounted&& is_counted) const {
     const auto counts = [&](std::size_t i, const TrianglePoint& at) {
-      return at.distance > 0 && !touches(i) && (cosine == 0 || is_opposite(i));
+      return at.distance > 0 && !touches(i) && is_counted(i);
     };
     return find_first_hit(*index_, *tree_, Ray(vertex_, inward_, index_->frame), counts).at.distance;
   }
@@ -116,14 +118,13 @@ std::vector<double> thickness(const Surface& surface, const BatchVertices& verti
   TaskContext task(run.threads, run.progress, rows.size());
   const FaceTree& tree = state.tree();
   const OrientedIndex oriented = SurfaceAccess::oriented(surface, task);
-  std::vector<std::pair<std::uint32_t, std::size_t>> in_order(rows.size());
-  for (std::size_t row = 0; row < rows.size(); ++row) in_order[row] = {state.index->place(rows.vertex(row)), row};
-  std::sort(in_order.begin(), in_order.end());
+  const std::vector<std::size_t> in_order = rows.in_order([&](VertexId v) { return state.index->slot[v]; });
   std::vector<double> result(rows.size());
   task.parallel_for(rows.size(), kVerticesOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
-      const OppositeSide side(oriented, tree, in_order[i].first);
-      result[in_order[i].second] = method == ThicknessMethod::Ray ? side.by_ray() : side.by_sphere();
+      const std::size_t row = in_order[i];
+      const OppositeSide side(oriented, tree, state.index->place(rows.vertex(row)));
+      result[row] = method == ThicknessMethod::Ray ? side.by_ray() : side.by_sphere();
       task.advance(thread, 1);
     }
   });

@@ -85,6 +85,8 @@ TEST(Vtk, AGridOfFacesIsRead) {
   expect_mixed(read("a.vtk", grid + "CELL_TYPES 2\n9\n5\n"));
   expect_refused("a.vtk", grid + "CELL_TYPES 2\n10\n5\n", ErrorCode::UnsupportedFormat,
                  "a.vtk:12:1: cell 0 has type 10", "expected a surface");
+  expect_refused("a.vtk", grid, ErrorCode::MalformedFile, "the cells have no types, expected CELL_TYPES");
+  expect_refused("a.vtk", grid + "CELL_TYPES 1\n9\n", ErrorCode::MalformedFile, "1 types of 2 cells");
 }
 
 TEST(Vtk, OtherThanPolygonsIsRefusedByName) {

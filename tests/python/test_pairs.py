@@ -220,10 +220,11 @@ def asked_plainly(call, words, v, radius):
 def check_plain(call, words, v, radius, found):
     wanted = asked_plainly(call, words, v, radius)
     assert len(found) == len(wanted)
-    if "walls" in words and call.rows in (lists, matrix) and words.get("sort") in (None, "index"):
-        found, wanted = ([column[np.argsort(row[0])] for column in row] for row in (found, wanted))  # other places
-    if "walls" in words and call.name in ("k_nearest", "discs") and "metric" in words:  # likewise, of equal lengths
-        found, wanted = found[1:], wanted[1:]
+    if "walls" in words and call.name in ("k_nearest", "discs"):
+        if "metric" in words:  # the last vertices of equal lengths are others: places are
+            found, wanted = found[1:], wanted[1:]
+    elif "walls" in words and call.rows in (lists, matrix) and words.get("sort") in (None, "index"):
+        found, wanted = ([column[np.argsort(row[0])] for column in row] for row in (found, wanted))  # likewise
     for a, b in zip(found, wanted):
         b = np.asarray(b, words.get("dtype") if np.asarray(b).dtype == np.float64 else None)
         if "walls" in words or (call.radius == "fwhm" and "unit" in words):  # sums in another order, radii rounded twice
@@ -357,7 +358,8 @@ def check(call, words, answer, random, rows):
         if "walls" in words and WALLS[v]:
             assert is_empty(call, found[k]), (v, found[k])
             continue
-        check_plain(call, words, v, radius, found[k])
+        if words.get("nesting") != "patch" or radius == max(words["scales"]):  # a smaller one has what is in the patch
+            check_plain(call, words, v, radius, found[k])
         by_hand += check_by_hand(call, words, v, radius, found[k])
     # One vertex and one radius have no progress.
     if "progress" in words and (len(found) > 1 or words["progress"].total):

@@ -17,6 +17,13 @@ namespace meshhood::test {
           mesh.positions[3 * std::size_t{v} + 2]};
 }
 
+/// The smallest number of a face with the vertex; #F without one.
+[[nodiscard]] inline std::size_t first_face_of(const TestMesh& mesh, std::uint32_t v) {
+  std::size_t face = 0;
+  while (face < mesh.face_count() && std::ranges::count(mesh.face(face), v) == 0) ++face;
+  return face;
+}
+
 /// The triangles of the faces of a mesh, face after face. How polygons are divided is tested by itself.
 struct TestTriangles {
   explicit TestTriangles(const TestMesh& mesh) {

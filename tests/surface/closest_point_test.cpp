@@ -188,10 +188,7 @@ TEST(ClosestPoint, OfFacesThatMeetFindsTheOneWithTheSmallestNumber) {
   const Index index = build(mesh.view());
   const Surface surface(index, mesh.view().faces);
   for (std::uint32_t v = 0; v < mesh.size(); ++v) {
-    std::size_t first = mesh.face_count();
-    for (std::size_t face = mesh.face_count(); face-- > 0;) {
-      if (std::ranges::count(mesh.face(face), v) != 0) first = face;
-    }
+    const std::size_t first = first_face_of(mesh, v);
     const Point p = corner_of(mesh, v);
     const SurfacePoint found = surface.closest_point({p.x, p.y, p.z});
     ASSERT_EQ(found.face, first);

@@ -36,9 +36,7 @@ namespace {
 
 SpacePoint space(const Point& p) { return {p.x, p.y, p.z}; }
 
-Long determinant(const LongPoint& a, const LongPoint& b, const LongPoint& c) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
+Long determinant(const LongPoint& a, const LongPoint& b, const LongPoint& c) { return dot_of(a, cross_of(b, c)); }
 
 /// A hit by Cramer's rule. `margin` is the least weight: near 0 the ray passes close to a side.
 struct LongHit {
@@ -54,11 +52,9 @@ LongHit hit_of(const Point& origin, const Point& direction, const std::array<Poi
   const LongPoint d = minus(direction, {0, 0, 0});
   const std::array weights{determinant(d, b, c), determinant(a, d, c), determinant(a, b, d)};
   const Long sum = weights[0] + weights[1] + weights[2];
-  const Long length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  const LongPoint ab = minus(corners[1], corners[0]);
-  const LongPoint ac = minus(corners[2], corners[0]);
-  const LongPoint normal{ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0]};
-  const Long area = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+  const Long length = std::sqrt(dot_of(d, d));
+  const LongPoint normal = cross_of(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+  const Long area = std::sqrt(dot_of(normal, normal));
   return {determinant(a, b, c) / sum * length, std::min({weights[0] / sum, weights[1] / sum, weights[2] / sum}),
           area * length / std::abs(sum)};
 }
@@ -254,10 +250,7 @@ TEST(FirstHit, AlongAnAxisThroughAGridIsTheFaceWithTheSmallestNumber) {
   const Index index = build(mesh.view());
   const Surface surface(index, mesh.view().faces);
   for (std::uint32_t v = 0; v < mesh.size(); ++v) {
-    std::size_t first = mesh.face_count();
-    for (std::size_t face = mesh.face_count(); face-- > 0;) {
-      if (std::ranges::count(mesh.face(face), v) != 0) first = face;
-    }
+    const std::size_t first = first_face_of(mesh, v);
     const Point p = corner_of(mesh, v);
     for (const double side : {-1.0, 1.0}) {
       const SurfacePoint found = surface.first_hit({p.x, p.y, p.z + 3 * side}, {0, 0, -1e-200 * side});

@@ -39,7 +39,11 @@ def read_other(path: str) -> Optional[_Read]:
     except ModuleNotFoundError as error:
         needs = f"{path}: {form.name} needs {error.name}: pip install {error.name}"
         raise ModuleNotFoundError(needs, name=error.name) from None
+    except MemoryError:
+        raise
     except Exception as error:  # each library has its own
+        if isinstance(error, OSError) and error.errno:  # of the operating system
+            raise
         library = form.module.partition(".")[0]
         raise ValueError(f"{path}: {form.name} that {library} cannot read: {str(error) or type(error).__name__}") from error
     corners = corners.astype(np.int32, copy=False)

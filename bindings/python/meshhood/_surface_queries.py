@@ -148,7 +148,7 @@ class SurfaceQueries(Held):
         metric : see `MeshIndex`: what is connected. With "path", the ball is that of radius `r` in space, too; with
             "rings", all of space.
 
-        It is how far folds or sheets that nearly touch are apart, by their vertices: `gaps` measures to the surface, and
+        The distance is that of folds or sheets that nearly touch, between vertices. `gaps` measures to the surface, and
         `thickness` across a wall. *Not connected* is meant at the scale of `r`: a vertex to which only a way outside the
         ball leads is not connected, so a surface that bends back into the ball counts as well as another component. With
         r=inf only other components count.

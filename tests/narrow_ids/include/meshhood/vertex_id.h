@@ -11,6 +11,7 @@ using VertexId = std::uint16_t;
 
 /// No vertex.
 inline constexpr VertexId kNoVertex = std::numeric_limits<VertexId>::max();
+
 using EdgeOffset = std::uint16_t;
 
 }  // namespace meshhood
