@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "meshhood/run.h"
+
+#include "input.h"
+#include "output.h"
+#include "row_query.h"
+
+/// The commands that compute a quantity of each row: numbers of a vertex at one or several radii. What is read, which
+/// rows, the files and what is printed are one for all; a new command is a `Quantity`.
+namespace meshhood::cli {
+
+/// The names of the files; "" for one that was not requested. A mesh has the values for ParaView, PyVista and MeshLab.
+struct ValueFiles {
+  std::string npz;
+  std::string ply;
+  std::string vtk;
+
+  [[nodiscard]] bool has_mesh() const { return !ply.empty() || !vtk.empty(); }
+  [[nodiscard]] const std::string& first() const { return !npz.empty() ? npz : !ply.empty() ? ply : vtk; }
+};
+
+/// The requested files, for a message.
+[[nodiscard]] std::string names_of(const ValueFiles& files);
+
+/// What is computed: an array, with `scales` and `channels` numbers of each row, scale after scale.
+struct Column {
+  std::string name;
+  std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::int64_t>> numbers;
+  std::size_t scales = 0;    ///< 0: the array has no axis of scales
+  std::size_t channels = 0;  ///< 0: the array has no axis of channels
+  bool is_array = true;      ///< of the .npz; otherwise only of a mesh
+};
+
+/// One number of each vertex of a mesh, or a vector of three.
+struct Property {
+  std::string name;
+  std::size_t column;
+  std::size_t first;   ///< the place of that of vertex 0
+  std::size_t stride;  ///< from one vertex to the next
+  std::size_t width = 1;
+};
+
+/// The result of a quantity.
+struct RowTable {
+  std::size_t rows;
+  std::vector<double> radii = {};       ///< of the scales, or with --radii of the rows
+  std::vector<std::string> kinds = {};  ///< names of the channels, an array of their own; or empty
+  std::vector<Column> columns = {};
+  std::vector<Property> properties = {};
+  std::string shown = {};                 ///< the property that a program shows at once, MeshLab as `quality`
+  std::vector<std::uint8_t> colors = {};  ///< #V by 3 for PLY, or empty
+  Json summary = {};                      ///< what JSON says beside the files
+  std::string text = {};                  ///< the same for people
+
+  /// A property of a channel of the column of this name, at a scale; of three channels with `width` 3.
+  void add_property(std::string name, std::string_view column, std::size_t scale = 0, std::size_t channel = 0,
+                    std::size_t width = 1);
+
+  /// At each scale, the properties `name_0`, `name_1`, ... of these columns.
+  void add_properties(std::initializer_list<std::string_view> names);
+};
+
+/// What is asked: the input, whose masks are set, its rows, and the options of all quantities.
+struct RowTask {
+  Input& input;
+  const RowQuery& rows;
+  const RowOptions& options;
+  const ValueFiles& files;
+
+  /// One for each scale that --radius or --radii name.
+  [[nodiscard]] RowTable table() const { return {.rows = rows.size(), .radii = rows.radii()}; }
+
+  /// Calls `compute(query, run)` for each scale. `description` is for the display of the progress.
+  void for_each_scale(std::string_view description,
+                      const std::function<void(const BatchQuery&, const Run&)>& compute) const;
+};
+
+/// A command that writes a table.
+class Quantity {
+ public:
+  virtual ~Quantity() = default;
+
+  /// The options that only this one has.
+  virtual void add_options(CLI::App& /*command*/) {}
+
+  /// Throws Error{InvalidOption} if they contradict each other. Before anything is read.
+  virtual void check() const {}
+
+  [[nodiscard]] virtual RowTable compute(const RowTask& task) = 0;
+};
+
+struct QuantityName {
+  std::string name;
+  std::string description;
+  std::string shown;        ///< the value that programs show at once, for the help
+  bool needs_faces = true;  ///< otherwise edges
+};
+
+/// Adds the command `name`.
+void add_quantity(CLI::App& program, const QuantityName& name, std::shared_ptr<Quantity> quantity);
+
+}  // namespace meshhood::cli
