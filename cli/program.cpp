@@ -92,7 +92,9 @@ void add_subcommands(CLI::App& program) {
   add_aggregate(program);
   add_curvature(program);
   add_features(program);
+  add_invariants(program);
   add_unconnected(program);
+  add_gaps(program);
   add_partition(program);
   add_compare(program);
   add_generate(program);

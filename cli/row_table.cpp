@@ -172,7 +172,7 @@ void add_quantity(CLI::App& program, const QuantityName& name, std::shared_ptr<Q
   name.needs_faces ? add_surface(*command, options->file) : add_file(*command, options->file);
   add_reading(*command, options->reading);
   add_rows(*command, options->rows);
-  add_metric(*command, options->rows.metric);
+  if (name.has_metric) add_metric(*command, options->rows.metric);
   quantity->add_options(*command);
   add_files(*command, options->files, name.shown);
   add_json(*command, options->json);

@@ -108,6 +108,7 @@ struct QuantityName {
   std::string description;
   std::string shown;        ///< the value that programs show at once, for the help
   bool needs_faces = true;  ///< otherwise edges
+  bool has_metric = true;   ///< --metric; otherwise straight lines
 };
 
 /// Adds the command `name`.

@@ -367,7 +367,7 @@ def fitted(files, command, file, options, radius, v):
 
 
 def fits(run, wrong):
-    """Curvatures and features, which are fitted, against the same for one vertex at a time."""
+    """Curvatures, features, invariants and gaps of the surface, against the same for one vertex at a time."""
     question = Question(run)
     asked, arrays, rows = run.asked, arrays_of(run), question.rows
     options = words_of(run, FITS)
@@ -393,8 +393,9 @@ def fits(run, wrong):
             if not np.array_equal(found, one[name], equal_nan=True):
                 what = f"{name} of row {row}, vertex {rows[row]}"
                 wrong.append(f"{what}: expected {one[name].ravel()}, got {found.ravel()}")
-    shown = arrays["features"][-1, :, 0] if "features" in arrays else (arrays["k1"][-1] + arrays["k2"][-1]) / 2
-    check_mesh_files(run, wrong, shown)
+    shown = {"features": lambda: arrays["features"][-1, :, 0], "invariants": lambda: arrays["volume"][-1],
+             "gaps": lambda: arrays["gap"][-1], "curvature": lambda: (arrays["k1"][-1] + arrays["k2"][-1]) / 2}
+    check_mesh_files(run, wrong, shown[run.command]())
     return len(sample(len(rows))[::20])
 
 
@@ -481,5 +482,6 @@ def view(run, wrong):
 
 
 CHECKS = {"query": query, "region": region, "connect": connect, "closest": closest, "compare": compare, "batch": batch,
-          "aggregate": aggregate, "unconnected": unconnected, "curvature": fits, "features": fits, "info": info,
+          "aggregate": aggregate, "unconnected": unconnected, "curvature": fits, "features": fits, "invariants": fits,
+          "gaps": fits, "info": info,
           "build": build, "check": verify, "partition": partition, "generate": generate, "view": view}

@@ -41,7 +41,8 @@ VERTICES = 42000
 
 # On these the bytes of an answer do not depend.
 NEUTRAL = {"--threads", "--json", "--max-bytes", "FILE"}
-SAME_BYTES = {"batch", "aggregate", "curvature", "features", "unconnected", "region", "closest"}
+SAME_BYTES = {"batch", "aggregate", "curvature", "features", "invariants", "unconnected", "gaps", "region",
+              "closest"}
 
 # Of these, no input may be standard input, because it is read more than once; of view the mesh.
 STORED = {("partition", "FILE"), ("partition", "--faces"), ("view", "FILE")}
@@ -66,7 +67,9 @@ BASE = {
     "aggregate": ["--values", "--radius", "--output"],
     "curvature": ["--radius", "--output"],
     "features": ["--radius", "--output"],
+    "invariants": ["--radius", "--output"],
     "unconnected": ["--radius", "--output"],
+    "gaps": ["--radius", "--output"],
     "partition": ["--halo", "--parts", "--output"],
     "compare": ["--vertex", "--radius"],
     "generate": ["KIND", "--output"],

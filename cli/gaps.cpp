@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// meshhood gaps: the nearest point of the surface in each ball that is not connected in it.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "meshhood/patch.h"
+
+#include "commands.h"
+#include "row_table.h"
+
+namespace meshhood::cli {
+namespace {
+
+class GapsQuantity : public Quantity {
+ public:
+  RowTable compute(const RowTask& task) override {
+    const Surface surface(task.input.exact_index(task.options.threads), task.input.surface());
+    std::vector<double> distances;
+    std::vector<std::int64_t> faces;  // -1 where there is none
+    std::vector<double> points;
+    std::size_t found = 0;
+    task.for_each_scale("searching", [&](const BatchQuery& query, const Run& run) {
+      for (const SurfacePoint& one : gaps(surface, query, run)) {
+        distances.push_back(one.distance);
+        faces.push_back(one.face == kNoFace ? -1 : static_cast<std::int64_t>(one.face));
+        points.insert(points.end(), one.point.begin(), one.point.end());
+        found += one.face == kNoFace ? 0 : 1;
+      }
+    });
+    const std::size_t scales = task.options.scale_count();
+    const std::size_t none = faces.size() - found;
+    RowTable table = task.table();
+    table.columns = {{"gap", std::move(distances), scales},
+                     {"face", std::move(faces), scales},
+                     {"point", std::move(points), scales, 3}};
+    table.add_properties({"gap"});
+    table.shown = fmt::format("gap_{}", scales - 1);
+    table.summary = {{"rows", table.rows}, {"radii", scales}, {"found", found}, {"none", none}};
+    table.text = fmt::format("{}: {} rows, radii: {}; {} with a gap, {} without\n", names_of(task.files), table.rows,
+                             scales, found, none);
+    return table;
+  }
+};
+
+}  // namespace
+
+void add_gaps(CLI::App& program) {
+  add_quantity(program,
+               {.name = "gaps",
+                .description = "Write the nearest point of the surface in each ball that is not connected in it",
+                .shown = "the gap at the last radius",
+                .has_metric = false},
+               std::make_shared<GapsQuantity>());
+}
+
+}  // namespace meshhood::cli

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// meshhood invariants: the area of the surface in each ball, and the volume behind it.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "meshhood/patch.h"
+
+#include "commands.h"
+#include "row_table.h"
+#include "task.h"
+
+namespace meshhood::cli {
+namespace {
+
+class InvariantsQuantity : public Quantity {
+ public:
+  RowTable compute(const RowTask& task) override {
+    const Surface surface(task.input.exact_index(task.options.threads), task.input.surface());
+    const std::size_t scales = task.options.scale_count();
+    Invariants found = [&] {
+      Task shown("measuring", {"rows", static_cast<double>(scales)});
+      return invariants(surface, task.rows.query(), {.threads = task.options.threads, .progress = shown.progress()});
+    }();
+    const auto none = std::ranges::count_if(found.volume, [](double volume) { return std::isnan(volume); });
+    RowTable table = task.table();
+    table.columns = {{"area", std::move(found.area), scales}, {"volume", std::move(found.volume), scales}};
+    table.add_properties({"area", "volume"});
+    table.shown = fmt::format("volume_{}", scales - 1);
+    table.summary = {{"rows", table.rows}, {"radii", scales}, {"without_volume", none}};
+    table.text =
+        fmt::format("{}: {} rows, radii: {}; {} without a volume\n", names_of(task.files), table.rows, scales, none);
+    return table;
+  }
+};
+
+}  // namespace
+
+void add_invariants(CLI::App& program) {
+  add_quantity(program,
+               {.name = "invariants",
+                .description = "Write the area of the surface in each ball, and the volume behind it",
+                .shown = "the volume at the last radius",
+                .has_metric = false},
+               std::make_shared<InvariantsQuantity>());
+}
+
+}  // namespace meshhood::cli
