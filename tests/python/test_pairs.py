@@ -210,6 +210,7 @@ def asked_plainly(call, words, v, radius):
     has_other_edges = "like" in words or (call.name == "features" and words.get("metric") == "rings")
     if call.name in ("invariants", "gaps") and "walls" in words:  # whose faces have numbers; see test_patches.py
         index, plain["walls"] = INDEX, WALLS
+    has_other_edges |= call.name in ("k_nearest", "discs") and "metric" in words  # of equal lengths, by their places
     if has_other_edges and "walls" in words:  # whose values depend on the order or the mean length of all edges
         index, plain["walls"] = INDEX, WALLS
     if call.name == "nearest_unconnected" and "walls" in words:  # where a vertex without edges is not connected, too
@@ -220,11 +221,8 @@ def asked_plainly(call, words, v, radius):
 def check_plain(call, words, v, radius, found):
     wanted = asked_plainly(call, words, v, radius)
     assert len(found) == len(wanted)
-    if "walls" in words and call.name in ("k_nearest", "discs"):
-        if "metric" in words:  # the last vertices of equal lengths are others: places are
-            found, wanted = found[1:], wanted[1:]
-    elif "walls" in words and call.rows in (lists, matrix) and words.get("sort") in (None, "index"):
-        found, wanted = ([column[np.argsort(row[0])] for column in row] for row in (found, wanted))  # likewise
+    if "walls" in words and call.rows in (lists, matrix) and words.get("sort") in (None, "index"):
+        found, wanted = ([column[np.argsort(row[0])] for column in row] for row in (found, wanted))  # other places
     for a, b in zip(found, wanted):
         b = np.asarray(b, words.get("dtype") if np.asarray(b).dtype == np.float64 else None)
         if "walls" in words or (call.radius == "fwhm" and "unit" in words):  # sums in another order, radii rounded twice
