@@ -97,7 +97,7 @@ Index masked(const Index& index, const Masks& masks, const Run& run) {
   view->geometry = nullptr;
   view->owner = std::move(data);
   task.finish();
-  return IndexAccess::make(std::move(view), index);
+  return IndexAccess::make(std::move(view), IndexAccess::share_graph(index));
 }
 
 }  // namespace meshhood

@@ -53,7 +53,7 @@ void VertexSet::align_to_leaves() {
     LaneMask lanes = part.lanes;
     while (lanes != 0) {
       const auto first = static_cast<unsigned>(std::countr_zero(lanes));
-      move_to_vertex(part.begin + first);
+      move_to_vertex(static_cast<VertexId>(part.begin + first));
       const LaneMask later = leaf.end < part.end ? ~first_lanes(leaf.end - part.begin) : 0;
       const LaneMask now = lanes & ~later;
       last.lanes |= leaf.begin < part.begin ? now << (part.begin - leaf.begin) : now >> (leaf.begin - part.begin);
