@@ -112,7 +112,7 @@ class BatchRadius {
 
   /// The same radius for every row, of any integer or floating-point type.
   template <class Number>
-    requires std::is_arithmetic_v<Number>
+    requires(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>)
   BatchRadius(Number radius) : common_(static_cast<double>(radius)) {}
 
   /// One radius per row. A temporary container is rejected by the compiler.
