@@ -93,7 +93,7 @@ Index masked(const Index& index, const Masks& masks, const Run& run) {
   }
   view->walls = data->walls;
   view->ignored = data->ignored;
-  view->is_masked = true;
+  view->is_derived = true;
   view->geometry = nullptr;
   view->owner = std::move(data);
   task.finish();

@@ -53,6 +53,10 @@ WeightedGraph make_weighted_graph(const IndexView& index, std::shared_ptr<const 
 
 }  // namespace
 
+KeptGraph::KeptGraph(WeightedGraph graph) {
+  graph_.get([&] { return std::move(graph); });
+}
+
 KeptGraph::KeptGraph(const KeptGraph& before)
     : edges_(before.graph_.made() != nullptr ? before.graph_.made()->edges : before.edges_) {}
 

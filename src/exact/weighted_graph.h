@@ -26,6 +26,7 @@ struct WeightedGraph {
 class KeptGraph {
  public:
   KeptGraph() = default;
+  explicit KeptGraph(WeightedGraph graph);
   /// For the index of `before` at other positions: the edges are kept, and their lengths are made at the first use.
   explicit KeptGraph(const KeptGraph& before);
   KeptGraph& operator=(const KeptGraph&) = delete;

@@ -284,9 +284,9 @@ TEST(Masked, RefusesMasksOfAnotherSizeAndWhatWouldLoseThem) {
     expect_refused(ErrorCode::InvalidOption, "not refitted",
                    [&] { static_cast<void>(refit(searched, mesh.positions_view())); });
     expect_refused(ErrorCode::InvalidOption, "not refitted", [&] { searched.refit_in_place(mesh.positions_view()); });
-    expect_refused(ErrorCode::InvalidOption, "no masks", [&] { static_cast<void>(SearchMethod::in_space(searched)); });
   }
   const Index searched = masked(index, {.walls = mask});
+  expect_refused(ErrorCode::InvalidOption, "no masks", [&] { static_cast<void>(SearchMethod::in_space(searched)); });
   index.refit_in_place(mesh.positions_view());
   expect_refused(ErrorCode::InvalidOption, "refitted in place",
                  [&] { static_cast<void>(counts(searched, {.radius = 1})); });

@@ -73,7 +73,7 @@ OPTIONS = {
     "scales": {"two": SCALES},
     "walls": {"mask": WALLS},
     "ignored": {"mask": IGNORED},
-    "metric": {"path": "path", "rings": "rings"},
+    "metric": {"path": "path", "surface": "surface", "rings": "rings"},
     "unit": {"edge": "edge"},
     "workers": {"3": 3},
     "progress": {"function": lambda words: Watch()},
@@ -236,7 +236,7 @@ def near(words, v, radius):
     plain = PLAIN["walls" in words, "ignored" in words]
     how = words.get("method", words.get("metric", "straight"))
     how = {"exact": "straight", "bfs": "straight"}.get(how, how)
-    return getattr(plain, how)(int(v), radius) if how in ("straight", "path", "rings", "ball") else None
+    return getattr(plain, how)(int(v), radius) if how in ("straight", "path", "surface", "rings", "ball") else None
 
 
 def weights_of(words):
@@ -457,7 +457,7 @@ OPTIONS_OF_START = {
     "walls": {"mask": WALLS},
     "ignored": {"mask": IGNORED},
     "sort": {"id": "id", "index": "index", "distance": "distance"},
-    "metric": {"path": "path", "rings": "rings"},
+    "metric": {"path": "path", "surface": "surface", "rings": "rings"},
     "unit": {"edge": "edge"},
     "method": {"bfs": "bfs", "ball": "ball"},
     "dtype": {"single": np.float32},
@@ -482,7 +482,7 @@ def check_region(words, start, answer):
     found = answer if isinstance(answer, tuple) else (answer,)
     if "sort" not in words and how == "bfs":  # an order of its own
         found = [column[np.argsort(PLACE[found[0]])] for column in found]
-    place = {"id": ids, "distance": distances}.get(words.get("sort", "distance" if how == "path" else "index"), PLACE[ids])
+    place = {"id": ids, "distance": distances}.get(words.get("sort", "distance" if how in ("path", "surface") else "index"), PLACE[ids])
     order = np.lexsort([ids, place])
     np.testing.assert_array_equal(found[0], ids[order])
     if "return_distance" in words:
@@ -525,14 +525,14 @@ def check_contains(words, start, answer):
 def check_connecting(words, start, answer):
     _, ids, radii = connecting_by_hand(words, start, 8.0)
     wanted = radii[ids == near_of(start)]
-    assert answer == (wanted[0] if len(wanted) else np.inf) or (not len(wanted) and answer > 8.0)
+    np.testing.assert_allclose(answer if answer <= 8.0 else np.inf, wanted[0] if len(wanted) else np.inf, rtol=1e-12)
 
 
 def check_nearest(words, start, answer):
     keys, ids, radii = connecting_by_hand(words, start, 5.0)
     order = np.lexsort([*keys, radii])[:9]
     for found, wanted in zip(answer, (ids[order], radii[order])):
-        np.testing.assert_array_equal(found, wanted)
+        np.testing.assert_allclose(found, wanted, rtol=1e-12)
 
 
 def near_of(start):

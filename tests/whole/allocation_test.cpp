@@ -423,6 +423,10 @@ TEST_P(Allocation, FailsInACallForTheNearest) {
       return std::vector<VertexId>{static_cast<VertexId>(found[0].face)};
     });
     calls.emplace_back([&] {
+      const Index along = surface_paths(Surface(index, mesh.view().faces), kOneThread);
+      return Searcher(along, Metric::Path).neighborhood(0, radius);
+    });
+    calls.emplace_back([&] {
       const std::vector<VertexId> ids = Searcher(index).neighborhood(0, radius);
       return Surface(index, mesh.view())
           .clip(ids, point_on_face(index, std::array<VertexId, 1>{0}, std::array{1.0}), 2 * radius)

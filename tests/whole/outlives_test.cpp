@@ -126,6 +126,8 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
     return Answer{surface->closest_points(points).front().distance};
   };
   all["Surface: invariants"] = [=] { return numbers(invariants(*surface, {.radius = kRadius}).area); };
+  const auto along = kept(surface_paths(*surface));
+  all["surface_paths: counts"] = [=] { return numbers(counts(*along, {.radius = kRadius, .metric = Metric::Path})); };
   all["Surface: gaps"] = [=] { return Answer{gaps(*surface, {.radius = kRadius})[v].distance}; };
   const auto patches = kept(PatchSearcher(*surface));
   all["PatchSearcher: measure"] = [=] { return Answer{patches->measure(v, kRadius).area}; };
