@@ -19,12 +19,12 @@ constexpr double kSlack = 0x1p-20;
 constexpr double kShortest = 0x1p-480;
 
 /// Normals at most `angle` away from a unit vector. As it stands: none.
-struct Spread {
+struct Bundle {
   Point axis{0, 0, 0};
   double angle = -1;
 };
 
-Spread spread_of(const Point& area) {
+Bundle bundle_of(const Point& area) {
   const double size = length(area);
   if (size >= kShortest) return {(1 / size) * area, 0};
   const bool has_no_normal = area.x == 0 && area.y == 0 && area.z == 0;
@@ -32,11 +32,11 @@ Spread spread_of(const Point& area) {
 }
 
 /// Where the axes cancel out, one of them is at least 90 degrees away from what is left.
-Spread around(std::span<const Spread> parts) {
-  Spread all;
-  for (const Spread& part : parts) all.axis = all.axis + part.axis;
+Bundle around(std::span<const Bundle> parts) {
+  Bundle all;
+  for (const Bundle& part : parts) all.axis = all.axis + part.axis;
   all.axis = (1 / std::max(length(all.axis), kSlack)) * all.axis;
-  for (const Spread& part : parts) {
+  for (const Bundle& part : parts) {
     if (part.angle < 0) continue;
     const double apart = std::acos(std::clamp(dot(all.axis, part.axis), -1.0, 1.0));
     all.angle = std::max(all.angle, apart + part.angle + kSlack);
@@ -44,19 +44,19 @@ Spread around(std::span<const Spread> parts) {
   return all;
 }
 
-template <class SpreadOf>
-std::vector<Spread> in_groups(std::size_t count, SpreadOf&& spread_of_part) {
-  std::vector<Spread> groups;
+template <class BundleOf>
+std::vector<Bundle> in_groups(std::size_t count, BundleOf&& bundle_of_part) {
+  std::vector<Bundle> groups;
   groups.reserve((count + kFanOut - 1) / kFanOut);
   for (std::size_t first = 0; first < count; first += kFanOut) {
-    std::array<Spread, kFanOut> parts;
-    for (std::size_t i = first; i < std::min(first + kFanOut, count); ++i) parts[i - first] = spread_of_part(i);
+    std::array<Bundle, kFanOut> parts;
+    for (std::size_t i = first; i < std::min(first + kFanOut, count); ++i) parts[i - first] = bundle_of_part(i);
     groups.push_back(around(parts));
   }
   return groups;
 }
 
-NormalCone cone_of(const Spread& normals) {
+NormalCone cone_of(const Bundle& normals) {
   if (normals.angle < 0) return {};
   const double left = std::acos(kOpposite) - normals.angle;
   if (left <= 0) return {0, 0, 0, 1};  // opposite to any
@@ -67,8 +67,8 @@ NormalCone cone_of(const Spread& normals) {
 }  // namespace
 
 NormalCones::NormalCones(const IndexView& index, const FaceTree& tree) {
-  std::vector<Spread> groups = in_groups(
-      tree.triangles().size(), [&](std::size_t i) { return spread_of(doubled_area(index, tree.triangles()[i])); });
+  std::vector<Bundle> groups = in_groups(
+      tree.triangles().size(), [&](std::size_t i) { return bundle_of(doubled_area(index, tree.triangles()[i])); });
   for (;;) {
     std::ranges::transform(groups, levels_.emplace_back(groups.size()).begin(), cone_of);
     if (groups.size() == 1) return;
