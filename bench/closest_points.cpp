@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The time of closest points, for points near the surface and in its box: one by one, and as a batch. One thread.
 //
-//   closest_points MESH
+//   bench_closest_points MESH
 #include <cstdio>
 #include <limits>
 #include <span>
@@ -22,7 +22,7 @@ constexpr std::size_t kSingle = 4000;
 
 int run(std::span<char*> arguments) {
   if (arguments.size() != 2) {
-    std::fprintf(stderr, "usage: closest_points MESH\n");
+    std::fprintf(stderr, "usage: bench_closest_points MESH\n");
     return 2;
   }
   const MeshArgument mesh(arguments[1]);
@@ -50,6 +50,6 @@ int run(std::span<char*> arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  return meshhood::bench::exit_status("closest_points",
+  return meshhood::bench::exit_status("bench_closest_points",
                                       [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whole calls whose results are numbers have the same bits with every kernel and any number of threads, with masks and
-// without; those of aggregates, corrected curvature, nearest vertices, rays and thickness do not depend on the other rows
-// of the call, either.
+// without; those of aggregates, corrected curvature, nearest vertices, rays and thickness do not depend on the other
+// rows of the call, either.
 #include <algorithm>
 #include <array>
 #include <bit>
