@@ -36,9 +36,9 @@ const DISCS = { ...NEAREST, weights: 'area', faces: null };
 const SMOOTHING = { weights: null, faces: null, nan: 'propagate', ...ROWS };
 const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ...SMOOTHING, scales: null };
 const CURVATURE = { ...SCALED_ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true };
+const FEATURES = { ...SCALED_ROWS, faces: null, kinds: 'crease', filter: true };
 const ON_FACES = { faces: null };
 const THICKNESS = { vertices: null, method: 'ray', ...ON_FACES };
-const FEATURES = { ...SCALED_ROWS, faces: null, kinds: 'crease', filter: true };
 
 function chooseMethod({ method, metric }) {
   const place = choose(METHODS, method, 'method');

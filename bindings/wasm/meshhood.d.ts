@@ -80,7 +80,7 @@ export interface SurfacePoint {
   /** Its barycentric coordinates there. */
   weights: Float64Array;
   point: Float64Array;
-  /** From the point that was asked for. */
+  /** From the point that was asked for, or the origin of the ray. */
   distance: number;
 }
 

@@ -38,7 +38,7 @@ class BoxTree {
   /// near nodes first. `reach` is called again after each visit; it never grows. All are in the frame.
   template <class Reach, class Visit>
   void search(const Point& center, Reach&& reach, Visit&& visit) const {
-    search(center, reach, visit, [](std::size_t, std::size_t) { return true; });
+    search(center, reach, visit, kAll);
   }
 
   /// Without the groups, by level and number, for which `enters` is false.
@@ -53,6 +53,8 @@ class BoxTree {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  static constexpr auto kAll = [](std::size_t, std::size_t) { return true; };  // groups
+
   template <class Reach>
   class Ball;
   template <class Reach>
@@ -272,8 +274,7 @@ void BoxTree::search(const Point& center, Reach&& reach, Visit&& visit, Enters&&
 template <class Reach, class Visit>
 void BoxTree::cast(const Point& origin, const Point& direction, Reach&& reach, Visit&& visit) const {
   Line line(origin, direction, reach);
-  auto all = [](std::size_t, std::size_t) { return true; };
-  if (line.may_meet()) descend(levels_.size() - 1, 0, line, visit, all);
+  if (line.may_meet()) descend(levels_.size() - 1, 0, line, visit, kAll);
 }
 
 inline std::size_t BoxTree::bytes() const {
