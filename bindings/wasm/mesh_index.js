@@ -15,6 +15,7 @@ const KERNELS = ['box', 'epanechnikov', 'biweight', 'gaussian'];
 const MISSING = ['propagate', 'omit'];
 const NESTINGS = ['own', 'patch'];
 const FITS = ['quadric', 'jet'];
+const THICKNESSES = ['ray', 'sphere'];
 const KINDS = [
   'crease', 'mean', 'gaussian', 'k1', 'k2', 'curvedness', 'shape_index', 'area', 'height', 'variation',
 ];
@@ -36,6 +37,8 @@ const SMOOTHING = { weights: null, faces: null, nan: 'propagate', ...ROWS };
 const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ...SMOOTHING, scales: null };
 const CURVATURE = { ...SCALED_ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true };
 const FEATURES = { ...SCALED_ROWS, faces: null, kinds: 'crease', filter: true };
+const ON_FACES = { faces: null };
+const THICKNESS = { vertices: null, method: 'ray', ...ON_FACES };
 
 function chooseMethod({ method, metric }) {
   const place = choose(METHODS, method, 'method');
@@ -227,16 +230,34 @@ export class MeshIndex extends Owner {
   }
 
   closestPoint(point, options = {}) {
-    const { faces } = withDefaults(options, { faces: null });
+    const { faces } = withDefaults(options, ON_FACES);
     expectPoint(point, 'point');
+    this.#useFaces(faces);
+    return this.#takeSurfacePoint(this.instance.call('closest_point', ...point));
+  }
+
+  firstHit(origin, direction, options = {}) {
+    const { faces } = withDefaults(options, ON_FACES);
+    expectPoint(origin, 'origin');
+    expectPoint(direction, 'direction');
+    this.#useFaces(faces);
+    const hit = this.#takeSurfacePoint(this.instance.call('first_hit', ...origin, ...direction));
+    return hit.distance === Infinity ? null : hit;
+  }
+
+  #useFaces(faces) {
     if (faces === null) {
       throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which an index does not keep');
     }
     expectFaces(faces);
-    const face = withFaces(this.instance, faces, (...six) => this.instance.call('closest_point', ...point, ...six)) >>> 0;
+    withFaces(this.instance, faces, (...six) => this.instance.call('use_faces', ...six));
+  }
+
+  #takeSurfacePoint(face) {
     const numbers = this.instance.takeReals();
     return {
-      face, vertices: this.instance.takeIds(), weights: numbers.slice(0, 3), point: numbers.slice(3, 6), distance: numbers[6],
+      face: face >>> 0, vertices: this.instance.takeIds(), weights: numbers.slice(0, 3), point: numbers.slice(3, 6),
+      distance: numbers[6],
     };
   }
 
@@ -387,11 +408,22 @@ export class MeshIndex extends Owner {
     const { faces, kinds, filter, unit } = given;
     const names = typeof kinds === 'string' ? [kinds] : kinds;
     const places = Uint8Array.from(names, (name) => choose(KINDS, name, 'kinds'));
-    this.#useNormals(faces, null);
+    this.#useFaces(faces);
     const areas = names.some((name) => KINDS_OF_AREAS.includes(name)) ? this.#weights('area', faces) : null;
     withRows(this.instance, r, given, this.#scale(unit), (...rows) =>
       this.instance.with([places, areas], (list, areaList) => this.instance.call(
         'features', ...rows, list, places.length, areaList, areas?.length ?? 0, Boolean(filter))));
+    const found = this.instance.takeReals();
+    this.instance.releaseAnswer();
+    return found;
+  }
+
+  thickness(options = {}) {
+    const { vertices, method, faces } = withDefaults(options, THICKNESS);
+    const place = choose(THICKNESSES, method, 'method');
+    expectVertices(vertices, 'vertices');
+    this.#useFaces(faces);
+    this.instance.with([vertices], (ids) => this.instance.call('thickness', ids, vertices?.length ?? 0, place));
     const found = this.instance.takeReals();
     this.instance.releaseAnswer();
     return found;
@@ -402,8 +434,7 @@ export class MeshIndex extends Owner {
       throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, or normals, and not both');
     }
     if (faces !== null) {
-      expectFaces(faces);
-      withFaces(this.instance, faces, (...six) => this.instance.call('use_normals_of_faces', ...six));
+      this.#useFaces(faces);
     } else {
       const vectors = toReals(normals, 'normals');
       this.instance.with([vectors], (list) => this.instance.call('use_normals', list, vectors.length));

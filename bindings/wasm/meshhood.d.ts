@@ -72,6 +72,18 @@ export interface Faces {
   offsets?: Indices | null;
 }
 
+/** A point on a face. */
+export interface SurfacePoint {
+  face: number;
+  /** Of its triangle, in the order of the weights. */
+  vertices: Uint32Array;
+  /** Its barycentric coordinates there. */
+  weights: Float64Array;
+  point: Float64Array;
+  /** From the point that was asked for, or the origin of the ray. */
+  distance: number;
+}
+
 /** The triangles or polygons of a file, in the numbering of the file. */
 export interface Mesh {
   format: 'ply' | 'obj' | 'off' | 'stl';
@@ -480,10 +492,17 @@ export class MeshIndex {
    * as for `curvature`.
    * @throws MeshhoodError InvalidMesh, InvalidOption
    */
-  closestPoint(
-    point: Exclude<Start, number>,
+  closestPoint(point: Exclude<Start, number>, options: { faces: Faces }): SurfacePoint;
+
+  /**
+   * The first point of the surface on the ray from a point along a direction, which is not 0, of any length; null if it
+   * meets nothing. It meets either side of a face, and slips through nowhere between faces. As `closestPoint` otherwise.
+   */
+  firstHit(
+    origin: Exclude<Start, number>,
+    direction: Exclude<Start, number>,
     options: { faces: Faces },
-  ): { face: number; vertices: Uint32Array; weights: Float64Array; point: Float64Array; distance: number };
+  ): SurfacePoint | null;
 
   /** The neighborhoods of many vertices, of all by default. */
   neighborhoods(r: Radii, options?: RowOptions & AnswerOptions & { distances?: false }): Rows;
@@ -561,6 +580,17 @@ export class MeshIndex {
    * @throws as `curvature`
    */
   features(r: Radii | null, options: FeatureOptions): Float64Array;
+
+  /**
+   * The thickness of the wall at each vertex: the way against its normal to the surface, or, with the method 'sphere',
+   * the diameter of the largest ball that touches there from inside and has no point of an opposite face in it, one
+   * whose normal turns from that of the vertex by more than 53 degrees. Faces are oriented counterclockwise, seen from
+   * outside. Infinity where nothing else is met, NaN for a vertex without a normal.
+   *
+   * @param options `faces` as for `closestPoint`
+   * @throws MeshhoodError VertexOutOfRange, InvalidMesh, InvalidOption
+   */
+  thickness(options: { faces: Faces; vertices?: Uint32Array | null; method?: 'ray' | 'sphere' }): Float64Array;
 
   /** Gives the memory back. All later calls throw an Error. */
   dispose(): void;

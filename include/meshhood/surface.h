@@ -91,8 +91,8 @@ struct Rim {
 ///
 /// What depends on the faces is made when it is first needed, and kept: 48 bytes a triangle for closest points, 24
 /// bytes a vertex for curvature, 4 bytes a corner and 8 a vertex for the faces of each vertex, 8 bytes a vertex for
-/// areas, 60 bytes a triangle for patches (see patch.h), beside those for closest points. The first call of its kind so
-/// takes O(#V + #corners).
+/// areas, beside those for closest points 60 bytes a triangle for patches (see patch.h) and 2.3 for thickness by balls.
+/// The first call of its kind so takes O(#V + #corners).
 ///
 /// Any number of threads may use it, but for `refit_in_place`. Shares the memory of the index, as a searcher does: the
 /// index may be moved or destroyed. After a refit of the index in place, calls throw Error{InvalidOption} until

@@ -190,6 +190,43 @@ test('the closest point of the surface is that of the command line', () => {
   assert.throws(() => index.closestPoint([1, 2, Infinity], { faces: mesh }), { code: 'InvalidOption' });
 });
 
+test('the first hit of a ray is the point of the surface on it', () => {
+  const hit = index.firstHit([3.3, 4.2, 9], [0, 0, -0.5], { faces: mesh });
+  const { face, weights, vertices: corners, point, distance: height } = hit;
+  const { face: nearest, distance: off } = index.closestPoint(point, { faces: mesh });
+  assert.equal(face, nearest);
+  assert.ok(off < 1e-14);
+  assert.deepEqual([...corners].sort(), [...mesh.corners.subarray(3 * face, 3 * face + 3)].sort());
+  for (const [axis, expected] of [3.3, 4.2, 9 - height].entries()) {
+    const at = weights.reduce((sum, weight, i) => sum + weight * mesh.positions[3 * corners[i] + axis], 0);
+    assert.ok(Math.abs(at - expected) < 1e-14);
+    assert.ok(Math.abs(point[axis] - expected) < 1e-14);
+  }
+  assert.equal(index.firstHit([3.3, 4.2, 9], [0, 0, 1], { faces: mesh }), null);
+  assert.throws(() => index.firstHit([3, 4, 9], [0, 0, 0], { faces: mesh }), { code: 'InvalidOption', message: /^direction/ });
+  assert.throws(() => index.firstHit([3, 4, 9], [0, 0, -1]), { code: 'InvalidOption', message: /^faces: expected/ });
+  assert.throws(() => index.firstHit([3, 4, 9], 5, { faces: mesh }), { name: 'TypeError', message: /^direction/ });
+});
+
+test('the thickness of a folded sheet is that between its halves', () => {
+  const side = 12;
+  const sheet = grid(2 * side, side, (row, column) =>
+    [Math.min(row, 2 * side - 1 - row), column, row < side ? 0 : 2], Float64Array);
+  const folded = build(sheet);
+  const inner = 5 * side + 6;
+  for (const method of ['ray', 'sphere']) {
+    const all = folded.thickness({ faces: sheet, method });
+    assert.equal(all.length, folded.vertexCount);
+    assert.equal(all[inner], 2);
+    const some = Uint32Array.of(3 * side + 1, inner);
+    assert.deepEqual(folded.thickness({ faces: sheet, vertices: some, method }), Float64Array.of(all[some[0]], 2));
+  }
+  assert.throws(() => folded.thickness(), { code: 'InvalidOption', message: /^faces: expected/ });
+  assert.throws(() => folded.thickness({ faces: sheet, method: 'ball' }), { code: 'InvalidOption', message: /^method: 'ball'/ });
+  assert.throws(() => folded.thickness({ faces: sheet, vertices: Uint32Array.of(999) }), { code: 'VertexOutOfRange' });
+  folded.dispose();
+});
+
 test('words that contradict each other are refused', () => {
   const scales = Float64Array.of(1, 2);
   assert.throws(() => index.counts(1, { scales }), { name: 'TypeError', message: /^r: expected a radius/ });

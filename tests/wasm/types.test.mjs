@@ -21,7 +21,7 @@ function compile(text, ...options) {
 
 const USE = `
   import { Curvature, MeshIndex, MeshhoodError, RegionMesh, initialize, readMesh } from 'meshhood';
-  import type { Faces, Mesh, Rows } from 'meshhood';
+  import type { Faces, Mesh, Rows, SurfacePoint } from 'meshhood';
 
   await initialize();
   const mesh: Mesh = readMesh(new Uint8Array(9), 'hand.ply', { precision: 'double' });
@@ -40,13 +40,15 @@ const USE = `
   const creases: Float64Array = index.features(null, { faces, scales, kinds: ['crease', 'area'] });
   const { vertices, point } = index.closestPoint([0, 0, 1], { faces });
   index.neighborhood(point, 2, { seeds: vertices, sort: 'id' });
+  const hit: SurfacePoint | null = index.firstHit(point, [0, 0, -1], { faces });
+  const across: Float64Array = index.thickness({ faces, vertices, method: 'sphere' });
   const around: number = index.count(point, 2, { seeds: vertices, walls });
   const lists: Uint32Array[] = [index.viewNeighborhood(42, 2), index.nested(42, scales, { metric: 'rings' }).counts];
   index.smooth(index.aggregate(gaps, scales, { metric: 'path' }), 3, { metric: 'path', walls });
   index.refitInPlace(mesh.positions, { changed: near });
   const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
   const codes: string[] = [new MeshhoodError().code];
-  export const used = [around, lists, lengths, discs, creases, counts, far.distances, ids, rows.offsets, curvature.mean, part.vertices, codes];
+  export const used = [hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, ids, rows.offsets, curvature.mean, part.vertices, codes];
 `;
 
 for (const [name, options] of Object.entries({
