@@ -4,8 +4,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/meshhood)
 
-install(DIRECTORY include/meshhood ${PROJECT_BINARY_DIR}/include/meshhood
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN "io" EXCLUDE)
+install(DIRECTORY include/meshhood DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(TARGETS meshhood EXPORT meshhood)
 install(EXPORT meshhood NAMESPACE meshhood:: FILE meshhoodTargets.cmake DESTINATION ${package_dir})
 

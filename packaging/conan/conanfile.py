@@ -24,8 +24,8 @@ class Meshhood(ConanFile):
     implements = ["auto_shared_fpic"]
 
     def set_version(self):
-        text = load(self, REPOSITORY / "CMakeLists.txt")
-        self.version = re.search(r"project\(meshhood VERSION ([0-9.]+)", text)[1]
+        text = load(self, REPOSITORY / "include/meshhood/version.h")
+        self.version = ".".join(re.findall(r"define MESHHOOD_VERSION_\w+ (\d+)", text))
 
     def export_sources(self):
         for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*", "io/*"):

@@ -21,7 +21,7 @@ DIRECTIVE = re.compile(
 )
 INSTALLED = re.compile(r"install\(FILES ((?:io/\w+\.h ?)+)")
 MODULE_EXPORTS = re.compile(r"^export \{ ([\w, ]+) \}", re.M)
-DECLARED = re.compile(r"^export (?:class|function) (\w+)", re.M)
+DECLARED = re.compile(r"^export (?:class|function|const) (\w+)", re.M)
 
 
 def tree(file):
