@@ -30,7 +30,7 @@ write_basic_package_version_file(meshhoodConfigVersion.cmake COMPATIBILITY SameM
 install(FILES ${PROJECT_BINARY_DIR}/meshhoodConfig.cmake ${PROJECT_BINARY_DIR}/meshhoodConfigVersion.cmake
   DESTINATION ${package_dir})
 
-# The same for pkg-config, from wherever the files lie. The core is meshhood.pc; meshhood-io.pc names what io needs.
+# The same for pkg-config, from wherever the files lie. The core is meshhood.pc, the readers meshhood-io.pc.
 file(RELATIVE_PATH prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 function(meshhood_install_pc name)
   configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)
