@@ -89,7 +89,7 @@ html_theme_options = {
 
 
 # Pages of the site that lie outside docs.
-ROOT_PAGES = ("README", "CHANGELOG", "CONTRIBUTING", "RELEASE")
+ROOT_PAGES = ("README", "CHANGELOG", "CONTRIBUTING", "RELEASE", "SECURITY")
 NAME_OF_FILE = re.compile(r"\[[\w/]+\.md\](?=\()")
 LINK = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)\s]+)|(?<= src=\")([^\"]+)")
 
