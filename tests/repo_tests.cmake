@@ -28,6 +28,9 @@ if(TARGET meshhood_cli)
   add_subdirectory(packages)
 endif()
 
+add_test(NAME repo.same_bytes COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/same_bytes.sh
+  ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/same_bytes ${CMAKE_CXX_COMPILER})
+set_tests_properties(repo.same_bytes PROPERTIES TIMEOUT 3600 COST 1000)
 add_subdirectory(install)
 add_subdirectory(refused)
 add_subdirectory(portability)
