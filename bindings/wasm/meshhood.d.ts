@@ -15,6 +15,9 @@
  *     const near = index.neighborhood(42, 1.5);
  */
 
+/** The version of the package, as '0.1.0'. */
+export const version: string;
+
 /** The cause of a `MeshhoodError`; as `meshhood::ErrorCode` in C++. */
 export type ErrorCode =
   | 'VertexOutOfRange'

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/metric.h"
@@ -23,7 +24,7 @@
 /// Many neighborhoods in one call, on all processors unless `Run` says otherwise.
 ///
 ///     const auto [offsets, ids, distances] = meshhood::neighborhoods(index, {.radius = 1.5}, {.distances = true});
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 struct SearcherFactory;
 

@@ -8,6 +8,7 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/curvature.h"
+#include "meshhood/export.h"
 #include "meshhood/run.h"
 
 /// How a surface looks around each vertex at many scales: feature vectors, and how long a feature persists. See
@@ -16,7 +17,7 @@
 ///     const std::vector<double> radii = meshhood::geometric_radii(1.0, 16.0, 9);
 ///     const auto creases = meshhood::features(surface, {.radius = meshhood::BatchRadius::scales(radii)});
 ///     const meshhood::Persistence lasting = meshhood::persistence(creases, radii, 0.5);
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// A number without unit that describes the neighborhood of one radius r: it does not change if mesh and radius are
 /// scaled together, so that scales can be compared.

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/metric.h"
 #include "meshhood/run.h"
 #include "meshhood/unconnected.h"
 
 /// The nearest connected vertices of many vertices in one call: a number of them, or as many as cover an area.
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 struct NearestOptions {
   /// By what vertices are near. Straight: the connecting radius, as for `Searcher::nearest_connected`; then the

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/metric.h"
@@ -18,7 +19,7 @@
 
 /// Queries about the neighborhood of one vertex or point: the exact searcher, what all searchers have in common, and
 /// the folding of answers. Batches of many vertices are in batch.h.
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 struct SingleQueries;
 

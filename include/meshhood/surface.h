@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
 #include "meshhood/start.h"
 #include "meshhood/vertex_id.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// No face.
 inline constexpr std::size_t kNoFace = std::numeric_limits<std::size_t>::max();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/export.h"
 #include "meshhood/run.h"
 #include "meshhood/surface.h"
 
@@ -12,7 +13,7 @@
 ///
 ///     const meshhood::Surface surface(index, faces);
 ///     const std::vector<double> across = meshhood::thickness(surface);
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 enum class ThicknessMethod : std::uint8_t {
   /// The way from the vertex against its normal (see curvature.h) to the surface.

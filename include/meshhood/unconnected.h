@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/vertex_id.h"
 
 /// What is near in space, but not connected nearby: the other side of a wall, the next fold, sheets that nearly touch.
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// For each row of a query, the nearest vertex in the ball that does not belong to the neighborhood.
 struct Unconnected {
