@@ -8,7 +8,7 @@
 #define MESHHOOD_VERSION_MINOR 1
 #define MESHHOOD_VERSION_PATCH 0
 
-/// The version as one number that grows: `#if MESHHOOD_VERSION >= 203` holds from 0.2.3 on.
+// As one number that grows.
 #define MESHHOOD_VERSION (MESHHOOD_VERSION_MAJOR * 10000 + MESHHOOD_VERSION_MINOR * 100 + MESHHOOD_VERSION_PATCH)
 
 #define MESHHOOD_TEXT_OF(value) #value
@@ -17,7 +17,7 @@
 
 namespace meshhood {
 
-/// The version as text, as "0.1.0". Zero-terminated.
+/// The version as text, as "0.1.0". Zero-terminated. For the preprocessor: `MESHHOOD_VERSION >= 203` from 0.2.3 on.
 inline constexpr std::string_view kVersion =
     MESHHOOD_JOINED(MESHHOOD_VERSION_MAJOR, MESHHOOD_VERSION_MINOR, MESHHOOD_VERSION_PATCH);
 
