@@ -16,9 +16,10 @@ const MISSING = ['propagate', 'omit'];
 const NESTINGS = ['own', 'patch'];
 const FITS = ['quadric', 'jet'];
 const KINDS = [
-  'crease', 'mean', 'gaussian', 'k1', 'k2', 'curvedness', 'shape_index', 'area', 'height', 'variation',
+  'crease', 'mean', 'gaussian', 'k1', 'k2', 'curvedness', 'shape_index', 'area', 'volume', 'gap', 'height',
+  'variation',
 ];
-const KINDS_OF_AREAS = ['area', 'height', 'variation'];
+const KINDS_OF_AREAS = ['height', 'variation'];
 
 // The options of the calls, with their defaults. Made once: a small query takes less time than spreading them.
 const BUILDING = { offsets: null, cut: null, progress: undefined };

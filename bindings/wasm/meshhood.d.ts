@@ -319,7 +319,8 @@ export interface CurvatureOptions extends RowOptions, Scales {
 
 /** What describes a neighborhood without unit. docs/curvature.md explains each. */
 export type Kind =
-  | 'crease' | 'mean' | 'gaussian' | 'k1' | 'k2' | 'curvedness' | 'shape_index' | 'area' | 'height' | 'variation';
+  | 'crease' | 'mean' | 'gaussian' | 'k1' | 'k2' | 'curvedness' | 'shape_index' | 'area' | 'volume' | 'gap'
+  | 'height' | 'variation';
 
 export interface FeatureOptions extends RowOptions, Scales {
   /** The faces that the index was built from, as for `curvature`. */

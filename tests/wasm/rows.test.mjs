@@ -127,7 +127,7 @@ test('the nearest unconnected vertices are those of the command line and of a sc
 });
 
 test('features with masks and scales are those of the command line', () => {
-  const kinds = ['crease', 'shape_index', 'area', 'variation'];
+  const kinds = ['crease', 'area', 'volume', 'gap', 'height', 'variation'];
   const expected = ofCommandLine('features', 'hills.ply', '-r', '3,5', '--kinds', kinds.join(','), ...ROWS);
   const options = { faces: mesh, vertices, walls, ignored };
   const found = index.features(null, { ...options, kinds, scales: Float64Array.of(3, 5) });
@@ -135,7 +135,7 @@ test('features with masks and scales are those of the command line', () => {
   const rings = ofCommandLine('features', 'hills.ply', '-r', '3', '--metric', 'rings', ...ROWS).features;
   assert.deepEqual(index.features(3, { ...options, metric: 'rings' }), rings);
   const crease = index.features(5, options);
-  assert.deepEqual(crease, Float64Array.from(vertices, (_, row) => found[4 * (5 + row)]));
+  assert.deepEqual(crease, Float64Array.from(vertices, (_, row) => found[6 * (5 + row)]));
   assert.ok(Number.isNaN(crease[2]) && Number.isFinite(crease[0]));
   assert.throws(() => index.features(3, { ...options, kinds: ['crest'] }), { code: 'InvalidOption', message: /^kinds: 'crest'/ });
   assert.throws(() => index.features(0, options), { code: 'InvalidRadius' });
