@@ -36,6 +36,9 @@ const DISCS = { ...NEAREST, weights: 'area', faces: null };
 const SMOOTHING = { weights: null, faces: null, nan: 'propagate', ...ROWS };
 const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ...SMOOTHING, scales: null };
 const CURVATURE = { ...SCALED_ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true };
+const SURFACE_ROWS = { vertices: null, faces: null, ...MASKS, unit: 'mesh' };
+const INVARIANTS = { ...SURFACE_ROWS, scales: null };
+const PATCH = { face: null, faces: null, walls: null, unit: 'mesh' };
 const FEATURES = { ...SCALED_ROWS, faces: null, kinds: 'crease', filter: true };
 
 function chooseMethod({ method, metric }) {
@@ -45,6 +48,18 @@ function chooseMethod({ method, metric }) {
   }
   return place;
 }
+
+function expectSurface(faces) {
+  if (faces === null) {
+    throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which an index does not keep');
+  }
+  expectFaces(faces);
+}
+
+/** Of rows of seven numbers. */
+const columns = (numbers, begin, end) => Float64Array.from(
+  { length: (numbers.length / 7) * (end - begin) },
+  (_, i) => numbers[7 * Math.floor(i / (end - begin)) + begin + (i % (end - begin))]);
 
 const isVertex = (start) => typeof start === 'number';
 
@@ -230,14 +245,12 @@ export class MeshIndex extends Owner {
   closestPoint(point, options = {}) {
     const { faces } = withDefaults(options, { faces: null });
     expectPoint(point, 'point');
-    if (faces === null) {
-      throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which an index does not keep');
-    }
-    expectFaces(faces);
-    const face = withFaces(this.instance, faces, (...six) => this.instance.call('closest_point', ...point, ...six)) >>> 0;
+    expectSurface(faces);
+    withFaces(this.instance, faces, (...six) => this.instance.call('closest_point', ...point, ...six));
     const numbers = this.instance.takeReals();
     return {
-      face, vertices: this.instance.takeIds(), weights: numbers.slice(0, 3), point: numbers.slice(3, 6), distance: numbers[6],
+      face: this.instance.takeCounts()[0], vertices: this.instance.takeIds(), weights: numbers.slice(0, 3),
+      point: numbers.slice(3, 6), distance: numbers[6],
     };
   }
 
@@ -330,6 +343,51 @@ export class MeshIndex extends Owner {
     const found = { ids: this.instance.takeIds(), gaps: this.instance.takeReals() };
     this.instance.releaseAnswer();
     return found;
+  }
+
+  // The surface in a ball.
+
+  invariants(r, options = {}) {
+    this.#callOnSurface('invariants', r, withDefaults(options, INVARIANTS));
+    const numbers = this.instance.takeReals();
+    this.instance.releaseAnswer();
+    return { area: numbers.slice(0, numbers.length / 2), volume: numbers.slice(numbers.length / 2) };
+  }
+
+  gaps(r, options = {}) {
+    this.#callOnSurface('gaps', r, withDefaults(options, SURFACE_ROWS));
+    const numbers = this.instance.takeReals();
+    const found = {
+      faces: this.instance.takeCounts(), vertices: this.instance.takeIds(), weights: columns(numbers, 0, 3),
+      points: columns(numbers, 3, 6), distances: columns(numbers, 6, 7),
+    };
+    this.instance.releaseAnswer();
+    return found;
+  }
+
+  #callOnSurface(name, r, given) {
+    expectSurface(given.faces);
+    this.#useNormals(given.faces, null);
+    withRows(this.instance, r, given, this.#scale(given.unit), (...rows) => this.instance.call(name, ...rows));
+  }
+
+  patch(start, r, options = {}) {
+    const { face, faces, walls, unit } = withDefaults(options, PATCH);
+    expectRadius(r);
+    expectSurface(faces);
+    if (isVertex(start)) {
+      expectVertex(start, this.vertexCount);
+      if (face !== null) throw new MeshhoodError('InvalidOption', 'face: expected a point as start');
+    } else {
+      expectPoint(start, 'start');
+      expectSize(face, 'face');
+    }
+    this.#useNormals(faces, null);
+    const radius = this.#scale(unit) * r;
+    withMasks(this.instance, { walls }, () => (isVertex(start)
+      ? this.instance.call('patch_of_vertex', start, radius)
+      : this.instance.call('patch_of_point', face, ...start, radius)));
+    return this.instance.takeCounts();
   }
 
   // Values and shape.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Curvature and features at a scale. One of the two `use_...` comes first.
+// Curvature and features at a scale. One of the two `use_...` comes first, for the calls of patch.cpp, too.
 #include <array>
 #include <cstddef>
 #include <span>
