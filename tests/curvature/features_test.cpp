@@ -123,6 +123,9 @@ TEST(Features, OfPatchesHaveNoVolumeAtABorderAndNoFacesBehindWalls) {
       features(bumps.surface.on(masked(bumps.index, {.walls = walls})), {rows, 2.0}, kinds);
   EXPECT_LT(walled[2], found[2]);
   EXPECT_TRUE(std::isnan(walled[3]));
+  walls.assign(walls.size(), 1);
+  expect_refused(ErrorCode::InvalidMesh, "every face",
+                 [&] { (void)features(bumps.surface.on(masked(bumps.index, {.walls = walls})), {rows, 2.0}, kinds); });
 }
 
 TEST(Features, TheHeightOfASphereIsItsRadiusTimesTheMeanCurvature) {
