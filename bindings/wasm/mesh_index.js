@@ -17,9 +17,10 @@ const NESTINGS = ['own', 'patch'];
 const FITS = ['quadric', 'jet'];
 const THICKNESSES = ['ray', 'sphere'];
 const KINDS = [
-  'crease', 'mean', 'gaussian', 'k1', 'k2', 'curvedness', 'shape_index', 'area', 'height', 'variation',
+  'crease', 'mean', 'gaussian', 'k1', 'k2', 'curvedness', 'shape_index', 'area', 'volume', 'gap', 'height',
+  'variation',
 ];
-const KINDS_OF_AREAS = ['area', 'height', 'variation'];
+const KINDS_OF_AREAS = ['height', 'variation'];
 
 // The options of the calls, with their defaults. Made once: a small query takes less time than spreading them.
 const BUILDING = { offsets: null, cut: null, progress: undefined };
@@ -36,6 +37,9 @@ const DISCS = { ...NEAREST, weights: 'area', faces: null };
 const SMOOTHING = { weights: null, faces: null, nan: 'propagate', ...ROWS };
 const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ...SMOOTHING, scales: null };
 const CURVATURE = { ...SCALED_ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true };
+const SURFACE_ROWS = { vertices: null, faces: null, ...MASKS, unit: 'mesh' };
+const INVARIANTS = { ...SURFACE_ROWS, scales: null };
+const PATCH = { face: null, faces: null, walls: null, unit: 'mesh' };
 const FEATURES = { ...SCALED_ROWS, faces: null, kinds: 'crease', filter: true };
 const ON_FACES = { faces: null };
 const THICKNESS = { vertices: null, method: 'ray', ...ON_FACES };
@@ -47,6 +51,11 @@ function chooseMethod({ method, metric }) {
   }
   return place;
 }
+
+/** Of rows of seven numbers. */
+const columns = (numbers, begin, end) => Float64Array.from(
+  { length: (numbers.length / 7) * (end - begin) },
+  (_, i) => numbers[7 * Math.floor(i / (end - begin)) + begin + (i % (end - begin))]);
 
 const isVertex = (start) => typeof start === 'number';
 
@@ -233,7 +242,8 @@ export class MeshIndex extends Owner {
     const { faces } = withDefaults(options, ON_FACES);
     expectPoint(point, 'point');
     this.#useFaces(faces);
-    return this.#takeSurfacePoint(this.instance.call('closest_point', ...point));
+    this.instance.call('closest_point', ...point);
+    return this.#takeSurfacePoint();
   }
 
   firstHit(origin, direction, options = {}) {
@@ -241,7 +251,8 @@ export class MeshIndex extends Owner {
     expectPoint(origin, 'origin');
     expectPoint(direction, 'direction');
     this.#useFaces(faces);
-    const hit = this.#takeSurfacePoint(this.instance.call('first_hit', ...origin, ...direction));
+    this.instance.call('first_hit', ...origin, ...direction);
+    const hit = this.#takeSurfacePoint();
     return hit.distance === Infinity ? null : hit;
   }
 
@@ -253,11 +264,11 @@ export class MeshIndex extends Owner {
     withFaces(this.instance, faces, (...six) => this.instance.call('use_faces', ...six));
   }
 
-  #takeSurfacePoint(face) {
+  #takeSurfacePoint() {
     const numbers = this.instance.takeReals();
     return {
-      face: face >>> 0, vertices: this.instance.takeIds(), weights: numbers.slice(0, 3), point: numbers.slice(3, 6),
-      distance: numbers[6],
+      face: this.instance.takeCounts()[0], vertices: this.instance.takeIds(), weights: numbers.slice(0, 3),
+      point: numbers.slice(3, 6), distance: numbers[6],
     };
   }
 
@@ -350,6 +361,49 @@ export class MeshIndex extends Owner {
     const found = { ids: this.instance.takeIds(), gaps: this.instance.takeReals() };
     this.instance.releaseAnswer();
     return found;
+  }
+
+  // The surface in a ball.
+
+  invariants(r, options = {}) {
+    this.#callOnSurface('invariants', r, withDefaults(options, INVARIANTS));
+    const numbers = this.instance.takeReals();
+    this.instance.releaseAnswer();
+    return { area: numbers.slice(0, numbers.length / 2), volume: numbers.slice(numbers.length / 2) };
+  }
+
+  gaps(r, options = {}) {
+    this.#callOnSurface('gaps', r, withDefaults(options, SURFACE_ROWS));
+    const numbers = this.instance.takeReals();
+    const found = {
+      faces: this.instance.takeCounts(), vertices: this.instance.takeIds(), weights: columns(numbers, 0, 3),
+      points: columns(numbers, 3, 6), distances: columns(numbers, 6, 7),
+    };
+    this.instance.releaseAnswer();
+    return found;
+  }
+
+  #callOnSurface(name, r, given) {
+    this.#useFaces(given.faces);
+    withRows(this.instance, r, given, this.#scale(given.unit), (...rows) => this.instance.call(name, ...rows));
+  }
+
+  patch(start, r, options = {}) {
+    const { face, faces, walls, unit } = withDefaults(options, PATCH);
+    expectRadius(r);
+    if (isVertex(start)) {
+      expectVertex(start, this.vertexCount);
+      if (face !== null) throw new MeshhoodError('InvalidOption', 'face: expected a point as start');
+    } else {
+      expectPoint(start, 'start');
+      expectSize(face, 'face');
+    }
+    this.#useFaces(faces);
+    const radius = this.#scale(unit) * r;
+    withMasks(this.instance, { walls }, () => (isVertex(start)
+      ? this.instance.call('patch_of_vertex', start, radius)
+      : this.instance.call('patch_of_point', face, ...start, radius)));
+    return this.instance.takeCounts();
   }
 
   // Values and shape.

@@ -334,7 +334,27 @@ export interface CurvatureOptions extends RowOptions, Scales {
 
 /** What describes a neighborhood without unit. docs/curvature.md explains each. */
 export type Kind =
-  | 'crease' | 'mean' | 'gaussian' | 'k1' | 'k2' | 'curvedness' | 'shape_index' | 'area' | 'height' | 'variation';
+  | 'crease' | 'mean' | 'gaussian' | 'k1' | 'k2' | 'curvedness' | 'shape_index' | 'area' | 'volume' | 'gap'
+  | 'height' | 'variation';
+
+/** Of calls on the surface in a ball; the metric is the distance in space. A face with a wall is not there. */
+export interface SurfaceOptions extends Omit<RowOptions, 'metric'> {
+  /** The faces that the index was built from, counterclockwise seen from outside. What is made of them is kept. */
+  faces: Faces;
+}
+
+/** The nearest points of the surface that are not of the patch, one for each row. */
+export interface Gaps {
+  /** 2^32 - 1 where there is none. */
+  faces: Uint32Array;
+  /** #rows by 3: of the triangle of the face that has the point, and its barycentric coordinates there. */
+  vertices: Uint32Array;
+  weights: Float64Array;
+  /** #rows by 3; NaN where there is none. */
+  points: Float64Array;
+  /** Infinity where there is none. */
+  distances: Float64Array;
+}
 
 export interface FeatureOptions extends RowOptions, Scales {
   /** The faces that the index was built from, as for `curvature`. */
@@ -537,6 +557,29 @@ export class MeshIndex {
    * the nearest. Where there is none, as for a wall, the gap is Infinity and the id 2^32 - 1.
    */
   nearestUnconnected(r: Radii, options?: RowOptions): { ids: Uint32Array; gaps: Float64Array };
+
+  /**
+   * The area of the patch of each vertex, the connected surface in the ball, and the volume of the part of the ball
+   * behind it, NaN where a border lies in the ball. A point at exactly r counts.
+   *
+   * @param r the radius, or one for each row; null with `scales`, which make the arrays #scales by #rows
+   * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh
+   */
+  invariants(r: Radii | null, options: SurfaceOptions & Scales): { area: Float64Array; volume: Float64Array };
+
+  /** The gap of each vertex: the nearest point of the surface within r that is not of its patch. Throws likewise. */
+  gaps(r: Radii, options: SurfaceOptions): Gaps;
+
+  /**
+   * The numbers of the faces of a patch, ascending. Throws likewise.
+   *
+   * @param start a vertex; or a point on the face `face`, as `closestPoint` returns them
+   */
+  patch(
+    start: Start,
+    r: number,
+    options: { faces: Faces; face?: number | null; walls?: Uint8Array | null; unit?: Unit },
+  ): Uint32Array;
 
   /**
    * A sum, a mean or another aggregate of values over the neighborhood of each vertex. No ids are listed.

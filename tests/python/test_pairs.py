@@ -97,7 +97,7 @@ OPTIONS = {
     "filter": {"no": False},
     "normals": {"given": NORMALS},
     "degree": {"4": 4},
-    "kinds": {"three": ("mean", "area", "height"), "names": "k1"},
+    "kinds": {"three": ("mean", "variation", "height"), "names": "k1"},
     "k": {"9": 9},
     "area": {"9": 9.0},
     "fill": {"-2": -2},

@@ -38,7 +38,10 @@ const USE = `
   const lengths: Float64Array = index.kNearest(9, { vertices: near, metric: 'path', walls }).distances;
   const discs: Rows = index.discs(2, { faces });
   const creases: Float64Array = index.features(null, { faces, scales, kinds: ['crease', 'area'] });
-  const { vertices, point } = index.closestPoint([0, 0, 1], { faces });
+  const { vertices, point, face } = index.closestPoint([0, 0, 1], { faces });
+  const volume: Float64Array = index.invariants(null, { faces, scales, walls }).volume;
+  const between: Float64Array = index.gaps(scales, { faces, vertices: near, unit: 'edge' }).distances;
+  const patch: Uint32Array = index.patch(point, 2, { faces, face });
   index.neighborhood(point, 2, { seeds: vertices, sort: 'id' });
   const hit: SurfacePoint | null = index.firstHit(point, [0, 0, -1], { faces });
   const across: Float64Array = index.thickness({ faces, vertices, method: 'sphere' });
@@ -48,7 +51,7 @@ const USE = `
   index.refitInPlace(mesh.positions, { changed: near });
   const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
   const codes: string[] = [new MeshhoodError().code];
-  export const used = [hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, ids, rows.offsets, curvature.mean, part.vertices, codes];
+  export const used = [hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, ids, rows.offsets, curvature.mean, part.vertices, codes, volume, between, patch];
 `;
 
 for (const [name, options] of Object.entries({

@@ -162,12 +162,12 @@ std::vector<Call> curvature_calls(const Scene& scene, double radius, Metric metr
                    35, false});
   calls.push_back({"features",
                    [&scene, radius, metric](const auto& rows, unsigned threads) {
-                     return features(scene.surface, {rows, radius, metric},
-                                     {.kinds = {Feature::Crease, Feature::Height, Feature::Variation, Feature::Area},
-                                      .areas = scene.areas},
-                                     {.threads = threads});
+                     return features(
+                         scene.surface, {rows, radius, metric},
+                         {.kinds = {Feature::Crease, Feature::Height, Feature::Variation}, .areas = scene.areas},
+                         {.threads = threads});
                    },
-                   4, false});
+                   3, false});
   for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
     calls.push_back({"curvature of fit " + std::to_string(static_cast<int>(fit)),
                      [&scene, radius, metric, fit](const auto& rows, unsigned threads) {

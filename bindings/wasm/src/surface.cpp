@@ -10,19 +10,6 @@
 #include "workspace.h"
 
 namespace meshhood::wasm {
-namespace {
-
-/// Returns the face. The ids of the answer are the vertices of its triangle; the reals are their three weights, the
-/// point and its distance.
-std::size_t answer_with(const SurfacePoint& found) {
-  answer.ids.assign(found.vertices.begin(), found.vertices.end());
-  answer.reals.assign(found.weights.begin(), found.weights.end());
-  answer.reals.insert(answer.reals.end(), found.point.begin(), found.point.end());
-  answer.reals.push_back(found.distance);
-  return found.face;
-}
-
-}  // namespace
 
 extern "C" {
 
@@ -32,14 +19,17 @@ extern "C" {
                       hash_faces(corners, corner_count, offsets, offset_count));
 }
 
-[[clang::export_name("closest_point")]] std::size_t closest_point(double x, double y, double z) {
-  return answer_with(workspace.surface().closest_point({x, y, z}));
+/// See `append_point`.
+[[clang::export_name("closest_point")]] void closest_point(double x, double y, double z) {
+  answer = {};
+  append_point(workspace.surface().closest_point({x, y, z}));
 }
 
-/// The distance is infinite if the ray meets nothing.
-[[clang::export_name("first_hit")]] std::size_t first_hit(double x, double y, double z, double along_x, double along_y,
-                                                          double along_z) {
-  return answer_with(workspace.surface().first_hit({x, y, z}, {along_x, along_y, along_z}));
+/// The same; the distance is infinite if the ray meets nothing.
+[[clang::export_name("first_hit")]] void first_hit(double x, double y, double z, double along_x, double along_y,
+                                                   double along_z) {
+  answer = {};
+  append_point(workspace.surface().first_hit({x, y, z}, {along_x, along_y, along_z}));
 }
 
 [[clang::export_name("thickness")]] void thickness(const VertexId* vertices, std::size_t vertex_count,
