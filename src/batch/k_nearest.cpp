@@ -16,6 +16,7 @@
 #include "batch/size_limit.h"
 #include "exact/bound_index.h"
 #include "exact/index_access.h"
+#include "exact/joint/nearest_packet.h"
 #include "exact/query/arguments.h"
 #include "exact/query/length_search.h"
 #include "exact/query/straight_queries.h"
@@ -84,21 +85,64 @@ class NearestRows {
   std::vector<VertexId> vertices_;
 };
 
-/// The vertices around one vertex by connecting radius.
+/// The vertices around one vertex by connecting radius: those of a leaf in a packet, whose radius is that of the last
+/// leaf and grows where it is not enough.
 class StraightRowSearch {
  public:
   StraightRowSearch(const Index& index, const NearestOptions& options)
-      : queries_(BoundIndex(index), IndexAccess::share_graph(index), best_isa()), radius_(options.radius) {}
+      : index_(index),
+        queries_(BoundIndex(index), IndexAccess::share_graph(index), best_isa()),
+        packet_(*index_, best_isa()),
+        most_(options.radius),
+        last_radius_(index_->tree.empty() ? 0 : index_->tree.front().mean_radius / index_->frame.scale) {}
 
   /// Calls `take(vertex, distance)` for the nearest vertices in order until it returns false. `areas`: not used.
   template <class Take>
   void run(VertexId v, std::size_t /*enough*/, double /*enough_area*/, std::span<const double> /*areas*/, Take&& take) {
-    queries_.for_each_nearest(v, radius_, take);
+    const std::uint32_t slot = index_->slot[v];
+    if (leaf_of(slot) != leaf_) begin(leaf_of(slot));
+    std::size_t taken = 0;
+    const auto search = [&] {
+      std::size_t next = 0;
+      const auto take_next = [&](VertexId vertex, double distance) {
+        if (next++ < taken) return true;
+        ++taken;
+        last_radius_ = std::max(last_radius_, distance);
+        return take(vertex, distance);
+      };
+      if (is_joint_) return packet_.for_each_near(lane_of(slot), take_next) && radius_ < most_;
+      queries_.for_each_nearest(v, most_, take_next);
+      return false;
+    };
+    for (double growth = kGrowth; search(); growth *= growth) gather(packet_.is_whole() ? most_ : growth * radius_);
+    last_size_ = std::max(last_size_, taken);
   }
 
  private:
+  static constexpr double kMargin = 1.05;
+  static constexpr double kGrowth = 1.5;
+
+  void begin(LeafId leaf) {
+    leaf_ = leaf;
+    const double radius = kMargin * last_radius_;
+    last_radius_ = 0;
+    gather(radius);
+  }
+
+  void gather(double radius) {
+    radius_ = radius > 0 ? std::min(radius, most_) : most_;
+    is_joint_ = packet_.gather(leaf_, radius_, 64 + last_size_ / 4);
+  }
+
+  BoundIndex index_;
   StraightQueries queries_;
-  double radius_;
+  NearestPacket packet_;
+  double most_;
+  LeafId leaf_ = std::numeric_limits<LeafId>::max();
+  double radius_ = 0;
+  bool is_joint_ = false;
+  double last_radius_;
+  std::size_t last_size_ = 0;
 };
 
 /// The same by path distance or number of edges.

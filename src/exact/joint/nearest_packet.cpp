@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "exact/joint/nearest_packet.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+#include <variant>
+
+namespace meshhood {
+
+bool NearestPacket::gather(LeafId leaf, double radius, std::size_t most) {
+  radius_ = radius;
+  is_whole_ = true;
+  leaves_.clear();
+  entries_.clear();
+  numbers_.forget();
+  const FrameSphere& bounds = index_->leaves[leaf].bounds;
+  TreeBall around({bounds.x, bounds.y, bounds.z}, TreeBounds(index_->frame, radius));
+  around.outer = next_above(static_cast<double>(around.outer) + static_cast<double>(bounds.radius));
+  add(leaf);
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    if (i == most) return false;
+    for (const Link& link : index_->links_of(leaves_[i])) {
+      if (numbers_.is_known(link.leaf)) continue;
+      if (classify(index_->leaves[link.leaf].bounds, around) == Containment::Outside) {
+        numbers_.set(link.leaf, kLeftOut);
+        is_whole_ = false;
+      } else {
+        add(link.leaf);
+      }
+    }
+  }
+  list_cross_edges();
+  return true;
+}
+
+void NearestPacket::add(LeafId leaf) {
+  const Leaf& record = index_->leaves[leaf];
+  numbers_.set(leaf, static_cast<std::uint32_t>(leaves_.size()));
+  leaves_.push_back(leaf);
+  entries_.push_back({record.bounds, record.first, record.size, index_->open_lanes(leaf), index_->ignored_lanes(leaf)});
+}
+
+/// Calls `f(from, to)` for the edges between the leaves.
+template <class F>
+void NearestPacket::for_each_cross_edge(F&& f) const {
+  for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
+    for (const Link& link : index_->links_of(leaves_[i])) {
+      const std::uint32_t other = numbers_[link.leaf];
+      if (other == kLeftOut) continue;
+      for (const CrossEdge& edge : index_->cross_edges_of(link)) {
+        f(kLeafCapacity * i + edge.from, kLeafCapacity * other + edge.to);
+      }
+    }
+  }
+}
+
+void NearestPacket::list_cross_edges() {
+  // Each count is at the place of the vertex plus 2, and becomes the beginning of the next vertex.
+  first_cross_edge_.assign(kLeafCapacity * leaves_.size() + 2, 0);
+  for_each_cross_edge([&](std::uint32_t from, std::uint32_t) { ++first_cross_edge_[from + 2]; });
+  std::partial_sum(first_cross_edge_.begin(), first_cross_edge_.end(), first_cross_edge_.begin());
+  cross_edges_.resize(first_cross_edge_.back());
+  for_each_cross_edge([&](std::uint32_t from, std::uint32_t to) { cross_edges_[first_cross_edge_[from + 1]++] = to; });
+}
+
+/// By distance, with its square.
+std::span<const Path> NearestPacket::vertices_in_ball(unsigned lane) {
+  const Point center = index_->position(leaves_.front(), lane);
+  const LeafBall ball(center, LeafBounds(radius_));
+  const TreeBall tree_ball(index_->frame, center, radius_);
+  squares_.resize(leaves_.size());
+  in_ball_.resize(kLeafCapacity * leaves_.size());
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    if (classify(entry.bounds, tree_ball) == Containment::Outside) continue;
+    PerLane<double>& squares = squares_[i];
+    LaneMask inside = kernels_->squares(index_->positions, entry.first, entry.size, ball, squares) & entry.open;
+    if (i == 0) inside &= ~(LaneMask{1} << lane);
+    for_each_lane(inside, [&](unsigned other) { in_ball_[count++] = {squares[other], kLeafCapacity * i + other}; });
+  }
+  return order_.sorted({0, lane}, std::span(in_ball_).first(count));
+}
+
+/// Reaches a vertex that is touched, and the waiting ones that it touches.
+void NearestPacket::reach(std::uint32_t at) {
+  std::size_t head = reached_.size();
+  for (reached_.push_back(at); head < reached_.size(); ++head) {
+    const std::uint32_t from = reached_[head];
+    const std::uint32_t first = from - lane_of(from);
+    State& state = states_[leaf_of(from)];
+    const LaneMask neighbors = index_->adjacency[entries_[leaf_of(from)].first + lane_of(from)];
+    state.touched |= neighbors;
+    for_each_lane(state.waiting & neighbors, [&](unsigned lane) { reached_.push_back(first + lane); });
+    state.waiting &= ~neighbors;
+    for (std::uint32_t i = first_cross_edge_[from]; i < first_cross_edge_[from + 1]; ++i) {
+      const std::uint32_t to = cross_edges_[i];
+      const LaneMask bit = LaneMask{1} << lane_of(to);
+      State& other = states_[leaf_of(to)];
+      other.touched |= bit;
+      if ((other.waiting & bit) == 0) continue;
+      other.waiting &= ~bit;
+      reached_.push_back(to);
+    }
+  }
+}
+
+/// The vertices reached since the last call that are not ignored, by distance, then by id.
+std::span<const NearVertex> NearestPacket::take_ring() {
+  ring_.clear();
+  for (const std::uint32_t at : reached_) {
+    const Entry& entry = entries_[leaf_of(at)];
+    if ((entry.ignored >> lane_of(at) & 1U) != 0) continue;
+    const double square = squares_[leaf_of(at)][lane_of(at)];
+    ring_.push_back({std::sqrt(square), index_->id(entry.first + lane_of(at))});
+  }
+  reached_.clear();
+  if (ring_.size() > 1) std::sort(ring_.begin(), ring_.end());
+  return ring_;
+}
+
+}  // namespace meshhood
