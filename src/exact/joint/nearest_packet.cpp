@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
 #include <variant>
 
 namespace meshhood {
 
 bool NearestPacket::gather(LeafId leaf, double radius, std::size_t most) {
-  radius_ = radius;
   is_whole_ = true;
   leaves_.clear();
   entries_.clear();
@@ -23,14 +21,14 @@ bool NearestPacket::gather(LeafId leaf, double radius, std::size_t most) {
     for (const Link& link : index_->links_of(leaves_[i])) {
       if (numbers_.is_known(link.leaf)) continue;
       if (classify(index_->leaves[link.leaf].bounds, around) == Containment::Outside) {
-        numbers_.set(link.leaf, kLeftOut);
+        numbers_.set(link.leaf, kNone);
         is_whole_ = false;
       } else {
         add(link.leaf);
       }
     }
   }
-  list_cross_edges();
+  list_edges();
   return true;
 }
 
@@ -41,34 +39,27 @@ void NearestPacket::add(LeafId leaf) {
   entries_.push_back({record.bounds, record.first, record.size, index_->open_lanes(leaf), index_->ignored_lanes(leaf)});
 }
 
-/// Calls `f(from, to)` for the edges between the leaves.
-template <class F>
-void NearestPacket::for_each_cross_edge(F&& f) const {
+void NearestPacket::list_edges() {
+  edges_.clear();
+  last_edge_.assign(kLeafCapacity * leaves_.size(), kNone);
   for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
     for (const Link& link : index_->links_of(leaves_[i])) {
       const std::uint32_t other = numbers_[link.leaf];
-      if (other == kLeftOut) continue;
+      if (other == kNone) continue;
       for (const CrossEdge& edge : index_->cross_edges_of(link)) {
-        f(kLeafCapacity * i + edge.from, kLeafCapacity * other + edge.to);
+        std::uint32_t& last = last_edge_[kLeafCapacity * i + edge.from];
+        edges_.push_back({kLeafCapacity * other + edge.to, last});
+        last = static_cast<std::uint32_t>(edges_.size() - 1);
       }
     }
   }
 }
 
-void NearestPacket::list_cross_edges() {
-  // Each count is at the place of the vertex plus 2, and becomes the beginning of the next vertex.
-  first_cross_edge_.assign(kLeafCapacity * leaves_.size() + 2, 0);
-  for_each_cross_edge([&](std::uint32_t from, std::uint32_t) { ++first_cross_edge_[from + 2]; });
-  std::partial_sum(first_cross_edge_.begin(), first_cross_edge_.end(), first_cross_edge_.begin());
-  cross_edges_.resize(first_cross_edge_.back());
-  for_each_cross_edge([&](std::uint32_t from, std::uint32_t to) { cross_edges_[first_cross_edge_[from + 1]++] = to; });
-}
-
 /// By distance, with its square.
-std::span<const Path> NearestPacket::vertices_in_ball(unsigned lane) {
+std::span<const Path> NearestPacket::vertices_in_ball(unsigned lane, double radius) {
   const Point center = index_->position(leaves_.front(), lane);
-  const LeafBall ball(center, LeafBounds(radius_));
-  const TreeBall tree_ball(index_->frame, center, radius_);
+  const LeafBall ball(center, LeafBounds(radius));
+  const TreeBall tree_ball(index_->frame, center, radius);
   squares_.resize(leaves_.size());
   in_ball_.resize(kLeafCapacity * leaves_.size());
   std::size_t count = 0;
@@ -94,8 +85,8 @@ void NearestPacket::reach(std::uint32_t at) {
     state.touched |= neighbors;
     for_each_lane(state.waiting & neighbors, [&](unsigned lane) { reached_.push_back(first + lane); });
     state.waiting &= ~neighbors;
-    for (std::uint32_t i = first_cross_edge_[from]; i < first_cross_edge_[from + 1]; ++i) {
-      const std::uint32_t to = cross_edges_[i];
+    for (std::uint32_t i = last_edge_[from]; i != kNone; i = edges_[i].before) {
+      const std::uint32_t to = edges_[i].to;
       const LaneMask bit = LaneMask{1} << lane_of(to);
       State& other = states_[leaf_of(to)];
       other.touched |= bit;
@@ -106,14 +97,16 @@ void NearestPacket::reach(std::uint32_t at) {
   }
 }
 
-/// The vertices reached since the last call that are not ignored, by distance, then by id.
-std::span<const NearVertex> NearestPacket::take_ring() {
+/// The vertices reached since the last call that are not ignored, by distance, then by id. `radius`: the largest
+/// distance of them.
+std::span<const NextVertex> NearestPacket::take_ring(double radius) {
   ring_.clear();
   for (const std::uint32_t at : reached_) {
     const Entry& entry = entries_[leaf_of(at)];
     if ((entry.ignored >> lane_of(at) & 1U) != 0) continue;
-    const double square = squares_[leaf_of(at)][lane_of(at)];
-    ring_.push_back({std::sqrt(square), index_->id(entry.first + lane_of(at))});
+    const bool is_alone = reached_.size() == 1;
+    const double distance = is_alone ? radius : std::sqrt(squares_[leaf_of(at)][lane_of(at)]);
+    ring_.push_back({distance, index_->id(entry.first + lane_of(at))});
   }
   reached_.clear();
   if (ring_.size() > 1) std::sort(ring_.begin(), ring_.end());

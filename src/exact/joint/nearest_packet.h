@@ -9,21 +9,12 @@
 
 #include "base/epoch_array.h"
 #include "exact/layout.h"
+#include "exact/query/next_vertex.h"
 #include "exact/query/path_order.h"
 #include "simd/ball.h"
 #include "simd/kernels.h"
 
 namespace meshhood {
-
-/// A vertex by its distance from another.
-struct NearVertex {
-  double distance;
-  VertexId vertex;
-
-  friend bool operator<(const NearVertex& a, const NearVertex& b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.vertex < b.vertex;
-  }
-};
 
 /// Finds the vertices around each vertex of a leaf by connecting radius, up to a radius: the vertices in the ball are
 /// taken by distance, and one is reached when it has a reached neighbor, or as soon as it gains one. Its connecting
@@ -45,10 +36,10 @@ class NearestPacket {
   [[nodiscard]] bool is_whole() const { return is_whole_; }
 
   /// Calls `f(vertex, radius)` for the vertices connected with that in `lane` of the leaf that are not ignored, by
-  /// connecting radius, then by distance, then by id, up to the radius, until `f` returns false. Returns whether it did
-  /// not.
+  /// connecting radius, then by distance, then by id, until `f` returns false or the next has more than `most`, which
+  /// is at most the radius of `gather`. Returns whether `f` never did.
   template <class F>
-  bool for_each_near(unsigned lane, F&& f);
+  bool for_each_near(unsigned lane, double most, F&& f);
 
  private:
   /// A leaf that was gathered.
@@ -66,49 +57,52 @@ class NearestPacket {
     LaneMask waiting = 0;  // taken, but not touched
   };
 
-  static constexpr std::uint32_t kLeftOut = 0xFFFFFFFF;
+  /// An edge to a vertex of another leaf.
+  struct Edge {
+    std::uint32_t to;
+    std::uint32_t before;  // of the same vertex; or kNone
+  };
+
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
   void add(LeafId leaf);
-  template <class F>
-  void for_each_cross_edge(F&& f) const;
-  void list_cross_edges();
-  std::span<const Path> vertices_in_ball(unsigned lane);
+  void list_edges();
+  std::span<const Path> vertices_in_ball(unsigned lane, double radius);
   void reach(std::uint32_t at);
-  std::span<const NearVertex> take_ring();
+  std::span<const NextVertex> take_ring(double radius);
 
   const IndexView* index_;
   const Kernels* kernels_;
-  double radius_ = 0;
   bool is_whole_ = false;
   std::vector<LeafId> leaves_;         // that were gathered; the first is that of the queries
-  EpochArray<std::uint32_t> numbers_;  // by leaf: its place in `leaves_`
+  EpochArray<std::uint32_t> numbers_;  // by leaf: its place in `leaves_`; kNone if it was left out
   std::vector<Entry> entries_;
   // By vertex of these leaves, 32 times the number of its leaf plus its lane:
-  std::vector<std::uint32_t> first_cross_edge_;  // in `cross_edges_`; and the end of the last
-  std::vector<std::uint32_t> cross_edges_;       // to these vertices
+  std::vector<std::uint32_t> last_edge_;  // to another leaf, in `edges_`; or kNone
+  std::vector<Edge> edges_;
   // Of one search:
   std::vector<PerLane<double>> squares_;  // of distances, by leaf, where the ball meets it
   std::vector<Path> in_ball_;             // the vertices in the ball, with these
   PathOrder order_;
   std::vector<State> states_;
   std::vector<std::uint32_t> reached_;  // vertices of the same connecting radius, not passed on yet
-  std::vector<NearVertex> ring_;        // the same, sorted
+  std::vector<NextVertex> ring_;        // the same, sorted
 };
 
 template <class F>
-bool NearestPacket::for_each_near(unsigned lane, F&& f) {
+bool NearestPacket::for_each_near(unsigned lane, double most, F&& f) {
   if ((entries_.front().open >> lane & 1U) == 0) return true;
   states_.assign(entries_.size(), {});
   states_.front().touched = LaneMask{1} << lane;
   reached_.clear();
   double radius = 0;
   const auto pass_on = [&] {
-    for (const NearVertex& near : take_ring()) {
-      if (!f(near.vertex, radius)) return false;
+    for (const NextVertex& next : take_ring(radius)) {
+      if (!f(next.vertex, radius)) return false;
     }
     return true;
   };
-  for (const auto& [square, at] : vertices_in_ball(lane)) {
+  for (const auto& [square, at] : vertices_in_ball(lane, most)) {
     const double distance = std::sqrt(square);  // different squares may have one root
     if (distance > radius && !reached_.empty() && !pass_on()) return false;
     State& state = states_[leaf_of(at)];
