@@ -2,23 +2,20 @@
 #include "exact/joint/nearest_packet.h"
 
 #include <algorithm>
-#include <cassert>
-#include <variant>
 
 namespace meshhood {
 
 bool NearestPacket::gather(LeafId leaf, double radius, std::size_t most) {
   is_whole_ = true;
-  leaves_.clear();
   entries_.clear();
   numbers_.forget();
   const FrameSphere& bounds = index_->leaves[leaf].bounds;
   TreeBall around({bounds.x, bounds.y, bounds.z}, TreeBounds(index_->frame, radius));
   around.outer = next_above(static_cast<double>(around.outer) + static_cast<double>(bounds.radius));
   add(leaf);
-  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
     if (i == most) return false;
-    for (const Link& link : index_->links_of(leaves_[i])) {
+    for (const Link& link : index_->links_of(entries_[i].leaf)) {
       if (numbers_.is_known(link.leaf)) continue;
       if (classify(index_->leaves[link.leaf].bounds, around) == Containment::Outside) {
         numbers_.set(link.leaf, kNone);
@@ -34,16 +31,16 @@ bool NearestPacket::gather(LeafId leaf, double radius, std::size_t most) {
 
 void NearestPacket::add(LeafId leaf) {
   const Leaf& record = index_->leaves[leaf];
-  numbers_.set(leaf, static_cast<std::uint32_t>(leaves_.size()));
-  leaves_.push_back(leaf);
-  entries_.push_back({record.bounds, record.first, record.size, index_->open_lanes(leaf), index_->ignored_lanes(leaf)});
+  numbers_.set(leaf, static_cast<std::uint32_t>(entries_.size()));
+  entries_.push_back(
+      {leaf, record.bounds, record.first, record.size, index_->open_lanes(leaf), index_->ignored_lanes(leaf)});
 }
 
 void NearestPacket::list_edges() {
   edges_.clear();
-  last_edge_.assign(kLeafCapacity * leaves_.size(), kNone);
-  for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
-    for (const Link& link : index_->links_of(leaves_[i])) {
+  last_edge_.assign(kLeafCapacity * entries_.size(), kNone);
+  for (std::uint32_t i = 0; i < entries_.size(); ++i) {
+    for (const Link& link : index_->links_of(entries_[i].leaf)) {
       const std::uint32_t other = numbers_[link.leaf];
       if (other == kNone) continue;
       for (const CrossEdge& edge : index_->cross_edges_of(link)) {
@@ -57,11 +54,11 @@ void NearestPacket::list_edges() {
 
 /// By distance, with its square.
 std::span<const Path> NearestPacket::vertices_in_ball(unsigned lane, double radius) {
-  const Point center = index_->position(leaves_.front(), lane);
+  const Point center = index_->position(entries_.front().leaf, lane);
   const LeafBall ball(center, LeafBounds(radius));
   const TreeBall tree_ball(index_->frame, center, radius);
-  squares_.resize(leaves_.size());
-  in_ball_.resize(kLeafCapacity * leaves_.size());
+  squares_.resize(entries_.size());
+  in_ball_.resize(kLeafCapacity * entries_.size());
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];

@@ -44,6 +44,7 @@ class NearestPacket {
  private:
   /// A leaf that was gathered.
   struct Entry {
+    LeafId leaf;
     FrameSphere bounds;
     std::uint32_t first;
     std::uint32_t size;
@@ -74,9 +75,8 @@ class NearestPacket {
   const IndexView* index_;
   const Kernels* kernels_;
   bool is_whole_ = false;
-  std::vector<LeafId> leaves_;         // that were gathered; the first is that of the queries
-  EpochArray<std::uint32_t> numbers_;  // by leaf: its place in `leaves_`; kNone if it was left out
-  std::vector<Entry> entries_;
+  EpochArray<std::uint32_t> numbers_;  // by leaf: its place in `entries_`; kNone if it was left out
+  std::vector<Entry> entries_;         // the first is that of the queries
   // By vertex of these leaves, 32 times the number of its leaf plus its lane:
   std::vector<std::uint32_t> last_edge_;  // to another leaf, in `edges_`; or kNone
   std::vector<Edge> edges_;
