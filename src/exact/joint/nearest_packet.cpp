@@ -2,6 +2,7 @@
 #include "exact/joint/nearest_packet.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace meshhood {
 
@@ -94,19 +95,18 @@ void NearestPacket::reach(std::uint32_t at) {
   }
 }
 
-/// The vertices reached since the last call that are not ignored, by distance, then by id. `radius`: the largest
-/// distance of them.
-std::span<const NextVertex> NearestPacket::take_ring(double radius) {
+/// The vertices reached since the last call that are not ignored, with their squared distances, by distance, then by
+/// id.
+std::span<const Path> NearestPacket::take_ring() {
   ring_.clear();
   for (const std::uint32_t at : reached_) {
     const Entry& entry = entries_[leaf_of(at)];
     if ((entry.ignored >> lane_of(at) & 1U) != 0) continue;
-    const bool is_alone = reached_.size() == 1;
-    const double distance = is_alone ? radius : std::sqrt(squares_[leaf_of(at)][lane_of(at)]);
-    ring_.push_back({distance, index_->id(entry.first + lane_of(at))});
+    ring_.push_back({squares_[leaf_of(at)][lane_of(at)], index_->id(entry.first + lane_of(at))});
   }
   reached_.clear();
-  if (ring_.size() > 1) std::sort(ring_.begin(), ring_.end());
+  // Different squares may have one root.
+  std::ranges::sort(ring_, {}, [](const Path& path) { return std::pair(std::sqrt(path.length), path.end); });
   return ring_;
 }
 

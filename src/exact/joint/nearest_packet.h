@@ -9,7 +9,6 @@
 
 #include "base/epoch_array.h"
 #include "exact/layout.h"
-#include "exact/query/next_vertex.h"
 #include "exact/query/path_order.h"
 #include "simd/ball.h"
 #include "simd/kernels.h"
@@ -70,7 +69,7 @@ class NearestPacket {
   void list_edges();
   std::span<const Path> vertices_in_ball(unsigned lane, double radius);
   void reach(std::uint32_t at);
-  std::span<const NextVertex> take_ring(double radius);
+  std::span<const Path> take_ring();
 
   const IndexView* index_;
   const Kernels* kernels_;
@@ -86,7 +85,7 @@ class NearestPacket {
   PathOrder order_;
   std::vector<State> states_;
   std::vector<std::uint32_t> reached_;  // vertices of the same connecting radius, not passed on yet
-  std::vector<NextVertex> ring_;        // the same, sorted
+  std::vector<Path> ring_;              // the same by id, sorted
 };
 
 template <class F>
@@ -97,8 +96,8 @@ bool NearestPacket::for_each_near(unsigned lane, double most, F&& f) {
   reached_.clear();
   double radius = 0;
   const auto pass_on = [&] {
-    for (const NextVertex& next : take_ring(radius)) {
-      if (!f(next.vertex, radius)) return false;
+    for (const Path& next : take_ring()) {
+      if (!f(VertexId{next.end}, radius)) return false;
     }
     return true;
   };

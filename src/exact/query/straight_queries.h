@@ -6,15 +6,25 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "exact/query/flood.h"
-#include "exact/query/next_vertex.h"
 #include "exact/query/single_queries.h"
 #include "shared/distance.h"
 
 namespace meshhood {
+
+/// A vertex that the flood has reached in its last step.
+struct NextVertex {
+  double distance;  // from the center
+  VertexId vertex;
+
+  friend bool operator<(const NextVertex& a, const NextVertex& b) {
+    return std::tie(a.distance, a.vertex) < std::tie(b.distance, b.vertex);
+  }
+};
 
 /// The answers of the straight metric: one ball around a vertex by `StraightSearch`, all else by a flood. Each is made
 /// when it is first needed.
