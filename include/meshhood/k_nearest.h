@@ -36,7 +36,8 @@ struct KNearest {
 /// The `k` nearest connected vertices of each of `vertices`, itself included; fewer where no more are connected.
 ///
 /// The row of a wall is empty. A row depends on the index, its vertex, `k` and the options alone, and begins with the
-/// row for any smaller `k`. Each thread owns a search of the metric. O(k log k) a row on most surfaces.
+/// row for any smaller `k`. O(k log k) a row on most surfaces. Each thread owns a search of the metric; straight, rows
+/// that lie close together share a part of it, so they take less time than as many calls of `Searcher`.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming the row; TooLarge if the
 /// result exceeds `run.max_bytes`, or rows times k is more than 2^40; on a machine of 32 bits, more than 2^28.
