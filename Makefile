@@ -7,7 +7,7 @@
 #   make site                 builds the site of these documents, with its gallery and references, into build/site
 #   make serve                builds it and shows it at http://localhost:8000; PORT=n for another port
 #   make test                 runs the short tests; about ten minutes
-#   make packages             makes and tests what a release publishes, in build/packages; about half an hour
+#   make packages             makes and tests what a release publishes, in build/packages/release; half an hour
 #   make test-all             runs also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
 #
 # These measure the tables of docs/benchmarks again. They write them and print how long each part took. They need a quiet
