@@ -97,7 +97,7 @@ bool NearestPacket::for_each_near(unsigned lane, double most, F&& f) {
   double radius = 0;
   const auto pass_on = [&] {
     for (const Path& next : take_ring()) {
-      if (!f(VertexId{next.end}, radius)) return false;
+      if (!f(static_cast<VertexId>(next.end), radius)) return false;
     }
     return true;
   };
