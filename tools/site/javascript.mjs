@@ -24,8 +24,8 @@ const GROUPS = [
 const isCallable = (node) =>
   ts.isMethodDeclaration(node) || ts.isMethodSignature(node) || ts.isFunctionDeclaration(node);
 const isExported = (node) => node.modifiers?.some(({ kind }) => kind === ts.SyntaxKind.ExportKeyword);
-const named = (node) => (ts.isVariableStatement(node) ? node.declarationList.declarations[0] : node);
-const nameOf = (node) => (ts.isConstructorDeclaration(node) ? 'constructor' : named(node).name.getText());
+const declared = (node) => (ts.isVariableStatement(node) ? node.declarationList.declarations[0] : node);
+const nameOf = (node) => (ts.isConstructorDeclaration(node) ? 'constructor' : declared(node).name.getText());
 const membersOf = (node) => (ts.isClassDeclaration(node) || ts.isInterfaceDeclaration(node) ? node.members : []);
 
 function title(node) {
