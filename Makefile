@@ -1,13 +1,13 @@
 # The commands for a fresh Debian machine. Their steps are in tools/; daily work uses the presets.
 #
 #   make build                installs the packages it needs and builds build/release/meshhood
-#   make install PREFIX=dir   installs what make build builds, with the page of meshhood view; /usr/local by default
+#   make install PREFIX=dir   installs what make build builds, and the page of make view if there is one; /usr/local by default
 #   make demo [MESH=file]     compares all methods on a mesh where they differ, or on your own, and draws a picture
 #   make view [MESH=file]     shows the same in an interactive page, build/demo/view.html
 #   make site                 builds the site of these documents, with its gallery and references, into build/site
 #   make serve                builds it and shows it at http://localhost:8000; PORT=n for another port
 #   make test                 runs the short tests; about ten minutes
-#   make packages             makes and tests what a release publishes, in build/packages; about half an hour
+#   make packages             makes and tests what a release publishes, in build/packages/release; half an hour
 #   make test-all             runs also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
 #
 # These measure the tables of docs/benchmarks again. They write them and print how long each part took. They need a quiet
@@ -25,11 +25,9 @@ export MESH VERTEX RADIUS
 
 build:
 	@tools/setup build
-	@tools/build release -DMESHHOOD_BUILD_TESTS=OFF -DMESHHOOD_BUILD_BENCH=OFF -DMESHHOOD_BUILD_EXAMPLES=OFF
+	@tools/build release
 
 install: build
-	@tools/setup web
-	@tools/build_viewer
 	@cmake --install build/release --prefix "$(PREFIX)"
 
 test:

@@ -28,4 +28,10 @@ std::array<double, N> fastest(const std::array<std::function<void()>, N>& runs) 
   return least;
 }
 
+/// The same of one run, in microseconds for each of its rows.
+template <class Run>
+double microseconds(std::size_t rows, const Run& run) {
+  return 1e6 * fastest<1>({run})[0] / static_cast<double>(rows);
+}
+
 }  // namespace meshhood::bench

@@ -41,7 +41,7 @@ def compare_points():
 def compare_mesh(path):
     V, F = meshhood.read_mesh(path)
     index, tree = meshhood.MeshIndex(V, F), cKDTree(V)
-    for k in (10, 100):
+    for k in (10, 20, 50, 100):
         knn = least_time(lambda k=k: tree.query(V, k, workers=-1))
         for metric in ("straight", "path"):
             ours = least_time(lambda k=k, metric=metric: index.k_nearest(k, metric=metric))

@@ -28,7 +28,7 @@
 namespace meshhood::cli {
 namespace {
 
-constexpr Names<Feature, 10> kKinds{{{"crease", Feature::Crease},
+constexpr Names<Feature, 12> kKinds{{{"crease", Feature::Crease},
                                      {"mean", Feature::Mean},
                                      {"gaussian", Feature::Gaussian},
                                      {"k1", Feature::K1},
@@ -36,6 +36,8 @@ constexpr Names<Feature, 10> kKinds{{{"crease", Feature::Crease},
                                      {"curvedness", Feature::Curvedness},
                                      {"shape_index", Feature::ShapeIndex},
                                      {"area", Feature::Area},
+                                     {"volume", Feature::Volume},
+                                     {"gap", Feature::Gap},
                                      {"height", Feature::Height},
                                      {"variation", Feature::Variation}}};
 

@@ -4,8 +4,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/meshhood)
 
-install(DIRECTORY include/meshhood ${PROJECT_BINARY_DIR}/include/meshhood
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN "io" EXCLUDE)
+install(DIRECTORY include/meshhood DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(TARGETS meshhood EXPORT meshhood)
 install(EXPORT meshhood NAMESPACE meshhood:: FILE meshhoodTargets.cmake DESTINATION ${package_dir})
 
@@ -31,7 +30,7 @@ write_basic_package_version_file(meshhoodConfigVersion.cmake COMPATIBILITY SameM
 install(FILES ${PROJECT_BINARY_DIR}/meshhoodConfig.cmake ${PROJECT_BINARY_DIR}/meshhoodConfigVersion.cmake
   DESTINATION ${package_dir})
 
-# The same for pkg-config, from wherever the files lie. The core is meshhood.pc; meshhood-io.pc names what io needs.
+# The same for pkg-config, from wherever the files lie. The core is meshhood.pc, the readers meshhood-io.pc.
 file(RELATIVE_PATH prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 function(meshhood_install_pc name)
   configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)

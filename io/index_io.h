@@ -3,11 +3,13 @@
 
 #include <filesystem>
 
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/serialize.h"
 
 /// Reading and writing index files. `meshhood/serialize.h` documents the content and its verification.
-namespace meshhood::io {
+namespace meshhood {
+namespace io MESHHOOD_API {
 
 /// Writes `index` to a file atomically: to a temporary file beside the target, which is synced and renamed. Processes
 /// that have the old file open or mapped keep the old content. If several save at once, the last wins.
@@ -42,4 +44,5 @@ void save(const std::filesystem::path& path, const paper::Index& index, const Ru
 /// The header of the index in a regular file. Throws as `load`. O(1).
 [[nodiscard]] IndexHeader read_header(const std::filesystem::path& path);
 
-}  // namespace meshhood::io
+}  // namespace io
+}  // namespace meshhood

@@ -9,11 +9,13 @@
 #include <variant>
 #include <vector>
 
+#include "meshhood/export.h"
 #include "meshhood/mesh.h"
 #include "meshhood/run.h"
 
 /// Reading and writing mesh files. Readers keep the vertex numbering and the polygons of the file.
-namespace meshhood::io {
+namespace meshhood {
+namespace io MESHHOOD_API {
 
 enum class Format { Ply, Obj, Off, Stl, Vtk, FreeSurfer };
 
@@ -122,4 +124,5 @@ struct VtkOptions {
 /// as `write_ply`. Throws also Error{TooLarge}: the format counts in 31 bits.
 void write_vtk(const std::filesystem::path& path, const MeshView& mesh, const VtkOptions& options = {});
 
-}  // namespace meshhood::io
+}  // namespace io
+}  // namespace meshhood

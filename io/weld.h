@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/export.h"
 #include "meshhood/mesh.h"
 
 /// Welding: makes one vertex of all vertices at the same place, so that faces which meet there are connected.
@@ -20,7 +21,8 @@
 ///
 /// Expected O(#V + #corners) if `eps` is no larger than the mean edge length, and that is at least 1e-150, on one
 /// thread. The result does not depend on the machine. Throws Error{InvalidOption, InvalidMesh, TooLarge}.
-namespace meshhood::io {
+namespace meshhood {
+namespace io MESHHOOD_API {
 
 /// A welded mesh, owned. Kept vertices have their positions, and their order.
 struct WeldedMesh {
@@ -41,4 +43,5 @@ struct WeldedMesh {
 /// The `ids` that `weld` returns. O(#V).
 [[nodiscard]] std::vector<std::uint32_t> welded_ids(const PositionsView& positions, double eps = 0);
 
-}  // namespace meshhood::io
+}  // namespace io
+}  // namespace meshhood

@@ -9,6 +9,8 @@ add_test(NAME repo.includes COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/includes.sh
 add_test(NAME repo.borrowed COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/borrowed.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME repo.drawings COMMAND python3 -B ${PROJECT_SOURCE_DIR}/tools/drawings --check)
 add_test(NAME repo.reference COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/site/names_test.py ${PROJECT_SOURCE_DIR})
+add_test(NAME repo.no_global_state COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/repo/no_global_state.py
+  $<TARGET_FILE:meshhood> $<TARGET_FILE:meshhood_io>)
 if(NOT MESHHOOD_LONG_TESTS)
   return()
 endif()
@@ -26,6 +28,9 @@ if(TARGET meshhood_cli)
   add_subdirectory(packages)
 endif()
 
+add_test(NAME repo.same_bytes COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/same_bytes.sh
+  ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/same_bytes ${CMAKE_CXX_COMPILER})
+set_tests_properties(repo.same_bytes PROPERTIES TIMEOUT 3600 COST 1000)
 add_subdirectory(install)
 add_subdirectory(refused)
 add_subdirectory(portability)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks that everything the documents name exists: files, excerpts of code, presets and targets, MESHHOOD_ names,
 identifiers of the code, and options of the command line; that a test runs each block of code; and that the version of
-CMakeLists.txt is that of every package.
+version.h is that of every package.
 Usage: tools/check_docs.py [PROGRAM]
 
 Without PROGRAM, or if it does not exist, the options of the command line are not checked, and a line says so.
@@ -28,14 +28,15 @@ IDENTIFIER = re.compile(r"(?<![\w./<-])(?:k[A-Z]\w+|[a-z]\w*_\w+|[A-Z]\w*[a-z]\w
 ABOUT_OTHERS = "docs/coming_from/"  # these pages name what other libraries have; their code runs
 INLINE = re.compile(r"(?<!`)`([^`\n]+)`(?!`)")
 COMMAND = re.compile(r"(?<![\w:])(?<!from )meshhood ([a-z]+)\b([^\n`#]*)")
-# What each package has where it states the version, or takes it from CMakeLists.txt.
+# What each package has where it states the version, or takes it from version.h.
 VERSIONED = {
     "CITATION.cff": "\nversion: {}\n",
     "bindings/wasm/package.json.in": '"version": "@PROJECT_VERSION@"',
-    "packaging/conan/conanfile.py": r'load(self, REPOSITORY / "CMakeLists.txt")',
+    "bindings/wasm/version.js.in": "version = '@PROJECT_VERSION@'",
+    "packaging/conan/conanfile.py": 'load(self, REPOSITORY / "include/meshhood/version.h")',
     "packaging/conda/recipe.yaml.in": 'version: "@PROJECT_VERSION@"',
     "packaging/vcpkg/vcpkg.json.in": '"version": "@PROJECT_VERSION@"',
-    "pyproject.toml": 'field = "version"\ninput = "CMakeLists.txt"',
+    "pyproject.toml": 'field = "version"\ninput = "include/meshhood/version.h"',
 }
 OPTION = re.compile(r"(?<!\S)\[?(--?[a-z][\w-]*)")
 
@@ -137,18 +138,22 @@ def missing_options(name, text, program):
                 yield f"{name}: `meshhood {subcommand}` has no option {option}"
 
 
-def wrong_versions():
-    """What has the version takes it from CMakeLists.txt, or states the same."""
+def wrong_versions(program):
+    """What has the version takes it from version.h, or states the same."""
     def read(name):
         return (ROOT / name).read_text(encoding="utf-8")
 
-    version = re.search(r"project\(meshhood VERSION (\S+)", read("CMakeLists.txt"))[1]
+    version = ".".join(re.findall(r"define MESHHOOD_VERSION_\w+ (\d+)", read("include/meshhood/version.h")))
     for name, needed in VERSIONED.items():
         if needed.format(version) not in read(name):
-            yield f"{name}: does not have the version of CMakeLists.txt: {needed.format(version)}"
+            yield f"{name}: does not have the version of version.h: {needed.format(version)}"
+    if program:
+        printed = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+        if not printed.startswith(f"meshhood {version}, "):
+            yield f"{program}: is of another version than version.h, {version}: {printed.strip()}"
     for name in ("README.md", "docs/cpp.md"):
         for stated in set(re.findall(r"(?i)(?:version |meshhood_)(\d+\.\d+\.\d+)", read(name))) - {version}:
-            yield f"{name}: names version {stated}, but that of CMakeLists.txt is {version}"
+            yield f"{name}: names version {stated}, but that of version.h is {version}"
 
 
 def main(program):
@@ -161,8 +166,9 @@ def main(program):
         program = str(Path(program).resolve())
         checks.append(lambda name, text: missing_options(name, text, program))
     else:
+        program = None
         print("docs: the options of the command line are not checked, as there is no program")
-    faults = [*wrong_versions(), *(fault for name, text in known for check in checks for fault in check(name, text))]
+    faults = [*wrong_versions(program), *(fault for name, text in known for check in checks for fault in check(name, text))]
     print("\n".join(faults + [f"docs: {len(known)} documents, {len(faults)} faults"]))
     return 1 if faults or not known else 0
 

@@ -141,6 +141,8 @@ void bind_curvature(nb::module_& module, nb::class_<Surface>& surface) {
       .value("curvedness", Feature::Curvedness)
       .value("shape_index", Feature::ShapeIndex)
       .value("area", Feature::Area)
+      .value("volume", Feature::Volume)
+      .value("gap", Feature::Gap)
       .value("height", Feature::Height)
       .value("variation", Feature::Variation);
   surface

@@ -142,6 +142,8 @@ nb::class_<Surface> bind_surface(nb::module_& module) {
              nb::arg("offsets").none());
   nb::class_<Surface> surface(module, "Surface");
   surface.def_prop_ro("face_count", &Surface::face_count)
+      .def("paths",
+           [](const Surface& surface) { return exact_method(without_lock([&] { return surface_paths(surface); })); })
       .def("on", [](const Surface& whole, const ExactMethod& method) { return whole.on(method.index()); })
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("first_hits", &first_hits, nb::arg(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())

@@ -15,10 +15,12 @@ const KERNELS = ['box', 'epanechnikov', 'biweight', 'gaussian'];
 const MISSING = ['propagate', 'omit'];
 const NESTINGS = ['own', 'patch'];
 const FITS = ['quadric', 'jet'];
+const THICKNESSES = ['ray', 'sphere'];
 const KINDS = [
-  'crease', 'mean', 'gaussian', 'k1', 'k2', 'curvedness', 'shape_index', 'area', 'height', 'variation',
+  'crease', 'mean', 'gaussian', 'k1', 'k2', 'curvedness', 'shape_index', 'area', 'volume', 'gap', 'height',
+  'variation',
 ];
-const KINDS_OF_AREAS = ['area', 'height', 'variation'];
+const KINDS_OF_AREAS = ['height', 'variation'];
 
 // The options of the calls, with their defaults. Made once: a small query takes less time than spreading them.
 const BUILDING = { offsets: null, cut: null, progress: undefined };
@@ -35,7 +37,12 @@ const DISCS = { ...NEAREST, weights: 'area', faces: null };
 const SMOOTHING = { weights: null, faces: null, nan: 'propagate', ...ROWS };
 const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ...SMOOTHING, scales: null };
 const CURVATURE = { ...SCALED_ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true };
+const SURFACE_ROWS = { vertices: null, faces: null, ...MASKS, unit: 'mesh' };
+const INVARIANTS = { ...SURFACE_ROWS, scales: null };
+const PATCH = { face: null, faces: null, walls: null, unit: 'mesh' };
 const FEATURES = { ...SCALED_ROWS, faces: null, kinds: 'crease', filter: true };
+const ON_FACES = { faces: null };
+const THICKNESS = { vertices: null, method: 'ray', ...ON_FACES };
 
 function chooseMethod({ method, metric }) {
   const place = choose(METHODS, method, 'method');
@@ -44,6 +51,11 @@ function chooseMethod({ method, metric }) {
   }
   return place;
 }
+
+/** Of rows of seven numbers. */
+const columns = (numbers, begin, end) => Float64Array.from(
+  { length: (numbers.length / 7) * (end - begin) },
+  (_, i) => numbers[7 * Math.floor(i / (end - begin)) + begin + (i % (end - begin))]);
 
 const isVertex = (start) => typeof start === 'number';
 
@@ -227,16 +239,36 @@ export class MeshIndex extends Owner {
   }
 
   closestPoint(point, options = {}) {
-    const { faces } = withDefaults(options, { faces: null });
+    const { faces } = withDefaults(options, ON_FACES);
     expectPoint(point, 'point');
+    this.#useFaces(faces);
+    this.instance.call('closest_point', ...point);
+    return this.#takeSurfacePoint();
+  }
+
+  firstHit(origin, direction, options = {}) {
+    const { faces } = withDefaults(options, ON_FACES);
+    expectPoint(origin, 'origin');
+    expectPoint(direction, 'direction');
+    this.#useFaces(faces);
+    this.instance.call('first_hit', ...origin, ...direction);
+    const hit = this.#takeSurfacePoint();
+    return hit.distance === Infinity ? null : hit;
+  }
+
+  #useFaces(faces) {
     if (faces === null) {
       throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which an index does not keep');
     }
     expectFaces(faces);
-    const face = withFaces(this.instance, faces, (...six) => this.instance.call('closest_point', ...point, ...six)) >>> 0;
+    withFaces(this.instance, faces, (...six) => this.instance.call('use_faces', ...six));
+  }
+
+  #takeSurfacePoint() {
     const numbers = this.instance.takeReals();
     return {
-      face, vertices: this.instance.takeIds(), weights: numbers.slice(0, 3), point: numbers.slice(3, 6), distance: numbers[6],
+      face: this.instance.takeCounts()[0], vertices: this.instance.takeIds(), weights: numbers.slice(0, 3),
+      point: numbers.slice(3, 6), distance: numbers[6],
     };
   }
 
@@ -331,6 +363,49 @@ export class MeshIndex extends Owner {
     return found;
   }
 
+  // The surface in a ball.
+
+  invariants(r, options = {}) {
+    this.#callOnSurface('invariants', r, withDefaults(options, INVARIANTS));
+    const numbers = this.instance.takeReals();
+    this.instance.releaseAnswer();
+    return { area: numbers.slice(0, numbers.length / 2), volume: numbers.slice(numbers.length / 2) };
+  }
+
+  gaps(r, options = {}) {
+    this.#callOnSurface('gaps', r, withDefaults(options, SURFACE_ROWS));
+    const numbers = this.instance.takeReals();
+    const found = {
+      faces: this.instance.takeCounts(), vertices: this.instance.takeIds(), weights: columns(numbers, 0, 3),
+      points: columns(numbers, 3, 6), distances: columns(numbers, 6, 7),
+    };
+    this.instance.releaseAnswer();
+    return found;
+  }
+
+  #callOnSurface(name, r, given) {
+    this.#useFaces(given.faces);
+    withRows(this.instance, r, given, this.#scale(given.unit), (...rows) => this.instance.call(name, ...rows));
+  }
+
+  patch(start, r, options = {}) {
+    const { face, faces, walls, unit } = withDefaults(options, PATCH);
+    expectRadius(r);
+    if (isVertex(start)) {
+      expectVertex(start, this.vertexCount);
+      if (face !== null) throw new MeshhoodError('InvalidOption', 'face: expected a point as start');
+    } else {
+      expectPoint(start, 'start');
+      expectSize(face, 'face');
+    }
+    this.#useFaces(faces);
+    const radius = this.#scale(unit) * r;
+    withMasks(this.instance, { walls }, () => (isVertex(start)
+      ? this.instance.call('patch_of_vertex', start, radius)
+      : this.instance.call('patch_of_point', face, ...start, radius)));
+    return this.instance.takeCounts();
+  }
+
   // Values and shape.
 
   aggregate(values, r, options = {}) {
@@ -387,11 +462,22 @@ export class MeshIndex extends Owner {
     const { faces, kinds, filter, unit } = given;
     const names = typeof kinds === 'string' ? [kinds] : kinds;
     const places = Uint8Array.from(names, (name) => choose(KINDS, name, 'kinds'));
-    this.#useNormals(faces, null);
+    this.#useFaces(faces);
     const areas = names.some((name) => KINDS_OF_AREAS.includes(name)) ? this.#weights('area', faces) : null;
     withRows(this.instance, r, given, this.#scale(unit), (...rows) =>
       this.instance.with([places, areas], (list, areaList) => this.instance.call(
         'features', ...rows, list, places.length, areaList, areas?.length ?? 0, Boolean(filter))));
+    const found = this.instance.takeReals();
+    this.instance.releaseAnswer();
+    return found;
+  }
+
+  thickness(options = {}) {
+    const { vertices, method, faces } = withDefaults(options, THICKNESS);
+    const place = choose(THICKNESSES, method, 'method');
+    expectVertices(vertices, 'vertices');
+    this.#useFaces(faces);
+    this.instance.with([vertices], (ids) => this.instance.call('thickness', ids, vertices?.length ?? 0, place));
     const found = this.instance.takeReals();
     this.instance.releaseAnswer();
     return found;
@@ -402,8 +488,7 @@ export class MeshIndex extends Owner {
       throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, or normals, and not both');
     }
     if (faces !== null) {
-      expectFaces(faces);
-      withFaces(this.instance, faces, (...six) => this.instance.call('use_normals_of_faces', ...six));
+      this.#useFaces(faces);
     } else {
       const vectors = toReals(normals, 'normals');
       this.instance.with([vectors], (list) => this.instance.call('use_normals', list, vectors.length));

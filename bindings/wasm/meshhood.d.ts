@@ -15,6 +15,9 @@
  *     const near = index.neighborhood(42, 1.5);
  */
 
+/** The version of the package, as '0.1.0'. */
+export const version: string;
+
 /** The cause of a `MeshhoodError`; as `meshhood::ErrorCode` in C++. */
 export type ErrorCode =
   | 'VertexOutOfRange'
@@ -70,6 +73,18 @@ export interface Faces {
   corners: Indices;
   /** Face f has the corners `corners[offsets[f]]` to `corners[offsets[f + 1] - 1]`. Null: all are triangles. */
   offsets?: Indices | null;
+}
+
+/** A point on a face. */
+export interface SurfacePoint {
+  face: number;
+  /** Of its triangle, in the order of the weights. */
+  vertices: Uint32Array;
+  /** Its barycentric coordinates there. */
+  weights: Float64Array;
+  point: Float64Array;
+  /** From the point that was asked for, or the origin of the ray. */
+  distance: number;
 }
 
 /** The triangles or polygons of a file, in the numbering of the file. */
@@ -319,7 +334,27 @@ export interface CurvatureOptions extends RowOptions, Scales {
 
 /** What describes a neighborhood without unit. docs/curvature.md explains each. */
 export type Kind =
-  | 'crease' | 'mean' | 'gaussian' | 'k1' | 'k2' | 'curvedness' | 'shape_index' | 'area' | 'height' | 'variation';
+  | 'crease' | 'mean' | 'gaussian' | 'k1' | 'k2' | 'curvedness' | 'shape_index' | 'area' | 'volume' | 'gap'
+  | 'height' | 'variation';
+
+/** Of calls on the surface in a ball; the metric is the distance in space. A face with a wall is not there. */
+export interface SurfaceOptions extends Omit<RowOptions, 'metric'> {
+  /** The faces that the index was built from, counterclockwise seen from outside. What is made of them is kept. */
+  faces: Faces;
+}
+
+/** The nearest points of the surface that are not of the patch, one for each row. */
+export interface Gaps {
+  /** 2^32 - 1 where there is none. */
+  faces: Uint32Array;
+  /** #rows by 3: of the triangle of the face that has the point, and its barycentric coordinates there. */
+  vertices: Uint32Array;
+  weights: Float64Array;
+  /** #rows by 3; NaN where there is none. */
+  points: Float64Array;
+  /** Infinity where there is none. */
+  distances: Float64Array;
+}
 
 export interface FeatureOptions extends RowOptions, Scales {
   /** The faces that the index was built from, as for `curvature`. */
@@ -480,10 +515,17 @@ export class MeshIndex {
    * as for `curvature`.
    * @throws MeshhoodError InvalidMesh, InvalidOption
    */
-  closestPoint(
-    point: Exclude<Start, number>,
+  closestPoint(point: Exclude<Start, number>, options: { faces: Faces }): SurfacePoint;
+
+  /**
+   * The first point of the surface on the ray from a point along a direction, which is not 0, of any length; null if it
+   * meets nothing. It meets either side of a face, and slips through nowhere between faces. As `closestPoint` otherwise.
+   */
+  firstHit(
+    origin: Exclude<Start, number>,
+    direction: Exclude<Start, number>,
     options: { faces: Faces },
-  ): { face: number; vertices: Uint32Array; weights: Float64Array; point: Float64Array; distance: number };
+  ): SurfacePoint | null;
 
   /** The neighborhoods of many vertices, of all by default. */
   neighborhoods(r: Radii, options?: RowOptions & AnswerOptions & { distances?: false }): Rows;
@@ -515,6 +557,29 @@ export class MeshIndex {
    * the nearest. Where there is none, as for a wall, the gap is Infinity and the id 2^32 - 1.
    */
   nearestUnconnected(r: Radii, options?: RowOptions): { ids: Uint32Array; gaps: Float64Array };
+
+  /**
+   * The area of the patch of each vertex, the connected surface in the ball, and the volume of the part of the ball
+   * behind it, NaN where a border lies in the ball. A point at exactly r counts.
+   *
+   * @param r the radius, or one for each row; null with `scales`, which make the arrays #scales by #rows
+   * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh
+   */
+  invariants(r: Radii | null, options: SurfaceOptions & Scales): { area: Float64Array; volume: Float64Array };
+
+  /** The gap of each vertex: the nearest point of the surface within r that is not of its patch. Throws likewise. */
+  gaps(r: Radii, options: SurfaceOptions): Gaps;
+
+  /**
+   * The numbers of the faces of a patch, ascending. Throws likewise.
+   *
+   * @param start a vertex; or a point on the face `face`, as `closestPoint` returns them
+   */
+  patch(
+    start: Start,
+    r: number,
+    options: { faces: Faces; face?: number | null; walls?: Uint8Array | null; unit?: Unit },
+  ): Uint32Array;
 
   /**
    * A sum, a mean or another aggregate of values over the neighborhood of each vertex. No ids are listed.
@@ -561,6 +626,17 @@ export class MeshIndex {
    * @throws as `curvature`
    */
   features(r: Radii | null, options: FeatureOptions): Float64Array;
+
+  /**
+   * The thickness of the wall at each vertex: the way against its normal to the surface, or, with the method 'sphere',
+   * the diameter of the largest ball that touches there from inside and has no point of an opposite face in it, one
+   * whose normal turns from that of the vertex by more than 53 degrees. Faces are oriented counterclockwise, seen from
+   * outside. Infinity where nothing else is met, NaN for a vertex without a normal.
+   *
+   * @param options `faces` as for `closestPoint`
+   * @throws MeshhoodError VertexOutOfRange, InvalidMesh, InvalidOption
+   */
+  thickness(options: { faces: Faces; vertices?: Uint32Array | null; method?: 'ray' | 'sphere' }): Float64Array;
 
   /** Gives the memory back. All later calls throw an Error. */
   dispose(): void;

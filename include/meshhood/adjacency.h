@@ -7,10 +7,11 @@
 #include <variant>
 #include <vector>
 
+#include "meshhood/export.h"
 #include "meshhood/mesh.h"
 #include "meshhood/vertex_id.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// The largest number of neighbors over all vertices: twice the number of edges.
 inline constexpr std::size_t kMaxNeighbors = std::numeric_limits<EdgeOffset>::max();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/metric.h"
@@ -21,7 +22,7 @@
 ///         {.radius = meshhood::smoothing_radius(6.0), .kernel = meshhood::SmoothingKernel::Gaussian});
 ///
 /// See docs/aggregate.md.
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// How the values of a neighborhood are combined.
 enum class Reduce : std::uint8_t {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/metric.h"
@@ -23,7 +24,7 @@
 /// Many neighborhoods in one call, on all processors unless `Run` says otherwise.
 ///
 ///     const auto [offsets, ids, distances] = meshhood::neighborhoods(index, {.radius = 1.5}, {.distances = true});
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 struct SearcherFactory;
 
@@ -112,7 +113,7 @@ class BatchRadius {
 
   /// The same radius for every row, of any integer or floating-point type.
   template <class Number>
-    requires std::is_arithmetic_v<Number>
+    requires(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>)
   BatchRadius(Number radius) : common_(static_cast<double>(radius)) {}
 
   /// One radius per row. A temporary container is rejected by the compiler.

@@ -6,11 +6,12 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/curvature.h"
+#include "meshhood/export.h"
 #include "meshhood/mesh.h"
 #include "meshhood/run.h"
 
 /// Curvature from measures instead of a fit. See docs/curvature.md.
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// One value for each row of the query; #radii by #rows if it has scales, which are then meant by #rows. All but the
 /// area and the measures are NaN where the area is 0.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/run.h"
@@ -20,7 +21,7 @@
 ///
 ///     const meshhood::Surface surface(index, faces);
 ///     const auto [k1, k2, d1, d2, state, count] = meshhood::curvatures(surface, {.radius = 2.5});
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// How principal curvatures follow from the fitted quadric z = a x^2 + b x y + c y^2 + d x + e y.
 enum class ShapeOperator : std::uint8_t {

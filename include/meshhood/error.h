@@ -6,7 +6,9 @@
 #include <string_view>
 #include <utility>
 
-namespace meshhood {
+#include "meshhood/export.h"
+
+namespace meshhood MESHHOOD_API {
 
 /// Why a call failed. The list is closed: a program may switch over it.
 enum class ErrorCode {

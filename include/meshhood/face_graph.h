@@ -2,9 +2,10 @@
 #pragma once
 
 #include "meshhood/adjacency.h"
+#include "meshhood/export.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// The graph of the faces of a mesh, for data that lies on faces: its vertices are the faces, at the mean of their
 /// corners, in double; two faces are joined if they have an edge in common. All faces of a non-manifold edge are joined

@@ -8,6 +8,7 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/curvature.h"
+#include "meshhood/export.h"
 #include "meshhood/run.h"
 
 /// How a surface looks around each vertex at many scales: feature vectors, and how long a feature persists. See
@@ -16,7 +17,7 @@
 ///     const std::vector<double> radii = meshhood::geometric_radii(1.0, 16.0, 9);
 ///     const auto creases = meshhood::features(surface, {.radius = meshhood::BatchRadius::scales(radii)});
 ///     const meshhood::Persistence lasting = meshhood::persistence(creases, radii, 0.5);
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// A number without unit that describes the neighborhood of one radius r: it does not change if mesh and radius are
 /// scaled together, so that scales can be compared.
@@ -28,7 +29,9 @@ enum class Feature : std::uint8_t {
   K2,          ///< r k2
   Curvedness,  ///< r times Koenderink's curvedness
   ShapeIndex,  ///< Koenderink's shape index
-  Area,        ///< area of the neighborhood / (pi r^2): 1 on a plane; the integral invariant of the surface
+  Area,        ///< area of the patch (see patch.h) / (pi r^2): 1 on a plane
+  Volume,      ///< volume behind the patch / that of the ball: 1/2 on a plane; NaN at a border
+  Gap,         ///< distance of the gap / r; NaN where there is none
   Height,      ///< -4 / r times the height of the barycenter over the tangent plane: an integral estimate of r H
   Variation,   ///< surface variation of the neighborhood, weighted by area
 };
@@ -37,7 +40,7 @@ struct FeatureOptions {
   /// One column each, at least one.
   std::vector<Feature> kinds = {Feature::Crease};
 
-  /// #V, the area of each vertex, for Area, Height and Variation; those of the surface if empty.
+  /// #V, the area of each vertex, for Height and Variation; those of the surface if empty.
   Borrowed<double> areas = {};
 
   /// As for `curvatures`.
@@ -49,10 +52,11 @@ struct FeatureOptions {
 /// a row has no normal, or where the neighborhood has no area. By rings, a radius of r edges counts as r times the mean
 /// length of an edge.
 ///
-/// Each radius has a neighborhood of its own. Time of `curvatures`, of `principal_components`, or of both, for each
-/// radius, as the kinds require. A row depends on surface, areas, vertex and radius alone, bit for bit: not on the
+/// Each radius has a neighborhood of its own. Time of `curvatures`, `principal_components`, `invariants` and `gaps` for
+/// each radius, as the kinds require. A row depends on surface, areas, vertex and radius alone, bit for bit: not on the
 /// other rows of the call, earlier calls, threads or the processor. Throws Error{VertexOutOfRange, InvalidRadius,
-/// InvalidOption, Cancelled}. A radius must be > 0 and finite.
+/// InvalidOption, Cancelled}. A radius must be > 0 and finite. Area, Volume and Gap throw InvalidOption by another
+/// metric than `Straight` and of a surface without faces, and InvalidMesh if every face has a wall.
 [[nodiscard]] std::vector<double> features(const Surface& surface, const BatchQuery& query,
                                            const FeatureOptions& options = {}, const Run& run = {});
 

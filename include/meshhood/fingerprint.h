@@ -5,9 +5,10 @@
 #include <string>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/export.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// Identifies a mesh: a 128-bit hash of its positions, bit for bit and in their precision, and of its graph. It does
 /// not depend on the order of faces and corners, nor on the layout of the positions in memory. It detects mistakes, not

@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/export.h"
 #include "meshhood/fingerprint.h"
 #include "meshhood/level.h"
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
 #include "meshhood/run.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 class KeptGraph;
 struct IndexView;

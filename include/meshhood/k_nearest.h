@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/metric.h"
 #include "meshhood/run.h"
 #include "meshhood/unconnected.h"
 
 /// The nearest connected vertices of many vertices in one call: a number of them, or as many as cover an area.
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 struct NearestOptions {
   /// By what vertices are near. Straight: the connecting radius, as for `Searcher::nearest_connected`; then the
@@ -35,7 +36,8 @@ struct KNearest {
 /// The `k` nearest connected vertices of each of `vertices`, itself included; fewer where no more are connected.
 ///
 /// The row of a wall is empty. A row depends on the index, its vertex, `k` and the options alone, and begins with the
-/// row for any smaller `k`. Each thread owns a search of the metric. O(k log k) a row on most surfaces.
+/// row for any smaller `k`. O(k log k) a row on most surfaces. Each thread owns a search of the metric; straight, rows
+/// that lie close together share a part of it, so they take less time than as many calls of `Searcher`.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming the row; TooLarge if the
 /// result exceeds `run.max_bytes`, or rows times k is more than 2^40; on a machine of 32 bits, more than 2^28.

@@ -3,7 +3,9 @@
 
 #include <string_view>
 
-namespace meshhood {
+#include "meshhood/export.h"
+
+namespace meshhood MESHHOOD_API {
 
 /// The instructions that the inner loops use on this processor, as Google Highway names them: "AVX3" for AVX-512,
 /// "AVX2", "SSE4", "NEON", "WASM", or "SCALAR" for none but those of every processor. Chosen once, when it is first

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 
-namespace meshhood {
+#include "meshhood/export.h"
+
+namespace meshhood MESHHOOD_API {
 
 /// Memory of an index by part, in bytes. Of a mapped index: bytes of the file.
 struct IndexBytes {

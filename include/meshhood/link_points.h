@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/run.h"
@@ -11,7 +12,7 @@
 /// Points without faces: the graph that joins near ones.
 ///
 ///     const auto index = meshhood::build_linked(points, 0.9);
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 struct LinkOptions {
   /// A graph with more edges is refused.

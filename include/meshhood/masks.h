@@ -6,10 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// A set of vertices: one value for each vertex by the caller's ids, #V in total. A bool that is true, or a byte other
 /// than 0, puts its vertex into the set. Borrowed; a temporary container is rejected by the compiler. Empty: no vertex.

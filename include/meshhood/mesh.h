@@ -11,9 +11,10 @@
 #include <variant>
 #include <vector>
 
+#include "meshhood/export.h"
 #include "meshhood/vertex_id.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// The largest number of vertices. One id is reserved.
 inline constexpr std::size_t kMaxVertices = std::numeric_limits<VertexId>::max() - std::size_t{1};
@@ -39,7 +40,7 @@ class Borrowed : public std::span<const T> {
 template <class T>
 inline constexpr bool std::ranges::enable_borrowed_range<meshhood::Borrowed<T>> = true;
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// A type of coordinates and values.
 template <class T>

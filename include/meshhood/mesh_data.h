@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/export.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// A polygonal mesh that owns its arrays: a copy of a mesh of another library. See cgal.h, openmesh.h and
 /// geometry_central.h.

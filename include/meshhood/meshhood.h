@@ -52,3 +52,4 @@
 #include "meshhood/surface.h"              // IWYU pragma: export
 #include "meshhood/thickness.h"            // IWYU pragma: export
 #include "meshhood/unconnected.h"          // IWYU pragma: export
+#include "meshhood/version.h"              // IWYU pragma: export

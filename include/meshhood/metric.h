@@ -3,7 +3,9 @@
 
 #include <cstdint>
 
-namespace meshhood {
+#include "meshhood/export.h"
+
+namespace meshhood MESHHOOD_API {
 
 /// How the distance of a vertex is measured, of which radii and smoothing kernels speak. See `Searcher`.
 enum class Metric : std::uint8_t {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/run.h"
 
@@ -14,7 +15,7 @@
 ///
 ///     const std::vector<double> areas = meshhood::vertex_areas(mesh);
 ///     const auto patches = meshhood::principal_components(index, {.radius = 2.5}, {.weights = areas});
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// The largest i + j + k of a moment.
 inline constexpr unsigned kLargestMomentDegree = 4;

@@ -4,7 +4,10 @@
 #include <memory>
 #include <utility>
 
-namespace meshhood::detail {
+#include "meshhood/export.h"
+
+namespace meshhood MESHHOOD_API {
+namespace detail {
 
 /// Throws Error{InvalidOption}.
 [[noreturn]] void raise_moved_from();
@@ -41,4 +44,5 @@ class Owner {
   std::shared_ptr<T> state_;  // shared, so that the type may be incomplete
 };
 
-}  // namespace meshhood::detail
+}  // namespace detail
+}  // namespace meshhood

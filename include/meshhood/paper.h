@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/export.h"
 #include "meshhood/level.h"
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
@@ -17,7 +18,8 @@
 
 /// The index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
 /// `docs/paper.md` lists the deviations from the paper, with reasons.
-namespace meshhood::paper {
+namespace meshhood {
+namespace paper MESHHOOD_API {
 
 /// A cluster, by its number on its level.
 using ClusterId = VertexId;
@@ -200,4 +202,5 @@ class Searcher {
   QueryProfile profile_;
 };
 
-}  // namespace meshhood::paper
+}  // namespace paper
+}  // namespace meshhood

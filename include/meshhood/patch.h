@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/export.h"
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
 #include "meshhood/start.h"
@@ -30,7 +31,7 @@
 /// A surface makes what all searches share at the first of them, and again after a refit: about 60 bytes a triangle,
 /// and what closest points need (see `Surface`), in O(#V + #corners log #corners). Error{InvalidMesh} if no face is
 /// there.
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// A vertex, or a point on a face.
 class PatchStart {

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/export.h"
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
 #include "meshhood/search.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// Finds exact neighborhoods by breadth-first search on the graph of the mesh: the reference of sec. 4.3 for
 /// correctness and speed. It is meant to be the fastest breadth-first search possible: the position of a vertex and the

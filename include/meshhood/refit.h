@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 
@@ -18,9 +19,10 @@
 ///     const auto moved = meshhood::refit(index, positions, changed);
 ///
 /// The order of the vertices, the leaves and the edges stay as they are and are shared with the index that was given.
-/// Positions and bounding spheres are computed again from the leaves up. Answers are exact, whatever the positions.
-/// Queries take longer once vertices of a leaf have moved far apart; `quality` measures this.
-namespace meshhood {
+/// In place, the lengths of edges that paths need are renewed where vertices have moved. Positions and bounding spheres
+/// are computed again from the leaves up. Answers are exact, whatever the positions. Queries take longer once vertices
+/// of a leaf have moved far apart; `quality` measures this.
+namespace meshhood MESHHOOD_API {
 
 /// The index of the mesh after its vertices have moved.
 ///

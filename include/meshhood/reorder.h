@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// A mesh renumbered into index order, with its index. With this order, mesh and index share one copy of the positions,
 /// `Index::permutation()` is empty, and vertices that are near on the mesh are near in memory.

@@ -6,7 +6,9 @@
 #include <functional>
 #include <limits>
 
-namespace meshhood {
+#include "meshhood/export.h"
+
+namespace meshhood MESHHOOD_API {
 
 /// Callback of a long call: `done` of `total` equal parts are complete. Return false to cancel. The call then throws
 /// Error{Cancelled} and leaves its arguments unchanged.

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/metric.h"
@@ -18,7 +19,7 @@
 
 /// Queries about the neighborhood of one vertex or point: the exact searcher, what all searchers have in common, and
 /// the folding of answers. Batches of many vertices are in batch.h.
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 struct SingleQueries;
 
@@ -112,8 +113,8 @@ class Searcher {
   explicit Searcher(const Index&&, Metric = Metric::Straight) = delete;
 
   /// Goes on with `index`: the answers are then those of a new searcher. After `refit_in_place` of the same index, it
-  /// keeps its scratch memory and takes O(1); the next search by paths, or on a graph unlike a surface, takes
-  /// O(#V + #E).
+  /// keeps its scratch memory and takes O(1). If all vertices have moved, the next search by paths takes O(#V + #E); on
+  /// a graph unlike a surface, the next search always does.
   void rebind(const Index& index);
   void rebind(const Index&&) = delete;
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "meshhood/export.h"
 #include "meshhood/fingerprint.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
@@ -19,7 +20,7 @@
 /// The bytes are the same on every machine, for any compiler and number of threads. docs/index_file.md describes the
 /// format, which has a version number of its own. Every byte is covered by a checksum or must be zero, so that every
 /// change is detected.
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// Receives the bytes of an index, piece by piece. Its exceptions are passed on.
 using Sink = std::function<void(std::span<const std::byte>)>;

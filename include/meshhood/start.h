@@ -9,10 +9,11 @@
 #include <type_traits>
 #include <utility>
 
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// A point in space, in the unit of the positions.
 using SpacePoint = std::array<double, 3>;

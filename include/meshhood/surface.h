@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
 #include "meshhood/start.h"
 #include "meshhood/vertex_id.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// No face.
 inline constexpr std::size_t kNoFace = std::numeric_limits<std::size_t>::max();
@@ -91,8 +92,8 @@ struct Rim {
 ///
 /// What depends on the faces is made when it is first needed, and kept: 48 bytes a triangle for closest points, 24
 /// bytes a vertex for curvature, 4 bytes a corner and 8 a vertex for the faces of each vertex, 8 bytes a vertex for
-/// areas, 60 bytes a triangle for patches (see patch.h), beside those for closest points. The first call of its kind so
-/// takes O(#V + #corners).
+/// areas, beside those for closest points 60 bytes a triangle for patches (see patch.h) and 2.3 for thickness by balls.
+/// The first call of its kind so takes O(#V + #corners).
 ///
 /// Any number of threads may use it, but for `refit_in_place`. Shares the memory of the index, as a searcher does: the
 /// index may be moved or destroyed. After a refit of the index in place, calls throw Error{InvalidOption} until
@@ -228,5 +229,23 @@ class Surface {
   explicit Surface(std::unique_ptr<State> state);
   detail::Owner<State> state_;
 };
+
+/// The index of a surface, with its masks, by whose paths (`Metric::Path`) distances are those along the surface: a
+/// path has edges, and straight lines over two triangles that share a side, unfolded into a plane. It is so a few
+/// percent longer than a geodesic, where one along the edges is often 6 to 10 % longer. All calls by other metrics
+/// answer as before, and `Surface::on` makes a surface of it.
+///
+/// A line crosses a side inside, and only one of exactly two triangles. None runs over a face with a wall, or with a
+/// side that is cut (see `cut_edges`). The triangles of a polygon are those of `Surface`; the sides between them are
+/// lines, too. The length of a line is computed in double, off by a few units in the last place of the longest side.
+///
+/// The arrays of the index are shared. Memory: about 160 bytes a vertex of a mesh of triangles, three times that
+/// meanwhile, and what the surface needs for closest points. O(#V + #F), on one thread; a search then takes up to
+/// one and a half times as long as along the edges. The same holds for it as for an index of `masked`: it is not saved,
+/// checked, refitted or masked, and refuses to answer after a refit in place of its mesh.
+///
+/// Throws Error{InvalidMesh} if no face has three corners, Error{InvalidOption} after a refit in place, and
+/// Error{Cancelled}. Source: Dijkstra's algorithm on such lines is what Connectome Workbench calls geodesic distance.
+[[nodiscard]] Index surface_paths(const Surface& surface, const Run& run = {});
 
 }  // namespace meshhood

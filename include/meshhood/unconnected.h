@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/vertex_id.h"
 
 /// What is near in space, but not connected nearby: the other side of a wall, the next fold, sheets that nearly touch.
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// For each row of a query, the nearest vertex in the ball that does not belong to the neighborhood.
 struct Unconnected {
@@ -31,9 +32,10 @@ struct Unconnected {
 ///
 /// The neighborhoods are found as by `counts`; what the tree of the index has in the balls besides them is searched,
 /// the nearest first. So far away from any gap, all leaves that the surface of a ball meets are compared with it. Where
-/// neighbors are not near in space, as in a random tree, all vertices are compared, which takes somewhat longer
-/// than a plain scan. Vertices at the same place that no edge joins are not connected: of a mesh whose corners were not
-/// merged, gaps are 0 along its seams; weld it first (`io/weld.h`). Memory besides the result: as for `counts`.
+/// neighbors are not near in space, as in a random tree, all vertices are compared, as by a plain scan; between
+/// hubs this takes longer than a scan. Vertices at the same place that no edge joins are not connected: of a mesh whose
+/// corners were not merged, gaps are 0 along its seams; weld it first (`io/weld.h`). Memory besides the result: as for
+/// `counts`.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const Run& run = {});

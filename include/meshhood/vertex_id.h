@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <limits>
 
-namespace meshhood {
+#include "meshhood/export.h"
+
+namespace meshhood MESHHOOD_API {
 
 /// A vertex, by its row in the caller's positions.
 using VertexId = std::uint32_t;

@@ -24,8 +24,8 @@ class Meshhood(ConanFile):
     implements = ["auto_shared_fpic"]
 
     def set_version(self):
-        text = load(self, REPOSITORY / "CMakeLists.txt")
-        self.version = re.search(r"project\(meshhood VERSION ([0-9.]+)", text)[1]
+        text = load(self, REPOSITORY / "include/meshhood/version.h")
+        self.version = ".".join(re.findall(r"define MESHHOOD_VERSION_\w+ (\d+)", text))
 
     def export_sources(self):
         for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*", "io/*"):
@@ -41,18 +41,14 @@ class Meshhood(ConanFile):
         self.requires("highway/[>=1.0.3]", visible=False)
         self.requires("xxhash/[>=0.8]", visible=False)
         if self.options.with_io:
-            self.requires("fmt/[>=9]")
-            self.requires("fast_float/[>=3.4]")
+            self.requires("fmt/[>=9]", visible=False)
+            self.requires("fast_float/[>=3.4]", visible=False)
 
     def generate(self):
         CMakeDeps(self).generate()
         toolchain = CMakeToolchain(self)
         toolchain.cache_variables["MESHHOOD_BUILD_IO"] = bool(self.options.with_io)
-        for part in ("CLI", "TESTS", "BENCH", "EXAMPLES"):
-            toolchain.cache_variables[f"MESHHOOD_BUILD_{part}"] = False
-        toolchain.cache_variables["MESHHOOD_WARNINGS"] = False
-        toolchain.cache_variables["CMAKE_UNITY_BUILD"] = True  # several times as fast
-        toolchain.cache_variables["CMAKE_UNITY_BUILD_BATCH_SIZE"] = "0"
+        toolchain.cache_variables["MESHHOOD_BUILD_CLI"] = False
         for library, header in (("highway", "HIGHWAY"), ("xxhash", "XXHASH")):
             includes = self.dependencies[library].cpp_info.aggregated_components().includedirs
             toolchain.cache_variables[f"{header}_INCLUDE_DIR"] = includes[0]
@@ -81,4 +77,4 @@ class Meshhood(ConanFile):
             io.set_property("cmake_target_name", "meshhood::io")
             io.set_property("pkg_config_name", "meshhood-io")
             io.libs = ["meshhood_io"]
-            io.requires = ["meshhood", "fmt::fmt", "fast_float::fast_float"]
+            io.requires = ["meshhood"]

@@ -2,9 +2,7 @@
 # packaging/RELEASE.md.
 set(SOURCE_PATH $ENV{MESHHOOD_SOURCE})
 vcpkg_check_features(OUT_FEATURE_OPTIONS features FEATURES io MESHHOOD_BUILD_IO)
-vcpkg_cmake_configure(SOURCE_PATH ${SOURCE_PATH} OPTIONS ${features} -DMESHHOOD_BUILD_CLI=OFF -DMESHHOOD_BUILD_TESTS=OFF
-  -DMESHHOOD_BUILD_BENCH=OFF -DMESHHOOD_BUILD_EXAMPLES=OFF -DMESHHOOD_WARNINGS=OFF
-  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0)
+vcpkg_cmake_configure(SOURCE_PATH ${SOURCE_PATH} OPTIONS ${features} -DMESHHOOD_BUILD_CLI=OFF)
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/meshhood)
 vcpkg_fixup_pkgconfig()

@@ -26,7 +26,7 @@ class LengthReducer final : public PacketReducer {
 
   void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
     const IndexView& index = reduction_->index();
-    lengths_->select(leaf_of(index.slot[index.id(vertices.begin)]));
+    lengths_->select(leaf_of(index.slot_at(vertices.begin)));
     for (unsigned lane = 0; lane < vertices.size(); ++lane) {
       if (queries[lane] == 0) continue;
       reduction_->kernels().set_path_weights(lengths_->at(lane), divisors_, reduction_->kernel(), weights_[lane]);

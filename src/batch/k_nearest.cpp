@@ -13,9 +13,11 @@
 
 #include "meshhood/error.h"
 
+#include "batch/position_sort.h"
 #include "batch/size_limit.h"
 #include "exact/bound_index.h"
 #include "exact/index_access.h"
+#include "exact/joint/nearest_packet.h"
 #include "exact/query/arguments.h"
 #include "exact/query/length_search.h"
 #include "exact/query/straight_queries.h"
@@ -64,7 +66,7 @@ class NearestRows {
   void for_each(Make&& make, F&& f) {
     std::vector<std::pair<std::uint32_t, std::size_t>> in_order(size());
     for (std::size_t row = 0; row < size(); ++row) in_order[row] = {index_->slot[vertices_[row]], row};
-    std::sort(in_order.begin(), in_order.end());
+    sort_by_position(std::span(in_order), [](const auto& row) { return row.first; });
     TaskContext task(run_.threads, run_.progress, size());
     std::vector<decltype(make())> searches(task.threads());
     task.parallel_for(size(), kRowsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
@@ -84,21 +86,75 @@ class NearestRows {
   std::vector<VertexId> vertices_;
 };
 
-/// The vertices around one vertex by connecting radius.
+/// The vertices around one vertex by connecting radius. The rows of a leaf share a packet. How far it looks is guessed
+/// from the last leaf, and farther where that was not enough; a row does not depend on it.
 class StraightRowSearch {
  public:
   StraightRowSearch(const Index& index, const NearestOptions& options)
-      : queries_(BoundIndex(index), IndexAccess::share_graph(index), best_isa()), radius_(options.radius) {}
+      : index_(index),
+        queries_(BoundIndex(index), IndexAccess::share_graph(index), best_isa()),
+        packet_(*index_, best_isa()),
+        most_(options.radius),
+        leaf_radius_(index_->tree.empty() ? 0 : index_->tree.front().mean_radius / index_->frame.scale) {}
 
   /// Calls `take(vertex, distance)` for the nearest vertices in order until it returns false. `areas`: not used.
   template <class Take>
   void run(VertexId v, std::size_t /*enough*/, double /*enough_area*/, std::span<const double> /*areas*/, Take&& take) {
-    queries_.for_each_nearest(v, radius_, take);
+    const std::uint32_t slot = index_->slot[v];
+    if (index_->is_wall(leaf_of(slot), lane_of(slot))) return;
+    if (leaf_of(slot) != leaf_) begin(leaf_of(slot));
+    std::size_t taken = 0;
+    const auto is_short = [&](double radius) {
+      std::size_t next = 0;
+      const auto take_next = [&](VertexId vertex, double distance) {
+        if (next++ < taken) return true;
+        ++taken;
+        row_radius_ = distance;
+        return take(vertex, distance);
+      };
+      if (is_joint_) return packet_.for_each_near(lane_of(slot), radius, take_next) && radius < most_;
+      queries_.for_each_nearest(v, most_, take_next);
+      return false;
+    };
+    double growth = kGrowth;
+    for (double radius = std::min(kMargin * row_radius_, radius_); is_short(radius); radius = radius_) {
+      if (radius < radius_) continue;
+      gather(packet_.is_whole() ? most_ : growth * radius_);
+      growth *= growth;
+    }
+    leaf_radius_ = std::max(leaf_radius_, row_radius_);
+    most_taken_ = std::max(most_taken_, taken);
   }
 
  private:
-  StraightQueries queries_;
-  double radius_;
+  // Chosen: with less, too many rows are searched twice; with more, too many vertices are compared.
+  static constexpr double kMargin = 1.1;
+  static constexpr double kGrowth = 1.5;
+
+  void begin(LeafId leaf) {
+    leaf_ = leaf;
+    row_radius_ = std::exchange(leaf_radius_, 0.0);
+    gather(kMargin * row_radius_);
+  }
+
+  /// On surfaces, a fourth of these leaves is enough. Where it is not, the vertices lie so unevenly that a ball may
+  /// hold far more of them than a row.
+  void gather(double radius) {
+    constexpr std::size_t kFewLeaves = 64;
+    radius_ = radius > 0 ? std::min(radius, most_) : most_;
+    is_joint_ = packet_.gather(leaf_, radius_, kFewLeaves + most_taken_ / 4);
+  }
+
+  BoundIndex index_;
+  StraightQueries queries_;  // for rows that are searched alone
+  NearestPacket packet_;
+  double most_;
+  LeafId leaf_ = std::numeric_limits<LeafId>::max();
+  double radius_ = 0;      // that the packet has gathered
+  bool is_joint_ = false;  // else that was too much
+  double row_radius_ = 0;  // the distance of the last vertex of the last row
+  double leaf_radius_;     // the largest of these in the leaf
+  std::size_t most_taken_ = 0;
 };
 
 /// The same by path distance or number of edges.

@@ -152,7 +152,8 @@ SearchMethod SearchMethod::by(Metric metric) const {
 }
 
 SearchMethod SearchMethod::in_space(const Index& index) {
-  if (IndexAccess::view(index).is_masked) {
+  const IndexView& view = IndexAccess::view(index);
+  if (!view.walls.empty() || !view.ignored.empty()) {
     raise(ErrorCode::InvalidOption, "the ball in space has no masks, expected an index without");
   }
   SearcherFactory factory = factory_of(index);

@@ -93,7 +93,7 @@ std::span<const Piece> StraightRows::pieces() {
 
 std::span<const Piece> StraightRows::pieces_of(VertexSet& found) {
   constexpr QueryWord kQuery = 1;
-  const auto leaf_of_vertex = [&](VertexId vertex) { return leaf_of(view_.slot[view_.id(vertex)]); };
+  const auto leaf_of_vertex = [&](VertexId vertex) { return leaf_of(view_.slot_at(vertex)); };
   pieces_.clear();
   words_.resize(found.parts().size());
   for (std::size_t i = 0; i < words_.size(); ++i) {

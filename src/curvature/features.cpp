@@ -11,6 +11,7 @@
 
 #include "meshhood/error.h"
 #include "meshhood/moments.h"
+#include "meshhood/patch.h"
 
 #include "base/vector.h"
 #include "batch/rows.h"
@@ -23,8 +24,18 @@ namespace {
 
 constexpr double kNoFeature = std::numeric_limits<double>::quiet_NaN();
 
-bool follows_from_areas(Feature kind) {
-  return kind == Feature::Area || kind == Feature::Height || kind == Feature::Variation;
+/// What a kind follows from.
+enum class Source : std::uint8_t { Curvatures, Moments, Invariants, Gaps };
+
+Source source_of(Feature kind) {
+  switch (kind) {
+    case Feature::Height:
+    case Feature::Variation: return Source::Moments;
+    case Feature::Area:
+    case Feature::Volume: return Source::Invariants;
+    case Feature::Gap: return Source::Gaps;
+    default: return Source::Curvatures;
+  }
 }
 
 double crease(double k1, double k2) { return std::abs(k1) >= std::abs(k2) ? k1 : k2; }
@@ -39,24 +50,30 @@ double curvature_feature(Feature kind, double k1, double k2) {
     case Feature::K2: return k2;
     case Feature::Curvedness: return curvedness(k1, k2);
     case Feature::ShapeIndex: return shape_index(k1, k2);
-    case Feature::Area:
-    case Feature::Height:
-    case Feature::Variation: break;
+    default: return kNoFeature;
   }
-  return kNoFeature;
 }
 
-/// From the patch of one row around a vertex with this normal.
-double patch_feature(Feature kind, const PrincipalComponents& patch, std::size_t row, const Point& normal,
-                     double radius) {
-  if (!(patch.weight[row] > 0)) return kNoFeature;
-  if (kind == Feature::Area) return patch.weight[row] / radius / radius / std::numbers::pi;
+/// From the neighborhood of one row around a vertex with this normal.
+double moment_feature(Feature kind, const PrincipalComponents& found, std::size_t row, const Point& normal,
+                      double radius) {
+  if (!(found.weight[row] > 0)) return kNoFeature;
   if (kind == Feature::Variation) {
-    const double* const variances = &patch.variances[3 * row];
+    const double* const variances = &found.variances[3 * row];
     return surface_variation(variances[0], variances[1], variances[2]);
   }
-  const double* const center = &patch.center[3 * row];
+  const double* const center = &found.center[3 * row];
   return -4 * dot({center[0] / radius, center[1] / radius, center[2] / radius}, normal);
+}
+
+double invariant_feature(Feature kind, const PatchMeasure& patch, double radius) {
+  if (!(patch.area > 0)) return kNoFeature;
+  if (kind == Feature::Area) return patch.area / radius / radius / std::numbers::pi;
+  return patch.volume / radius / radius / radius / (4 * std::numbers::pi / 3);
+}
+
+double gap_feature(const SurfacePoint& gap, double radius) {
+  return gap.face == kNoFace ? kNoFeature : gap.distance / radius;
 }
 
 /// What one call of `features` computes, radius by radius.
@@ -88,13 +105,19 @@ class FeatureExtraction {
     std::vector<double> result(radii_.size() * of_radius);
     for (std::size_t i = 0; i < radii_.size(); ++i) {
       const auto values = std::span(result).subspan(i * of_radius, of_radius);
-      if (fits_) write_curvatures(radii_[i], values);
-      if (sums_) write_patches(radii_[i], values);
+      if (needs(Source::Curvatures)) write_curvatures(radii_[i], values);
+      if (needs(Source::Moments)) write_moments(radii_[i], values);
+      if (needs(Source::Invariants)) write_invariants(radii_[i], values);
+      if (needs(Source::Gaps)) write_gaps(radii_[i], values);
     }
     return result;
   }
 
  private:
+  [[nodiscard]] bool needs(Source source) const {
+    return std::ranges::any_of(options_.kinds, [&](Feature kind) { return source_of(kind) == source; });
+  }
+
   /// In the unit of the positions. A ring is as wide as an edge is long.
   [[nodiscard]] double radius_at(const BatchRadius& radius, std::size_t row) const {
     return unit_ * (radius.list() ? radius_of_row_[row] : radius.common());
@@ -114,51 +137,74 @@ class FeatureExtraction {
     for (std::size_t i = 0; i < radii_.size(); ++i) {
       if (!radii_[i].list()) check(radii_[i].common(), "radius " + std::to_string(i) + ": ");
     }
-    sums_ = std::any_of(options_.kinds.begin(), options_.kinds.end(), follows_from_areas);
-    fits_ = !std::all_of(options_.kinds.begin(), options_.kinds.end(), follows_from_areas);
-    if (!sums_ || !options_.areas.empty()) return;
-    if (surface_.face_count() == 0 && surface_.vertex_count() > 0) {
-      raise(ErrorCode::InvalidOption, "area, height and variation of a surface without faces need `areas`");
-    }
+    check_patches();
+    if (!needs(Source::Moments) || !options_.areas.empty()) return;
+    if (!has_faces()) raise(ErrorCode::InvalidOption, "height and variation of a surface without faces need `areas`");
     options_.areas = surface_.vertex_areas();
   }
+
+  void check_patches() const {
+    if (!needs(Source::Invariants) && !needs(Source::Gaps)) return;
+    const std::string kinds = "area, volume and gap are of the surface in a ball: ";
+    if (metric_ != Metric::Straight) raise(ErrorCode::InvalidOption, kinds + "expected the distance in space");
+    if (!has_faces()) raise(ErrorCode::InvalidOption, kinds + "expected a surface with faces");
+  }
+
+  [[nodiscard]] bool has_faces() const { return surface_.face_count() > 0 || surface_.vertex_count() == 0; }
 
   [[nodiscard]] BatchQuery query_of(const BatchRadius& radius) const {
     return {.vertices = vertices_, .radius = radius, .metric = metric_};
   }
 
-  void write_curvatures(const BatchRadius& radius_of_rows, std::span<double> values) {
-    const Curvatures k = curvatures(surface_, query_of(radius_of_rows), {.filter = options_.filter}, next_pass());
+  /// `value(kind, row, radius)` for the kinds of a source.
+  template <class F>
+  void write(Source source, const BatchRadius& radius_of_rows, std::span<double> values, const F& value) const {
     const std::size_t kinds = options_.kinds.size();
     for (std::size_t row = 0; row < rows_; ++row) {
       const double radius = radius_at(radius_of_rows, row);
-      const bool has_fit = k.state[row] != CurvatureState::TooFew && k.state[row] != CurvatureState::NoNormal;
-      for (std::size_t kind = 0; kind < kinds; ++kind) {
-        if (follows_from_areas(options_.kinds[kind])) continue;
-        values[row * kinds + kind] =
-            has_fit ? curvature_feature(options_.kinds[kind], radius * k.k1[row], radius * k.k2[row]) : kNoFeature;
+      for (std::size_t i = 0; i < kinds; ++i) {
+        const Feature kind = options_.kinds[i];
+        if (source_of(kind) == source) values[row * kinds + i] = value(kind, row, radius);
       }
     }
   }
 
-  void write_patches(const BatchRadius& radius_of_rows, std::span<double> values) {
-    const PrincipalComponents patch =
-        principal_components(*state_.searched, query_of(radius_of_rows), {.weights = options_.areas}, next_pass());
-    const std::size_t kinds = options_.kinds.size();
-    for (std::size_t row = 0; row < rows_; ++row) {
-      const double radius = radius_at(radius_of_rows, row);
-      const Point normal = state_.normal(state_.index->place(vertices_[row]));
-      for (std::size_t kind = 0; kind < kinds; ++kind) {
-        if (!follows_from_areas(options_.kinds[kind])) continue;
-        values[row * kinds + kind] = patch_feature(options_.kinds[kind], patch, row, normal, radius);
-      }
-    }
+  void write_curvatures(const BatchRadius& radii, std::span<double> values) {
+    const Curvatures k = curvatures(surface_, query_of(radii), {.filter = options_.filter}, next_pass());
+    write(Source::Curvatures, radii, values, [&](Feature kind, std::size_t row, double radius) {
+      const bool has_fit = k.state[row] != CurvatureState::TooFew && k.state[row] != CurvatureState::NoNormal;
+      return has_fit ? curvature_feature(kind, radius * k.k1[row], radius * k.k2[row]) : kNoFeature;
+    });
+  }
+
+  void write_moments(const BatchRadius& radii, std::span<double> values) {
+    const PrincipalComponents found =
+        principal_components(*state_.searched, query_of(radii), {.weights = options_.areas}, next_pass());
+    write(Source::Moments, radii, values, [&](Feature kind, std::size_t row, double radius) {
+      return moment_feature(kind, found, row, state_.normal(state_.index->place(vertices_[row])), radius);
+    });
+  }
+
+  void write_invariants(const BatchRadius& radii, std::span<double> values) {
+    const Invariants found = invariants(surface_, query_of(radii), next_pass());
+    write(Source::Invariants, radii, values, [&](Feature kind, std::size_t row, double radius) {
+      return invariant_feature(kind, {found.area[row], found.volume[row]}, radius);
+    });
+  }
+
+  void write_gaps(const BatchRadius& radii, std::span<double> values) {
+    const std::vector<SurfacePoint> found = gaps(surface_, query_of(radii), next_pass());
+    write(Source::Gaps, radii, values,
+          [&](Feature, std::size_t row, double radius) { return gap_feature(found[row], radius); });
   }
 
   Run next_pass() {
     Run pass{.threads = run_.threads};
     if (!run_.progress) return pass;
-    const std::size_t passes = radii_.size() * (static_cast<std::size_t>(fits_) + static_cast<std::size_t>(sums_));
+    std::size_t passes = 0;
+    for (const Source source : {Source::Curvatures, Source::Moments, Source::Invariants, Source::Gaps}) {
+      if (needs(source)) passes += radii_.size();
+    }
     pass.progress = [this, passes, before = passes_begun_++ * rows_](std::size_t done, std::size_t /*total*/) {
       return run_.progress(before + done, passes * rows_);
     };
@@ -176,8 +222,6 @@ class FeatureExtraction {
   BatchVertices vertices_;
   std::vector<double> radius_of_row_;  // if there is one for each
   std::size_t rows_;
-  bool fits_ = false;
-  bool sums_ = false;
   std::size_t passes_begun_ = 0;
 };
 

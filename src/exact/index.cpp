@@ -41,9 +41,9 @@ void BoundIndex::raise_outdated() {
 
 const IndexView& IndexAccess::whole(const Index& index, const char* done) {
   const IndexView& view = index.view();
-  if (!view.is_masked) return view;
-  raise(ErrorCode::InvalidOption,
-        std::string("an index with masks is not ") + done + ", expected the index from which `masked` made it");
+  if (!view.is_derived) return view;
+  raise(ErrorCode::InvalidOption, std::string("an index with masks or surface paths is not ") + done +
+                                      ", expected the index that it was made from");
 }
 
 std::size_t Index::vertex_count() const { return view().vertex_count(); }

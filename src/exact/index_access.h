@@ -18,16 +18,16 @@ namespace meshhood {
 /// Access to the arrays of an index, for `build`, for index files and for tests.
 struct IndexAccess {
   [[nodiscard]] static Index make(std::shared_ptr<IndexView> view) { return Index(std::move(view)); }
-  /// Another view of the mesh of `index`, with the same edges and positions, whose graph it shares.
-  [[nodiscard]] static Index make(std::shared_ptr<IndexView> view, const Index& index) {
+  /// With the graph of another index that has the same edges and positions.
+  [[nodiscard]] static Index make(std::shared_ptr<IndexView> view, std::shared_ptr<KeptGraph> graph) {
     Index result(std::move(view));
-    result.graph_ = index.graph_;
+    result.graph_ = std::move(graph);
     return result;
   }
   /// The same index, which must not be refitted in place.
   [[nodiscard]] static Index alias(const Index& index) {
     static_cast<void>(index.view());
-    return make(index.view_.share(), index);
+    return make(index.view_.share(), index.graph_);
   }
   [[nodiscard]] static Index make(IndexData arrays) { return make(make_view(std::move(arrays))); }
 

@@ -122,7 +122,7 @@ struct IndexView {
   std::span<const double> mean_radii;      // by level
   std::span<const LaneMask> walls;         // by leaf; empty if there are none: see masked.cpp
   std::span<const LaneMask> ignored;       // likewise
-  bool is_masked = false;                  // made by `masked`, perhaps without walls and ignored vertices
+  bool is_derived = false;                 // made by `masked` or `surface_paths`
   Tree tree;                               // the levels, made from `levels`, `records` and `mean_radii`
   RootTree roots;                          // over the groups that no node covers
   std::vector<LeafGroupRange> leaf_groups;  // by node above the leaves, the first of which follows on the last leaf

@@ -93,11 +93,11 @@ Index masked(const Index& index, const Masks& masks, const Run& run) {
   }
   view->walls = data->walls;
   view->ignored = data->ignored;
-  view->is_masked = true;
+  view->is_derived = true;
   view->geometry = nullptr;
   view->owner = std::move(data);
   task.finish();
-  return IndexAccess::make(std::move(view), index);
+  return IndexAccess::make(std::move(view), IndexAccess::share_graph(index));
 }
 
 }  // namespace meshhood

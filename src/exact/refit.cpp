@@ -154,11 +154,11 @@ void check_precision(const PositionsView& positions, const IndexView& index) {
 }
 
 /// An index with the connectivity of `index` and another geometry.
-Index with_geometry(const IndexView& index, std::shared_ptr<GeometryData> geometry) {
-  auto view = std::make_shared<IndexView>(index);
+Index with_geometry(const Index& index, std::shared_ptr<GeometryData> geometry) {
+  auto view = std::make_shared<IndexView>(IndexAccess::view(index));
   view->newest = std::make_shared<std::uint64_t>(view->version);
   set_geometry(*view, std::move(geometry));
-  return IndexAccess::make(std::move(view));
+  return IndexAccess::make(std::move(view), std::make_shared<KeptGraph>(*IndexAccess::share_graph(index)));
 }
 
 template <class T>
@@ -232,15 +232,15 @@ void move_in_place(std::span<const Move> moves, IndexView& index, TaskContext& t
 Index refit(const Index& index, const PositionsView& positions, const Run& run) {
   TaskContext task(run.threads, run.progress, kGeometrySteps);
   const IndexView& view = IndexAccess::whole(index, "refitted");
-  return with_geometry(view, geometry_at(positions, view, task));
+  return with_geometry(index, geometry_at(positions, view, task));
 }
 
 Index refit(const Index& index, const PositionsView& positions, const IndicesView& changed, const Run& run) {
   TaskContext task(run.threads, run.progress, kGeometrySteps);
   const IndexView& view = IndexAccess::whole(index, "refitted");
   const std::vector<Move> moves = checked_moves(view, positions, changed);
-  if (!stay_in_frame(moves, view.frame)) return with_geometry(view, geometry_beyond_frame(moves, view, task));
-  Index moved = with_geometry(view, copy_geometry(view));
+  if (!stay_in_frame(moves, view.frame)) return with_geometry(index, geometry_beyond_frame(moves, view, task));
+  Index moved = with_geometry(index, copy_geometry(view));
   apply_moves(moves, IndexAccess::changeable(moved), task);
   return moved;
 }
@@ -248,7 +248,7 @@ Index refit(const Index& index, const PositionsView& positions, const IndicesVie
 void Index::refit_in_place(const PositionsView& positions, const Run& run) {
   static_cast<void>(IndexAccess::whole(*this, "refitted"));
   TaskContext task(run.threads, run.progress, kGeometrySteps);
-  auto graph = std::make_shared<KeptGraph>();
+  auto graph = std::make_shared<KeptGraph>(*graph_);
   set_geometry(view(), geometry_at(positions, view(), task));
   graph_ = std::move(graph);
   view_->version = ++*view_->newest;
@@ -257,9 +257,12 @@ void Index::refit_in_place(const PositionsView& positions, const Run& run) {
 void Index::refit_in_place(const PositionsView& positions, const IndicesView& changed, const Run& run) {
   static_cast<void>(IndexAccess::whole(*this, "refitted"));
   TaskContext task(run.threads, run.progress, kGeometrySteps);
-  auto graph = std::make_shared<KeptGraph>();
-  move_in_place(checked_moves(view(), positions, changed), view(), task);
-  graph_ = std::move(graph);
+  const std::vector<Move> moves = checked_moves(view(), positions, changed);
+  std::vector<VertexId> places;
+  places.reserve(moves.size());
+  for (const Move& move : moves) places.push_back(static_cast<VertexId>(view().place_at(move.slot)));
+  move_in_place(moves, view(), task);
+  graph_->renew(view(), places);
   view_->version = ++*view_->newest;
 }
 

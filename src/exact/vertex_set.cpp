@@ -35,21 +35,51 @@ void VertexSet::assign(std::span<const LeafSubset> subsets) {
 }
 
 void VertexSet::align_to_leaves() {
-  sorted_.clear();
-  for_each([&](std::size_t v) {
-    if (sorted_.empty() || v >= index_->leaf_begin[sorted_.back().leaf + 1]) {
-      sorted_.push_back({leaf_of(index_->slot[index_->id(v)]), 0});
-    }
-    sorted_.back().lanes |= LaneMask{1} << (v - index_->leaf_begin[sorted_.back().leaf]);
-  });
+  unaligned_.assign(parts().begin(), parts().end());
   clear();
-  for (const LeafSubset& subset : sorted_) add_lanes(subset);
+  LeafSubset last{0, 0};
+  VertexRange leaf = vertices_of(0);
+  const auto move_to = [&](LeafId next) {
+    if (last.lanes != 0) add_lanes(leaf, last.lanes);
+    last = {next, 0};
+    leaf = vertices_of(next);
+  };
+  const auto move_to_vertex = [&](VertexId vertex) {
+    if (vertex < leaf.end) return;
+    const bool is_next = vertex < vertices_of(last.leaf + 1).end;
+    move_to(is_next ? last.leaf + 1 : leaf_of(index_->slot_at(vertex)));
+  };
+  for (const Part& part : unaligned_) {
+    LaneMask lanes = part.lanes;
+    while (lanes != 0) {
+      const auto first = static_cast<unsigned>(std::countr_zero(lanes));
+      move_to_vertex(static_cast<VertexId>(part.begin + first));
+      const LaneMask later = leaf.end < part.end ? ~first_lanes(leaf.end - part.begin) : 0;
+      const LaneMask now = lanes & ~later;
+      last.lanes |= leaf.begin < part.begin ? now << (part.begin - leaf.begin) : now >> (leaf.begin - part.begin);
+      lanes &= later;
+    }
+    if (!part.is_run()) continue;
+    VertexId begin = part.begin;
+    while (begin < part.end) {
+      move_to_vertex(begin);
+      if (begin == leaf.begin && leaf.end < part.end) {
+        move_to(leaf_of(index_->slot_at(part.end - 1)));
+        add(VertexRange{begin, leaf.begin});
+        begin = leaf.begin;
+      }
+      const VertexId end = std::min(part.end, leaf.end);
+      last.lanes |= first_lanes(end - begin) << (begin - leaf.begin);
+      begin = end;
+    }
+  }
+  add_lanes(leaf, last.lanes);
 }
 
 void VertexSet::leave_out(std::span<const LaneMask> by_leaf) {
   sorted_.clear();
   for (const Part& part : parts()) {
-    LeafId leaf = leaf_of(index_->slot[index_->id(part.begin)]);
+    LeafId leaf = leaf_of(index_->slot_at(part.begin));
     for (; leaf + 1 < index_->leaf_begin.size() && index_->leaf_begin[leaf] < part.end; ++leaf) {
       const auto all = first_lanes(static_cast<unsigned>(vertices_of(leaf).size()));
       sorted_.push_back({leaf, (part.is_run() ? all : part.lanes) & ~by_leaf[leaf]});

@@ -125,7 +125,8 @@ class VertexSet {
   const IndexView* index_;
   std::vector<Part> parts_;
   std::size_t size_ = 0;
-  std::vector<LeafSubset> sorted_;  // scratch of `assign`, `align_to_leaves` and `leave_out`
+  std::vector<LeafSubset> sorted_;  // scratch of `assign` and `leave_out`
+  std::vector<Part> unaligned_;     // scratch of `align_to_leaves`
   std::vector<VertexRange> ranges_;
 };
 

@@ -16,18 +16,7 @@
 namespace meshhood {
 namespace {
 
-template <class Real>
-std::vector<double> lengths_of(const Adjacency& edges, std::span<const Real> xyz) {
-  std::vector<double> lengths;
-  lengths.reserve(edges.neighbors.size());
-  for (std::size_t v = 0; v + 1 < edges.offsets.size(); ++v) {
-    const Point from = point(xyz, v);
-    for (const VertexId to : edges.view()[v]) lengths.push_back(std::sqrt(squared_distance(from, point(xyz, to))));
-  }
-  return lengths;
-}
-
-WeightedGraph make_weighted_graph(const IndexView& index) {
+Adjacency make_edges(const IndexView& index) {
   Adjacency edges = gather_rows(index.vertex_count(), [&](auto&& f) {
     for_each_edge(index,
                   [&](std::size_t from, std::size_t to) { f(static_cast<VertexId>(from), static_cast<VertexId>(to)); });
@@ -38,14 +27,57 @@ WeightedGraph make_weighted_graph(const IndexView& index) {
   for (std::size_t v = 0; v < index.vertex_count(); ++v) {
     std::sort(row(v), row(v + 1));
   }
-  std::vector<double> lengths = std::visit([&](auto xyz) { return lengths_of(edges, xyz); }, index.positions);
+  return edges;
+}
+
+/// Calls `f(k, length)` for the edges `k` of a vertex.
+template <class Real, class F>
+void for_each_length(const Adjacency& edges, std::span<const Real> xyz, std::size_t vertex, F&& f) {
+  const Point from = point(xyz, vertex);
+  for (std::size_t k = edges.offsets[vertex]; k < edges.offsets[vertex + 1]; ++k) {
+    f(k, std::sqrt(squared_distance(from, point(xyz, edges.neighbors[k]))));
+  }
+}
+
+WeightedGraph make_weighted_graph(const IndexView& index, std::shared_ptr<const Adjacency> edges) {
+  std::vector<double> lengths(edges->neighbors.size());
+  std::visit(
+      [&](auto xyz) {
+        for (std::size_t v = 0; v < index.vertex_count(); ++v) {
+          for_each_length(*edges, xyz, v, [&](std::size_t k, double length) { lengths[k] = length; });
+        }
+      },
+      index.positions);
   return {std::move(edges), std::move(lengths)};
 }
 
 }  // namespace
 
+KeptGraph::KeptGraph(WeightedGraph graph) {
+  graph_.get([&] { return std::move(graph); });
+}
+
+KeptGraph::KeptGraph(const KeptGraph& before)
+    : edges_(before.graph_.made() != nullptr ? before.graph_.made()->edges : before.edges_) {}
+
 const WeightedGraph& KeptGraph::of(const IndexView& index) {
-  return graph_.get([&] { return make_weighted_graph(index); });
+  return graph_.get([&] {
+    return make_weighted_graph(index, edges_ ? edges_ : std::make_shared<const Adjacency>(make_edges(index)));
+  });
+}
+
+void KeptGraph::renew(const IndexView& index, std::span<const VertexId> moved) {
+  if (graph_.made() == nullptr) return;
+  auto& [edges, lengths] = *graph_.made();
+  const auto renew_row = [&](auto xyz, VertexId v) {
+    for_each_length(*edges, xyz, v, [&](std::size_t k, double length) {
+      const VertexId to = edges->neighbors[k];
+      const std::span<const VertexId> row = edges->view()[to];
+      const auto back = static_cast<std::size_t>(std::ranges::lower_bound(row, v) - row.begin());
+      lengths[k] = lengths[edges->offsets[to] + back] = length;
+    });
+  };
+  std::visit([&](auto xyz) { std::ranges::for_each(moved, [&](VertexId v) { renew_row(xyz, v); }); }, index.positions);
 }
 
 }  // namespace meshhood

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/vertex_id.h"
 
 #include "shared/kept.h"
 
@@ -14,17 +17,29 @@ struct IndexView;
 /// The graph of an index with the length of each edge. Vertices are named by their place in index order, so neighbors
 /// lie near each other in memory. 80 bytes for a vertex with six neighbors.
 struct WeightedGraph {
-  Adjacency edges;              // rows ascend
-  std::vector<double> lengths;  // by element of `edges.neighbors`
+  std::shared_ptr<const Adjacency> edges;  // rows ascend
+  std::vector<double> lengths;             // by element of `edges->neighbors`
 };
 
 /// The graph of an index vertex by vertex, made at its first use and kept for all searchers: for paths along the edges,
 /// and for odd graphs. Any thread may ask for it. O(#V + #E) the first time.
 class KeptGraph {
  public:
+  KeptGraph() = default;
+  explicit KeptGraph(WeightedGraph graph);
+  /// For the index of `before` at other positions: the edges are kept, and their lengths are made at the first use.
+  explicit KeptGraph(const KeptGraph& before);
+  KeptGraph& operator=(const KeptGraph&) = delete;
+  ~KeptGraph() = default;
+
   [[nodiscard]] const WeightedGraph& of(const IndexView& index);
 
+  /// Renews the lengths after vertices of `index` have moved, given by their places in index order. While no other
+  /// thread uses it. O(edges of `moved`).
+  void renew(const IndexView& index, std::span<const VertexId> moved);
+
  private:
+  std::shared_ptr<const Adjacency> edges_;  // if they are known before the lengths
   Kept<WeightedGraph> graph_;
 };
 

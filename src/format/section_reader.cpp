@@ -43,9 +43,10 @@ void verify_beginning(const Header& header) {
     refuse_header(offsetof(Header, byte_order), "the byte order mark is not valid");
   const std::uint32_t format = format_of(header.kind);
   if (header.format != format) {
+    const std::string advice = header.format < format ? "build the index again" : "install a newer meshhood";
     refuse_header(offsetof(Header, format), "format " + std::to_string(header.format) +
-                                                ", but this version reads format " + std::to_string(format) +
-                                                (header.format < format ? ": build the index again" : ""));
+                                                ", but this version reads format " + std::to_string(format) + ": " +
+                                                advice);
   }
 }
 

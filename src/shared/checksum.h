@@ -6,9 +6,10 @@
 #include <initializer_list>
 #include <span>
 
+#include "meshhood/export.h"
 #include "meshhood/fingerprint.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 using ByteSpans = std::initializer_list<std::span<const std::byte>>;
 

@@ -5,9 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "meshhood/export.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 /// A mesh for which float is coarse: the mean edge is shorter than 64 steps from one float to the next at the largest
 /// coordinate, so that rounding to float moves vertices by up to a hundredth of it, or onto each other.

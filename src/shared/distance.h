@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "meshhood/export.h"
 #include "meshhood/mesh.h"
 
 // The predicate must round as it is written, on every machine.
@@ -13,7 +14,7 @@
 #error "meshhood needs IEEE arithmetic: compile it without -ffast-math"
 #endif
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

@@ -11,7 +11,9 @@
 #include <vector>
 #endif
 
-namespace meshhood {
+#include "meshhood/export.h"
+
+namespace meshhood MESHHOOD_API {
 
 /// Lets the C++ runtime allocate what it needs on this thread to handle exceptions. It would do so at the first
 /// exception; if memory has run out by then, glibc ends the process, where the runtime was loaded by the program while

@@ -11,11 +11,12 @@
 #include <span>
 #include <vector>
 
+#include "meshhood/export.h"
 #include "meshhood/run.h"
 
 #include "shared/coarse_clock.h"
 
-namespace meshhood {
+namespace meshhood MESHHOOD_API {
 
 class HelperThreads;
 

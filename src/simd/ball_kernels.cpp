@@ -15,16 +15,27 @@ HWY_BEFORE_NAMESPACE();
 namespace meshhood::HWY_NAMESPACE {
 namespace {
 
-/// The predicate.
-template <class Real>
-LaneMask within_exact(const Real* xyz, std::size_t size, const LeafBall& ball) {
+/// The predicate. Calls `f(i, squares)` for the vertices from `i` on.
+template <class Real, class F>
+HWY_INLINE LaneMask decide(const Real* xyz, std::size_t size, const LeafBall& ball, F&& f) {
   const Doubles d;
   LaneMask inside = 0;
   for (std::size_t i = 0; i < size; i += kLanes<Doubles>) {
     const auto square = squared_length(difference(load_points(d, xyz + 3 * i), splat_point(d, ball.center)));
+    f(i, square);
     inside |= bits_of(d, hn::Le(square, hn::Set(d, ball.squared_radius))) << i;
   }
   return inside & first_lanes(static_cast<unsigned>(size));
+}
+
+template <class Real>
+LaneMask within_exact(const Real* xyz, std::size_t size, const LeafBall& ball) {
+  return decide(xyz, size, ball, [](std::size_t, Numbers) HWY_ATTR {});
+}
+
+template <class Real>
+LaneMask squares(const Real* xyz, std::size_t size, const LeafBall& ball, PerLane<double>& out) {
+  return decide(xyz, size, ball, [&](std::size_t i, Numbers square) HWY_ATTR { store(square, out[i]); });
 }
 
 /// In single precision, if that decides all vertices.
@@ -160,8 +171,9 @@ VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
   return out;
 }
 
-constexpr Kernels kBallKernels{within_float, within_exact<double>, cross_edges, reachable,
-                               classify,     box_squares,          box_entries, compress};
+constexpr Kernels kBallKernels{
+    within_float, within_exact<double>, squares<float>, squares<double>, cross_edges, reachable,
+    classify,     box_squares,          box_entries,    compress};
 
 }  // namespace
 }  // namespace meshhood::HWY_NAMESPACE

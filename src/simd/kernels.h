@@ -34,6 +34,10 @@ struct Kernels {
   LaneMask (*within_float)(const float* xyz, std::size_t size, const LeafBall& ball);
   LaneMask (*within_double)(const double* xyz, std::size_t size, const LeafBall& ball);
 
+  /// The same, and writes the squared distances of these vertices from the center. May write all 32.
+  LaneMask (*squares_float)(const float* xyz, std::size_t size, const LeafBall& ball, PerLane<double>& out);
+  LaneMask (*squares_double)(const double* xyz, std::size_t size, const LeafBall& ball, PerLane<double>& out);
+
   /// The ends `to` of those of `edges` that begin in `from`. Reads up to 31 edges more.
   LaneMask (*cross_edges)(std::span<const CrossEdge> edges, LaneMask from);
 
@@ -63,10 +67,22 @@ struct Kernels {
     return within_double(xyz, size, ball);
   }
 
+  [[nodiscard]] LaneMask squares(const float* xyz, std::size_t size, const LeafBall& ball, PerLane<double>& out) const {
+    return squares_float(xyz, size, ball, out);
+  }
+  [[nodiscard]] LaneMask squares(const double* xyz, std::size_t size, const LeafBall& ball,
+                                 PerLane<double>& out) const {
+    return squares_double(xyz, size, ball, out);
+  }
+
   // The same for the vertices from `first` on.
   [[nodiscard]] LaneMask within(const PositionsInOrder& positions, std::size_t first, std::size_t size,
                                 const LeafBall& ball) const {
     return std::visit([&](const auto& xyz) { return within(xyz.data() + 3 * first, size, ball); }, positions);
+  }
+  [[nodiscard]] LaneMask squares(const PositionsInOrder& positions, std::size_t first, std::size_t size,
+                                 const LeafBall& ball, PerLane<double>& out) const {
+    return std::visit([&](const auto& xyz) { return squares(xyz.data() + 3 * first, size, ball, out); }, positions);
   }
 };
 

@@ -37,7 +37,13 @@ class BoxTree {
   /// Calls `visit(item)` for the items whose box is at most `reach()` away from `center`, and for some others; those of
   /// near nodes first. `reach` is called again after each visit; it never grows. All are in the frame.
   template <class Reach, class Visit>
-  void search(const Point& center, Reach&& reach, Visit&& visit) const;
+  void search(const Point& center, Reach&& reach, Visit&& visit) const {
+    search(center, reach, visit, kAll);
+  }
+
+  /// Without the groups, by level and number, for which `enters` is false.
+  template <class Reach, class Visit, class Enters>
+  void search(const Point& center, Reach&& reach, Visit&& visit, Enters&& enters) const;
 
   /// The same for the boxes that the ray from `origin` meets up to `reach()` times `direction`, whose largest component
   /// is 1 or -1: those that it enters first are first.
@@ -47,14 +53,16 @@ class BoxTree {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  static constexpr auto kAll = [](std::size_t, std::size_t) { return true; };  // groups
+
   template <class Reach>
   class Ball;
   template <class Reach>
   class Line;
 
   /// Visits the items of a group for which `shape` has a bit, in the order of what it measures.
-  template <class Shape, class Visit>
-  void descend(std::size_t level, std::size_t number, Shape& shape, Visit& visit) const;
+  template <class Shape, class Visit, class Enters>
+  void descend(std::size_t level, std::size_t number, Shape& shape, Visit& visit, Enters& enters) const;
 
   /// That of all boxes of a group.
   [[nodiscard]] BoundingBox box_around(std::size_t level, std::size_t number) const;
@@ -115,8 +123,8 @@ inline BoundingBox BoxTree::box_around(std::size_t level, std::size_t number) co
   return box;
 }
 
-template <class Shape, class Visit>
-void BoxTree::descend(std::size_t level, std::size_t number, Shape& shape, Visit& visit) const {
+template <class Shape, class Visit, class Enters>
+void BoxTree::descend(std::size_t level, std::size_t number, Shape& shape, Visit& visit, Enters& enters) const {
   struct Child {
     float value;
     unsigned place;
@@ -128,6 +136,7 @@ void BoxTree::descend(std::size_t level, std::size_t number, Shape& shape, Visit
   met &= (1U << std::min<std::size_t>(kFanOut, sizes_[level] - number * kFanOut)) - 1;
   for (; met != 0; met &= met - 1) {
     const auto place = static_cast<unsigned>(std::countr_zero(met));
+    if (level > 0 && !enters(level - 1, number * kFanOut + place)) continue;
     std::size_t at = size++;
     for (; at > 0 && children[at - 1].value > values[place]; --at) children[at] = children[at - 1];
     children[at] = {values[place], place};
@@ -138,7 +147,7 @@ void BoxTree::descend(std::size_t level, std::size_t number, Shape& shape, Visit
   for (std::size_t i = 0; i < size && !(children[i].value > shape.limit()); ++i) {
     const std::size_t child = number * kFanOut + children[i].place;
     if (level > 0) {
-      descend(level - 1, child, shape, visit);
+      descend(level - 1, child, shape, visit, enters);
     } else {
       visit(child);
       shape.update();
@@ -256,16 +265,16 @@ class BoxTree::Line {
   Reach* reach_;
 };
 
-template <class Reach, class Visit>
-void BoxTree::search(const Point& center, Reach&& reach, Visit&& visit) const {
+template <class Reach, class Visit, class Enters>
+void BoxTree::search(const Point& center, Reach&& reach, Visit&& visit, Enters&& enters) const {
   Ball ball(center, reach);
-  descend(levels_.size() - 1, 0, ball, visit);
+  descend(levels_.size() - 1, 0, ball, visit, enters);
 }
 
 template <class Reach, class Visit>
 void BoxTree::cast(const Point& origin, const Point& direction, Reach&& reach, Visit&& visit) const {
   Line line(origin, direction, reach);
-  if (line.may_meet()) descend(levels_.size() - 1, 0, line, visit);
+  if (line.may_meet()) descend(levels_.size() - 1, 0, line, visit, kAll);
 }
 
 inline std::size_t BoxTree::bytes() const {

@@ -99,6 +99,10 @@ const FaceTree& Surface::State::tree() const {
   return geometry->tree.get([&] { return FaceTree(*index, faces()); });
 }
 
+const NormalCones& Surface::State::cones() const {
+  return geometry->cones.get([&] { return NormalCones(*index, tree()); });
+}
+
 const Normals& Surface::State::normals(TaskContext& task) const {
   return geometry->normals.get([&] {
     if (faces().size() == 0 && index->vertex_count() != 0) {
@@ -187,6 +191,7 @@ void Surface::refit_in_place(const Index& index, const IndicesView& changed) {
   // If memory runs out meanwhile, all is made again.
   state_->renew(*made, moved);
   made->areas.drop();
+  made->cones.drop();
   state_->geometry = made;
 }
 
@@ -198,6 +203,7 @@ std::size_t Surface::bytes() const {
   std::size_t bytes = faces.corners.size_bytes() + faces.offsets.size_bytes();
   if (const FaceLists* const lists = state_->topology->lists.made()) bytes += lists->bytes();
   if (const FaceTree* const tree = state_->geometry->tree.made()) bytes += tree->bytes();
+  if (const NormalCones* const cones = state_->geometry->cones.made()) bytes += cones->bytes();
   if (state_->geometry->normals.made() != nullptr) bytes += 3 * sizeof(double) * vertex_count();
   if (const PatchState* const patches = state_->made_patches.made()) bytes += patches->bytes();
   if (state_->geometry->areas.made() != nullptr) bytes += sizeof(double) * vertex_count();

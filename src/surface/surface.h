@@ -20,6 +20,7 @@
 #include "shared/raw_vector.h"
 #include "surface/face_lists.h"
 #include "surface/face_tree.h"
+#include "surface/normal_cones.h"
 
 namespace meshhood {
 
@@ -50,6 +51,7 @@ struct Normals {
 struct SurfaceGeometry {
   Kept<Normals> normals;
   Kept<FaceTree> tree;
+  Kept<NormalCones> cones;  // of the tree
   Kept<std::vector<double>> areas;
 };
 
@@ -69,6 +71,7 @@ struct Surface::State {
   [[nodiscard]] const StoredFaces& faces() const { return topology->faces; }
   [[nodiscard]] const FaceLists& lists() const;
   [[nodiscard]] const FaceTree& tree() const;
+  [[nodiscard]] const NormalCones& cones() const;
   [[nodiscard]] const Normals& normals(TaskContext& task) const;
   [[nodiscard]] const std::vector<double>& areas() const;
   [[nodiscard]] const PatchState& patches() const;

@@ -12,6 +12,7 @@
 #include "shared/parallel.h"
 #include "surface/face_tree.h"
 #include "surface/first_hit.h"
+#include "surface/normal_cones.h"
 #include "surface/surface.h"
 #include "surface/triangle_point.h"
 
@@ -19,10 +20,6 @@ namespace meshhood {
 namespace {
 
 constexpr std::size_t kVerticesOfTask = 256;
-
-// The cosine of the angle between the normals of a vertex and of a face from which on this is opposite. Common angles
-// of parts, as 90 and 120 degrees between sides, are far from it, so that rounding does not decide.
-constexpr double kOpposite = 0.6;
 
 // The first ball reaches as far as the frame.
 constexpr double kFirstRadius = 4;
@@ -35,20 +32,21 @@ class OppositeSide {
         tree_(&tree),
         place_(static_cast<std::uint32_t>(place)),
         vertex_(oriented.position(place)),
-        inward_(-1.0 * oriented.normal(place)) {}
+        normal_(oriented.normal(place)),
+        inward_(-1.0 * normal_) {}
 
   [[nodiscard]] double by_ray() const {
     return has_normal() ? way_to_first([](std::size_t) { return true; }) : kNan;
   }
 
-  [[nodiscard]] double by_sphere() const {
+  [[nodiscard]] double by_sphere(const NormalCones& cones) const {
     if (!has_normal()) return kNan;
     const double scale = index_->frame.scale;
-    const double way = way_to_first([&](std::size_t i) { return is_opposite(i); });
+    const double way = way_to_first([&](std::size_t i) { return opposes(i); });
     double radius = std::min(way / 2, kFirstRadius / scale);
     bool is_met = way < kInfinity;
     for (;;) {
-      const TrianglePoint nearest = nearest_in_ball(radius);
+      const TrianglePoint nearest = nearest_in_ball(radius, cones);
       const Point offset = scale * (nearest.point - vertex_);
       const double along = dot(inward_, offset);
       const bool is_inside = nearest.distance < radius && along > 0;
@@ -66,11 +64,8 @@ class OppositeSide {
     return std::ranges::count(tree_->triangles()[i].corners, place_) != 0;
   }
 
-  [[nodiscard]] bool is_opposite(std::size_t i) const {
-    const auto [a, b, c] = corners(i);
-    const double scale = index_->frame.scale;
-    const Point area = doubled_vector_area(scale * a, scale * b, scale * c);
-    return dot(area, inward_) > -kOpposite * length(area);
+  [[nodiscard]] bool opposes(std::size_t i) const {
+    return is_opposite(doubled_area(*index_, tree_->triangles()[i]), normal_);
   }
 
   [[nodiscard]] std::array<Point, 3> corners(std::size_t i) const {
@@ -88,17 +83,18 @@ class OppositeSide {
 
   /// The point of an opposite face nearest to the center of the ball that touches at the vertex; at its radius if no
   /// face is nearer.
-  [[nodiscard]] TrianglePoint nearest_in_ball(double radius) const {
+  [[nodiscard]] TrianglePoint nearest_in_ball(double radius, const NormalCones& cones) const {
     const double scale = index_->frame.scale;
     const Point center = vertex_ + radius * inward_;
     TrianglePoint nearest{{}, vertex_, radius};
     tree_->boxes().search(
         index_->frame.to_frame(center), [&] { return reach_of(nearest.distance * scale, scale); },
         [&](std::size_t i) {
-          if (touches(i) || !is_opposite(i)) return;
+          if (touches(i) || !opposes(i)) return;
           const TrianglePoint found = nearest_in_triangle(center, corners(i), scale);
           if (found.distance < nearest.distance) nearest = found;
-        });
+        },
+        [&](std::size_t level, std::size_t group) { return cones.may_oppose(level, group, normal_); });
     return nearest;
   }
 
@@ -106,6 +102,7 @@ class OppositeSide {
   const FaceTree* tree_;
   std::uint32_t place_;
   Point vertex_;
+  Point normal_;
   Point inward_;
 };
 
@@ -117,6 +114,7 @@ std::vector<double> thickness(const Surface& surface, const BatchVertices& verti
   const Rows rows({.vertices = vertices, .radius = 0}, state.index->vertex_count());
   TaskContext task(run.threads, run.progress, rows.size());
   const FaceTree& tree = state.tree();
+  const NormalCones* const cones = method == ThicknessMethod::Sphere ? &state.cones() : nullptr;
   const OrientedIndex oriented = SurfaceAccess::oriented(surface, task);
   const std::vector<std::size_t> in_order = rows.in_order([&](VertexId v) { return state.index->slot[v]; });
   std::vector<double> result(rows.size());
@@ -124,7 +122,7 @@ std::vector<double> thickness(const Surface& surface, const BatchVertices& verti
     for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
       const std::size_t row = in_order[i];
       const OppositeSide side(oriented, tree, state.index->place(rows.vertex(row)));
-      result[row] = method == ThicknessMethod::Ray ? side.by_ray() : side.by_sphere();
+      result[row] = cones == nullptr ? side.by_ray() : side.by_sphere(*cones);
       task.advance(thread, 1);
     }
   });

@@ -101,6 +101,7 @@ static_assert(!std::constructible_from<VertexMask, std::vector<bool>>);
 static_assert(!std::constructible_from<VertexMask, std::vector<std::uint8_t>>);
 static_assert(!std::constructible_from<BatchVertices, std::vector<VertexId>>);
 static_assert(!std::constructible_from<BatchRadius, std::vector<double>>);
+static_assert(std::constructible_from<BatchRadius, int> && !std::constructible_from<BatchRadius, bool>);
 
 // Indices of each width, the rows of other libraries, and rows with more than three scalars.
 struct Padded {
@@ -138,6 +139,7 @@ static_assert(!MakesTriangles<std::vector<std::uint32_t>>);
 static_assert(!MakesTriangles<std::vector<std::array<std::uint32_t, 3>>>);
 static_assert(!std::constructible_from<BatchVertices, std::vector<VertexId>>);
 static_assert(!std::constructible_from<BatchRadius, std::vector<double>>);
+static_assert(std::constructible_from<BatchRadius, int> && !std::constructible_from<BatchRadius, bool>);
 static_assert(!std::constructible_from<Searcher, Index>);
 static_assert(!std::constructible_from<paper::Searcher, paper::Index>);
 static_assert(!std::constructible_from<SearchMethod, Index>);

@@ -16,6 +16,7 @@
 #include "meshhood/masks.h"
 #include "meshhood/search.h"
 
+#include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/random.h"
@@ -125,6 +126,31 @@ TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
     }
   }
   std::printf("%s: %zu rows\n", std::string(GetParam().name).c_str(), rows);
+}
+
+// Rows of a leaf are searched together, as far as the last row suggests.
+TEST_P(KNearestIn, AllVerticesHaveTheRowsOfSingleQueries) {
+  for (const std::size_t vertices : {60U, 1500U}) {
+    const TestMesh mesh = make_mesh(GetParam(), 3, scaled(vertices, 60));
+    Random random(vertices);
+    const std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), 5);
+    const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), 5);
+    const Index index = build(mesh.view());
+    const Index with_masks = masked(index, {.walls = walls, .ignored = ignored});
+    for (const Index* const searched : {&index, &with_masks}) {
+      Searcher searcher(*searched);
+      for (const std::size_t k : {1U, 20U, 300U}) {
+        const KNearest found = k_nearest(*searched, {}, k, {}, {.threads = 2});
+        for (VertexId v = 0; v < mesh.size(); ++v) {
+          NearestRow expected;
+          searcher.nearest_connected(v, k, expected.ids, expected.distances);
+          const NearestRow row = k_of(found, v, k);
+          ASSERT_EQ(row.ids, expected.ids) << mesh.name << ", vertex " << v << ", k " << k;
+          ASSERT_EQ(row.distances, expected.distances);
+        }
+      }
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, KNearestIn, testing::ValuesIn(families()), family_name);

@@ -2,7 +2,9 @@
 // Features over several radii, and over how many radii they last.
 #include "meshhood/features.h"
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -11,7 +13,9 @@
 
 #include "meshhood/aggregate.h"
 #include "meshhood/index.h"
+#include "meshhood/masks.h"
 #include "meshhood/moments.h"
+#include "meshhood/patch.h"
 
 #include "support/families.h"
 #include "support/refusal.h"
@@ -50,20 +54,78 @@ TEST(Features, AreCurvaturesTimesTheRadius) {
   }
 }
 
-TEST(Features, OfPatchesAreIntegralInvariants) {
+TEST(Features, OfMomentsAreThoseOfPrincipalComponents) {
   const Bumps bumps;
   const std::vector<VertexId> rows{210, 5, 399};
-  const std::vector<double> found =
-      features(bumps.surface, {rows, BatchRadius::scales(bumps.radii)},
-               {.kinds = {Feature::Area, Feature::Crease, Feature::Variation}, .areas = bumps.areas});
+  const std::vector<double> found = features(bumps.surface, {rows, BatchRadius::scales(bumps.radii)},
+                                             {.kinds = {Feature::Crease, Feature::Variation}, .areas = bumps.areas});
   const PrincipalComponents patch =
       principal_components(bumps.index, {.vertices = rows, .radius = bumps.radii[1]}, {.weights = bumps.areas});
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    const double* const of_row = &found[3 * (1 * rows.size() + row)];
-    EXPECT_NEAR(of_row[0], patch.weight[row] / (std::acos(-1.0) * 3.5 * 3.5), 1e-14);
-    EXPECT_EQ(of_row[2],
+    EXPECT_EQ(found[2 * (1 * rows.size() + row) + 1],
               surface_variation(patch.variances[3 * row], patch.variances[3 * row + 1], patch.variances[3 * row + 2]));
   }
+}
+
+/// The corner of a cube, cut off, and its mirror image 0.2 above.
+TestMesh two_corners() {
+  TestMesh mesh;
+  for (const double side : {-1.0, 1.0}) {
+    const std::uint32_t o = mesh.add_vertex(0, 0, 0.1 + side * 0.1);
+    const std::uint32_t x = mesh.add_vertex(1, 0, 0.1 + side * 0.1);
+    const std::uint32_t y = mesh.add_vertex(0, 1, 0.1 + side * 0.1);
+    const std::uint32_t z = mesh.add_vertex(0, 0, 0.1 + side * 1.1);
+    const bool is_upper = side > 0;
+    for (const auto& face : {std::array{o, x, y}, std::array{o, z, x}, std::array{o, y, z}, std::array{x, z, y}}) {
+      mesh.add_face({face[0], face[is_upper ? 2 : 1], face[is_upper ? 1 : 2]});
+    }
+  }
+  return mesh.finish(false);
+}
+
+TEST(Features, OfPatchesAreInvariantsAndGapsWithoutUnit) {
+  const TestMesh mesh = two_corners();
+  const Index index = build(mesh.view());
+  const Surface surface(index, mesh.view());
+  const std::vector<VertexId> rows{0, 4};
+  const FeatureOptions options{.kinds = {Feature::Gap, Feature::Gaussian, Feature::Volume, Feature::Area}};
+  const std::vector<double> found = features(surface, {rows, BatchRadius::scales({0.1, 0.4})}, options);
+  ASSERT_EQ(found.size(), 16);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(found[4 * i + 2], 1.0 / 8, 1e-14);
+    EXPECT_NEAR(found[4 * i + 3], 3.0 / 4, 1e-14);
+    EXPECT_TRUE(i < 2 ? std::isnan(found[4 * i]) : std::abs(found[4 * i] - 0.5) < 1e-14);
+  }
+  std::vector<std::size_t> totals;
+  const std::vector<double> own{0.4, 0.1};
+  const std::vector<double> by_row =
+      features(surface, {rows, own}, options, {.threads = 2, .progress = [&](std::size_t, std::size_t total) {
+                                                 totals.push_back(total);
+                                                 return true;
+                                               }});
+  EXPECT_EQ(by_row[0], found[8]) << "a radius for each row";
+  EXPECT_TRUE(std::isnan(by_row[4]));
+  EXPECT_EQ(by_row[2], found[10]);
+  EXPECT_EQ(by_row[7], found[7]);
+  EXPECT_THAT(totals, testing::Each(6U)) << "curvatures, invariants and gaps";
+}
+
+TEST(Features, OfPatchesHaveNoVolumeAtABorderAndNoFacesBehindWalls) {
+  const Bumps bumps;
+  const FeatureOptions kinds{.kinds = {Feature::Area, Feature::Volume}};
+  const std::vector<VertexId> rows{0, 210};  // a corner, and in the middle
+  const std::vector<double> found = features(bumps.surface, {rows, 2.0}, kinds);
+  EXPECT_TRUE(found[0] > 0 && std::isnan(found[1]));
+  EXPECT_TRUE(found[2] > 0 && found[3] > 0);
+  std::vector<std::uint8_t> walls(bumps.mesh.size());
+  walls[211] = 1;
+  const std::vector<double> walled =
+      features(bumps.surface.on(masked(bumps.index, {.walls = walls})), {rows, 2.0}, kinds);
+  EXPECT_LT(walled[2], found[2]);
+  EXPECT_TRUE(std::isnan(walled[3]));
+  walls.assign(walls.size(), 1);
+  expect_refused(ErrorCode::InvalidMesh, "every face",
+                 [&] { (void)features(bumps.surface.on(masked(bumps.index, {.walls = walls})), {rows, 2.0}, kinds); });
 }
 
 TEST(Features, TheHeightOfASphereIsItsRadiusTimesTheMeanCurvature) {
@@ -167,11 +229,18 @@ TEST(Features, RefuseInvalidArgumentsAndNameThem) {
   expect_refused(ErrorCode::InvalidOption, "no radii", [&] { (void)of({}, {}); });
   expect_refused(ErrorCode::InvalidRadius, "radius 1: 0", [&] { (void)of({1.0, 0.0}, {}); });
   expect_refused(ErrorCode::InvalidRadius, "inf", [&] { (void)of({std::numeric_limits<double>::infinity()}, {}); });
-  EXPECT_EQ(of({1.0}, {.kinds = {Feature::Area}}), of({1.0}, {.kinds = {Feature::Area}, .areas = bumps.areas}));
+  EXPECT_EQ(of({1.0}, {.kinds = {Feature::Height}}), of({1.0}, {.kinds = {Feature::Height}, .areas = bumps.areas}));
   const std::vector<double> normals(3 * bumps.mesh.size(), 1.0);
   expect_refused(ErrorCode::InvalidOption, "need `areas`", [&] {
-    (void)features(Surface::of_normals(bumps.index, normals), {{}, 1.0}, {.kinds = {Feature::Area}});
+    (void)features(Surface::of_normals(bumps.index, normals), {{}, 1.0}, {.kinds = {Feature::Height}});
   });
+  for (const Feature kind : {Feature::Area, Feature::Volume, Feature::Gap}) {
+    expect_refused(ErrorCode::InvalidOption, "expected a surface with faces", [&] {
+      (void)features(Surface::of_normals(bumps.index, normals), {{}, 1.0}, {.kinds = {kind}, .areas = bumps.areas});
+    });
+    expect_refused(ErrorCode::InvalidOption, "expected the distance in space",
+                   [&] { (void)features(bumps.surface, {{}, 1.0, Metric::Path}, {.kinds = {kind}}); });
+  }
   expect_refused(ErrorCode::InvalidOption, "0 radii", [&] { (void)geometric_radii(1, 2, 0); });
   expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)geometric_radii(-1, 1, 2); });
   expect_refused(ErrorCode::InvalidRadius, "the smallest radius is 2", [&] { (void)geometric_radii(2, 1, 3); });

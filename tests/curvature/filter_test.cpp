@@ -150,7 +150,7 @@ TEST_F(WithWalls, FeaturesHaveScalesOrARadiusForEachRow) {
   const Surface surface = Surface::of_normals(with_walls, normals);
   const Surface expected_surface = Surface::of_normals(expected_index, normals);
   const std::vector<double> areas(mesh.size(), 0.5);
-  const FeatureOptions options{.kinds = {Feature::Mean, Feature::Area}, .areas = areas};
+  const FeatureOptions options{.kinds = {Feature::Mean, Feature::Height}, .areas = areas};
   const BatchRadius scales = BatchRadius::scales({2, 4});
   const std::vector<double> found = features(surface, {.radius = scales}, options);
   expect_same(found, features(expected_surface, {.radius = scales}, options), 2, 1e-6);

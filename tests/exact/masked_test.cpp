@@ -284,9 +284,11 @@ TEST(Masked, RefusesMasksOfAnotherSizeAndWhatWouldLoseThem) {
     expect_refused(ErrorCode::InvalidOption, "not refitted",
                    [&] { static_cast<void>(refit(searched, mesh.positions_view())); });
     expect_refused(ErrorCode::InvalidOption, "not refitted", [&] { searched.refit_in_place(mesh.positions_view()); });
-    expect_refused(ErrorCode::InvalidOption, "no masks", [&] { static_cast<void>(SearchMethod::in_space(searched)); });
   }
-  const Index searched = masked(index, {.walls = mask});
+  std::vector<std::uint8_t> wall(mesh.size(), 0);
+  wall[3] = 1;
+  const Index searched = masked(index, {.walls = wall});
+  expect_refused(ErrorCode::InvalidOption, "no masks", [&] { static_cast<void>(SearchMethod::in_space(searched)); });
   index.refit_in_place(mesh.positions_view());
   expect_refused(ErrorCode::InvalidOption, "refitted in place",
                  [&] { static_cast<void>(counts(searched, {.radius = 1})); });

@@ -345,6 +345,7 @@ TEST_P(RefitFamilies, SearchersThatAreBoundAgainGiveTheAnswersOfNewOnes) {
     searcher.rebind(index);
     regions.rebind(index);
     edges.rebind(index);
+    EXPECT_EQ(path_distances(index), path_distances(build(mesh.view())));
     const auto v = static_cast<VertexId>(random.below(mesh.size()));
     const auto w = static_cast<VertexId>(random.below(mesh.size()));
     const double far = distance(mesh.positions_view(), v, w);

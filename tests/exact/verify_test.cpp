@@ -39,7 +39,7 @@ void expect_refused_after(const char* cause, const Change& change) {
 }
 
 TEST(IndexVerify, RejectsOtherFormatsAndStatesTheirNumbers) {
-  expect_refused_after("header, byte 12: format 4, but this version reads format 3",
+  expect_refused_after("header, byte 12: format 4, but this version reads format 3: install a newer meshhood",
                        [](Forgery& f) { f.header().format = 4; });
   expect_refused_after("format 0, but this version reads format 3", [](Forgery& f) { f.header().format = 0; });
   expect_refused_after("format 1, but this version reads format 3: build the index again",

@@ -1,6 +1,7 @@
 # Configures, builds and runs a project that contains this one and sets nothing. The library is then optimized and
 # compiled in few units, the code of the project is as it was, and only the project is installed.
 cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/consume.cmake)
 set(build ${WORK_DIR}/add_subdirectory)
 file(REMOVE_RECURSE ${build})
 unset(ENV{CXXFLAGS})
@@ -27,7 +28,7 @@ foreach(i RANGE ${last})
   endif()
 endforeach()
 if(count GREATER 25)
-  message(FATAL_ERROR "${count} compilations, expected a few units and the two programs")
+  message(FATAL_ERROR "${count} compilations, expected a few units and the programs")
 endif()
 
 foreach(target meshhood_cli meshhood_shapes meshhood_parts example_neighborhood)
@@ -39,7 +40,7 @@ foreach(target meshhood_cli meshhood_shapes meshhood_parts example_neighborhood)
 endforeach()
 
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${build} --parallel 2 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${build}/consumer ${build} COMMAND_ERROR_IS_FATAL ANY)
+run_consumer(${build})
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${build} --prefix ${build}/prefix
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 file(GLOB_RECURSE installed RELATIVE ${build}/prefix ${build}/prefix/*)

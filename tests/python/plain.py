@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Questions about a mesh, answered one vertex at a time in the plainest way. Shares no code with the library."""
 
+import functools
 import heapq
 
 import numpy as np
@@ -16,6 +17,7 @@ class PlainMesh:
         both = np.unique(np.concatenate([sides, sides[:, ::-1]]), axis=0)
         self.begin = np.searchsorted(both[:, 0], np.arange(count + 1))
         self.to = both[:, 1]
+        self.triangles = triangles
 
     def neighbors(self, v):
         near = self.to[self.begin[v] : self.begin[v + 1]]
@@ -51,6 +53,31 @@ class PlainMesh:
     def path(self, v, r):
         return self._by_key({v: 0.0}, r, lambda key, a, b: key + float(self.distances_of(a, b)))
 
+    def surface(self, v, r):
+        return self._by_key({v: 0.0}, r, lambda key, a, b: key + self.lines[a][b], lambda a: self.lines[a])
+
+    @functools.cached_property
+    def lines(self):
+        """The edges and the lines over two triangles without walls, by their ends."""
+        lines = [{int(b): float(self.distances_of(a, b)) for b in self.neighbors(a)} for a in range(len(self.V))]
+        sides = {}
+        for triangle in self.triangles[~self.walls[self.triangles].any(axis=1)].tolist():
+            for a, b, c in (triangle, triangle[1:] + triangle[:1], triangle[2:] + triangle[:2]):
+                sides.setdefault((min(a, b), max(a, b)), []).append(c)
+        for (a, b), opposite in sides.items():
+            if len(opposite) != 2 or opposite[0] == opposite[1]:
+                continue
+            side = self.V[b] - self.V[a]
+            from_a = self.V[opposite] - self.V[a]
+            along = from_a @ side / np.sqrt(side @ side)
+            away = np.sqrt(np.maximum((from_a * from_a).sum(axis=1) - along**2, 0))
+            crossing = along @ away[::-1] / away.sum()
+            if 0 < crossing < np.sqrt(side @ side):
+                c, d = opposite
+                length = float(np.hypot(along[0] - along[1], away.sum()))
+                lines[c][d] = lines[d][c] = min(length, lines[c].get(d, np.inf))
+        return lines
+
     def rings(self, v, r):
         return self._by_key({v: 0.0}, r, lambda key, a, b: key + 1)
 
@@ -64,7 +91,7 @@ class PlainMesh:
         dx, dy, dz = (self.V[a] - self.V[b]).T
         return np.sqrt((dx * dx + dy * dy) + dz * dz)
 
-    def _by_key(self, starts, r, key_of):
+    def _by_key(self, starts, r, key_of, neighbors=None):
         """Ascending ids, and the smallest key of each."""
         keys, queue = {}, [(key, v) for v, key in starts.items() if not self.walls[v]]
         heapq.heapify(queue)
@@ -73,7 +100,7 @@ class PlainMesh:
             if a in keys:
                 continue
             keys[a] = key
-            for b in map(int, self.neighbors(a)):
+            for b in map(int, (neighbors or self.neighbors)(a)):
                 if b not in keys and (following := key_of(key, a, b)) <= r:
                     heapq.heappush(queue, (following, b))
         ids = np.array(sorted(a for a in keys if not self.hidden[a]), np.int64)

@@ -28,6 +28,8 @@ CALLS = {
     "k nearest along edges": "index.k_nearest(20, range(2000), metric='path', workers=2)",
     "discs": "index.discs(9.0, range(2000), workers=2)",
     "closest points": "index.closest_point(V, F=F, workers=2)",
+    "first hits": "index.first_hit(V + 9, -V - 1, F=F, workers=2)",
+    "thickness": "index.thickness(method='sphere', F=F, workers=2)",
     "aggregate": "index.aggregate(values, 3.0, workers=2)",
     "aggregate along edges": "index.aggregate(values, 2.0, metric='path', walls=walls, workers=2)",
     "several radii": "index.aggregate(values, scales=[1.0, 2.0], nesting='patch', workers=2)",

@@ -73,7 +73,7 @@ OPTIONS = {
     "scales": {"two": SCALES},
     "walls": {"mask": WALLS},
     "ignored": {"mask": IGNORED},
-    "metric": {"path": "path", "rings": "rings"},
+    "metric": {"path": "path", "surface": "surface", "rings": "rings"},
     "unit": {"edge": "edge"},
     "workers": {"3": 3},
     "progress": {"function": lambda words: Watch()},
@@ -97,7 +97,7 @@ OPTIONS = {
     "filter": {"no": False},
     "normals": {"given": NORMALS},
     "degree": {"4": 4},
-    "kinds": {"three": ("mean", "area", "height"), "names": "k1"},
+    "kinds": {"three": ("mean", "variation", "height"), "names": "k1"},
     "k": {"9": 9},
     "area": {"9": 9.0},
     "fill": {"-2": -2},
@@ -210,6 +210,7 @@ def asked_plainly(call, words, v, radius):
     has_other_edges = "like" in words or (call.name == "features" and words.get("metric") == "rings")
     if call.name in ("invariants", "gaps") and "walls" in words:  # whose faces have numbers; see test_patches.py
         index, plain["walls"] = INDEX, WALLS
+    has_other_edges |= call.name in ("k_nearest", "discs") and "metric" in words  # of equal lengths, by their places
     if has_other_edges and "walls" in words:  # whose values depend on the order or the mean length of all edges
         index, plain["walls"] = INDEX, WALLS
     if call.name == "nearest_unconnected" and "walls" in words:  # where a vertex without edges is not connected, too
@@ -220,11 +221,8 @@ def asked_plainly(call, words, v, radius):
 def check_plain(call, words, v, radius, found):
     wanted = asked_plainly(call, words, v, radius)
     assert len(found) == len(wanted)
-    if "walls" in words and call.name in ("k_nearest", "discs"):
-        if "metric" in words:  # the last vertices of equal lengths are others: places are
-            found, wanted = found[1:], wanted[1:]
-    elif "walls" in words and call.rows in (lists, matrix) and words.get("sort") in (None, "index"):
-        found, wanted = ([column[np.argsort(row[0])] for column in row] for row in (found, wanted))  # likewise
+    if "walls" in words and call.rows in (lists, matrix) and words.get("sort") in (None, "index"):
+        found, wanted = ([column[np.argsort(row[0])] for column in row] for row in (found, wanted))  # other places
     for a, b in zip(found, wanted):
         b = np.asarray(b, words.get("dtype") if np.asarray(b).dtype == np.float64 else None)
         if "walls" in words or (call.radius == "fwhm" and "unit" in words):  # sums in another order, radii rounded twice
@@ -238,7 +236,7 @@ def near(words, v, radius):
     plain = PLAIN["walls" in words, "ignored" in words]
     how = words.get("method", words.get("metric", "straight"))
     how = {"exact": "straight", "bfs": "straight"}.get(how, how)
-    return getattr(plain, how)(int(v), radius) if how in ("straight", "path", "rings", "ball") else None
+    return getattr(plain, how)(int(v), radius) if how in ("straight", "path", "surface", "rings", "ball") else None
 
 
 def weights_of(words):
@@ -459,7 +457,7 @@ OPTIONS_OF_START = {
     "walls": {"mask": WALLS},
     "ignored": {"mask": IGNORED},
     "sort": {"id": "id", "index": "index", "distance": "distance"},
-    "metric": {"path": "path", "rings": "rings"},
+    "metric": {"path": "path", "surface": "surface", "rings": "rings"},
     "unit": {"edge": "edge"},
     "method": {"bfs": "bfs", "ball": "ball"},
     "dtype": {"single": np.float32},
@@ -484,7 +482,7 @@ def check_region(words, start, answer):
     found = answer if isinstance(answer, tuple) else (answer,)
     if "sort" not in words and how == "bfs":  # an order of its own
         found = [column[np.argsort(PLACE[found[0]])] for column in found]
-    place = {"id": ids, "distance": distances}.get(words.get("sort", "distance" if how == "path" else "index"), PLACE[ids])
+    place = {"id": ids, "distance": distances}.get(words.get("sort", "distance" if how in ("path", "surface") else "index"), PLACE[ids])
     order = np.lexsort([ids, place])
     np.testing.assert_array_equal(found[0], ids[order])
     if "return_distance" in words:
@@ -527,14 +525,14 @@ def check_contains(words, start, answer):
 def check_connecting(words, start, answer):
     _, ids, radii = connecting_by_hand(words, start, 8.0)
     wanted = radii[ids == near_of(start)]
-    assert answer == (wanted[0] if len(wanted) else np.inf) or (not len(wanted) and answer > 8.0)
+    np.testing.assert_allclose(answer if answer <= 8.0 else np.inf, wanted[0] if len(wanted) else np.inf, rtol=1e-12)
 
 
 def check_nearest(words, start, answer):
     keys, ids, radii = connecting_by_hand(words, start, 5.0)
     order = np.lexsort([*keys, radii])[:9]
     for found, wanted in zip(answer, (ids[order], radii[order])):
-        np.testing.assert_array_equal(found, wanted)
+        np.testing.assert_allclose(found, wanted, rtol=1e-12)
 
 
 def near_of(start):

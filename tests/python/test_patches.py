@@ -40,6 +40,24 @@ def test_the_corner_an_edge_and_a_side_of_a_cube_are_exact():
         assert volume[row] == pytest.approx(np.choose(on, [1 / 6, 1 / 3, 2 / 3]) * PI * r**3, rel=1e-14)
 
 
+def test_features_are_invariants_and_gaps_without_unit():
+    V, F = box((2, 2, 2))
+    index = meshhood.MeshIndex(np.vstack([V, V + [0, 0, 2.5]]), np.vstack([F, F + len(V)]))
+    found = index.features(scales=[0.25, 1], kinds=("area", "volume", "gap"))
+    area, volume = index.invariants(scales=[0.25, 1])
+    r = np.array([[0.25], [1]])
+    np.testing.assert_allclose(found[..., 0], area / (PI * r**2), rtol=1e-15)
+    np.testing.assert_allclose(found[..., 1], volume / (4 / 3 * PI * r**3), rtol=1e-15)
+    assert np.isnan(found[0, :, 2]).all()
+    near = np.flatnonzero(V[:, 2] == 2)
+    assert found[1, near, 2] == pytest.approx(0.5)
+    np.testing.assert_array_equal(index.features(1, [3], kinds="volume"), found[1, [3], 1])
+    walls = index.invariants(1, walls=[0]).area / PI
+    np.testing.assert_allclose(index.features(1, kinds="area", walls=[0]), np.where(walls > 0, walls, np.nan), rtol=1e-15)
+    with pytest.raises(ValueError, match="expected the distance in space"):
+        index.features(1, kinds=("crease", "gap"), metric="path")
+
+
 def test_a_row_depends_on_its_vertex_and_radius_alone():
     V, F = box((3, 4, 5))
     index = meshhood.MeshIndex(V, F)

@@ -69,8 +69,14 @@ void expect_within_is_the_predicate(const Kernels& tried, Random& random) {
     const double tie = std::sqrt(squared_distance(p, center));
     for (const double radius : {std::nextafter(tie, 0.0), tie, std::nextafter(tie, 1e300), tie * (1 + 1e-7),
                                 tie * (1 - 1e-7), random.uniform(0, 3 * extent), 0.0}) {
-      ASSERT_EQ(tried.within(xyz.data(), size, LeafBall(center, LeafBounds(radius))),
-                by_predicate(xyz, size, center, radius));
+      const LeafBall ball(center, LeafBounds(radius));
+      const LaneMask inside = by_predicate(xyz, size, center, radius);
+      ASSERT_EQ(tried.within(xyz.data(), size, ball), inside);
+      PerLane<double> squares{};
+      ASSERT_EQ(tried.squares(xyz.data(), size, ball, squares), inside);
+      for (std::size_t i = 0; i < size; ++i) {
+        ASSERT_EQ(squares[i], squared_distance(point(std::span(xyz), i), center));
+      }
       ++balls;
     }
   }

@@ -26,6 +26,12 @@ LaneMask within(const Real* xyz, std::size_t size, const LeafBall& ball) {
   return result;
 }
 
+template <class Real>
+LaneMask squares(const Real* xyz, std::size_t size, const LeafBall& ball, PerLane<double>& out) {
+  for (std::size_t i = 0; i < size; ++i) out[i] = squared_distance(point(std::span(xyz, 3 * size), i), ball.center);
+  return within(xyz, size, ball);
+}
+
 inline LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
   LaneMask result = 0;
   for (const CrossEdge& edge : edges) result |= (from >> edge.from & 1U) << edge.to;
@@ -294,9 +300,9 @@ inline void convert_points(const float* xyz, unsigned size, const FloatCenter& c
 
 }  // namespace plain
 
-inline constexpr Kernels kPlainKernels{plain::within<float>, plain::within<double>, plain::cross_edges,
-                                       plain::reachable,     plain::classify,       plain::box_squares,
-                                       plain::box_entries,   plain::compress};
+inline constexpr Kernels kPlainKernels{
+    plain::within<float>, plain::within<double>, plain::squares<float>, plain::squares<double>, plain::cross_edges,
+    plain::reachable,     plain::classify,       plain::box_squares,    plain::box_entries,     plain::compress};
 inline constexpr JointKernels kPlainJointKernels{plain::convert_points, plain::clear_words, plain::ball_words,
                                                  plain::spread_words,   plain::step_words,  plain::count_words,
                                                  plain::lanes_of,       plain::write_row};

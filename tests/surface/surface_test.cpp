@@ -3,6 +3,7 @@
 #include "meshhood/surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "meshhood/masks.h"
 #include "meshhood/refit.h"
 #include "meshhood/search.h"
+#include "meshhood/thickness.h"
 
 #include "support/families.h"
 #include "support/family_name.h"
@@ -31,6 +33,8 @@ std::vector<double> answers(const Surface& surface, std::span<const SpacePoint> 
   }
   const Curvatures k = curvatures(surface, {.radius = 2.0});
   all.insert(all.end(), k.k1.begin(), k.k1.end());
+  const std::vector<double> across = thickness(surface, {}, ThicknessMethod::Sphere);
+  for (const double way : across) all.push_back(std::isnan(way) ? -1 : way);
   const auto areas = surface.vertex_areas();
   all.insert(all.end(), areas.begin(), areas.end());
   const std::vector<VertexId> ids{0, 1, 2};

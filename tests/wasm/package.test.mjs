@@ -2,7 +2,7 @@
 // What `npm pack` makes of the package installs and works in an empty project. MESHHOOD_PACKAGE is its folder.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { readdirSync, writeFileSync } from 'node:fs';
+import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 
@@ -13,14 +13,16 @@ test('the packed package works in an empty project', () => {
   assert.match(archive, /^meshhood-[\d.]+\.tgz$/);
   assert.deepEqual(readdirSync(join(project, 'node_modules', 'meshhood')).sort(), [
     'LICENSE', 'README.md', 'arguments.js', 'curvature.js', 'instance.js', 'mesh_file.js', 'mesh_index.js',
-    'meshhood.d.ts', 'meshhood.js', 'meshhood.wasm', 'package.json', 'region_mesh.js', 'rows.js', 'weld.js',
-    'words.js',
+    'meshhood.d.ts', 'meshhood.js', 'meshhood.wasm', 'package.json', 'region_mesh.js', 'rows.js', 'version.js',
+    'weld.js', 'words.js',
   ]);
   writeFileSync(join(project, 'use.js'), `
-    import { MeshIndex, initialize } from 'meshhood';
+    import { MeshIndex, initialize, version } from 'meshhood';
     await initialize();
+    console.log(version);
     const index = new MeshIndex(Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 0, 0), Uint32Array.of(0, 1, 2, 1, 2, 3));
     console.log(index.neighborhood(0, 2, { sort: 'id' }).join());
   `);
-  assert.equal(execFileSync('node', ['use.js'], { cwd: project, encoding: 'utf8' }), '0,1,2\n');
+  const { version } = JSON.parse(readFileSync(join(project, 'node_modules', 'meshhood', 'package.json'), 'utf8'));
+  assert.equal(execFileSync('node', ['use.js'], { cwd: project, encoding: 'utf8' }), `${version}\n0,1,2\n`);
 });

@@ -127,7 +127,7 @@ test('the nearest unconnected vertices are those of the command line and of a sc
 });
 
 test('features with masks and scales are those of the command line', () => {
-  const kinds = ['crease', 'shape_index', 'area', 'variation'];
+  const kinds = ['crease', 'area', 'volume', 'gap', 'height', 'variation'];
   const expected = ofCommandLine('features', 'hills.ply', '-r', '3,5', '--kinds', kinds.join(','), ...ROWS);
   const options = { faces: mesh, vertices, walls, ignored };
   const found = index.features(null, { ...options, kinds, scales: Float64Array.of(3, 5) });
@@ -135,10 +135,74 @@ test('features with masks and scales are those of the command line', () => {
   const rings = ofCommandLine('features', 'hills.ply', '-r', '3', '--metric', 'rings', ...ROWS).features;
   assert.deepEqual(index.features(3, { ...options, metric: 'rings' }), rings);
   const crease = index.features(5, options);
-  assert.deepEqual(crease, Float64Array.from(vertices, (_, row) => found[4 * (5 + row)]));
+  assert.deepEqual(crease, Float64Array.from(vertices, (_, row) => found[6 * (5 + row)]));
   assert.ok(Number.isNaN(crease[2]) && Number.isFinite(crease[0]));
   assert.throws(() => index.features(3, { ...options, kinds: ['crest'] }), { code: 'InvalidOption', message: /^kinds: 'crest'/ });
   assert.throws(() => index.features(0, options), { code: 'InvalidRadius' });
+});
+
+/** The corner of a cube, cut off, and its mirror image 0.2 above. */
+const corners = {
+  positions: Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1, 0, 0, 0.2, 1, 0, 0.2, 0, 1, 0.2, 0, 0, 1.2),
+  corners: Uint32Array.of(0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2, 4, 6, 5, 4, 5, 7, 4, 7, 6, 5, 6, 7),
+  offsets: null,
+};
+
+test('areas, volumes and gaps are those of the surface in the ball', () => {
+  const two = build(corners);
+  const near = (found, expected) => assert.ok(Math.abs(found - expected) < 1e-14, `${found} for ${expected}`);
+  const options = { faces: corners, vertices: Uint32Array.of(4, 0) };
+  const scales = Float64Array.of(0.1, 0.4);
+  const { area, volume } = two.invariants(null, { ...options, scales });
+  for (let i = 0; i < 4; ++i) {
+    const r = scales[i >> 1];
+    near(area[i], (3 / 4) * Math.PI * r ** 2);
+    near(volume[i], (Math.PI / 6) * r ** 3);
+  }
+  const gaps = two.gaps(Float64Array.of(0.4, 0.1), options);
+  assert.deepEqual([...gaps.faces], [0, 2 ** 32 - 1]);
+  assert.deepEqual([...gaps.vertices.subarray(0, 3)].sort(), [0, 1, 2]);
+  near(gaps.distances[0], 0.2);
+  assert.equal(gaps.distances[1], Infinity);
+  assert.deepEqual([...gaps.points].map(Math.abs), [0, 0, 0, NaN, NaN, NaN]);
+  assert.deepEqual([...gaps.weights.subarray(0, 3)].sort(), [0, 0, 1]);
+  const walled = two.invariants(0.4, { ...options, walls: Uint8Array.of(0, 0, 0, 1, 0, 0, 0, 0) });
+  near(walled.area[1], (1 / 4) * Math.PI * 0.16);
+  assert.ok(Number.isNaN(walled.volume[1]));
+  assert.equal(walled.area[0], area[2]);
+  two.dispose();
+});
+
+test('areas and volumes with masks and scales are those of the command line', () => {
+  const expected = ofCommandLine('features', 'hills.ply', '-r', '3,5', '--kinds', 'area,volume', ...ROWS).features;
+  const { area, volume } = index.invariants(null, { faces: mesh, vertices, walls, ignored, scales: Float64Array.of(3, 5) });
+  area.forEach((a, i) => {
+    const r = i < vertices.length ? 3 : 5;
+    assert.equal(a > 0 ? a / r / r / Math.PI : NaN, expected[2 * i]);
+    assert.equal(a > 0 ? volume[i] / r / r / r / ((4 * Math.PI) / 3) : NaN, expected[2 * i + 1]);
+  });
+});
+
+test('the patch of a vertex or of a point has faces', () => {
+  const two = build(corners);
+  assert.deepEqual([...two.patch(0, 0.1, { faces: corners })], [0, 1, 2]);
+  assert.deepEqual([...two.patch(0, 0.8, { faces: corners })], [0, 1, 2, 3]);
+  assert.deepEqual([...two.patch([0.3, 0.3, 0.2], 0.1, { faces: corners, face: 4 })], [4]);
+  const walls = Uint8Array.of(0, 0, 0, 1, 0, 0, 0, 0);
+  assert.deepEqual([...two.patch(0, 0.8, { faces: corners, walls })], [0]);
+  assert.deepEqual([...two.patch(0, 0.8, { faces: corners })], [0, 1, 2, 3]);
+  two.refitInPlace(corners.positions.map((x) => 2 * x));
+  assert.deepEqual([...two.patch(0, 0.8, { faces: corners })], [0, 1, 2]);
+  for (const face of [8, 2 ** 32]) {
+    assert.throws(() => two.patch([0, 0, 0], 1, { faces: corners, face }), { code: 'InvalidOption' });
+  }
+  assert.throws(() => two.patch([0, 0, 0], 1, { faces: corners }), { name: 'TypeError', message: /^face: null/ });
+  assert.throws(() => two.patch(0, 1, { faces: corners, face: 1 }), { code: 'InvalidOption', message: /^face/ });
+  assert.throws(() => two.patch(8, 1, { faces: corners }), { code: 'VertexOutOfRange' });
+  assert.throws(() => two.patch(0, -1, { faces: corners }), { code: 'InvalidRadius' });
+  assert.throws(() => two.gaps(1), { code: 'InvalidOption', message: /^faces/ });
+  assert.throws(() => two.invariants(1, { faces: corners, metric: 'path' }), /metric/);
+  two.dispose();
 });
 
 test('the nearest of many vertices are those of each, by connecting radius and by paths', () => {
@@ -188,6 +252,43 @@ test('the closest point of the surface is that of the command line', () => {
   assert.ok(index.neighborhood(point, 2, { seeds }).length > 5);
   assert.throws(() => index.closestPoint([1, 2, 3]), { code: 'InvalidOption', message: /^faces: expected/ });
   assert.throws(() => index.closestPoint([1, 2, Infinity], { faces: mesh }), { code: 'InvalidOption' });
+});
+
+test('the first hit of a ray is the point of the surface on it', () => {
+  const hit = index.firstHit([3.3, 4.2, 9], [0, 0, -0.5], { faces: mesh });
+  const { face, weights, vertices: corners, point, distance: height } = hit;
+  const { face: nearest, distance: off } = index.closestPoint(point, { faces: mesh });
+  assert.equal(face, nearest);
+  assert.ok(off < 1e-14);
+  assert.deepEqual([...corners].sort(), [...mesh.corners.subarray(3 * face, 3 * face + 3)].sort());
+  for (const [axis, expected] of [3.3, 4.2, 9 - height].entries()) {
+    const at = weights.reduce((sum, weight, i) => sum + weight * mesh.positions[3 * corners[i] + axis], 0);
+    assert.ok(Math.abs(at - expected) < 1e-14);
+    assert.ok(Math.abs(point[axis] - expected) < 1e-14);
+  }
+  assert.equal(index.firstHit([3.3, 4.2, 9], [0, 0, 1], { faces: mesh }), null);
+  assert.throws(() => index.firstHit([3, 4, 9], [0, 0, 0], { faces: mesh }), { code: 'InvalidOption', message: /^direction/ });
+  assert.throws(() => index.firstHit([3, 4, 9], [0, 0, -1]), { code: 'InvalidOption', message: /^faces: expected/ });
+  assert.throws(() => index.firstHit([3, 4, 9], 5, { faces: mesh }), { name: 'TypeError', message: /^direction/ });
+});
+
+test('the thickness of a folded sheet is that between its halves', () => {
+  const side = 12;
+  const sheet = grid(2 * side, side, (row, column) =>
+    [Math.min(row, 2 * side - 1 - row), column, row < side ? 0 : 2], Float64Array);
+  const folded = build(sheet);
+  const inner = 5 * side + 6;
+  for (const method of ['ray', 'sphere']) {
+    const all = folded.thickness({ faces: sheet, method });
+    assert.equal(all.length, folded.vertexCount);
+    assert.equal(all[inner], 2);
+    const some = Uint32Array.of(3 * side + 1, inner);
+    assert.deepEqual(folded.thickness({ faces: sheet, vertices: some, method }), Float64Array.of(all[some[0]], 2));
+  }
+  assert.throws(() => folded.thickness(), { code: 'InvalidOption', message: /^faces: expected/ });
+  assert.throws(() => folded.thickness({ faces: sheet, method: 'ball' }), { code: 'InvalidOption', message: /^method: 'ball'/ });
+  assert.throws(() => folded.thickness({ faces: sheet, vertices: Uint32Array.of(999) }), { code: 'VertexOutOfRange' });
+  folded.dispose();
 });
 
 test('words that contradict each other are refused', () => {

@@ -21,7 +21,7 @@ function compile(text, ...options) {
 
 const USE = `
   import { Curvature, MeshIndex, MeshhoodError, RegionMesh, initialize, readMesh } from 'meshhood';
-  import type { Faces, Mesh, Rows } from 'meshhood';
+  import type { Faces, Mesh, Rows, SurfacePoint } from 'meshhood';
 
   await initialize();
   const mesh: Mesh = readMesh(new Uint8Array(9), 'hand.ply', { precision: 'double' });
@@ -38,15 +38,20 @@ const USE = `
   const lengths: Float64Array = index.kNearest(9, { vertices: near, metric: 'path', walls }).distances;
   const discs: Rows = index.discs(2, { faces });
   const creases: Float64Array = index.features(null, { faces, scales, kinds: ['crease', 'area'] });
-  const { vertices, point } = index.closestPoint([0, 0, 1], { faces });
+  const { vertices, point, face } = index.closestPoint([0, 0, 1], { faces });
+  const volume: Float64Array = index.invariants(null, { faces, scales, walls }).volume;
+  const between: Float64Array = index.gaps(scales, { faces, vertices: near, unit: 'edge' }).distances;
+  const patch: Uint32Array = index.patch(point, 2, { faces, face });
   index.neighborhood(point, 2, { seeds: vertices, sort: 'id' });
+  const hit: SurfacePoint | null = index.firstHit(point, [0, 0, -1], { faces });
+  const across: Float64Array = index.thickness({ faces, vertices, method: 'sphere' });
   const around: number = index.count(point, 2, { seeds: vertices, walls });
   const lists: Uint32Array[] = [index.viewNeighborhood(42, 2), index.nested(42, scales, { metric: 'rings' }).counts];
   index.smooth(index.aggregate(gaps, scales, { metric: 'path' }), 3, { metric: 'path', walls });
   index.refitInPlace(mesh.positions, { changed: near });
   const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
   const codes: string[] = [new MeshhoodError().code];
-  export const used = [around, lists, lengths, discs, creases, counts, far.distances, ids, rows.offsets, curvature.mean, part.vertices, codes];
+  export const used = [hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, ids, rows.offsets, curvature.mean, part.vertices, codes, volume, between, patch];
 `;
 
 for (const [name, options] of Object.entries({

@@ -28,6 +28,7 @@
 #include "meshhood/search.h"
 #include "meshhood/serialize.h"
 #include "meshhood/surface.h"
+#include "meshhood/thickness.h"
 #include "meshhood/unconnected.h"
 
 #include "batch/batch.h"
@@ -421,6 +422,25 @@ TEST_P(Allocation, FailsInACallForTheNearest) {
       const Surface surface(index, mesh.view().faces);
       const std::vector<SurfacePoint> found = surface.closest_points(std::vector<SpacePoint>(3), kOneThread);
       return std::vector<VertexId>{static_cast<VertexId>(found[0].face)};
+    });
+    calls.emplace_back([&] {
+      const Index along = surface_paths(Surface(index, mesh.view().faces), kOneThread);
+      return Searcher(along, Metric::Path).neighborhood(0, radius);
+    });
+    calls.emplace_back([&] {
+      const std::vector<SpacePoint> origins(3, {0.1, 0.2, 9});
+      const std::vector<SpacePoint> directions(3, {0, 0, -1});
+      const Surface surface(index, mesh.view().faces);
+      const std::vector<SurfacePoint> found = surface.first_hits(origins, directions, kOneThread);
+      return std::vector<VertexId>{static_cast<VertexId>(found[0].face)};
+    });
+    calls.emplace_back([&] {
+      const Surface surface(index, mesh.view().faces);
+      std::vector<VertexId> finite;
+      for (const double across : thickness(surface, some, ThicknessMethod::Sphere, kOneThread)) {
+        finite.push_back(static_cast<VertexId>(across < kInfinity));
+      }
+      return finite;
     });
     calls.emplace_back([&] {
       const std::vector<VertexId> ids = Searcher(index).neighborhood(0, radius);

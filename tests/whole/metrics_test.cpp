@@ -83,7 +83,7 @@ class MetricCase {
     const Surface surface = surface_.on(asked_);
     const Curvatures found = curvatures(surface, query(), {}, {.threads = 2});
     const std::vector<double> creases =
-        features(surface, query(), {.kinds = {Feature::K1, Feature::Area}, .areas = areas_});
+        features(surface, query(), {.kinds = {Feature::K1, Feature::Variation}, .areas = areas_});
     const PrincipalComponents patch = principal_components(asked_, query(), {.weights = areas_});
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       const Ids ids = neighborhood(row);
@@ -100,7 +100,8 @@ class MetricCase {
       EXPECT_NEAR(found.k2[row], expected.k2[0], tolerance) << mesh_.name << ", vertex " << vertex[0];
       const double radius = metric_ == Metric::Rings ? radii_[row] * mean_edge_length(index_) : radii_[row];
       EXPECT_EQ(creases[2 * row], radius * found.k1[row]);
-      EXPECT_NEAR(creases[2 * row + 1], patch.weight[row] / (M_PI * radius * radius), 1e-12 * creases[2 * row + 1]);
+      const double* const variances = &patch.variances[3 * row];
+      EXPECT_EQ(creases[2 * row + 1], surface_variation(variances[0], variances[1], variances[2]));
       ++compared;
     }
     return compared;

@@ -125,7 +125,18 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
     const std::vector<SpacePoint> points{{3.2, 4.1, 7}};
     return Answer{surface->closest_points(points).front().distance};
   };
+  all["Surface: first_hits"] = [=] {
+    const std::vector<SpacePoint> ends{{3.2, 4.1, 7}, {0, 0, -1}};
+    return Answer{surface->first_hits(std::span(ends).first(1), std::span(ends).last(1)).front().distance};
+  };
+  for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
+    all["Surface: thickness by method " + std::to_string(static_cast<int>(method))] = [=] {
+      return Answer(thickness(*surface, {}, method));
+    };
+  }
   all["Surface: invariants"] = [=] { return numbers(invariants(*surface, {.radius = kRadius}).area); };
+  const auto along = kept(surface_paths(*surface));
+  all["surface_paths: counts"] = [=] { return numbers(counts(*along, {.radius = kRadius, .metric = Metric::Path})); };
   all["Surface: gaps"] = [=] { return Answer{gaps(*surface, {.radius = kRadius})[v].distance}; };
   const auto patches = kept(PatchSearcher(*surface));
   all["PatchSearcher: measure"] = [=] { return Answer{patches->measure(v, kRadius).area}; };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whole calls whose results are numbers have the same bits with every kernel and any number of threads, with masks and
-// without; those of aggregates, corrected curvature and nearest vertices do not depend on the other rows of the call,
-// either.
+// without; those of aggregates, corrected curvature, nearest vertices, rays and thickness do not depend on the other
+// rows of the call, either.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -162,12 +162,12 @@ std::vector<Call> curvature_calls(const Scene& scene, double radius, Metric metr
                    35, false});
   calls.push_back({"features",
                    [&scene, radius, metric](const auto& rows, unsigned threads) {
-                     return features(scene.surface, {rows, radius, metric},
-                                     {.kinds = {Feature::Crease, Feature::Height, Feature::Variation, Feature::Area},
-                                      .areas = scene.areas},
-                                     {.threads = threads});
+                     return features(
+                         scene.surface, {rows, radius, metric},
+                         {.kinds = {Feature::Crease, Feature::Height, Feature::Variation}, .areas = scene.areas},
+                         {.threads = threads});
                    },
-                   4, false});
+                   3, false});
   for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
     calls.push_back({"curvature of fit " + std::to_string(static_cast<int>(fit)),
                      [&scene, radius, metric, fit](const auto& rows, unsigned threads) {
@@ -238,12 +238,43 @@ std::vector<Call> nearest_calls(const Scene& scene, double radius) {
   return calls;
 }
 
+/// Of rays and walls.
+std::vector<Call> surface_calls(const Scene& scene) {
+  std::vector<Call> calls;
+  calls.push_back({"first hits",
+                   [&scene](const auto& rows, unsigned threads) {
+                     std::vector<SpacePoint> origins;
+                     std::vector<SpacePoint> directions;
+                     for (const VertexId v : rows) {
+                       const double* const at = &scene.mesh.positions[3 * v];
+                       origins.push_back({at[0] + scene.edge / 3, at[1] - scene.edge / 5, at[2] + scene.edge});
+                       directions.push_back({scene.signal[v] / 1e7, 0.1, -1});
+                     }
+                     std::vector<double> numbers;
+                     for (const SurfacePoint& hit :
+                          scene.surface.first_hits(origins, directions, {.threads = threads})) {
+                       numbers.insert(numbers.end(), {static_cast<double>(hit.face), hit.distance, hit.weights[0]});
+                     }
+                     return numbers;
+                   },
+                   3, true});
+  for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
+    calls.push_back({"thickness by method " + std::to_string(static_cast<int>(method)),
+                     [&scene, method](const auto& rows, unsigned threads) {
+                       return thickness(scene.surface, rows, method, {.threads = threads});
+                     },
+                     1, true});
+  }
+  return calls;
+}
+
 std::vector<Call> all_calls(const Scene& scene, double radius) {
   std::vector<Call> calls = aggregates(scene, radius);
   for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
     for (Call& call : curvature_calls(scene, radius, metric)) calls.push_back(std::move(call));
   }
   for (Call& call : nearest_calls(scene, radius)) calls.push_back(std::move(call));
+  for (Call& call : surface_calls(scene)) calls.push_back(std::move(call));
   return calls;
 }
 

@@ -17,7 +17,7 @@ WORK = Path(os.environ["MESHHOOD_SITE_SOURCES"])
 project = "meshhood"
 author = "The meshhood authors"
 copyright = author
-version = release = re.search(r"project\(meshhood VERSION ([0-9.]+)", (WORK / "CMakeLists.txt").read_text())[1]
+version = release = ".".join(re.findall(r"define MESHHOOD_VERSION_\w+ (\d+)", (WORK / "version.h").read_text()))
 
 extensions = [
     "myst_parser",
@@ -89,7 +89,7 @@ html_theme_options = {
 
 
 # Pages of the site that lie outside docs.
-ROOT_PAGES = ("README", "CHANGELOG", "CONTRIBUTING", "RELEASE")
+ROOT_PAGES = ("README", "CHANGELOG", "CONTRIBUTING", "RELEASE", "SECURITY")
 NAME_OF_FILE = re.compile(r"\[[\w/]+\.md\](?=\()")
 LINK = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)\s]+)|(?<= src=\")([^\"]+)")
 

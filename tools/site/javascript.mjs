@@ -18,12 +18,14 @@ const GROUPS = [
   ['Classes', ts.SyntaxKind.ClassDeclaration, 'class'],
   ['Options and results', ts.SyntaxKind.InterfaceDeclaration, 'class'],
   ['Types', ts.SyntaxKind.TypeAliasDeclaration, 'data'],
+  ['Constants', ts.SyntaxKind.VariableStatement, 'data'],
 ];
 
 const isCallable = (node) =>
   ts.isMethodDeclaration(node) || ts.isMethodSignature(node) || ts.isFunctionDeclaration(node);
 const isExported = (node) => node.modifiers?.some(({ kind }) => kind === ts.SyntaxKind.ExportKeyword);
-const nameOf = (node) => (ts.isConstructorDeclaration(node) ? 'constructor' : node.name.getText());
+const declared = (node) => (ts.isVariableStatement(node) ? node.declarationList.declarations[0] : node);
+const nameOf = (node) => (ts.isConstructorDeclaration(node) ? 'constructor' : declared(node).name.getText());
 const membersOf = (node) => (ts.isClassDeclaration(node) || ts.isInterfaceDeclaration(node) ? node.members : []);
 
 function title(node) {

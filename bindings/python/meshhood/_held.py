@@ -32,6 +32,7 @@ class Held:
     _count: int
     _whole: Optional[Held]
     _last_masked: Any  # walls, ignored, and the index of these masks
+    _along_surface: Optional[Held]  # the index of metric="surface"
 
     def _hold(self, exact: Any, faces: Any, whole: Optional[Held] = None) -> None:
         """`whole`: of an index with masks, that without, which has what does not depend on them."""
@@ -40,6 +41,7 @@ class Held:
         self._checked = b""
         self._whole = whole
         self._last_masked = (None, None)
+        self._along_surface = None
         self._methods = Methods(exact, None if whole is None else whole._methods)
         self._last_surface = (None, None)
         self._last_patches = (None, None)
@@ -52,7 +54,7 @@ class Held:
         if metric != "straight":
             if method != "exact":
                 raise ValueError(f"method: {method!r}, expected 'exact' with metric={metric!r}")
-            return self._methods.along_edges if metric == "path" else self._methods.rings
+            return self._methods.rings if metric == "rings" else self._methods.along_edges
         try:
             return self._methods[method]
         except TypeError:
@@ -72,6 +74,18 @@ class Held:
             raise ValueError("unit: 'edge', but the mesh has no edges of positive length")
         return length
 
+    def _searched(self: Self, metric: str, walls: Any = None, ignored: Any = None) -> Self:
+        """The index that a call searches, by the core metric that belongs to it."""
+        index = self._with_masks(walls, ignored)
+        return index._with_surface_paths() if metric == "surface" else index
+
+    def _with_surface_paths(self: Self) -> Any:
+        if self._along_surface is None:
+            self._own_faces("metric: 'surface' measures along faces, but")
+            whole = weakref.proxy(self) if self._whole is None else self._whole
+            self._along_surface = self._derived(self._surface(None).paths(), whole)
+        return self._along_surface
+
     def _with_masks(self: Self, walls: Any, ignored: Any) -> Self:
         """The index of these masks, the last of which is kept: a loop of calls with the same masks makes it once."""
         if walls is None and ignored is None:
@@ -87,8 +101,11 @@ class Held:
         return index
 
     def _masked(self: Self, walls: Any, ignored: Any, whole: Any) -> Self:
+        return self._derived(self._exact.masked(walls, ignored), whole)
+
+    def _derived(self: Self, exact: Any, whole: Any) -> Self:
         index = type(self).__new__(type(self))
-        index._hold(self._exact.masked(walls, ignored), self._faces, whole)
+        index._hold(exact, self._faces, whole)
         return index
 
     def _places(self) -> Any:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._held import Held
 from ._methods import Method
-from ._rows import check_sort, result_dtype, sorted_rows
+from ._rows import check_sort, core_metric, result_dtype, sorted_rows
 from ._types import METRICS, Counts, Floats, Ids, Mask, Metric, Number, Reals, Scales, Sort, Unit
 
 if TYPE_CHECKING:
@@ -90,12 +90,12 @@ class Queries(Held):
         face : if `start` is a point: the face on which it lies, as `closest_point` returns it; its corners are the
             seeds. Prefer this for picks: the nearest vertex may lie on another sheet than the nearest point.
         return_distance : also return the distance of each vertex from `start`: that of the straight line, or with
-            metric="path" the length of the path.
+            metric="path" or "surface" the length of the path.
         sort : the order of the ids: "index", ascending places of `permutation`; "id", ascending; or "distance",
             ascending, and by id where equal. Without it they are not sorted: those of "exact" and "ball" are in index
-            order, those of metric="path" ascend by length, and those of "paper" and "bfs" have an order of their own,
-            which is always the same.
-        metric, walls, ignored, unit : see `MeshIndex`. "path" and "rings" need a vertex as start.
+            order, those of metric="path" and "surface" ascend by length, and those of "paper" and "bfs" have an order
+            of their own, which is always the same.
+        metric, walls, ignored, unit : see `MeshIndex`. All but "straight" need a vertex as start.
         method : "exact", the exact neighborhood, by the index;
                  "paper", the approximate neighborhood of the paper, a superset of "exact" and a subset of "ball", or
                  `Paper` with other parameters;
@@ -199,7 +199,7 @@ class Queries(Held):
             if seeds is None:
                 seeds = self._queries.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
             rows = _convert.seed_rows(seeds, count, self._count)
-        indices, has_seeds = self._with_masks(walls, ignored)._queries.stroke(by, centers, rows, radii)
+        indices, has_seeds = self._searched(metric, walls, ignored)._queries.stroke(by, centers, rows, radii)
         _warn_unless(has_seeds, "points: a")
         if by_id:
             indices.sort()
@@ -236,7 +236,7 @@ class Queries(Held):
         center, first = self._start(start, seeds, face, "neighborhoods(scales=radii, vertices=...)")
         by = self._metric_of(center, metric)
         values = _convert.ascending(radii, "radii") * self._scale(unit, metric)
-        counts, ids, has_seed = self._with_masks(walls, ignored)._queries.nested(by, center, first, values)
+        counts, ids, has_seed = self._searched(metric, walls, ignored)._queries.nested(by, center, first, values)
         _warn_unless(has_seed or not len(first), "start: the")
         return Nested(counts, ids)
 
@@ -262,7 +262,7 @@ class Queries(Held):
         center, first = self._start(start, seeds, face, "a call for each")
         by = self._metric_of(center, metric)
         w, r = _convert.vertex(w, self._count, "w"), self._scale(unit, metric) * _convert.radius(r)
-        return bool(self._with_masks(walls, ignored)._queries.contains(by, center, first, w, r))
+        return bool(self._searched(metric, walls, ignored)._queries.contains(by, center, first, w, r))
 
     def connecting_radius(
         self,
@@ -286,7 +286,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "a call for each")
         w = _convert.vertex(w, self._count, "w")
-        searched = self._with_masks(walls, ignored)._queries
+        searched = self._searched(metric, walls, ignored)._queries
         return float(searched.connecting_radius(self._metric_of(center, metric), center, first, w))
 
     def nearest_connected(
@@ -310,7 +310,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "k_nearest(k, vertices), or seeds= around a point")
         k = _convert.integer(k, "k", 1, 2**63 - 1)
-        searched = self._with_masks(walls, ignored)._queries
+        searched = self._searched(metric, walls, ignored)._queries
         return Connected(*searched.nearest_connected(self._metric_of(center, metric), center, first, k))
 
     @overload
@@ -342,17 +342,17 @@ class Queries(Held):
     ) -> tuple[Any, Ids, float, Any]:
         """The center and the seeds, as `_start` returns them, the radius, and the method."""
         center, first = self._start(start, seeds, face, "neighborhoods(r, vertices)")
-        searched = self._with_masks(walls, ignored)._method(method, metric)
+        searched = self._searched(metric, walls, ignored)._method(method, metric)
         _check_vertex(center, metric, method)
         return center, first, self._scale(unit, metric) * _convert.radius(r), searched
 
     def _metric_of(self, center: Any, metric: str, wanted: str = "start: expected a vertex") -> Any:
         metric = _convert.choice(metric, "metric", METRICS)
         _check_vertex(center, metric, "exact", wanted)
-        return getattr(_core.Metric, metric)
+        return core_metric(metric)
 
     def _around_point(self, center: Any, first: Ids, radius: float, walls: Any, ignored: Any) -> tuple[Ids, Reals]:
-        ids, distances, has_seed = self._with_masks(walls, ignored)._queries.region(_core.Metric.straight, center, first, radius)
+        ids, distances, has_seed = self._searched("straight", walls, ignored)._queries.region(_core.Metric.straight, center, first, radius)
         _warn_unless(has_seed or not len(first), "start: the", stacklevel=4)
         return ids, distances
 

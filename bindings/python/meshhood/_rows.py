@@ -27,7 +27,7 @@ class Rows:
     vertices: Optional[Ids]  # None for all
     radii: list[Union[float, Reals]]  # of each scale, in the unit of the positions
     shape: tuple[int, ...]  # the leading axes of the result
-    index: Any  # with the masks
+    index: Any  # with the masks, along the surface by metric="surface"
     metric: str
     threads: int
     progress: Progress
@@ -41,7 +41,7 @@ class Rows:
 
     @property
     def core_metric(self) -> Any:
-        return getattr(_core.Metric, self.metric)
+        return core_metric(self.metric)
 
     def reporter(self, title: str) -> AbstractContextManager[Report]:
         return reporter(self.progress, title, "vertices", self.count * len(self.radii))
@@ -77,11 +77,16 @@ def read_rows(
         ids,
         radii,
         shape if is_one else (*shape, count),
-        index._with_masks(walls, ignored),
+        index._searched(metric, walls, ignored),
         metric,
         _convert.threads(workers),
         progress,
     )
+
+
+def core_metric(metric: str) -> Any:
+    """By this the index of `Held._searched` is searched."""
+    return _core.Metric.path if metric == "surface" else getattr(_core.Metric, metric)
 
 
 def result_dtype(dtype: Any, default: Any = np.float64) -> Any:

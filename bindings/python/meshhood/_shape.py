@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from numpy.typing import DTypeLike
 
 Kind = Literal[
-    "crease", "mean", "gaussian", "k1", "k2", "curvedness", "shape_index", "area", "height", "variation",
+    "crease", "mean", "gaussian", "k1", "k2", "curvedness", "shape_index", "area", "volume", "gap", "height",
+    "variation",
 ]  # fmt: skip
 
 
@@ -222,8 +223,9 @@ class Shape(Held):
         r, vertices, scales, walls, ignored, metric, unit, workers, progress : see `MeshIndex`; scales are for example
             `geometric_radii(a, b, count)`. Radii are > 0. With metric="rings", `r` edges count as `r` times the mean
             length of an edge.
-        kinds : one name or several of crease, mean, gaussian, k1, k2, curvedness, shape_index, area, height, variation.
-            See docs/curvature.md for what they mean.
+        kinds : one name or several of crease, mean, gaussian, k1, k2, curvedness, shape_index, area, volume, gap,
+            height, variation. See docs/curvature.md for what they mean. area, volume and gap are those of `invariants`
+            and `gaps`: of the surface, for metric="straight" alone.
         F, filter, dtype : as for `curvature`.
 
         Returns (#scales, #rows, #kinds), without the first axis if there is one `r`, and without the last if

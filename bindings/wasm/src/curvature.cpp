@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Curvature and features at a scale. One of the two `use_...` comes first.
+// Curvature and features at a scale. `use_faces` or `use_normals` comes first.
 #include <array>
 #include <cstddef>
 #include <span>
@@ -8,8 +8,6 @@
 #include "meshhood/meshhood.h"
 
 #include "answer.h"
-#include "arguments.h"
-#include "face_hash.h"
 #include "rows.h"
 #include "workspace.h"
 
@@ -26,14 +24,6 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
 }  // namespace
 
 extern "C" {
-
-[[clang::export_name("use_normals_of_faces")]] void use_normals_of_faces(const void* corners, std::size_t corner_count,
-                                                                         bool signed_corners, const void* offsets,
-                                                                         std::size_t offset_count,
-                                                                         bool signed_offsets) {
-  workspace.use_faces(view_faces(corners, corner_count, signed_corners, offsets, offset_count, signed_offsets),
-                      hash_faces(corners, corner_count, offsets, offset_count));
-}
 
 [[clang::export_name("use_normals")]] void use_normals(const double* normals, std::size_t scalars) {
   workspace.use_normals({normals, scalars});

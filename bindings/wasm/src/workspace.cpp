@@ -54,6 +54,14 @@ void Workspace::forget_derived() {
   graph_.reset();
 }
 
+void Workspace::forget_surfaces() {
+  faces_.reset();
+  for (Searches* const of : {&searches_, &masked_searches_}) {
+    of->patches.reset();
+    of->surface.reset();
+  }
+}
+
 void Workspace::set_masks(std::span<const std::uint8_t> walls, std::span<const std::uint8_t> ignored) {
   has_masks_ = false;  // if this throws
   if (walls.empty() && ignored.empty()) return;
@@ -115,15 +123,28 @@ Searcher& Workspace::searcher(Metric metric) {
   return *searcher;
 }
 
+const Surface& Workspace::surface() {
+  std::optional<Surface>& surface = searches().surface;
+  if (!surface) surface = surface_->on(searched());
+  return *surface;
+}
+
+PatchSearcher& Workspace::patch_searcher() {
+  std::optional<PatchSearcher>& searcher = searches().patches;
+  if (!searcher) searcher.emplace(surface());
+  return *searcher;
+}
+
 void Workspace::use_faces(const FacesView& faces, const Fingerprint& content) {
   if (faces_ == content) return;
+  forget_surfaces();
   surface_.emplace(index(), faces);
   faces_ = content;
 }
 
 void Workspace::use_normals(std::span<const double> normals) {
+  forget_surfaces();
   surface_ = Surface::of_normals(index(), normals);
-  faces_.reset();
 }
 
 }  // namespace meshhood::wasm

@@ -30,6 +30,8 @@ struct Method {
 struct Searches {
   std::array<std::optional<Method>, kMethodCount> methods;  // by their names
   std::array<std::optional<Searcher>, 3> by_metric;
+  std::optional<Surface> surface;
+  std::optional<PatchSearcher> patches;
 };
 
 /// One mesh, its index, and what the methods need besides: the graph, the paper's index, searchers. Each part is made
@@ -81,11 +83,13 @@ class Workspace {
   void use_normals(std::span<const double> normals);
 
   /// Of the last `use_...`, with the masks.
-  [[nodiscard]] Surface surface() const { return surface_->on(searched()); }
+  [[nodiscard]] const Surface& surface();
+  [[nodiscard]] PatchSearcher& patch_searcher();
 
  private:
   void replace_index(Index&& index);
   void forget_derived();
+  void forget_surfaces();
   [[nodiscard]] const paper::Index& paper_index();
   [[nodiscard]] SearchMethod make_method(MethodName name);
   [[nodiscard]] Method& kept_method(MethodName name);

@@ -89,7 +89,7 @@ PathLengths PathPacket::limits() const {
 /// Numbers the vertices that were found, and lists the edges between them.
 void PathPacket::list_edges() {
   const std::span<const Path> found = search_.found();
-  const auto row = [&](std::uint32_t v) { return std::pair(graph_->edges.offsets[v], graph_->edges.offsets[v + 1]); };
+  const auto row = [&](std::uint32_t v) { return std::pair(graph_->edges->offsets[v], graph_->edges->offsets[v + 1]); };
   first_edge_.resize(found.size() + 1);
   std::size_t most = 1;
   for (const Path& path : found) most += row(path.end).second - row(path.end).first;
@@ -101,7 +101,7 @@ void PathPacket::list_edges() {
     first_edge_[i] = count;
     const auto [begin, end] = row(found[i].end);
     for (std::size_t k = begin; k < end; ++k) {
-      const std::uint32_t number = numbers_[graph_->edges.neighbors[k]];
+      const std::uint32_t number = numbers_[graph_->edges->neighbors[k]];
       edges_[count] = {graph_->lengths[k], number};
       count += number != kNoNumber ? 1 : 0;
     }

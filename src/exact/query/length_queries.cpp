@@ -17,8 +17,8 @@ struct LengthQueries final : SingleQueries {
   using SingleQueries::SingleQueries;
 
   void rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) override {
+    if (kept != graph) search_.reset();  // it has lengths of edges
     SingleQueries::rebind(std::move(bound), std::move(kept));
-    search_.reset();  // it has lengths of edges
   }
 
   VertexSet& search(const Start& start, double radius) override {

@@ -33,6 +33,7 @@ bool is_longer(const Path& a, const Path& b) { return a.length > b.length; }
 PathSearch::PathSearch(const IndexView& index, KeptGraph& graph)
     : index_(&index),
       graph_(&graph.of(index)),
+      edges_(graph_->edges.get()),
       lengths_(index.vertex_count(), kUnreached),
       is_met_(index.vertex_count() / kVerticesOfBlock + 1) {}
 
@@ -77,7 +78,7 @@ void PathSearch::forget() {
 /// The mean of the lengths of some edges near a vertex; 0 if there are none.
 double PathSearch::mean_length_near(std::uint32_t vertex) const {
   constexpr std::size_t kMost = 128;
-  const std::span<const double> after = std::span(graph_->lengths).subspan(graph_->edges.offsets[vertex]);
+  const std::span<const double> after = std::span(graph_->lengths).subspan(edges_->offsets[vertex]);
   const std::span<const double> some = after.first(std::min(after.size(), kMost));
   return some.empty() ? 0 : std::accumulate(some.begin(), some.end(), 0.0) / static_cast<double>(some.size());
 }
@@ -112,8 +113,8 @@ bool PathSearch::take_round() {
 }
 
 void PathSearch::prefetch_edges(std::uint32_t vertex) const {
-  const std::size_t begin = graph_->edges.offsets[vertex];
-  fetch_lines(graph_->edges.neighbors.data() + begin, 1);
+  const std::size_t begin = edges_->offsets[vertex];
+  fetch_lines(edges_->neighbors.data() + begin, 1);
   fetch_lines(graph_->lengths.data() + begin, 2);
 }
 
@@ -145,10 +146,10 @@ void PathSearch::follow_in_order() {
 void PathSearch::follow(const Path& path) {
   ++steps_;
   found_.push_back(path);
-  const std::size_t begin = graph_->edges.offsets[path.end];
-  const std::size_t end = graph_->edges.offsets[path.end + std::size_t{1}];
+  const std::size_t begin = edges_->offsets[path.end];
+  const std::size_t end = edges_->offsets[path.end + std::size_t{1}];
   if (shorter_.size() < shorter_count_ + (end - begin)) shorter_.resize(2 * (shorter_count_ + (end - begin)));
-  const VertexId* const neighbors = graph_->edges.neighbors.data();
+  const VertexId* const neighbors = edges_->neighbors.data();
   const double* const edges = graph_->lengths.data();
   double* const lengths = lengths_.data();
   const double from = path.length;
@@ -193,9 +194,9 @@ void PathSearch::meet(std::uint32_t vertex) {
   met_.push_back(block);
   const std::size_t first = std::size_t{block} * kVerticesOfBlock;
   const std::size_t last = std::min(first + kVerticesOfBlock, lengths_.size());
-  const std::size_t begin = graph_->edges.offsets[first];
-  const std::size_t end = std::min<std::size_t>(graph_->edges.offsets[last], begin + kMostEdges);
-  fetch_run(graph_->edges.neighbors.data() + begin, graph_->edges.neighbors.data() + end);
+  const std::size_t begin = edges_->offsets[first];
+  const std::size_t end = std::min<std::size_t>(edges_->offsets[last], begin + kMostEdges);
+  fetch_run(edges_->neighbors.data() + begin, edges_->neighbors.data() + end);
   fetch_run(graph_->lengths.data() + begin, graph_->lengths.data() + end);
   fetch_run(lengths_.data() + first, lengths_.data() + last);
   if (!index_->permutation.empty()) {

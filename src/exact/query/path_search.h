@@ -86,6 +86,7 @@ class PathSearch {
 
   const IndexView* index_;
   const WeightedGraph* graph_;
+  const Adjacency* edges_;  // of the graph
   double radius_ = 0;
   bool is_small_ = false;
   std::vector<double> lengths_;       // by vertex: of the shortest path so far, also beyond the radius

@@ -4,7 +4,7 @@
 namespace meshhood {
 
 std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
-  const Adjacency& edges = graph_->of(*index_).edges;
+  const Adjacency& edges = *graph_->of(*index_).edges;
   edges_to_.forget();
   found_.clear();
   places_.clear();

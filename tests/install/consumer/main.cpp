@@ -10,7 +10,8 @@
 #include <meshhood/io/mesh_io.h>
 #include <meshhood/io/weld.h>
 #include <meshhood/meshhood.h>
-#include <meshhood/version.h>
+
+static_assert(MESHHOOD_VERSION >= 100 && MESHHOOD_VERSION < 1000000);
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;

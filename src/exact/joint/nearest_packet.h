@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/epoch_array.h"
+#include "exact/layout.h"
+#include "exact/query/path_order.h"
+#include "simd/ball.h"
+#include "simd/kernels.h"
+
+namespace meshhood {
+
+/// Finds the vertices around each vertex of a leaf by connecting radius, up to a radius: the vertices in the ball are
+/// taken by distance, and one is reached when it has a reached neighbor, or as soon as it gains one. Its connecting
+/// radius is the distance of the vertex that was taken then. The leaves that the balls meet, and the edges between
+/// them, are gathered once for all vertices of the leaf.
+///
+/// One object a thread. Owns 8 bytes a leaf of the mesh, and 0.5 kB for each leaf that it gathers. What is found does
+/// not depend on earlier calls.
+class NearestPacket {
+ public:
+  NearestPacket(const IndexView& index, Isa isa)
+      : index_(&index), kernels_(&kernels(isa)), numbers_(index.leaf_count()) {}
+
+  /// Gathers what the balls of `radius` around the vertices of `leaf` meet, as far as it is linked. Returns false if
+  /// that is more than `most` leaves.
+  [[nodiscard]] bool gather(LeafId leaf, double radius, std::size_t most);
+
+  /// Whether all that is connected with the leaf was gathered.
+  [[nodiscard]] bool is_whole() const { return is_whole_; }
+
+  /// Calls `f(vertex, radius)` for the vertices connected with that in `lane` of the leaf that are not ignored, by
+  /// connecting radius, then by distance, then by id, until `f` returns false or the next has more than `most`, which
+  /// is at most the radius of `gather`. Returns whether `f` never did.
+  template <class F>
+  bool for_each_near(unsigned lane, double most, F&& f);
+
+ private:
+  /// A leaf that was gathered.
+  struct Entry {
+    LeafId leaf;
+    FrameSphere bounds;
+    std::uint32_t first;
+    std::uint32_t size;
+    LaneMask open;     // no walls
+    LaneMask ignored;  // in no answer
+  };
+
+  /// The vertices of an entry in one search.
+  struct State {
+    LaneMask touched = 0;  // with a reached neighbor
+    LaneMask waiting = 0;  // taken, but not touched
+  };
+
+  /// An edge to a vertex of another leaf.
+  struct Edge {
+    std::uint32_t to;
+    std::uint32_t before;  // of the same vertex; or kNone
+  };
+
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
+  void add(LeafId leaf);
+  void list_edges();
+  std::span<const Path> vertices_in_ball(unsigned lane, double radius);
+  void reach(std::uint32_t at);
+  std::span<const Path> take_ring();
+
+  const IndexView* index_;
+  const Kernels* kernels_;
+  bool is_whole_ = false;
+  EpochArray<std::uint32_t> numbers_;  // by leaf: its place in `entries_`; kNone if it was left out
+  std::vector<Entry> entries_;         // the first is that of the queries
+  // By vertex of these leaves, 32 times the number of its leaf plus its lane:
+  std::vector<std::uint32_t> last_edge_;  // to another leaf, in `edges_`; or kNone
+  std::vector<Edge> edges_;
+  // Of one search:
+  std::vector<PerLane<double>> squares_;  // of distances, by leaf, where the ball meets it
+  std::vector<Path> in_ball_;             // the vertices in the ball, with these
+  PathOrder order_;
+  std::vector<State> states_;
+  std::vector<std::uint32_t> reached_;  // vertices of the same connecting radius, not passed on yet
+  std::vector<Path> ring_;              // the same by id, sorted
+};
+
+template <class F>
+bool NearestPacket::for_each_near(unsigned lane, double most, F&& f) {
+  if ((entries_.front().open >> lane & 1U) == 0) return true;
+  states_.assign(entries_.size(), {});
+  states_.front().touched = LaneMask{1} << lane;
+  reached_.clear();
+  double radius = 0;
+  const auto pass_on = [&] {
+    for (const Path& next : take_ring()) {
+      if (!f(static_cast<VertexId>(next.end), radius)) return false;
+    }
+    return true;
+  };
+  for (const auto& [square, at] : vertices_in_ball(lane, most)) {
+    const double distance = std::sqrt(square);  // different squares may have one root
+    if (distance > radius && !reached_.empty() && !pass_on()) return false;
+    State& state = states_[leaf_of(at)];
+    if ((state.touched >> lane_of(at) & 1U) == 0) {
+      state.waiting |= LaneMask{1} << lane_of(at);
+      continue;
+    }
+    radius = distance;
+    reach(at);
+  }
+  return pass_on();
+}
+
+}  // namespace meshhood

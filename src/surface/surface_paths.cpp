@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// Paths over a surface: the edges, and the straight lines over two triangles that share a side. They are edges of a
+// graph in which the index then searches paths as along the edges of the mesh.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "meshhood/surface.h"
+
+#include "base/vector.h"
+#include "exact/index_access.h"
+#include "exact/weighted_graph.h"
+#include "surface/surface.h"
+
+namespace meshhood {
+namespace {
+
+constexpr double kNoLine = std::numeric_limits<double>::infinity();
+
+/// Elements of each vertex, one row after the other.
+template <class T>
+class VertexRows {
+ public:
+  /// `for_each(f)` calls `f(v, element)` for each element of the row of `v`, and does so twice. Rows are sorted.
+  template <class ForEach>
+  VertexRows(std::size_t vertices, ForEach&& for_each) : offsets_(vertices + 1, 0) {
+    for_each([&](VertexId v, const T&) { ++offsets_[v]; });
+    std::inclusive_scan(offsets_.begin(), offsets_.end(), offsets_.begin());
+    elements_.resize(offsets_.back());
+    // Each offset stands at the end of its row and moves to the beginning as the row fills.
+    for_each([&](VertexId v, const T& element) { elements_[--offsets_[v]] = element; });
+    for (VertexId v = 0; v < vertices; ++v) std::ranges::sort((*this)[v]);
+  }
+
+  [[nodiscard]] std::size_t size() const { return offsets_.size() - 1; }
+  [[nodiscard]] std::span<T> operator[](VertexId v) {
+    return std::span(elements_).subspan(offsets_[v], offsets_[v + std::size_t{1}] - offsets_[v]);
+  }
+
+ private:
+  std::vector<std::size_t> offsets_;
+  std::vector<T> elements_;
+};
+
+/// A side of a triangle from a vertex to one with a larger number.
+struct SharedSide {
+  VertexId to;
+  VertexId opposite;  // corner of the triangle
+
+  friend auto operator<=>(const SharedSide&, const SharedSide&) = default;
+};
+
+struct Line {
+  VertexId to;
+  double length;
+
+  friend auto operator<=>(const Line&, const Line&) = default;
+};
+
+/// The length of the straight line from `c` to `d` over the triangles abc and bad, unfolded into a plane. Infinite if
+/// it does not cross the side ab between its ends: then a shortest path over the two runs along edges.
+double unfolded_length(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const double side = length(b - a);
+  if (side == 0) return kNoLine;
+  // Along the side, and away from it.
+  const auto in_plane = [&](const Point& p) {
+    const double along = dot(p - a, b - a) / side;
+    return std::pair(along, length(p - a - along / side * (b - a)));
+  };
+  const auto [along_c, away_c] = in_plane(c);
+  const auto [along_d, away_d] = in_plane(d);
+  const double crossing = (along_c * away_d + along_d * away_c) / (away_c + away_d);
+  if (!(0 < crossing && crossing < side)) return kNoLine;
+  const double along = along_c - along_d;
+  const double away = away_c + away_d;
+  return std::sqrt(along * along + away * away);
+}
+
+/// The edges of the index and the lines over the triangles of a surface.
+class SurfaceGraph {
+ public:
+  explicit SurfaceGraph(const SurfaceState& surface)
+      : index_(*surface.index),
+        faces_(surface.faces()),
+        triangles_(surface.tree().triangles()),
+        edges_(&edges_of(surface)) {}
+
+  [[nodiscard]] WeightedGraph make() const {
+    VertexRows<SharedSide> sides(index_.vertex_count(), [&](auto&& f) { for_each_side(f); });
+    VertexRows<Line> lines(index_.vertex_count(), [&](auto&& f) {
+      for_each_edge(f);
+      for_each_line(sides, [&](VertexId c, VertexId d, double length) {
+        f(c, {d, length});
+        f(d, {c, length});
+      });
+    });
+    Adjacency edges;
+    std::vector<double> lengths;
+    edges.offsets.push_back(0);
+    for (VertexId v = 0; v < lines.size(); ++v) {
+      for (const auto& [to, length] : lines[v]) {
+        const bool is_longer = edges.neighbors.size() > edges.offsets.back() && edges.neighbors.back() == to;
+        if (is_longer) continue;
+        edges.neighbors.push_back(to);
+        lengths.push_back(length);
+      }
+      edges.offsets.push_back(static_cast<EdgeOffset>(edges.neighbors.size()));
+    }
+    return {std::make_shared<const Adjacency>(std::move(edges)), std::move(lengths)};
+  }
+
+ private:
+  static const WeightedGraph& edges_of(const SurfaceState& surface) {
+    return IndexAccess::share_graph(surface.searched)->of(*surface.index);
+  }
+
+  [[nodiscard]] Point position(std::size_t place) const {
+    return std::visit([&](auto xyz) { return point(xyz, place); }, index_.positions);
+  }
+
+  template <class F>
+  void for_each_edge(F&& f) const {
+    const auto& [edges, lengths] = *edges_;
+    for (std::size_t v = 0; v < index_.vertex_count(); ++v) {
+      for (std::size_t k = edges->offsets[v]; k < edges->offsets[v + 1]; ++k) {
+        f(static_cast<VertexId>(v), {edges->neighbors[k], lengths[k]});
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_edge(VertexId a, VertexId b) const {
+    return std::ranges::binary_search(edges_->edges->view()[a], b);
+  }
+
+  /// Whether lines may run over a face: none of its corners is a wall, and none of its sides is cut.
+  [[nodiscard]] bool is_open(std::span<const VertexId> corners) const {
+    auto previous = static_cast<VertexId>(index_.place(corners.back()));
+    return std::ranges::all_of(corners, [&](VertexId corner) {
+      const auto place = static_cast<VertexId>(index_.place(corner));
+      const VertexId before = std::exchange(previous, place);
+      return !index_.is_wall_at(place) && (before == place || is_edge(before, place));
+    });
+  }
+
+  /// The sides of the triangles of open faces.
+  template <class F>
+  void for_each_side(F&& f) const {
+    for (const auto& [corners, face, diagonals] : triangles_) {
+      if (!is_open(faces_[face])) continue;
+      for (unsigned i = 0; i < 3; ++i) {
+        const auto [a, b] =
+            std::minmax({static_cast<VertexId>(corners[i]), static_cast<VertexId>(corners[(i + 1) % 3])});
+        f(a, {b, static_cast<VertexId>(corners[(i + 2) % 3])});
+      }
+    }
+  }
+
+  /// Lines across sides of two triangles, and the sides within a polygon.
+  template <class F>
+  void for_each_line(VertexRows<SharedSide>& sides, F&& f) const {
+    for (VertexId a = 0; a < sides.size(); ++a) {
+      const std::span<const SharedSide> row = sides[a];
+      for (auto first = row.begin(); first != row.end();) {
+        const VertexId b = first->to;
+        const auto end = std::find_if(first, row.end(), [&](const SharedSide& side) { return side.to != b; });
+        if (!is_edge(a, b)) f(a, b, length(position(b) - position(a)));
+        if (end - first == 2 && first->opposite != first[1].opposite) {
+          const VertexId c = first->opposite;
+          const VertexId d = first[1].opposite;
+          const double length = unfolded_length(position(a), position(b), position(c), position(d));
+          if (length != kNoLine) f(c, d, length);
+        }
+        first = end;
+      }
+    }
+  }
+
+  const IndexView& index_;
+  const StoredFaces& faces_;
+  std::span<const Triangle> triangles_;
+  const WeightedGraph* edges_;
+};
+
+}  // namespace
+
+Index surface_paths(const Surface& surface, const Run& run) {
+  const SurfaceState& state = SurfaceAccess::state(surface);
+  TaskContext task(run.threads, run.progress, 1);
+  auto view = std::make_shared<IndexView>(*state.index);
+  view->owner = std::make_shared<const IndexView>(*view);
+  view->is_derived = true;
+  view->geometry = nullptr;
+  auto graph = std::make_shared<KeptGraph>(SurfaceGraph(state).make());
+  task.finish();
+  return IndexAccess::make(std::move(view), std::move(graph));
+}
+
+}  // namespace meshhood
