@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/triangulate.h"
+#include "base/vector.h"
 #include "support/test_mesh.h"
 
 namespace meshhood::test {
@@ -24,12 +25,13 @@ namespace meshhood::test {
   return face;
 }
 
-/// The triangles of the faces of a mesh, face after face. How polygons are divided is tested by itself.
+/// The triangles of the faces of a mesh, face after face. How polygons are divided is tested by itself; where squares
+/// of lengths vanish, it depends on the scale.
 struct TestTriangles {
-  explicit TestTriangles(const TestMesh& mesh) {
+  explicit TestTriangles(const TestMesh& mesh, double scale = 1) {
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
       std::vector<Point> points;
-      for (const std::uint32_t v : mesh.face(f)) points.push_back(corner_of(mesh, v));
+      for (const std::uint32_t v : mesh.face(f)) points.push_back(scale * corner_of(mesh, v));
       Triangulation parts;
       triangulate(points, parts);
       const auto owner = [&](std::size_t a, std::size_t b) {

@@ -72,8 +72,9 @@ TEST_P(ClosestPointIn, FindsTheFirstOfAScan) {
   std::size_t points = 0;
   for (const std::size_t vertices : {1U, 2U, 40U, 300U, 2000U}) {
     const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
-    const TestTriangles triangles(mesh);
     const Index index = build(mesh.view());
+    const double scale = IndexAccess::view(index).frame.scale;
+    const TestTriangles triangles(mesh, scale);
     if (triangles.faces.empty()) {
       expect_refused(ErrorCode::InvalidMesh, "no face of three corners",
                      [&] { static_cast<void>(Surface(index, mesh.view().faces).closest_point({0, 0, 0})); });
@@ -82,7 +83,6 @@ TEST_P(ClosestPointIn, FindsTheFirstOfAScan) {
     SCOPED_TRACE(mesh.name);
     const Surface surface(index, mesh.view().faces);
     EXPECT_EQ(surface.face_count(), mesh.face_count());
-    const double scale = IndexAccess::view(index).frame.scale;
     Random random(vertices);
     for (std::size_t i = 0; i < scaled(40, 6); ++i, ++points) {
       SpacePoint q = draw_start(random, mesh).plain.center;
