@@ -39,8 +39,8 @@ struct PacketAnswer {
   std::span<const VertexId> vertices;  ///< of each row, an id of the caller
   std::span<const double> radii;       ///< of each row
   QueryWord queries = 0;               ///< all
-  std::span<const Piece> pieces;       ///< in index order, without overlap
-  PacketLengths* lengths = nullptr;    ///< none of straight lines, nor unless `PacketOptions::lengths`
+  std::span<const Piece> pieces;       ///< in index order, without overlap; see simd/joint.h
+  PacketLengths* lengths = nullptr;    ///< null by straight lines, whose lengths positions give, and unless asked for
 };
 
 }  // namespace meshhood

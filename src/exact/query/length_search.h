@@ -18,7 +18,8 @@
 namespace meshhood {
 
 /// The vertices around one vertex by path distance or by number of edges: for each the length, and its place in index
-/// order. Walls are not passed, ignored vertices are passed and left out. One object a thread.
+/// order. A length is the least radius whose neighborhood has the vertex. Walls are not passed, ignored vertices are
+/// passed and left out. One object a thread.
 class LengthSearch {
  public:
   /// Gets the vertices that were found since its last call, and returns whether they are enough. All that are nearer
