@@ -91,7 +91,7 @@ def javascript_names(source):
     for name, body in re.findall(r"^export (?:class|interface) (\w+)[^{]*\{\n(.*?)^\}", source, re.M | re.S):
         yield name
         yield from {f"{name}.{part}" for part in re.findall(r"^  (?:static |readonly )*(\[?[\w.]+\]?)\??[:(<]", body, re.M)}
-    yield from set(re.findall(r"^export (?:function|type) (\w+)", source, re.M))
+    yield from set(re.findall(r"^export (?:function|type|const) (\w+)", source, re.M))
 
 
 def faults(declared, found):
