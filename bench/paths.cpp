@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Paths along the edges from every vertex, in one call, beside one `Searcher` that answers one vertex after the
 // other: counts, ids with lengths, and a smoothed map. On one thread, in alternating rounds; microseconds a vertex, and
-// how many times as fast the call is.
+// how many times as fast the call is. Then the same along the surface, if the mesh has faces.
 //
 //   bench_paths MESH [RADIUS IN MEAN EDGES...]
 #include <algorithm>
@@ -28,10 +28,9 @@ const Run kOneThread{.threads = 1};
 
 class Paths {
  public:
-  explicit Paths(const MeshView& mesh)
-      : index_(build(mesh)),
-        graph_(extract_graph(index_)),
-        mean_edge_(mean_edge_length(graph_.view())),
+  Paths(const Index& index, double mean_edge)
+      : index_(index),
+        mean_edge_(mean_edge),
         edges_(index_, Metric::Path),
         method_(SearchMethod(index_).by(Metric::Path)),
         map_(index_.vertex_count()) {
@@ -110,8 +109,7 @@ class Paths {
     return sum / weights;
   }
 
-  Index index_;
-  GraphData graph_;
+  const Index& index_;
   double mean_edge_;
   Searcher edges_;
   SearchMethod method_;
@@ -128,14 +126,20 @@ int run(std::span<char*> arguments) {
     return 2;
   }
   const MeshArgument mesh(arguments[1]);
-  Paths paths(mesh.view());
-  std::printf("%6s %9s", "edges", "vertices");
-  for (const char* what : {"count", "ids", "smooth"}) std::printf(" %10s %10s %6s", what, "batch", "ratio");
-  std::printf("\n");
   std::vector<double> radii{5, 10, 20};
   if (arguments.size() > 2) radii.clear();
   for (const char* argument : arguments.subspan(2)) radii.push_back(std::stod(argument));
-  for (const double radius : radii) paths.run(radius);
+  const Index index = build(mesh.view());
+  const double mean_edge = mean_edge_length(index);
+  const auto compare = [&](const char* along, const Index& searched) {
+    std::printf("along %s\n%6s %9s", along, "edges", "vertices");
+    for (const char* what : {"count", "ids", "smooth"}) std::printf(" %10s %10s %6s", what, "batch", "ratio");
+    std::printf("\n");
+    Paths paths(searched, mean_edge);
+    for (const double radius : radii) paths.run(radius);
+  };
+  compare("edges", index);
+  if (mesh.view().faces.size() > 0) compare("the surface", surface_paths(Surface(index, mesh.view().faces)));
   return 0;
 }
 

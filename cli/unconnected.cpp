@@ -46,13 +46,12 @@ class UnconnectedQuantity : public Quantity {
 }  // namespace
 
 void add_unconnected(CLI::App& program) {
-  add_quantity(
-      program,
-      {.name = "unconnected",
-       .description = "Write the nearest vertex of each ball that is not connected in it: gaps and wall thickness",
-       .shown = "the gap at the last radius",
-       .needs_faces = false},
-      std::make_shared<UnconnectedQuantity>());
+  add_quantity(program,
+               {.name = "unconnected",
+                .description = "Write the nearest vertex of each ball that is not connected in it",
+                .shown = "the gap at the last radius",
+                .needs_faces = false},
+               std::make_shared<UnconnectedQuantity>());
 }
 
 }  // namespace meshhood::cli

@@ -74,10 +74,10 @@ struct Dab {
 ///   included, all lie within the radius of the center. Around a vertex it is the component with the vertex of the
 ///   graph induced by the vertices in the ball: the same set as that of `ReferenceSearcher`, on every processor.
 /// - `Metric::Path`: the vertices whose *path distance* from the vertex is at most the radius: the least length of a
-/// path
-///   of edges. The length of an edge is the distance of its ends (see `distance`); that of a path is the sum of those
-///   of its edges, added in double in the order of the path. The rounded sum never decreases if a summand grows, so the
-///   search finds the least sum to the last bit, as does the algorithm of Dijkstra (1959).
+///   path of edges. The length of an edge is the distance of its ends (see `distance`); that of a path is the sum of
+///   those of its edges, added in double in the order of the path. The rounded sum never decreases if a summand grows,
+///   so the search finds the least sum to the last bit, as does the algorithm of Dijkstra (1959). An index of
+///   `surface_paths` also has lines over pairs of triangles.
 /// - `Metric::Rings`: the vertices that at most `radius` edges, rounded down, separate from the vertex.
 ///
 /// Walls of a masked index are not in its mesh; ignored vertices are passed, but belong to no answer.

@@ -231,21 +231,22 @@ class Surface {
 };
 
 /// The index of a surface, with its masks, by whose paths (`Metric::Path`) distances are those along the surface: a
-/// path has edges, and straight lines over two triangles that share a side, unfolded into a plane. It is so a few
-/// percent longer than a geodesic, where one along the edges is often 6 to 10 % longer. All calls by other metrics
-/// answer as before, and `Surface::on` makes a surface of it.
+/// path has edges, and straight lines over two triangles that share a side, unfolded into a plane. It is
+/// nearer to a geodesic than one along the edges (docs/queries.md). All calls by other metrics answer as before, and
+/// `Surface::on` makes a surface of it.
 ///
 /// A line crosses a side inside, and only one of exactly two triangles. None runs over a face with a wall, or with a
 /// side that is cut (see `cut_edges`). The triangles of a polygon are those of `Surface`; the sides between them are
 /// lines, too. The length of a line is computed in double, off by a few units in the last place of the longest side.
 ///
-/// The arrays of the index are shared. Memory: about 160 bytes a vertex of a mesh of triangles, three times that
-/// meanwhile, and what the surface needs for closest points. O(#V + #F), on one thread; a search then takes up to
-/// one and a half times as long as along the edges. The same holds for it as for an index of `masked`: it is not saved,
-/// checked, refitted or masked, and refuses to answer after a refit in place of its mesh.
+/// The arrays of the index are shared. Memory: 150 bytes a vertex of a mesh of triangles, 12 for each line in both
+/// directions and 4; three times that meanwhile, and what the surface needs for closest points. O(#V + #F), on one
+/// thread; `build/release/bench/bench_paths` compares the searches with those along the edges. The same holds for it as
+/// for an index of `masked`: it is not saved, checked, refitted or masked, and refuses to answer after a refit in place
+/// of its mesh.
 ///
-/// Throws Error{InvalidMesh} if no face has three corners, Error{InvalidOption} after a refit in place, and
-/// Error{Cancelled}. Source: Dijkstra's algorithm on such lines is what Connectome Workbench calls geodesic distance.
+/// Throws Error{InvalidMesh} if no face has three corners, Error{InvalidOption} after a refit in place, Error{TooLarge}
+/// beyond `kMaxNeighbors`, and Error{Cancelled}. Connectome Workbench measures geodesic distances in this way.
 [[nodiscard]] Index surface_paths(const Surface& surface, const Run& run = {});
 
 }  // namespace meshhood

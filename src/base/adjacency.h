@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <numeric>
 #include <span>
+#include <vector>
 
 #include "meshhood/adjacency.h"
 #include "meshhood/mesh.h"
@@ -26,17 +27,24 @@ void for_each_side(const FacesView& faces, std::size_t begin, std::size_t end, F
   });
 }
 
-/// Rows of neighbors, each in no order, from all pairs: `for_each(f)` calls `f(v, w)` for every `w` in the row of `v`,
-/// and does so twice. There are at most `kMaxNeighbors` pairs. O(#V + #pairs).
+/// Rows of elements, each in no order: `for_each(f)` calls `f(v, element)` for every element of the row of `v`, and
+/// does so twice. `offsets` can count them all. O(#V + #elements).
+template <class Offset, class Element, class ForEach>
+void gather_rows(std::size_t vertices, ForEach&& for_each, std::vector<Offset>& offsets,
+                 std::vector<Element>& elements) {
+  offsets.assign(vertices + 1, 0);
+  for_each([&](VertexId v, const Element&) { ++offsets[v]; });
+  std::inclusive_scan(offsets.begin(), offsets.end(), offsets.begin());
+  elements.resize(offsets.back());
+  // Each offset stands at the end of its row and moves to the beginning as the row fills.
+  for_each([&](VertexId v, const Element& element) { elements[--offsets[v]] = element; });
+}
+
+/// The same for neighbors, of which there are at most `kMaxNeighbors`.
 template <class ForEach>
 [[nodiscard]] Adjacency gather_rows(std::size_t vertices, ForEach&& for_each) {
   Adjacency result;
-  result.offsets.assign(vertices + 1, 0);
-  for_each([&](VertexId v, VertexId) { ++result.offsets[v]; });
-  std::inclusive_scan(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
-  result.neighbors.resize(result.offsets.back());
-  // Each offset stands at the end of its row and moves to the beginning as the row fills.
-  for_each([&](VertexId v, VertexId w) { result.neighbors[--result.offsets[v]] = w; });
+  gather_rows(vertices, for_each, result.offsets, result.neighbors);
   return result;
 }
 

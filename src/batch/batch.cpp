@@ -43,7 +43,8 @@ BatchWorker& Batch::worker(unsigned thread) {
 
 std::vector<std::size_t> Batch::put_in_index_order() {
   block_.reset();
-  std::vector<std::size_t> order = rows_.in_order([&](VertexId v) { return factory_.position(v); });
+  std::vector<std::size_t> order =
+      rows_by_position(rows_.size(), [&](std::size_t row) { return factory_.position(rows_.vertex(row)); });
   rows_.reorder(order);
   return order;
 }

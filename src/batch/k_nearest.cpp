@@ -64,15 +64,14 @@ class NearestRows {
   /// Calls `f(search, row)` for all rows, on any thread, with a search of that thread, made by `make()`.
   template <class Make, class F>
   void for_each(Make&& make, F&& f) {
-    std::vector<std::pair<std::uint32_t, std::size_t>> in_order(size());
-    for (std::size_t row = 0; row < size(); ++row) in_order[row] = {index_->slot[vertices_[row]], row};
-    sort_by_position(std::span(in_order), [](const auto& row) { return row.first; });
+    const std::vector<std::size_t> in_order =
+        rows_by_position(size(), [&](std::size_t row) { return index_->slot[vertices_[row]]; });
     TaskContext task(run_.threads, run_.progress, size());
     std::vector<decltype(make())> searches(task.threads());
     task.parallel_for(size(), kRowsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
       if (!searches[thread]) searches[thread] = make();
       for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
-        f(*searches[thread], in_order[i].second);
+        f(*searches[thread], in_order[i]);
         task.advance(thread, 1);
       }
     });

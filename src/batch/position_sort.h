@@ -37,4 +37,15 @@ void sort_by_position(std::span<Item> items, const Position& position) {
   if (sorted.data() != items.data()) std::copy(sorted.begin(), sorted.end(), items.begin());
 }
 
+/// The rows 0 to `rows - 1` in the order of `position(row)`.
+template <class Position>
+[[nodiscard]] std::vector<std::size_t> rows_by_position(std::size_t rows, const Position& position) {
+  std::vector<std::pair<std::uint32_t, std::size_t>> by_position(rows);
+  for (std::size_t row = 0; row < rows; ++row) by_position[row] = {position(row), row};
+  sort_by_position(std::span(by_position), [](const auto& row) { return row.first; });
+  std::vector<std::size_t> order(rows);
+  for (std::size_t i = 0; i < rows; ++i) order[i] = by_position[i].second;
+  return order;
+}
+
 }  // namespace meshhood

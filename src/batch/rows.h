@@ -2,15 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "meshhood/batch.h"
-
-#include "batch/position_sort.h"
 
 namespace meshhood {
 
@@ -38,10 +34,6 @@ class Rows {
   /// Replaces the radius of all rows, each of which has the same.
   void set_radius(double radius) { radius_ = radius; }
 
-  /// The rows in the order of `position(vertex)`, a number of 32 bits. Rows of equal positions keep their order.
-  template <class Position>
-  [[nodiscard]] std::vector<std::size_t> in_order(Position&& position) const;
-
   /// Replaces row `i` by the former row `order[i]`. `order` is a permutation of the rows.
   void reorder(std::span<const std::size_t> order);
 
@@ -53,15 +45,5 @@ class Rows {
   std::size_t size_;
   double radius_;  // of all rows, unless there are `radii_`
 };
-
-template <class Position>
-std::vector<std::size_t> Rows::in_order(Position&& position) const {
-  std::vector<std::pair<std::uint32_t, std::size_t>> by_position(size());
-  for (std::size_t row = 0; row < size(); ++row) by_position[row] = {position(vertex(row)), row};
-  sort_by_position(std::span(by_position), [](const auto& row) { return row.first; });
-  std::vector<std::size_t> order(size());
-  for (std::size_t i = 0; i < size(); ++i) order[i] = by_position[i].second;
-  return order;
-}
 
 }  // namespace meshhood

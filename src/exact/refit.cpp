@@ -158,7 +158,7 @@ Index with_geometry(const Index& index, std::shared_ptr<GeometryData> geometry) 
   auto view = std::make_shared<IndexView>(IndexAccess::view(index));
   view->newest = std::make_shared<std::uint64_t>(view->version);
   set_geometry(*view, std::move(geometry));
-  return IndexAccess::make(std::move(view), std::make_shared<KeptGraph>(*IndexAccess::share_graph(index)));
+  return IndexAccess::make(std::move(view), std::make_shared<KeptGraph>(IndexAccess::share_graph(index)->edges()));
 }
 
 template <class T>
@@ -248,7 +248,7 @@ Index refit(const Index& index, const PositionsView& positions, const IndicesVie
 void Index::refit_in_place(const PositionsView& positions, const Run& run) {
   static_cast<void>(IndexAccess::whole(*this, "refitted"));
   TaskContext task(run.threads, run.progress, kGeometrySteps);
-  auto graph = std::make_shared<KeptGraph>(*graph_);
+  auto graph = std::make_shared<KeptGraph>(graph_->edges());
   set_geometry(view(), geometry_at(positions, view(), task));
   graph_ = std::move(graph);
   view_->version = ++*view_->newest;

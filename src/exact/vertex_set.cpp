@@ -44,6 +44,7 @@ void VertexSet::align_to_leaves() {
     last = {next, 0};
     leaf = vertices_of(next);
   };
+  // Mostly to the next leaf: a lookup for each takes as long as the search.
   const auto move_to_vertex = [&](VertexId vertex) {
     if (vertex < leaf.end) return;
     const bool is_next = vertex < vertices_of(last.leaf + 1).end;

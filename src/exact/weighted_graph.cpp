@@ -57,9 +57,6 @@ KeptGraph::KeptGraph(WeightedGraph graph) {
   graph_.get([&] { return std::move(graph); });
 }
 
-KeptGraph::KeptGraph(const KeptGraph& before)
-    : edges_(before.graph_.made() != nullptr ? before.graph_.made()->edges : before.edges_) {}
-
 const WeightedGraph& KeptGraph::of(const IndexView& index) {
   return graph_.get([&] {
     return make_weighted_graph(index, edges_ ? edges_ : std::make_shared<const Adjacency>(make_edges(index)));

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "meshhood/adjacency.h"
@@ -27,10 +28,11 @@ class KeptGraph {
  public:
   KeptGraph() = default;
   explicit KeptGraph(WeightedGraph graph);
-  /// For the index of `before` at other positions: the edges are kept, and their lengths are made at the first use.
-  explicit KeptGraph(const KeptGraph& before);
-  KeptGraph& operator=(const KeptGraph&) = delete;
-  ~KeptGraph() = default;
+  /// With these edges, or null for those of the index. Their lengths are made at the first use.
+  explicit KeptGraph(std::shared_ptr<const Adjacency> edges) : edges_(std::move(edges)) {}
+
+  /// Null if they have not been made.
+  [[nodiscard]] std::shared_ptr<const Adjacency> edges() const { return graph_.made() ? graph_.made()->edges : edges_; }
 
   [[nodiscard]] const WeightedGraph& of(const IndexView& index);
 

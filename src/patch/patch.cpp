@@ -9,6 +9,7 @@
 #include "meshhood/error.h"
 
 #include "base/validate.h"
+#include "batch/position_sort.h"
 #include "batch/rows.h"
 #include "exact/query/arguments.h"
 #include "patch/gap.h"
@@ -35,7 +36,8 @@ bool run_at(const PatchState& state, PatchSearch& search, VertexId v, double rad
 /// Calls `f(search, row)` after a search for each row, on any thread.
 template <class F>
 void for_each_row(const PatchState& state, const Rows& rows, TaskContext& task, bool measures, F&& f) {
-  const std::vector<std::size_t> in_order = rows.in_order([&](VertexId v) { return state.index->slot[v]; });
+  const std::vector<std::size_t> in_order =
+      rows_by_position(rows.size(), [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; });
   std::vector<std::unique_ptr<PatchSearch>> searches(task.threads());
   task.parallel_for(rows.size(), kPatchesAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
     if (!searches[thread]) searches[thread] = std::make_unique<PatchSearch>(state);

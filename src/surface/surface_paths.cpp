@@ -7,14 +7,16 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <span>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "meshhood/error.h"
 #include "meshhood/surface.h"
 
+#include "base/adjacency.h"
 #include "base/vector.h"
 #include "exact/index_access.h"
 #include "exact/weighted_graph.h"
@@ -25,18 +27,14 @@ namespace {
 
 constexpr double kNoLine = std::numeric_limits<double>::infinity();
 
-/// Elements of each vertex, one row after the other.
+/// The elements of each vertex, sorted.
 template <class T>
 class VertexRows {
  public:
-  /// `for_each(f)` calls `f(v, element)` for each element of the row of `v`, and does so twice. Rows are sorted.
+  /// `for_each` as for `gather_rows`.
   template <class ForEach>
-  VertexRows(std::size_t vertices, ForEach&& for_each) : offsets_(vertices + 1, 0) {
-    for_each([&](VertexId v, const T&) { ++offsets_[v]; });
-    std::inclusive_scan(offsets_.begin(), offsets_.end(), offsets_.begin());
-    elements_.resize(offsets_.back());
-    // Each offset stands at the end of its row and moves to the beginning as the row fills.
-    for_each([&](VertexId v, const T& element) { elements_[--offsets_[v]] = element; });
+  VertexRows(std::size_t vertices, ForEach&& for_each) {
+    gather_rows(vertices, for_each, offsets_, elements_);
     for (VertexId v = 0; v < vertices; ++v) std::ranges::sort((*this)[v]);
   }
 
@@ -111,6 +109,9 @@ class SurfaceGraph {
         if (is_longer) continue;
         edges.neighbors.push_back(to);
         lengths.push_back(length);
+      }
+      if (edges.neighbors.size() > kMaxNeighbors) {
+        raise(ErrorCode::TooLarge, "more than " + std::to_string(kMaxNeighbors) + " edges and lines, counted twice");
       }
       edges.offsets.push_back(static_cast<EdgeOffset>(edges.neighbors.size()));
     }

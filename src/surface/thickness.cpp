@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "base/vector.h"
+#include "batch/position_sort.h"
 #include "batch/rows.h"
 #include "shared/parallel.h"
 #include "surface/face_tree.h"
@@ -116,7 +117,8 @@ std::vector<double> thickness(const Surface& surface, const BatchVertices& verti
   const FaceTree& tree = state.tree();
   const NormalCones* const cones = method == ThicknessMethod::Sphere ? &state.cones() : nullptr;
   const OrientedIndex oriented = SurfaceAccess::oriented(surface, task);
-  const std::vector<std::size_t> in_order = rows.in_order([&](VertexId v) { return state.index->slot[v]; });
+  const std::vector<std::size_t> in_order =
+      rows_by_position(rows.size(), [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; });
   std::vector<double> result(rows.size());
   task.parallel_for(rows.size(), kVerticesOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {

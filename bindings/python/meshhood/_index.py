@@ -106,9 +106,9 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         masks are kept as an index of their own, O(#V) once; a call with the same masks compares them. See `masked`.
     metric : "straight", the neighborhood in the ball of radius `r`; "path", the vertices whose shortest path along
         edges is at most `r` long. Distances, and the weights that follow from them, are then the lengths of these
-        paths. "surface", the same for paths that also run straight over two triangles that share a side: a few percent
-        longer than geodesics, where those along edges are 6 to 10 % longer. The index must have faces; their lines are
-        kept, 160 bytes a vertex. "rings", the vertices that at most `r` edges separate from the vertex; distances are
+        paths. "surface", the same for paths that also run straight over two triangles that share a side: nearer to
+        geodesics than paths along edges (docs/queries.md). The index must have faces; their lines are kept, about 150
+        bytes a vertex. "rings", the vertices that at most `r` edges separate from the vertex; distances are
         then numbers of edges.
     unit : of `r` and `scales`: "mesh" is that of V, "edge" is `mean_edge_length`.
     workers, progress : as above. Progress is over all scales. The result does not depend on `workers`.
