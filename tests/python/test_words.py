@@ -112,10 +112,26 @@ def test_errors_blame_the_argument_at_fault():
         INDEX.curvature(5.0, F)
     with pytest.raises(ValueError, match="method: 'bfs', expected 'exact' with walls"):
         INDEX.counts(1.0, walls=WALLS, method="bfs")
-    with pytest.raises(TypeError, match="walls: .* numbers 0 or 1, expected a bool mask, or vertices"):
-        INDEX.counts(1.0, walls=WALLS.astype(int))
     with pytest.raises(ValueError, match="walls: "):
         INDEX.counts(1.0, walls=[COUNT])
+
+
+@pytest.mark.parametrize("number", (int, np.uint8))
+@pytest.mark.parametrize("argument", ("vertices", "walls", "ignored"))
+def test_a_mask_of_numbers_is_refused(argument, number):
+    for mask in (WALLS, np.zeros(COUNT, bool), np.ones(COUNT, bool)):
+        with pytest.raises(TypeError, match=f"{argument}: {COUNT} numbers 0 or 1, .* a bool mask: {argument} == 1"):
+            INDEX.counts(1.0, **{argument: mask.astype(number)})
+    assert len(INDEX.counts(1.0, [0, 1] * COUNT)) == 2 * COUNT
+    with pytest.raises(TypeError, match="ids: .* a bool mask"):
+        INDEX.submesh(WALLS.astype(number))
+
+
+def test_the_points_and_seeds_of_a_stroke_repeat_as_they_like():
+    rows = np.arange(COUNT) % 2
+    wanted = INDEX.stroke(V[:2], 1.5, seeds=[0, 1])
+    np.testing.assert_array_equal(INDEX.stroke(V[rows], 1.5, seeds=rows), wanted)
+    np.testing.assert_array_equal(INDEX.stroke(rows, 1.5), wanted)
 
 
 def test_masks_are_also_lists_of_vertices():

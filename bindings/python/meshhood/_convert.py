@@ -13,7 +13,16 @@ _MOST_THREADS = 1024
 
 
 def vertices(v, count, name="vertices"):
-    """`v` as a new int32 array in C order, each value in [0, count). `v` may be a boolean mask of `count` values."""
+    """`v` as a new int32 array in C order, each value in [0, count). `v` may be a bool mask of `count` values; a mask of
+    numbers is refused."""
+    ids = vertex_rows(v, count, name)
+    if len(ids) == count > 2 and ids.max() <= 1:
+        raise TypeError(f"{name}: {count} numbers 0 or 1, expected vertices, or a bool mask: {name} == 1")
+    return ids
+
+
+def vertex_rows(v, count, name):
+    """The same where a vertex may occur any number of times."""
     return _numbers_of(v, count, name, "vertex", "vertices").astype(np.int32, copy=False)
 
 
@@ -144,7 +153,7 @@ def seed_rows(values, rows, count):
         array = array.reshape(-1, 1)
     if array.ndim != 2 or len(array) != rows:
         raise ValueError(f"seeds: expected ({rows},) or ({rows}, k), not an array of shape {np.shape(values)}")
-    return vertices(array.reshape(-1), count, "seeds").reshape(array.shape)
+    return vertex_rows(array.reshape(-1), count, "seeds").reshape(array.shape)
 
 
 def edges(values, name):
@@ -168,11 +177,8 @@ def mask(values, name, count):
         return None
     array = as_array(values, name)
     if array.dtype != np.bool_:
-        ids = vertices(values, count, name)  # not `array`: an empty list has no integers
-        if len(ids) == count > 2 and ids.max() <= 1:
-            raise TypeError(f"{name}: {count} numbers 0 or 1, expected a bool mask, or vertices")
         chosen = np.zeros(count, np.uint8)
-        chosen[ids] = 1
+        chosen[vertices(values, count, name)] = 1  # not `array`: an empty list has no integers
         return chosen
     if array.shape != (count,):
         raise ValueError(f"{name}: a bool mask of shape {array.shape}, expected ({count},)")

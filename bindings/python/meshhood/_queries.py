@@ -186,7 +186,7 @@ class Queries(Held):
         if np.ndim(points) == 1 and np.asarray(points).dtype.kind in "iu":
             if seeds is not None or face is not None:
                 raise ValueError("seeds, face: expected None, because the points are vertices")
-            seeds = _convert.vertices(points, self._count, "points")
+            seeds = _convert.vertex_rows(points, self._count, "points")
             count = len(seeds)
         else:
             centers = _convert.points(points, "points")
