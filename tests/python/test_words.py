@@ -134,6 +134,18 @@ def test_the_points_and_seeds_of_a_stroke_repeat_as_they_like():
     np.testing.assert_array_equal(INDEX.stroke(rows, 1.5), wanted)
 
 
+@pytest.mark.parametrize(
+    "words", (MASKS, {"ignored": IGNORED}, {"walls": WALLS, "vertices": WALLS}, {"walls": np.ones(COUNT, bool)}, {})
+)
+@pytest.mark.parametrize("widths", ({"fwhm": 1.3}, {"scales": [0.7, 1.9]}))
+def test_the_smoothing_matrix_smooths_with_masks(words, widths):
+    wanted = INDEX.smooth(VALUES, **widths, **words)
+    matrix = INDEX.smoothing_matrix(**widths, **words)
+    np.testing.assert_allclose((matrix @ VALUES).reshape(wanted.shape), wanted, rtol=1e-12, atol=1e-14)
+    assert np.isnan(wanted).any() == ("walls" in words)
+    matrix.check_format(full_check=True)
+
+
 def test_masks_are_also_lists_of_vertices():
     words = {"walls": np.flatnonzero(WALLS), "ignored": np.flatnonzero(IGNORED).tolist()}
     np.testing.assert_array_equal(INDEX.counts(2.5, **words), INDEX.counts(2.5, **MASKS))
@@ -284,3 +296,13 @@ def test_free_memory_is_what_a_control_group_leaves(tmp_path, monkeypatch):
         INDEX.neighborhoods(5.0)
     with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds max_bytes, 1000"):
         INDEX.aggregate(VALUES, 5.0)
+
+
+def test_results_are_described_in_a_line():
+    assert repr(INDEX.k_nearest(3)) == f"<meshhood.Nearest: ids {COUNT} by 3, distances {COUNT} by 3>"
+    assert repr(INDEX.nested(3, [0.1, 0.2])) == "<meshhood.Nested: counts 2, ids 1>"
+    assert repr(INDEX.nearest_unconnected(0.1, 3)) == "<meshhood.Unconnected: vertices -1, gaps inf>"
+    assert repr(meshhood.Mesh(V, F)).startswith(f"<meshhood.Mesh: vertices {COUNT} by 3")
+    polygons = meshhood.Mesh(V, (np.array([0, 4]), np.arange(4)))
+    assert repr(polygons) == f"<meshhood.Mesh: vertices {COUNT} by 3, faces (2, 4)>"
+    assert repr(next(INDEX.iter_neighborhoods(0.1, [3]))).endswith("indices 1, distances None>")

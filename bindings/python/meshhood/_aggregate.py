@@ -225,8 +225,9 @@ class Aggregates(Held):
         progress: Progress = None,
     ) -> csr_array:
         """What `smooth` does, as a scipy.sparse.csr_array (#rows, #V), or with scales (#scales * #rows, #V): its product
-        with values (#V, ...) are the smoothed values, up to rounding, for values without NaN. Each row sums to 1; those
-        of walls are empty, and where all weights are 0, the row is NaN.
+        with values (#V, ...) are the smoothed values, up to rounding, for values without NaN. Each row sums to 1, or is
+        NaN: that of a vertex without a neighborhood, as a wall, has one NaN at itself, and one whose weights are all
+        0 has NaN for each.
 
         The arguments are those of `smooth`, without `values` and `nan`; `dtype` is float64 unless given. Memory: 12 bytes
         for each vertex of each neighborhood. Needs SciPy. `smooth` is faster, unless the same matrix is used many times.
@@ -253,7 +254,21 @@ class Aggregates(Held):
         with np.errstate(invalid="ignore"):
             data /= np.repeat(sums, sizes)
         graph.data = data.astype(result_dtype(dtype), copy=False)
+        return _nan_where_empty(graph, vertices)
+
+
+def _nan_where_empty(graph: Any, vertices: Any) -> Any:
+    """The matrix with a NaN at the vertex of each empty row."""
+    empty = np.flatnonzero(np.diff(graph.indptr) == 0)
+    if not empty.size:
         return graph
+    count = graph.shape[1]
+    rows = np.arange(count) if vertices is None else _convert.vertices(vertices, count)
+    places = graph.indptr[empty]
+    data = np.insert(graph.data, places, np.nan)
+    indices = np.insert(graph.indices, places, rows[empty % len(rows)])
+    indptr = graph.indptr + np.searchsorted(empty, np.arange(len(graph.indptr)))
+    return type(graph)((data, indices, indptr), shape=graph.shape)
 
 
 def _smoothing_radii(fwhm: Any, scales: Any) -> tuple[Any, Any]:

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._held import Held
 from ._methods import Method
+from ._repr import in_a_line
 from ._rows import check_sort, result_dtype, sorted_rows
 from ._types import METRICS, Counts, Floats, Ids, Mask, Metric, Number, Reals, Scales, Sort, Unit
 
@@ -33,6 +34,9 @@ class Nested(NamedTuple):
     counts: Counts
     ids: Ids
 
+    def __repr__(self) -> str:
+        return in_a_line(self)
+
 
 class Connected(NamedTuple):
     """The nearest connected vertices and their connecting radii (see `MeshIndex.nearest_connected`).
@@ -42,6 +46,9 @@ class Connected(NamedTuple):
 
     ids: Ids
     radii: Reals
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 class Queries(Held):

@@ -14,6 +14,7 @@ from ._held import Held
 from ._mesh import mesh_arrays
 from ._optional import optional
 from ._poly_data import poly_data
+from ._repr import in_a_line
 
 Ids = NDArray[np.int32]
 Corners = Literal["all", "any"]
@@ -115,6 +116,9 @@ class RimLine(NamedTuple):
     points: NDArray[np.float64]  #: (n, 3)
     edges: Ids  #: (n, 2): of each point, the end of its edge inside the region, and the other
     closed: bool  #: a loop, whose last point is joined to its first
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 class RegionMesh:
