@@ -43,6 +43,8 @@ def _numbers_of(values, count, name, one, many):
         array = np.flatnonzero(array)
     if array.dtype.kind not in "iu":
         raise TypeError(f"{name}: expected integers, not {array.dtype}")
+    if array.ndim == 0:
+        raise ValueError(f"{name}: one {one}, expected a list of {many}: [{array}]")
     if array.ndim != 1:
         hint = "; faces are passed as F=" if array.ndim == 2 and array.shape[1] in (3, 4) else ""
         raise ValueError(f"{name}: expected one {one} or a list of {many}, not an array of shape {array.shape}{hint}")
@@ -202,6 +204,8 @@ def max_bytes(value, copies=1):
 
 def path(value):
     """`value` as str or bytes. Calls `__fspath__` here, because Python code must not run below C++ functions."""
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise TypeError(f"path: expected a path, not {type(value).__name__}")
     value = os.fspath(value)
     if ("\0" if isinstance(value, str) else b"\0") in value:
         raise ValueError(f"path: {value!r} has a null byte")
@@ -275,6 +279,8 @@ def as_array(values, name):
         raise ValueError(f"{name}: {error}") from None
     except (TypeError, RuntimeError) as error:  # a tensor on another device, or one that needs a gradient
         raise TypeError(f"{name}: {error}") from None
+    if array.dtype.kind in "US":
+        raise TypeError(f"{name}: text, expected a number")
     if array.dtype.kind in "iuf" and isinstance(values, (list, tuple)) and _holds_bool(values):
         raise TypeError(f"{name}: has values of type bool among the numbers")
     return array if array.dtype.isnative else array.astype(array.dtype.newbyteorder("="))

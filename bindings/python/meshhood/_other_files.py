@@ -150,7 +150,7 @@ class Writing(NamedTuple):
 
     def triangles(self, extension: str) -> Any:
         if self.offsets is not None and not np.all(np.diff(self.offsets) == 3):
-            raise ValueError(f"F: polygons, expected triangles for {extension}: triangulate() makes them")
+            raise ValueError(f"F: polygons, expected triangles for {extension}; .ply, .vtk and .vtp take polygons")
         return np.asarray(self.corners).reshape(-1, 3)
 
 
