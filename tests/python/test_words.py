@@ -143,6 +143,8 @@ def test_the_smoothing_matrix_smooths_with_masks(words, widths):
     matrix = INDEX.smoothing_matrix(**widths, **words)
     np.testing.assert_allclose((matrix @ VALUES).reshape(wanted.shape), wanted, rtol=1e-12, atol=1e-14)
     assert np.isnan(wanted).any() == ("walls" in words)
+    one = INDEX.smoothing_matrix(**widths, **{**words, "vertices": 3})
+    np.testing.assert_array_equal(one.toarray(), INDEX.smoothing_matrix(**widths, **{**words, "vertices": [3]}).toarray())
     matrix.check_format(full_check=True)
 
 

@@ -240,6 +240,9 @@ class Aggregates(Held):
         csr_array = optional("scipy.sparse", "smoothing_matrix").csr_array
         areas = area_weights(self, weights, F)
         r, scales = _smoothing_radii(fwhm, scales)
+        if vertices is not None:  # before `progress` may change them
+            convert = _convert.vertex if _convert.is_single(vertices) else _convert.vertices
+            vertices = convert(vertices, self._count)
         graph = self.radius_neighbors_graph(
             r, vertices, scales=scales, mode="distance", metric=metric, walls=walls, ignored=ignored, unit=unit,
             max_bytes=max_bytes, workers=workers, progress=progress,
@@ -254,16 +257,14 @@ class Aggregates(Held):
         with np.errstate(invalid="ignore"):
             data /= np.repeat(sums, sizes)
         graph.data = data.astype(result_dtype(dtype), copy=False)
-        return _nan_where_empty(graph, vertices)
+        return _nan_where_empty(graph, np.arange(self._count) if vertices is None else np.atleast_1d(vertices))
 
 
-def _nan_where_empty(graph: Any, vertices: Any) -> Any:
-    """The matrix with a NaN at the vertex of each empty row."""
+def _nan_where_empty(graph: Any, rows: Any) -> Any:
+    """The matrix with a NaN in each empty row, at its vertex. `rows`: the vertices, those of each scale."""
     empty = np.flatnonzero(np.diff(graph.indptr) == 0)
     if not empty.size:
         return graph
-    count = graph.shape[1]
-    rows = np.arange(count) if vertices is None else _convert.vertices(vertices, count)
     places = graph.indptr[empty]
     data = np.insert(graph.data, places, np.nan)
     indices = np.insert(graph.indices, places, rows[empty % len(rows)])

@@ -47,7 +47,7 @@ class Submesh(NamedTuple):
 
     def carry(self, values: ArrayLike) -> NDArray[Any]:
         """Values of the vertices of the whole mesh, (#V, ...), at the vertices of this one; linear along the edges that
-        are clipped. Values of a type that is not real, such as labels, must not be clipped.
+        are clipped, for which they must be floats. Returns a new array of the same type.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> part = index.submesh(index.neighborhood(42, 0.5), clip=(42, 0.5))
@@ -163,10 +163,10 @@ class RegionMesh:
 
         clip : (start, r), if `ids` is the region of `start` and `r`, as for `rim`: the faces are clipped at the ball
             instead, with exact points on the sides that leave the region: the last rows of V, with the ends of their
-            sides as `edges` and the `weights` of these, by which `Submesh.carry` takes values there. Two such points of a face are joined by a
-            straight chord, not along the sphere, so that `area` is a little too small. V is then float64, F a tuple
-            (offsets, corners), and a face of which the ball has several parts occurs several times. What of a face lies
-            in the ball without a corner in `ids` is left out.
+            sides as `edges` and the `weights` of these, by which `Submesh.carry` takes values there. Two such points of
+            a face are joined by a straight chord, not along the sphere, so that `area` is a little too small. V is then
+            float64, F a tuple (offsets, corners), and a face of which the ball has several parts occurs several times.
+            What of a face lies in the ball without a corner in `ids` is left out.
 
         >>> mesher, ids = meshhood.RegionMesh(V, F), meshhood.MeshIndex(V, F).neighborhood(42, 0.5)
         >>> mesher.submesh(ids).area < mesher.submesh(ids, clip=(42, 0.5)).area < mesher.submesh(ids, "any").area

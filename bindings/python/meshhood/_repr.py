@@ -17,4 +17,4 @@ def in_a_line(result: Any) -> str:
 def _shown(value: Any) -> str:
     if isinstance(value, tuple):
         return f"({', '.join(map(_shown, value))})"
-    return " by ".join(map(str, value.shape)) if np.ndim(value) else f"{value}"
+    return " by ".join(map(str, np.shape(value))) or f"{value}"
