@@ -21,8 +21,7 @@ patch = index.submesh(ids, clip=(point, radius))
 
 plotter, toward = pyvista.Plotter(), np.array([0.06, -0.06, 0.11])  # nearer to the camera, so that colors cover gray
 plotter.add_mesh(pyvista.PolyData.from_regular_faces(V, F), color="lightgray")
-disc = pyvista.PolyData.from_irregular_faces(patch.V + toward, np.split(patch.F[1], patch.F[0][1:-1]))
-plotter.add_mesh(disc, color="#009E73")
+plotter.add_mesh(patch.to_pyvista().translate(toward), color="#009E73")
 for line in index.rim(ids, point, radius):
     plotter.add_lines(np.r_[line.points, line.points[:1]] + 2 * toward, color="#D55E00", width=6, connected=True)
 plotter.add_mesh(pyvista.Sphere(radius=radius, center=point), color="#0072B2", opacity=0.15)

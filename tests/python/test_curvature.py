@@ -236,3 +236,12 @@ def test_wrong_arguments_are_refused_by_name():
             index.curvature(**arguments)
     with pytest.warns(UserWarning, match="libigl raises"):
         meshhood.principal_curvature(V, F, 1)
+
+
+def test_what_follows_from_curvature_has_its_type():
+    index = meshhood.MeshIndex(*grid(5))
+    for dtype in (np.float32, np.float64):
+        for vertices in (None, 3):
+            found = index.curvature(2.5, vertices, dtype=dtype)
+            for name in ("k1", "d1", "mean", "gaussian", "shape_index", "curvedness"):
+                assert getattr(found, name).dtype == dtype, name

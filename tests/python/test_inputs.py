@@ -157,7 +157,7 @@ MASKED = np.ma.masked_greater(V, 3)
         (V, [3, 0, 1, 2, 3, 0, 1], ValueError, "F: face 1 begins at 4 with 3 corners"),
         (V, [3, 0, 1, 2, -1], ValueError, "F: face 1 begins at 4 with -1 corners"),
         (V, csr_array((3, 3)), ValueError, r"F: .*\(3, 3\), expected \(36, 36\)"),
-        (V, None, TypeError, "V: .*ndarray"),
+        (V, None, TypeError, "F: missing"),
     ),
 )
 def test_refused_meshes(positions, faces, error, message):
@@ -224,7 +224,7 @@ def test_refused_queries(v, r, error, message, method):
         (lambda: meshhood.Paper(fusion_growth=np.inf), ValueError, "fusion_growth: inf"),
         (lambda: meshhood.Paper(radius_ratio=0), ValueError, "radius_ratio: 0.0, expected .* > 0"),
         (lambda: meshhood.Paper(radius_ratio=np.nan), ValueError, "radius_ratio: nan"),
-        (lambda: meshhood.Paper(radius_ratio="10"), TypeError, "radius_ratio: .*<U2"),
+        (lambda: meshhood.Paper(radius_ratio="10"), TypeError, "radius_ratio: text, expected a number"),
         (lambda: INDEX.neighborhoods(1, [0], workers=0), ValueError, "workers: 0"),
         (lambda: INDEX.neighborhoods(1, [0], workers=1.5), TypeError, "workers: .*float"),
         (lambda: INDEX.neighborhoods(1, [0], workers=True), TypeError, "workers: .*bool"),

@@ -301,6 +301,8 @@ def by_hand(call, words, v, radius):
         ids, distances = near(words, v, radius)
         if call.name == "smooth":
             return (reduced({**words, "kernel": "gaussian"}, ids, distances, radius),)
+        if not len(ids):
+            return [v], [np.nan]
         w = weights_of(words)[ids] * kernel_of("gaussian", distances, radius)
         return ids, w / w.sum()
     w, offsets = weights_of(words)[ids], V[ids].astype(float) - V[v]
@@ -341,6 +343,8 @@ def check_by_hand(call, words, v, radius, found):
 
 def is_empty(call, row):
     """Whether a row is that of a wall."""
+    if call.name == "smoothing_matrix":
+        return len(row[0]) == 1 and np.isnan(row[1]).all()
     if call.rows in (lists, matrix):
         return all(len(column) == 0 for column in row)
     return all(np.all(np.isnan(a) | np.isin(a, (0, -1, -2, 2, np.inf))) for a in map(np.asarray, row))

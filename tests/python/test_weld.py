@@ -94,5 +94,5 @@ def test_wrong_arrays_are_refused():
         meshhood.weld(broken, F)
     with pytest.raises(ValueError, match="F: face 0: corner 1 is vertex 36"):
         meshhood.weld(V, [[0, 36, 1]])
-    with pytest.raises(TypeError, match="eps: expected a number"):
+    with pytest.raises(TypeError, match="eps: text, expected a number"):
         meshhood.weld(V, F, "1")

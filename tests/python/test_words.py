@@ -112,10 +112,40 @@ def test_errors_blame_the_argument_at_fault():
         INDEX.curvature(5.0, F)
     with pytest.raises(ValueError, match="method: 'bfs', expected 'exact' with walls"):
         INDEX.counts(1.0, walls=WALLS, method="bfs")
-    with pytest.raises(TypeError, match="walls: .* numbers 0 or 1, expected a bool mask, or vertices"):
-        INDEX.counts(1.0, walls=WALLS.astype(int))
     with pytest.raises(ValueError, match="walls: "):
         INDEX.counts(1.0, walls=[COUNT])
+
+
+@pytest.mark.parametrize("number", (int, np.uint8))
+@pytest.mark.parametrize("argument", ("vertices", "walls", "ignored"))
+def test_a_mask_of_numbers_is_refused(argument, number):
+    for mask in (WALLS, np.zeros(COUNT, bool), np.ones(COUNT, bool)):
+        with pytest.raises(TypeError, match=f"{argument}: {COUNT} numbers 0 or 1, .* a bool mask: {argument} == 1"):
+            INDEX.counts(1.0, **{argument: mask.astype(number)})
+    assert len(INDEX.counts(1.0, [0, 1] * COUNT)) == 2 * COUNT
+    with pytest.raises(TypeError, match="ids: .* a bool mask"):
+        INDEX.submesh(WALLS.astype(number))
+
+
+def test_the_points_and_seeds_of_a_stroke_repeat_as_they_like():
+    rows = np.arange(COUNT) % 2
+    wanted = INDEX.stroke(V[:2], 1.5, seeds=[0, 1])
+    np.testing.assert_array_equal(INDEX.stroke(V[rows], 1.5, seeds=rows), wanted)
+    np.testing.assert_array_equal(INDEX.stroke(rows, 1.5), wanted)
+
+
+@pytest.mark.parametrize(
+    "words", (MASKS, {"ignored": IGNORED}, {"walls": WALLS, "vertices": WALLS}, {"walls": np.ones(COUNT, bool)}, {})
+)
+@pytest.mark.parametrize("widths", ({"fwhm": 1.3}, {"scales": [0.7, 1.9]}))
+def test_the_smoothing_matrix_smooths_with_masks(words, widths):
+    wanted = INDEX.smooth(VALUES, **widths, **words)
+    matrix = INDEX.smoothing_matrix(**widths, **words)
+    np.testing.assert_allclose((matrix @ VALUES).reshape(wanted.shape), wanted, rtol=1e-12, atol=1e-14)
+    assert np.isnan(wanted).any() == ("walls" in words)
+    one = INDEX.smoothing_matrix(**widths, **{**words, "vertices": 3})
+    np.testing.assert_array_equal(one.toarray(), INDEX.smoothing_matrix(**widths, **{**words, "vertices": [3]}).toarray())
+    matrix.check_format(full_check=True)
 
 
 def test_masks_are_also_lists_of_vertices():
@@ -268,3 +298,13 @@ def test_free_memory_is_what_a_control_group_leaves(tmp_path, monkeypatch):
         INDEX.neighborhoods(5.0)
     with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds max_bytes, 1000"):
         INDEX.aggregate(VALUES, 5.0)
+
+
+def test_results_are_described_in_a_line():
+    assert repr(INDEX.k_nearest(3)) == f"<meshhood.Nearest: ids {COUNT} by 3, distances {COUNT} by 3>"
+    assert repr(INDEX.nested(3, [0.1, 0.2])) == "<meshhood.Nested: counts 2, ids 1>"
+    assert repr(INDEX.nearest_unconnected(0.1, 3)) == "<meshhood.Unconnected: vertices -1, gaps inf>"
+    assert repr(meshhood.Mesh(V, F)).startswith(f"<meshhood.Mesh: vertices {COUNT} by 3")
+    polygons = meshhood.Mesh(V, (np.array([0, 4]), np.arange(4)))
+    assert repr(polygons) == f"<meshhood.Mesh: vertices {COUNT} by 3, faces (2, 4)>"
+    assert repr(next(INDEX.iter_neighborhoods(0.1, [3]))).endswith("indices 1, distances None>")

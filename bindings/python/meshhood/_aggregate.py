@@ -225,8 +225,9 @@ class Aggregates(Held):
         progress: Progress = None,
     ) -> csr_array:
         """What `smooth` does, as a scipy.sparse.csr_array (#rows, #V), or with scales (#scales * #rows, #V): its product
-        with values (#V, ...) are the smoothed values, up to rounding, for values without NaN. Each row sums to 1; those
-        of walls are empty, and where all weights are 0, the row is NaN.
+        with values (#V, ...) are the smoothed values, up to rounding, for values without NaN. Each row sums to 1, or is
+        NaN: that of a vertex without a neighborhood, as a wall, has one NaN at itself, and one whose weights are all
+        0 has NaN for each.
 
         The arguments are those of `smooth`, without `values` and `nan`; `dtype` is float64 unless given. Memory: 12 bytes
         for each vertex of each neighborhood. Needs SciPy. `smooth` is faster, unless the same matrix is used many times.
@@ -239,6 +240,9 @@ class Aggregates(Held):
         csr_array = optional("scipy.sparse", "smoothing_matrix").csr_array
         areas = area_weights(self, weights, F)
         r, scales = _smoothing_radii(fwhm, scales)
+        if vertices is not None:  # before `progress` may change them
+            convert = _convert.vertex if _convert.is_single(vertices) else _convert.vertices
+            vertices = convert(vertices, self._count)
         graph = self.radius_neighbors_graph(
             r, vertices, scales=scales, mode="distance", metric=metric, walls=walls, ignored=ignored, unit=unit,
             max_bytes=max_bytes, workers=workers, progress=progress,
@@ -253,7 +257,19 @@ class Aggregates(Held):
         with np.errstate(invalid="ignore"):
             data /= np.repeat(sums, sizes)
         graph.data = data.astype(result_dtype(dtype), copy=False)
+        return _nan_where_empty(graph, np.arange(self._count) if vertices is None else np.atleast_1d(vertices))
+
+
+def _nan_where_empty(graph: Any, rows: Any) -> Any:
+    """The matrix with a NaN in each empty row, at its vertex. `rows`: the vertices, those of each scale."""
+    empty = np.flatnonzero(np.diff(graph.indptr) == 0)
+    if not empty.size:
         return graph
+    places = graph.indptr[empty]
+    data = np.insert(graph.data, places, np.nan)
+    indices = np.insert(graph.indices, places, rows[empty % len(rows)])
+    indptr = graph.indptr + np.searchsorted(empty, np.arange(len(graph.indptr)))
+    return type(graph)((data, indices, indptr), shape=graph.shape)
 
 
 def _smoothing_radii(fwhm: Any, scales: Any) -> tuple[Any, Any]:

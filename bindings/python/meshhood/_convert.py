@@ -13,7 +13,16 @@ _MOST_THREADS = 1024
 
 
 def vertices(v, count, name="vertices"):
-    """`v` as a new int32 array in C order, each value in [0, count). `v` may be a boolean mask of `count` values."""
+    """`v` as a new int32 array in C order, each value in [0, count). `v` may be a bool mask of `count` values; a mask of
+    numbers is refused."""
+    ids = vertex_rows(v, count, name)
+    if len(ids) == count > 2 and ids.max() <= 1:
+        raise TypeError(f"{name}: {count} numbers 0 or 1, expected vertices, or a bool mask: {name} == 1")
+    return ids
+
+
+def vertex_rows(v, count, name):
+    """The same where a vertex may occur any number of times."""
     return _numbers_of(v, count, name, "vertex", "vertices").astype(np.int32, copy=False)
 
 
@@ -34,6 +43,8 @@ def _numbers_of(values, count, name, one, many):
         array = np.flatnonzero(array)
     if array.dtype.kind not in "iu":
         raise TypeError(f"{name}: expected integers, not {array.dtype}")
+    if array.ndim == 0:
+        raise ValueError(f"{name}: one {one}, expected a list of {many}: [{array}]")
     if array.ndim != 1:
         hint = "; faces are passed as F=" if array.ndim == 2 and array.shape[1] in (3, 4) else ""
         raise ValueError(f"{name}: expected one {one} or a list of {many}, not an array of shape {array.shape}{hint}")
@@ -144,7 +155,7 @@ def seed_rows(values, rows, count):
         array = array.reshape(-1, 1)
     if array.ndim != 2 or len(array) != rows:
         raise ValueError(f"seeds: expected ({rows},) or ({rows}, k), not an array of shape {np.shape(values)}")
-    return vertices(array.reshape(-1), count, "seeds").reshape(array.shape)
+    return vertex_rows(array.reshape(-1), count, "seeds").reshape(array.shape)
 
 
 def edges(values, name):
@@ -168,11 +179,8 @@ def mask(values, name, count):
         return None
     array = as_array(values, name)
     if array.dtype != np.bool_:
-        ids = vertices(values, count, name)  # not `array`: an empty list has no integers
-        if len(ids) == count > 2 and ids.max() <= 1:
-            raise TypeError(f"{name}: {count} numbers 0 or 1, expected a bool mask, or vertices")
         chosen = np.zeros(count, np.uint8)
-        chosen[ids] = 1
+        chosen[vertices(values, count, name)] = 1  # not `array`: an empty list has no integers
         return chosen
     if array.shape != (count,):
         raise ValueError(f"{name}: a bool mask of shape {array.shape}, expected ({count},)")
@@ -196,6 +204,8 @@ def max_bytes(value, copies=1):
 
 def path(value):
     """`value` as str or bytes. Calls `__fspath__` here, because Python code must not run below C++ functions."""
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise TypeError(f"path: expected a path, not {type(value).__name__}")
     value = os.fspath(value)
     if ("\0" if isinstance(value, str) else b"\0") in value:
         raise ValueError(f"path: {value!r} has a null byte")
@@ -269,6 +279,8 @@ def as_array(values, name):
         raise ValueError(f"{name}: {error}") from None
     except (TypeError, RuntimeError) as error:  # a tensor on another device, or one that needs a gradient
         raise TypeError(f"{name}: {error}") from None
+    if array.dtype.kind in "US":
+        raise TypeError(f"{name}: text, expected a number")
     if array.dtype.kind in "iuf" and isinstance(values, (list, tuple)) and _holds_bool(values):
         raise TypeError(f"{name}: has values of type bool among the numbers")
     return array if array.dtype.isnative else array.astype(array.dtype.newbyteorder("="))

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -73,7 +74,7 @@ class Curvature(NamedTuple):
     @property
     def curvedness(self) -> Floats:
         """Koenderink's curvedness, the square root of (k1^2 + k2^2) / 2."""
-        return np.hypot(self.k1, self.k2) / np.sqrt(2)
+        return np.hypot(self.k1, self.k2) / math.sqrt(2)  # a float of Python keeps float32
 
 
 def normals_of(normals: Any, count: int) -> Any:

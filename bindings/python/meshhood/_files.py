@@ -17,6 +17,7 @@ from ._index import MeshIndex
 from ._mesh import kept_faces, mesh_arrays
 from ._other_files import WRITERS, Writing, bytes_of, read_other
 from ._progress import Progress, reporter
+from ._repr import in_a_line
 
 
 class Mesh(NamedTuple):
@@ -27,6 +28,9 @@ class Mesh(NamedTuple):
 
     vertices: Union[NDArray[np.float32], NDArray[np.float64]]
     faces: Union[NDArray[np.int32], tuple[NDArray[np.int64], NDArray[np.int32]]]
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 def read_mesh(

@@ -24,6 +24,7 @@ from ._patches import Patches
 from ._progress import Progress, reporter
 from ._queries import Queries
 from ._region_mesh import Regions
+from ._repr import in_a_line
 from ._rows import Rows, check_size, check_sort, read_rows, result_dtype, sorted_rows
 from ._shape import Shape
 from ._surface_queries import SurfaceQueries
@@ -61,6 +62,9 @@ class Chunk(NamedTuple):
     indptr: Offsets
     indices: Ids
     distances: Optional[Floats]
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 class Quality(NamedTuple):

@@ -61,7 +61,8 @@ def positions_of(V, name="V"):
     if array.dtype not in (np.float32, np.float64):
         raise TypeError(f"{name}: expected float32 or float64, not {array.dtype}")
     if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"{name}: expected an array of shape (#V, 3), not {array.shape}")
+        hint = f"; {name}.T has it" if array.ndim == 2 and len(array) == 3 else ""
+        raise ValueError(f"{name}: expected an array of shape (#V, 3), not {array.shape}{hint}")
     return np.ascontiguousarray(array)
 
 
@@ -253,6 +254,10 @@ def _parts(mesh):
     for attribute, call in _SURFACES.items():
         if hasattr(mesh, attribute):
             raise TypeError(f"V: {type(mesh).__name__}, expected one surface: {call}")
+    if isinstance(mesh, (np.ndarray, list, tuple)):
+        raise TypeError(
+            "F: missing, expected the faces after V; for points without faces, use MeshIndex.from_points(V, link=...)"
+        )
     raise TypeError(
         "V: expected a mesh of trimesh, PyVista, VTK, vedo, meshio, Open3D, nilearn or nibabel if F is omitted, "
         f"not {type(mesh).__name__}; for points without faces, use MeshIndex.from_points(V, link=...)"

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _convert, _core
+from ._repr import in_a_line
 from ._types import Floats, Reals
 
 
@@ -33,6 +34,9 @@ class PrincipalComponents(NamedTuple):
     center: Floats
     variances: Floats
     axes: Floats
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
     @property
     def normal(self) -> Floats:
@@ -72,6 +76,9 @@ class CorrectedCurvature(NamedTuple):
     d2: Floats
     measures: Floats
 
+    def __repr__(self) -> str:
+        return in_a_line(self)
+
 
 class Persistence(NamedTuple):
     """Over how many scales a feature lasts (see `persistence`).
@@ -90,6 +97,9 @@ class Persistence(NamedTuple):
     scales: NDArray[np.int32]
     strength: Reals
     radius: Reals
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 def geometric_radii(smallest: float, largest: float, count: int) -> Reals:

@@ -13,6 +13,7 @@ import numpy as np
 
 from ._mesh import mesh_arrays
 from ._optional import optional
+from ._poly_data import poly_data
 
 # Positions, faces, and what the reader has to say. Of a library, any form that `mesh_arrays` takes.
 _Read = tuple[Any, Any, list[str]]
@@ -149,7 +150,7 @@ class Writing(NamedTuple):
 
     def triangles(self, extension: str) -> Any:
         if self.offsets is not None and not np.all(np.diff(self.offsets) == 3):
-            raise ValueError(f"F: polygons, expected triangles for {extension}: triangulate() makes them")
+            raise ValueError(f"F: polygons, expected triangles for {extension}; .ply, .vtk and .vtp take polygons")
         return np.asarray(self.corners).reshape(-1, 3)
 
 
@@ -187,13 +188,7 @@ def _write_gifti(nibabel: Any, writing: Writing, path: str) -> bytes:
 
 
 def _write_vtp(pyvista: Any, writing: Writing, path: str) -> bytes:
-    corners, offsets = writing.corners, writing.offsets
-    if offsets is None:
-        offsets = np.arange(0, len(corners) + 1, 3)
-    faces = pyvista.CellArray.from_arrays(np.asarray(offsets, np.int64), np.asarray(corners, np.int64))
-    mesh = pyvista.PolyData()
-    mesh.points = writing.positions
-    mesh.SetPolys(faces)
+    mesh = poly_data(pyvista, writing.positions, writing.corners, writing.offsets)
     for name, numbers in writing.values:
         mesh.point_data[name] = numbers
     if writing.colors is not None:

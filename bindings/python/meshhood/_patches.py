@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._held import Held
 from ._progress import Progress
+from ._repr import in_a_line
 from ._rows import read_rows
 from ._types import AnyVertices, Ids, Mask, Radii, Reals, Scales, Unit
 
@@ -34,6 +35,9 @@ class Invariants(NamedTuple):
     area: Reals
     volume: Reals
 
+    def __repr__(self) -> str:
+        return in_a_line(self)
+
 
 class Gaps(NamedTuple):
     """The nearest point that is not of the patch (see `MeshIndex.gaps`).
@@ -55,6 +59,9 @@ class Gaps(NamedTuple):
     vertices: Ids
     barycentric: Reals
     point: Reals
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 class Patches(Held):

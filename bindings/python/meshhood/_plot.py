@@ -12,6 +12,7 @@ from . import _convert
 from ._index import MeshIndex
 from ._mesh import mesh_arrays
 from ._optional import optional
+from ._poly_data import poly_data
 from ._types import Mask, Metric, Number, Unit, Vertex
 
 # A vertex that belongs to nothing, and to each layer of a plot, the last in front; the colors of the paper.
@@ -70,7 +71,7 @@ def plot_neighborhood(
     labels = np.zeros(len(index), np.uint8)
     for label, found in enumerate(layers.values(), start=len(_COLORS) - len(layers)):
         labels[found] = label
-    mesh = _poly_data(pyvista, *_mesh_of(index, V, F))
+    mesh = poly_data(pyvista, *_mesh_of(index, V, F))
     if mesh.n_points != len(index):
         raise ValueError(f"V: {mesh.n_points} vertices, but the index has {len(index)}")
     drawn = pyvista.Plotter() if plotter is None else plotter
@@ -149,11 +150,3 @@ def _normal_and_edge(mesh, offsets, v):
         edge = max(edge, np.linalg.norm(following - corners, axis=1).max())
     length = np.linalg.norm(normal)
     return (normal / length if length > 0 else np.array([0.0, 0.0, 1.0])), edge
-
-
-def _poly_data(pyvista, positions, corners, offsets):
-    if offsets is None:
-        return pyvista.PolyData.from_regular_faces(positions, corners.reshape(-1, 3))
-    sides = np.diff(offsets)
-    padded = np.insert(corners.astype(np.int64), offsets[:-1], sides)
-    return pyvista.PolyData(positions, padded)

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._held import Held
 from ._methods import Method
+from ._repr import in_a_line
 from ._rows import check_sort, core_metric, result_dtype, sorted_rows
 from ._types import METRICS, Counts, Floats, Ids, Mask, Metric, Number, Reals, Scales, Sort, Unit
 
@@ -33,6 +34,9 @@ class Nested(NamedTuple):
     counts: Counts
     ids: Ids
 
+    def __repr__(self) -> str:
+        return in_a_line(self)
+
 
 class Connected(NamedTuple):
     """The nearest connected vertices and their connecting radii (see `MeshIndex.nearest_connected`).
@@ -42,6 +46,9 @@ class Connected(NamedTuple):
 
     ids: Ids
     radii: Reals
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 class Queries(Held):
@@ -186,7 +193,7 @@ class Queries(Held):
         if np.ndim(points) == 1 and np.asarray(points).dtype.kind in "iu":
             if seeds is not None or face is not None:
                 raise ValueError("seeds, face: expected None, because the points are vertices")
-            seeds = _convert.vertices(points, self._count, "points")
+            seeds = _convert.vertex_rows(points, self._count, "points")
             count = len(seeds)
         else:
             centers = _convert.points(points, "points")

@@ -12,6 +12,9 @@ from . import _convert, _core
 from ._aggregate import vertex_areas
 from ._held import Held
 from ._mesh import mesh_arrays
+from ._optional import optional
+from ._poly_data import poly_data
+from ._repr import in_a_line
 
 Ids = NDArray[np.int32]
 Corners = Literal["all", "any"]
@@ -28,13 +31,77 @@ class Submesh(NamedTuple):
 
     V: Union[NDArray[np.float32], NDArray[np.float64]]  #: the positions of its vertices
     F: Union[Ids, tuple[NDArray[np.int64], Ids]]  #: (#F, 3), or (offsets, corners) if the mesh has polygons; rows of V
-    vertices: Ids  #: its vertices by their ids in the whole mesh, ascending; then -1 for points where faces are clipped
+    vertices: Ids  #: its first vertices by their ids in the whole mesh, ascending; all, unless faces are clipped
     faces: NDArray[np.int64]  #: its faces by their rows in the whole mesh, ascending
+    edges: Ids  #: (n, 2): of each further vertex, where a face is clipped, the ends of its edge in the whole mesh
+    weights: NDArray[np.float64]  #: (n, 2) of these ends, with the sum 1
+
+    def __repr__(self) -> str:
+        clipped = f", {len(self.edges)} of them where faces are clipped" if len(self.edges) else ""
+        return f"<meshhood.Submesh: {len(self.faces)} faces, {len(self.V)} vertices{clipped}>"
 
     @property
     def area(self) -> float:
         """The sum of the areas of its faces, in the square of the unit of V."""
         return float(vertex_areas(self.V, self.F).sum())
+
+    def carry(self, values: ArrayLike) -> NDArray[Any]:
+        """Values of the vertices of the whole mesh, (#V, ...), at the vertices of this one; linear along the edges that
+        are clipped, for which they must be floats. Returns a new array of the same type.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> part = index.submesh(index.neighborhood(42, 0.5), clip=(42, 0.5))
+        >>> np.allclose(part.carry(V), part.V)
+        True
+        """
+        whole = _convert.as_array(values, "values")
+        most = max((int(array.max()) for array in (self.vertices, self.edges) if array.size), default=-1)
+        if whole.ndim == 0 or len(whole) <= most:
+            raise ValueError(f"values: of shape {whole.shape}, expected a row for each vertex of the whole mesh")
+        if not len(self.edges):
+            return whole[self.vertices]
+        if whole.dtype.kind != "f":
+            raise TypeError(f"values: expected floats for a clipped mesh, not {whole.dtype}; values.astype(float)")
+        weights = self.weights.reshape(*self.weights.shape, *[1] * (whole.ndim - 1))
+        between = (weights * whole[self.edges]).sum(axis=1)
+        return np.concatenate([whole[self.vertices], between.astype(whole.dtype)])
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.PolyData with the same vertices and polygons, and its array of cells `faces`. Needs PyVista.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> mesh = index.submesh(index.neighborhood(42, 0.5)).to_pyvista()
+        """
+        mesh = poly_data(optional("pyvista", "to_pyvista"), self.V, *self._corners())
+        mesh.cell_data["faces"] = self.faces
+        return mesh
+
+    def to_trimesh(self) -> Any:
+        """A trimesh.Trimesh with the same vertices; a polygon of k corners becomes k - 2 triangles around its first
+        corner. Its `face_attributes["faces"]` are `faces`, one for each triangle. Needs trimesh.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> mesh = index.submesh(index.neighborhood(42, 0.5)).to_trimesh()
+        """
+        trimesh = optional("trimesh", "to_trimesh")
+        corners, offsets = self._corners()
+        faces = {"faces": self.faces}
+        if offsets is not None:
+            polygons, first = _fans(offsets)
+            corners = np.stack([corners[offsets[polygons]], corners[first], corners[first + 1]], axis=1)
+            faces = {"faces": self.faces[polygons]}
+        return trimesh.Trimesh(self.V, corners.reshape(-1, 3), face_attributes=faces, process=False, validate=False)
+
+    def _corners(self) -> tuple[Any, Any]:
+        return (self.F[1], self.F[0]) if isinstance(self.F, tuple) else (self.F.ravel(), None)
+
+
+def _fans(offsets: Any) -> tuple[Any, Any]:
+    """Of each triangle: its polygon, and the place of its second corner; the third is the next."""
+    counts = np.maximum(np.diff(offsets) - 2, 0)
+    polygons = np.repeat(np.arange(len(counts)), counts)
+    starts = np.cumsum(counts) - counts
+    return polygons, offsets[polygons] + 1 + np.arange(len(polygons)) - starts[polygons]
 
 
 class RimLine(NamedTuple):
@@ -49,6 +116,9 @@ class RimLine(NamedTuple):
     points: NDArray[np.float64]  #: (n, 3)
     edges: Ids  #: (n, 2): of each point, the end of its edge inside the region, and the other
     closed: bool  #: a loop, whose last point is joined to its first
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 class RegionMesh:
@@ -92,10 +162,11 @@ class RegionMesh:
         their area.
 
         clip : (start, r), if `ids` is the region of `start` and `r`, as for `rim`: the faces are clipped at the ball
-            instead, with exact points on the sides that leave the region. Two such points of a face are joined by a
-            straight chord, not along the sphere, so that `area` is a little too small. V is then float64, F a tuple
-            (offsets, corners), and a face of which the ball has several parts occurs several times. What of a face lies
-            in the ball without a corner in `ids` is left out.
+            instead, with exact points on the sides that leave the region: the last rows of V, with the ends of their
+            sides as `edges` and the `weights` of these, by which `Submesh.carry` takes values there. Two such points of
+            a face are joined by a straight chord, not along the sphere, so that `area` is a little too small. V is then
+            float64, F a tuple (offsets, corners), and a face of which the ball has several parts occurs several times.
+            What of a face lies in the ball without a corner in `ids` is left out.
 
         >>> mesher, ids = meshhood.RegionMesh(V, F), meshhood.MeshIndex(V, F).neighborhood(42, 0.5)
         >>> mesher.submesh(ids).area < mesher.submesh(ids, clip=(42, 0.5)).area < mesher.submesh(ids, "any").area
@@ -105,7 +176,9 @@ class RegionMesh:
             return self._clipped(self._ids(ids), self._all(corners), clip)
         vertices, faces, offsets, flat = self._surface.submesh(self._ids(ids), self._all(corners))
         triangles = flat.reshape(-1, 3) if self._triangles else (offsets, flat)
-        return Submesh(self._positions[vertices], triangles, vertices, faces)
+        return Submesh(
+            self._positions[vertices], triangles, vertices, faces, np.empty((0, 2), np.int32), np.empty((0, 2))
+        )
 
     def rim(self, ids: ArrayLike, start: Any, r: Any) -> list[RimLine]:
         """Where the surface leaves a region: polylines whose points lie on edges, at the distance `r` from `start`.
@@ -131,8 +204,10 @@ class RegionMesh:
         if not isinstance(clip, (tuple, list)) or len(clip) != 2:
             raise ValueError("clip: expected a tuple (start, r)")
         points, edges, faces, offsets, flat = self._surface.clip(ids, self._center(clip[0]), _convert.radius(clip[1]))
-        vertices = np.where(edges[:, 0] == edges[:, 1], edges[:, 0], np.int32(-1))
-        return Submesh(points, (offsets, flat), vertices, faces)
+        is_new = edges[:, 0] != edges[:, 1]  # the last ones
+        between = edges[is_new]
+        weights = _weights(points[is_new], *np.moveaxis(self._positions[between].astype(np.float64), 1, 0))
+        return Submesh(points, (offsets, flat), edges[~is_new, 0], faces, between, weights)
 
     def _center(self, start: Any) -> tuple[float, float, float]:
         if np.ndim(start) == 0:
@@ -147,6 +222,17 @@ class RegionMesh:
 
     def _all(self, corners: Any) -> bool:
         return _convert.choice(corners, "corners", ("all", "any")) == "all"
+
+
+def _weights(points: Any, begins: Any, ends: Any) -> Any:
+    """(n, 2): of the ends of edges, for points on them. An edge without a length has its point at the begin."""
+    edges = ends - begins
+    extent = np.abs(edges).max(axis=1, initial=0, keepdims=True)
+    extent[extent == 0] = 1
+    edges, along = edges / extent, (points - begins) / extent  # so that no square is 0 or inf
+    squares = (edges**2).sum(axis=1)
+    t = np.clip((edges * along).sum(axis=1) / np.where(squares > 0, squares, 1), 0, 1)
+    return np.stack([1 - t, t], axis=1)
 
 
 class Regions(Held):

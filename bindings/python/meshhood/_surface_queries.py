@@ -13,6 +13,7 @@ from ._aggregate import area_weights
 from ._held import Held
 from ._mesh import mesh_arrays, positions_of, warn_if_coarse, warn_if_link_is_coarse
 from ._progress import Progress, reporter
+from ._repr import in_a_line
 from ._rows import Rows, read_rows
 from ._types import AnyVertices, Ids, Mask, Metric, Number, Offsets, Radii, Reals, Unit, Weights
 
@@ -32,6 +33,9 @@ class Unconnected(NamedTuple):
     vertices: Any
     gaps: Any
 
+    def __repr__(self) -> str:
+        return in_a_line(self)
+
 
 class ClosestPoint(NamedTuple):
     """A point of the surface, or several (see `MeshIndex.closest_point`).
@@ -43,6 +47,9 @@ class ClosestPoint(NamedTuple):
     face: Any
     barycentric: Reals
     point: Reals
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 class FirstHit(NamedTuple):
@@ -57,6 +64,9 @@ class FirstHit(NamedTuple):
     point: Reals
     distance: Any
 
+    def __repr__(self) -> str:
+        return in_a_line(self)
+
 
 class Nearest(NamedTuple):
     """The nearest connected vertices of each row (see `MeshIndex.k_nearest`).
@@ -66,6 +76,9 @@ class Nearest(NamedTuple):
 
     ids: Ids
     distances: Reals
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 class Discs(NamedTuple):
@@ -77,6 +90,9 @@ class Discs(NamedTuple):
     indptr: Offsets
     ids: Ids
     distances: Reals
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 class SurfaceQueries(Held):
