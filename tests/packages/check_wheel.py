@@ -25,6 +25,7 @@ def check_contents(archive):
         r"meshhood/viewer\.html",
         r"meshhood-[^/]*\.data/scripts/meshhood",
         r"meshhood-[^/]*\.dist-info/licenses/LICENSE",
+        r"meshhood-[^/]*\.dist-info/licenses/NOTICE",
     ):
         assert any(re.fullmatch(needed, name) for name in names), f"no {needed}"
     unexpected = [name for name in names if not re.match(r"meshhood(-[\d.]+\.(dist-info|data/scripts))?/", name)]
@@ -60,12 +61,19 @@ def check_platform(wheel):
     return f"auditwheel: {found[1]}"
 
 
+def check_interface(wheel):
+    """abi3audit finds functions of CPython that later versions need not have."""
+    if "-abi3-" in wheel.name:
+        subprocess.run([sys.executable, "-m", "abi3audit", "--strict", wheel], check=True)
+
+
 def main():
     wheel = Path(sys.argv[1])
     assert re.search(r"-(cp312-abi3|(cp3\d+)-\2)-", wheel.name), f"{wheel.name} names no interface of CPython"
     bytes_ = wheel.stat().st_size
     with zipfile.ZipFile(wheel) as archive:
         check_contents(archive)
+    check_interface(wheel)
     print(f"{wheel.name}: {bytes_} bytes; {check_platform(wheel)}")
     assert bytes_ <= MOST_BYTES, f"expected at most {MOST_BYTES} bytes"
 

@@ -12,10 +12,17 @@ execute_process(COMMAND dpkg-deb --field ${package} Depends
 if(NOT needed MATCHES "libc6.*libfmt.*libstdc")
   message(FATAL_ERROR "the package depends on ${needed}")
 endif()
+# The address of the maintainer is to be filled in before a release: packaging/RELEASE.md.
+find_program(lintian lintian)
+if(lintian)
+  execute_process(COMMAND ${lintian} --allow-root --fail-on error --suppress-tags bogus-mail-host,bogus-mail-host-in-debian-changelog
+    ${package}
+    COMMAND_ERROR_IS_FATAL ANY)
+endif()
 execute_process(COMMAND apt-get install --simulate --quiet=2 ${package} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 
 set(prefix ${WORK_DIR}/root/usr)
-foreach(file man/man1/meshhood.1 bash-completion/completions/meshhood zsh/site-functions/_meshhood
+foreach(file man/man1/meshhood.1.gz bash-completion/completions/meshhood zsh/site-functions/_meshhood
     fish/vendor_completions.d/meshhood.fish doc/meshhood/copyright)
   if(NOT EXISTS ${prefix}/share/${file})
     message(FATAL_ERROR "no share/${file}")

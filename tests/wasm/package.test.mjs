@@ -12,7 +12,7 @@ test('the packed package works in an empty project', () => {
   const { project, archive } = makeProject();
   assert.match(archive, /^meshhood-[\d.]+\.tgz$/);
   assert.deepEqual(readdirSync(join(project, 'node_modules', 'meshhood')).sort(), [
-    'LICENSE', 'README.md', 'arguments.js', 'curvature.js', 'instance.js', 'mesh_file.js', 'mesh_index.js',
+    'LICENSE', 'NOTICE', 'README.md', 'arguments.js', 'curvature.js', 'instance.js', 'mesh_file.js', 'mesh_index.js',
     'meshhood.d.ts', 'meshhood.js', 'meshhood.wasm', 'package.json', 'region_mesh.js', 'rows.js', 'version.js',
     'weld.js', 'words.js',
   ]);
