@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
-#include <sstream>
+#include <string>
 #include <string_view>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
+
+#include <fmt/format.h>
 
 #include "io/number.h"
 
@@ -62,10 +64,12 @@ std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
 }
 
 std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
-  std::ostringstream line;
-  CLI::detail::format_help(line, command->get_display_name(true), in_column(command->get_description()),
-                           get_column_width());
-  return line.str();
+  const std::size_t width = get_column_width();
+  const std::string margin = fmt::format("\n{:{}}", "", width);
+  std::string line = fmt::format("{:{}}", "  " + command->get_display_name(true), width);
+  if (line.size() > width) line += margin;
+  for (const char c : in_column(command->get_description())) c == '\n' ? line += margin : line += c;
+  return line + '\n';
 }
 
 std::string HelpFormatter::make_description(const CLI::App* command) const {

@@ -13,6 +13,9 @@
 #if defined(__FAST_MATH__)
 #error "meshhood needs IEEE arithmetic: compile it without -ffast-math"
 #endif
+#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0
+#error "meshhood needs arithmetic without excess precision: compile it with -msse2 -mfpmath=sse"
+#endif
 
 namespace meshhood MESHHOOD_API {
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <new>
 #include <ostream>
 
@@ -117,7 +118,7 @@ void Shortages::fail_each(Prepare&& prepare, Call&& call, Judge&& judge) {
     judge(scene, ending);
     return happened;
   };
-  constexpr std::size_t kBeyondAll = std::size_t{1} << 40;
+  constexpr std::size_t kBeyondAll = std::numeric_limits<std::size_t>::max();
   ASSERT_FALSE(attempt(kBeyondAll, Shortage::Once));  // also creates what is created once and kept
   for (const Shortage shortage : {Shortage::Once, Shortage::FromThereOn}) {
     bool happened = true;

@@ -127,6 +127,7 @@ class SurfacePathsOf : public testing::TestWithParam<Family> {};
 
 TEST_P(SurfacePathsOf, AreThoseOfAPlainSearch) {
   if (GetParam().name == "mixed scales") GTEST_SKIP() << "angles of its needles have no digits";
+  if (GetParam().name == "vanishing") GTEST_SKIP() << "squares of its lengths have no digits";
   for (const std::size_t vertices : {std::size_t{5}, std::size_t{40}, scaled(400, 100)}) {
     const TestMesh mesh = in_triangles(make_mesh(GetParam(), vertices, vertices));
     if (mesh.face_count() == 0) GTEST_SKIP() << "a mesh without triangles";

@@ -137,7 +137,7 @@ TEST(IntegerLattice, ExactAnswersEqualThoseInIntegers) {
   for (std::uint64_t seed = 0; seed < scaled(200); ++seed) {
     Random random(seed);
     TestMesh mesh = make_grid(12, 12, false);
-    const std::size_t size = pick(random, {3UL, 100UL, std::size_t{1} << 20});
+    const std::size_t size = pick<std::size_t>(random, {3, 100, 1 << 20});
     for (double& x : mesh.positions) x = static_cast<double>(random.below(size));
     mesh.finish(seed % 2 == 0);
     const Oracle oracle(mesh);
