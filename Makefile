@@ -8,6 +8,7 @@
 #   make serve                builds it and shows it at http://localhost:8000; PORT=n for another port
 #   make test                 runs the short tests; about ten minutes
 #   make packages             makes and tests what a release publishes, in build/packages/release; half an hour
+#   make test-platforms       tests the core as other compilers and machines have it, in QEMU and Wine too; two hours
 #   make test-all             runs also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
 #
 # These measure the tables of docs/benchmarks again. They write them and print how long each part took. They need a quiet
@@ -16,7 +17,7 @@
 #   make reproduce            the paper's tables and pictures, accuracy, growth; about 20 minutes
 #   make peers                other libraries on the same queries; about 15 minutes
 #   make benchmarks           both
-.PHONY: build install test test-all packages demo view site serve reproduce peers benchmarks
+.PHONY: build install test test-all test-platforms packages demo view site serve reproduce peers benchmarks
 
 PREFIX ?= /usr/local
 
@@ -38,6 +39,10 @@ test:
 test-all:
 	@tools/setup test-all
 	@tools/test release asan tsan:shared/helper_threads tsan:exact/threads
+
+test-platforms:
+	@tools/setup platforms
+	@tools/platforms
 
 packages:
 	@tools/setup packages

@@ -18,8 +18,20 @@ list(LENGTH libraries count)
 if(NOT count EQUAL 2)
   message(FATAL_ERROR "shared libraries with the version in their name: ${libraries}, expected two")
 endif()
-execute_process(COMMAND python3 -B ${SOURCE_DIR}/tests/repo/exported.py ${SOURCE_DIR} ${libraries}
-  COMMAND_ERROR_IS_FATAL ANY)
+
+# Programs of a release with the same soname still link. A symbol that is gone is noticed.
+set(exported python3 -B ${SOURCE_DIR}/tests/repo/exported.py ${SOURCE_DIR} ${libraries})
+string(REGEX MATCH "^[0-9]+\\.[0-9]+" soname ${VERSION})
+file(GLOB released ${SOURCE_DIR}/tests/packages/released/${soname}.*)
+list(TRANSFORM released PREPEND --released=)
+execute_process(COMMAND ${exported} ${released} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${exported} --list OUTPUT_FILE ${WORK_DIR}/earlier COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${exported} --released=${WORK_DIR}/earlier OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+file(APPEND ${WORK_DIR}/earlier "_ZN8meshhood4goneEv\n")
+execute_process(COMMAND ${exported} --released=${WORK_DIR}/earlier OUTPUT_VARIABLE said RESULT_VARIABLE result)
+if(result EQUAL 0 OR NOT said MATCHES "earlier had _ZN8meshhood4goneEv, which is gone")
+  message(FATAL_ERROR "a symbol that is gone was not noticed: ${said}")
+endif()
 
 file(GLOB packages ${prefix}/*/pkgconfig)
 set(ENV{PKG_CONFIG_PATH} ${packages})
@@ -30,3 +42,9 @@ cmake_path(GET packages PARENT_PATH folder)
 execute_process(COMMAND ${COMPILER} -std=c++20 -fvisibility=hidden ${SOURCE_DIR}/tests/install/consumer/main.cpp
   ${flags} -Wl,-rpath,${folder} -o ${WORK_DIR}/consumer COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${WORK_DIR}/consumer ${WORK_DIR} COMMAND_ERROR_IS_FATAL ANY)
+
+# With the command line, which uses more of io than programs may.
+execute_process(COMMAND ${CMAKE_COMMAND} -DMESHHOOD_BUILD_CLI=ON ${WORK_DIR}/build
+  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/build --parallel 2 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${WORK_DIR}/build/meshhood --version COMMAND_ERROR_IS_FATAL ANY)

@@ -6,6 +6,7 @@ from pathlib import Path
 EXAMPLES = (
     "smooth_map",
     "searchlight",
+    "learning",
     "curvature_scales",
     "creases",
     "patch_rim",

@@ -24,6 +24,7 @@ from ._moments import (
     geometric_radii,
     persistence,
 )
+from ._padded import padded
 from ._partition import partition
 from ._patches import Gaps, Invariants
 from ._plot import plot_neighborhood
@@ -67,6 +68,7 @@ __all__ = [
     "geometric_radii",
     "load",
     "open_parts",
+    "padded",
     "partition",
     "persistence",
     "plot_neighborhood",

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: MIT
+"""Rows of different lengths as one array with a mask, as networks take them."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _convert
+from ._rows import check_size
+
+
+def padded(
+    indptr: ArrayLike, values: ArrayLike, *, width: Optional[int] = None, fill: Any = 0, max_bytes: Optional[int] = None
+) -> tuple[NDArray[Any], NDArray[np.bool_]]:
+    """The rows of a result as one array, (#rows, width, ...), and which of its entries belong to a row: bool, (#rows,
+    width).
+
+    indptr, values : as `MeshIndex.neighborhoods` and `discs` return them: row i is values[indptr[i]:indptr[i + 1]].
+        `values` are the ids, the distances, or an array of such rows, as features[indices].
+    width : the length of each row; longer ones are cut. By default, that of the longest.
+    fill : what the other entries hold. 0 is an id of every mesh, so that such rows can be used as indices.
+    max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
+
+    The arrays are new; the first has the dtype of `values`. Cost: O(#rows width).
+
+    >>> indptr, indices = meshhood.MeshIndex(V, F).neighborhoods(0.3)
+    >>> ids, mask = meshhood.padded(indptr, indices)
+    >>> mask.sum() == len(indices)
+    True
+    """
+    ends, rows = np.asarray(indptr), np.asarray(values)
+    if ends.ndim != 1 or len(ends) == 0 or ends.dtype.kind not in "iu":
+        raise ValueError(f"indptr: expected #rows + 1 integers, not {ends.dtype} of shape {ends.shape}")
+    if rows.ndim == 0 or ends[0] != 0 or ends[-1] != len(rows):
+        size = len(rows) if rows.ndim else "a single one"
+        raise ValueError(f"indptr: runs from {ends[0]} to {ends[-1]}, expected from 0 to the number of values, {size}")
+    lengths = np.diff(ends.astype(np.int64))
+    if (lengths < 0).any():
+        row = int(np.argmax(lengths < 0))
+        raise ValueError(f"indptr: descends at {row + 1}, from {ends[row]} to {ends[row + 1]}")
+    if width is None:
+        width = int(lengths.max(initial=0))
+    width = _convert.integer(width, "width", 0, 2**31 - 1)
+    shape = (len(lengths), width, *rows.shape[1:])
+    check_size(shape, rows.itemsize + 1, max_bytes)
+    mask = np.arange(width) < lengths[:, None]
+    array = np.full(shape, fill, rows.dtype)
+    place = np.arange(len(rows)) - np.repeat(ends[:-1], lengths)
+    array[mask] = rows[place < width]
+    return array, mask
