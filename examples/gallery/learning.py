@@ -27,4 +27,4 @@ groove, learned = np.linalg.norm(V / (1.2, 0.9, 0.9), axis=1) < 46, V[:, 0] < 0
 found = LogisticRegression(max_iter=1000).fit(X[learned], groove[learned]).predict(X)
 print(f"{(found == groove)[~learned].mean():.3f} of the other half are right; patches {patches.shape}")
 mesh = pyvista.PolyData.from_regular_faces(V, F)
-mesh.plot(scalars=found, cmap="bone_r", clim=(0, 1.6), show_scalar_bar=False, cpos="yz")
+mesh.plot(scalars=found, cmap="bone_r", clim=(0, 1.6), show_scalar_bar=False, cpos="yz", zoom=1.7)
