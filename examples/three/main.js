@@ -27,7 +27,8 @@ function makeGeometry() {
 await initialize(wasm);
 const geometry = makeGeometry();
 const colors = geometry.attributes.color;
-const index = new MeshIndex(geometry.attributes.position.array, geometry.index.array);
+const faces = { corners: geometry.index.array };
+const index = new MeshIndex(geometry.attributes.position.array, faces.corners);
 
 const canvas = document.getElementById('canvas');
 const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -54,13 +55,13 @@ function paint(vertices, color) {
   draw();
 }
 
-/** The point of the surface under the pointer, and the corners of its triangle; undefined over the background. */
+/** The point of the surface under the pointer; null over the background. */
 function hitOf(event) {
   const at = new THREE.Vector2((2 * event.clientX) / innerWidth - 1, 1 - (2 * event.clientY) / innerHeight);
-  const ray = new THREE.Raycaster();
-  ray.setFromCamera(at, camera);
-  const [hit] = ray.intersectObject(mesh);
-  return hit && { point: hit.point.toArray(), corners: Uint32Array.of(hit.face.a, hit.face.b, hit.face.c) };
+  const caster = new THREE.Raycaster();
+  caster.setFromCamera(at, camera);
+  const { origin, direction } = caster.ray;
+  return index.firstHit(origin.toArray(), direction.toArray(), { faces });
 }
 
 function showNeighborhood({ point }) {
@@ -72,8 +73,8 @@ function showNeighborhood({ point }) {
 }
 
 /** One dab: the vertices that are connected with the triangle under the pointer, within the radius around the point. */
-function brush({ point, corners }) {
-  paint(index.neighborhood(point, BRUSH_RADIUS, { seeds: corners }), PAINT);
+function brush({ point, vertices }) {
+  paint(index.neighborhood(point, BRUSH_RADIUS, { seeds: vertices }), PAINT);
 }
 
 let pressed = null;
@@ -82,13 +83,13 @@ canvas.addEventListener('pointerdown', (event) => {
   controls.enabled = !pressed.isBrush;
 }, { capture: true });
 canvas.addEventListener('pointermove', (event) => {
-  const hit = pressed?.isBrush ? hitOf(event) : undefined;
+  const hit = pressed?.isBrush ? hitOf(event) : null;
   if (hit) brush(hit);
 });
 canvas.addEventListener('pointerup', (event) => {
   if (pressed === null) return; // it went down elsewhere
   const isClick = !pressed.isBrush && Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < 5;
-  const hit = isClick ? hitOf(event) : undefined;
+  const hit = isClick ? hitOf(event) : null;
   if (hit) showNeighborhood(hit);
   pressed = null;
 });
