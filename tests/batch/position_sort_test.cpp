@@ -25,7 +25,7 @@ std::vector<Row> random_rows(Random& random, std::size_t count, std::uint64_t bo
   std::vector<Row> rows;
   rows.reserve(count);
   for (std::size_t row = 0; row < count; ++row) {
-    rows.emplace_back(static_cast<std::uint32_t>(random.below(static_cast<std::size_t>(bound))), row);
+    rows.emplace_back(static_cast<std::uint32_t>(random.below(bound)), row);
   }
   return rows;
 }

@@ -21,7 +21,7 @@ class Random {
   }
 
   /// In [0, bound), `bound` > 0; nearly uniform.
-  std::size_t below(std::size_t bound) { return static_cast<std::size_t>(bits() % bound); }
+  std::size_t below(std::uint64_t bound) { return static_cast<std::size_t>(bits() % bound); }
 
   /// In [low, high).
   double uniform(double low = 0, double high = 1) {
