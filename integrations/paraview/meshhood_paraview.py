@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from paraview.util.vtkAlgorithm import VTKPythonAlgorithmBase, smdomain, smhint, smproperty, smproxy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIdList, vtkOutputWindow
+from vtkmodules.vtkCommonCore import vtkIdList, vtkOutputWindow, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 
 paraview_plugin_name = "meshhood"
@@ -348,7 +348,10 @@ def _keep_faces(mesh: Any, faces: Any) -> None:
     cells = vtkIdList()
     for cell in faces + mesh.GetNumberOfVerts() + mesh.GetNumberOfLines():
         cells.InsertNextId(int(cell))
+    points = vtkPoints()
+    points.SetDataType(whole.GetPoints().GetDataType())
     mesh.Initialize()
+    mesh.SetPoints(points)
     mesh.AllocateCopy(whole)
     mesh.GetPointData().CopyAllocate(whole.GetPointData())
     mesh.GetCellData().CopyAllocate(whole.GetCellData())

@@ -52,12 +52,14 @@ def source_of(mesh):
     return source
 
 
+POINTS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [3, 1, 0], [9, 9, 9]], float)
+
+
 def mixed_cells():
     """Two vertices, a line, a square, and two triangles that share a side with it, with arrays for points and cells."""
-    points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [3, 1, 0], [9, 9, 9]]
     mesh = vtkPolyData()
     mesh.SetPoints(vtkPoints())
-    mesh.GetPoints().SetData(numpy_to_vtk(np.array(points, float), deep=True))
+    mesh.GetPoints().SetData(numpy_to_vtk(POINTS, deep=True))
     for setter, cells in (
         (mesh.SetVerts, [[6], [0]]),
         (mesh.SetLines, [[6, 5]]),
@@ -144,7 +146,11 @@ class Filters(unittest.TestCase):
         arrays = self.result(found)
         self.assertEqual(sorted(arrays["point"]), [0, 10, 20, 30, 40])
         self.assertEqual(list(vtk_to_numpy(self.cells.GetArray("cell"))), [30, 40])
-        distances = np.sqrt([2, 1, 0, 1, 2])[(arrays["point"] / 10).astype(int)]
+        ids = (arrays["point"] / 10).astype(int)
+        positions = servermanager.Fetch(found).GetPoints().GetData()
+        self.assertEqual(positions.GetDataTypeAsString(), "double")
+        np.testing.assert_array_equal(vtk_to_numpy(positions), POINTS[ids])
+        distances = np.sqrt([2, 1, 0, 1, 2])[ids]
         np.testing.assert_allclose(arrays["distance r=1.5 [unit]"], distances)
         found.Radius = 0
         self.assertEqual([len(values) for values in self.result(found).values()], [0, 0, 0])
