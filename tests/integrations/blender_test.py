@@ -245,7 +245,7 @@ class AddOn(unittest.TestCase):
         obj = torus(moved())
         sys.modules["meshhood"] = None
         try:
-            with self.assertRaisesRegex(RuntimeError, '-m pip install --no-deps --target ".*modules" meshhood'):
+            with self.assertRaisesRegex(RuntimeError, '-m pip install --no-deps --target ".*modules" meshhood '):
                 bpy.ops.meshhood.thickness()
         finally:
             sys.modules["meshhood"] = meshhood

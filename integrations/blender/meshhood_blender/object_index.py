@@ -35,7 +35,7 @@ def _package() -> Any:
         folder = bpy.utils.user_resource("SCRIPTS", path="modules")
         raise ImportError(
             f"The Python package meshhood is missing ({error}). Install it, then start Blender again: "
-            f'"{sys.executable}" -m pip install --no-deps --target "{folder}" meshhood'
+            f'"{sys.executable}" -m pip install --no-deps --target "{folder}" meshhood (or the folder of a checkout)'
         ) from None
     return meshhood
 
