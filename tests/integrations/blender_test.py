@@ -113,7 +113,7 @@ class AddOn(unittest.TestCase):
                     edited = bmesh.from_edit_mesh(obj.data)
                     inside = sum(all(corner.select for corner in face.verts) for face in edited.faces)
                     self.assertEqual(sum(face.select for face in edited.faces), inside)
-                    self.assertEqual(edited.select_history.active.index, vertex)
+                    self.assertEqual([each.index for each in edited.select_history], [vertex])
                     checked += 1
             bpy.ops.object.mode_set(mode="OBJECT")
         print(f"{checked} selections")
@@ -240,6 +240,22 @@ class AddOn(unittest.TestCase):
         activate(bpy.context.object, 0)
         with self.assertRaisesRegex(RuntimeError, "made has no edges"):
             bpy.ops.meshhood.select_connected()
+
+    def test_warnings_of_the_package_are_reported(self):
+        from meshhood_blender import object_index, operator_parts
+
+        class Indexed(operator_parts.Reporting):
+            def _run(self, context, progress):
+                object_index.index_of(context.object, progress)
+
+            def report(self, kind, text):
+                reports.append((kind, text))
+
+        reports = []
+        mesh_object([(0, 0, 0), (1, 0, 0), (0, 1, 0)] * 8, [], [(i, i + 1, i + 2) for i in range(0, 24, 3)])
+        self.assertEqual(Indexed().execute(bpy.context), {"FINISHED"})
+        self.assertEqual([kind for kind, _ in reports], [{"WARNING"}])
+        self.assertIn("24 vertices at 3 different positions", reports[0][1])
 
     def test_a_missing_package_is_said_with_what_installs_it(self):
         obj = torus(moved())

@@ -122,7 +122,8 @@ def _usual(values: Any) -> tuple[float, float]:
 
 def _between(values: Any, low: float, high: float) -> Any:
     """-1 at the lower limit and below, 1 at the upper one and above; NaN stays."""
-    return np.clip((2 * values - low - high) / max(high - low, np.finfo(float).tiny), -1, 1)
+    with np.errstate(over="ignore"):
+        return np.clip((2 * values - low - high) / max(high - low, np.finfo(float).tiny), -1, 1)
 
 
 def _colors(strengths: Any) -> Any:

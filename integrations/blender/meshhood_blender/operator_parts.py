@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""What the operators have in common: properties of redo panels, errors, progress."""
+"""What the operators have in common: properties of redo panels, messages, progress."""
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import bpy
@@ -33,7 +34,7 @@ def choose_radius(operator: Any, index: Any) -> None:
 
 
 class Reporting:
-    """An operator that reports its errors and its progress. Derived classes have `_run`."""
+    """An operator that reports its errors, warnings and progress. Derived classes have `_run`."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -41,10 +42,14 @@ class Reporting:
         manager = context.window_manager
         manager.progress_begin(0, 100)
         try:
-            self._run(context, lambda done, total: manager.progress_update(100 * done / max(total, 1)))
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                self._run(context, lambda done, total: manager.progress_update(100 * done / max(total, 1)))
         except (ImportError, MemoryError, TypeError, ValueError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         finally:
             manager.progress_end()
+        for warning in caught:
+            self.report({"WARNING"}, str(warning.message))
         return {"FINISHED"}

@@ -57,3 +57,4 @@ def _select(edited: Any, vertices: list[int], extend: bool) -> None:
     for vertex in vertices:
         edited.verts[vertex].select = True
     edited.select_flush(True)
+    edited.select_history.validate()
