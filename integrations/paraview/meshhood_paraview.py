@@ -145,7 +145,7 @@ class _Filter(VTKPythonAlgorithmBase):
         mesh, output = vtkPolyData.GetData(inInfo[0], 0), vtkPolyData.GetData(outInfo, 0)
         output.ShallowCopy(mesh)
         with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
+            warnings.simplefilter("always", UserWarning)
             try:
                 self._index = _index_of(mesh, self._progress)
                 self._add_arrays(mesh, output)

@@ -43,7 +43,7 @@ class Reporting:
         manager.progress_begin(0, 100)
         try:
             with warnings.catch_warnings(record=True) as caught:
-                warnings.simplefilter("always")
+                warnings.simplefilter("always", UserWarning)
                 self._run(context, lambda done, total: manager.progress_update(100 * done / max(total, 1)))
         except (ImportError, MemoryError, TypeError, ValueError) as error:
             self.report({"ERROR"}, str(error))
