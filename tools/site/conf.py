@@ -96,8 +96,8 @@ LINK = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)\s]+)|(?<= src=\")([^\"]+)")
 
 
 def link_within_site(app, docname, source):
-    """Leads links from and to the pages of the root, and to other pages outside docs, to where the site has them. Those that show the
-    name of a file show the title of the page."""
+    """Leads links from and to the pages of the root, and to other pages outside docs, to where the site has them. Those
+    that show the name of a file show the title of the page."""
 
     def moved(match):
         target = match[0]
