@@ -14,13 +14,14 @@ add_test(NAME repo.no_global_state COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR
 if(NOT MESHHOOD_LONG_TESTS)
   return()
 endif()
+set(with_programs ${CMAKE_CURRENT_SOURCE_DIR}/support/with_programs.sh)
+add_subdirectory(integrations)
 add_test(NAME repo.format COMMAND ${PROJECT_SOURCE_DIR}/tools/check format)
 if(TARGET meshhood_cli)
   add_test(NAME repo.render
     COMMAND ${with_python} -B ${CMAKE_CURRENT_SOURCE_DIR}/repo/render_test.py $<TARGET_FILE:meshhood_cli>)
   set_tests_properties(repo.render PROPERTIES SKIP_RETURN_CODE 77)
   # JavaScript: the package, then the page that uses it.
-  set(with_programs ${CMAKE_CURRENT_SOURCE_DIR}/support/with_programs.sh)
   set(package ${PROJECT_SOURCE_DIR}/build/wasm/npm)
   add_subdirectory(wasm)
   add_subdirectory(viewer)

@@ -4,7 +4,7 @@
 set -euo pipefail
 while [[ $1 != -- ]]; do
   if ! command -v "$1" >/dev/null && [[ ! -e $1 ]]; then
-    echo "skipped: no $1 (tools/setup test-all installs it)"
+    echo "skipped: no $1 (tools/setup test-all or tools/setup integrations installs it)"
     exit 77
   fi
   shift

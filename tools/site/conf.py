@@ -88,15 +88,16 @@ html_theme_options = {
 }
 
 
-# Pages of the site that lie outside docs.
+# Pages of the site that lie outside docs, and those of other programs.
 ROOT_PAGES = ("README", "CHANGELOG", "CONTRIBUTING", "RELEASE", "SECURITY")
+INTEGRATION = re.compile(r"integrations/(\w+)/README\.md$")
 NAME_OF_FILE = re.compile(r"\[[\w/]+\.md\](?=\()")
 LINK = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)\s]+)|(?<= src=\")([^\"]+)")
 
 
 def link_within_site(app, docname, source):
-    """Leads links from and to the pages of the root, and to the gallery, to where the site has them. Those that show the
-    name of a file show the title of the page."""
+    """Leads links from and to the pages of the root, and to other pages outside docs, to where the site has them. Those
+    that show the name of a file show the title of the page."""
 
     def moved(match):
         target = match[0]
@@ -104,6 +105,8 @@ def link_within_site(app, docname, source):
             target = target.removeprefix("docs/") if target.startswith("docs/") else f"../{target}"
         if target.endswith("examples/gallery/README.rst"):
             return "/gallery/index.rst"
+        if integration := INTEGRATION.search(target):
+            return f"/{integration[1]}.md"
         page, separator, place = target.rpartition("/")[2].partition("#")
         stem = page.removesuffix(".md")
         return f"/{stem.lower()}.md{separator}{place}" if stem in ROOT_PAGES else target
