@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -88,15 +89,10 @@ bool sorts_rows(const BatchCommand& options) {
 }
 
 /// The approximate size of the file: the members without the zip headers. The ones of a matrix without distances
-/// are compressed: 258 of them take 13 bits. Of text, the least: the digits of two ids, two separators, a distance
-/// of 1.
+/// are compressed: 258 of them take 13 bits.
 double file_bytes(const BatchCommand& options, const BatchSize& total, std::size_t columns) {
   const auto rows = static_cast<double>(total.rows);
   const auto count = static_cast<double>(total.count);
-  if (options.output.is_csv()) {
-    const auto digits = static_cast<double>(std::to_string(columns).size());
-    return count * (2 * std::max(1.0, digits - 1) + (options.distances ? 4 : 2));
-  }
   const double vertices = has_vertices(row_order(options)) ? 8 * rows : 0;
   if (options.count) return vertices + 8 * rows * static_cast<double>(options.rows.scale_count());
   const double index_bytes = fits_32_bits(total.count, columns) ? 4 : 8;
@@ -106,6 +102,12 @@ double file_bytes(const BatchCommand& options, const BatchSize& total, std::size
 /// One for each array of the file whose length is that of the answer, and one to count.
 std::size_t number_of_passes(const BatchCommand& options) {
   return options.output.is_csv() ? 1 : options.distances ? 3 : 2;
+}
+
+/// Text is refused while it is written.
+void check_size(const BatchCommand& options, const BatchSize& size, std::size_t columns, std::string_view about = "") {
+  if (options.output.is_csv()) return;
+  SizeLimit(options.output.name, options.max_bytes).check(size, file_bytes(options, size, columns), about);
 }
 
 BatchSize size_of(std::span<const std::uint64_t> sizes, std::size_t scales) {
@@ -127,9 +129,7 @@ BatchSize write_counts(const SearchMethod& method, const BatchQuery& query, cons
   RowTable table{.rows = total.rows, .scales = scales, .columns = {{"count", std::move(sizes), scales}}};
   table.add_properties({"count"});
   table.max_bytes = options.max_bytes;
-  if (!options.output.is_csv()) {
-    SizeLimit(options.output.name, options.max_bytes).check(total, file_bytes(options, total, method.vertex_count()));
-  }
+  check_size(options, total, method.vertex_count());
   write_rows(options.output, table, listed_rows(options, query), query.radius);
   return total;
 }
@@ -140,20 +140,14 @@ BatchSize write_counts(const SearchMethod& method, const BatchQuery& query, cons
 class Writer {
  public:
   Writer(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, VertexSorter& sorter,
-         const SizeLimit& limit, Task& task)
-      : method_(method),
-        query_(query),
-        options_(options),
-        order_(row_order(options)),
-        sorter_(sorter),
-        limit_(limit),
-        task_(task) {}
+         Task& task)
+      : method_(method), query_(query), options_(options), order_(row_order(options)), sorter_(sorter), task_(task) {}
 
   BatchSize write() {
     if (options_.output.is_csv()) return write_pairs();
     const std::vector<std::uint64_t> sizes = counts(method_, query_, next_run());
     const BatchSize total = size_of(sizes, 1);
-    limit_.check(total, file_bytes(options_, total, method_.vertex_count()));
+    check_size(options_, total, method_.vertex_count());
     write_arrays(sizes, total);
     return total;
   }
@@ -246,7 +240,6 @@ class Writer {
   const BatchCommand& options_;
   RowOrder order_;
   VertexSorter& sorter_;
-  const SizeLimit& limit_;
   Task& task_;
   std::size_t passes_begun_ = 0;
 };
@@ -260,13 +253,12 @@ std::string task_name(const BatchCommand& options, const std::optional<BatchEsti
 BatchSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options,
                 VertexSorter& sorter) {
   if (options.count) return write_counts(method, query, options);
-  const SizeLimit limit(options.output.name, options.max_bytes);
-  const std::optional<BatchEstimate> expected = estimate(method, query);
+  const std::optional<BatchEstimate> expected = options.output.is_csv() ? std::nullopt : estimate(method, query);
   const std::size_t columns = method.vertex_count();
-  if (expected) limit.check(expected->lower, file_bytes(options, expected->lower, columns), "at least ");
+  if (expected) check_size(options, expected->lower, columns, "at least ");
   Task task(task_name(options, expected, columns),
             {"rows", static_cast<double>(number_of_passes(options))});  // outlives the temporary file
-  return Writer(method, query, options, sorter, limit, task).write();
+  return Writer(method, query, options, sorter, task).write();
 }
 
 /// Without the vertices that have become others.

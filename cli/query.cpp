@@ -18,7 +18,6 @@
 
 #include "commands.h"
 #include "input.h"
-#include "measure/timing.h"
 #include "methods.h"
 #include "options.h"
 #include "output.h"
@@ -47,29 +46,16 @@ struct QueryCommand {
 };
 
 struct Answer {
-  std::optional<VertexId> vertex;   ///< none for --point
-  std::vector<std::size_t> counts;  ///< for each radius
-  std::vector<VertexId> vertices;   ///< ring by ring; empty if they are neither printed nor painted
-  std::vector<double> distances;    ///< of `vertices`, if requested
-  double seconds = 0;               ///< 0 if it was not measured
+  std::optional<VertexId> vertex;        ///< none for --point
+  std::vector<std::size_t> counts = {};  ///< for each radius
+  std::vector<VertexId> vertices = {};   ///< ring by ring; empty if they are neither printed nor painted
+  std::vector<double> distances = {};    ///< of `vertices`, if requested
 };
 
 AnySearcher searcher_of(const QueryCommand& options, Input& input) {
   paper::QueryOptions settings;
   if (options.factor) settings.radius_ratio = parse_radius("--factor", *options.factor);
   return method_of(options.search, input, settings).make_searcher();
-}
-
-/// The answer of `searcher`, with the median time of several runs.
-Answer timed_answer(const QueryCommand& options, AnySearcher& searcher, VertexId v, double radius) {
-  Answer answer{.vertex = v, .counts = {0}, .vertices = {}, .distances = {}};
-  if (options.count && !options.is_painted()) {
-    answer.seconds = measure::median_seconds([&] { answer.counts.front() = searcher.count(v, radius); });
-    return answer;
-  }
-  answer.seconds = measure::median_seconds([&] { searcher.neighborhood(v, radius, answer.vertices); });
-  answer.counts.front() = answer.vertices.size();
-  return answer;
 }
 
 /// How many of `component` are welded with vertices of other components. `first`: by vertex, the one that it becomes.
@@ -127,7 +113,6 @@ Json to_json(const QueryCommand& options, const Answer& answer) {
   document["counts"] = answer.counts;
   if (!options.count) document["vertices"] = answer.vertices;
   if (options.distances) document["distances"] = answer.distances;
-  if (answer.seconds > 0) document["seconds"] = answer.seconds;
   return document;
 }
 
@@ -222,7 +207,13 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, const StartQu
   std::vector<Answer> answers;
   for (const QueryStart& start : query.starts) {
     const VertexId v = *start.vertex();
-    Answer answer = timed_answer(options, searcher, v, radius);
+    Answer answer{.vertex = v};
+    if (options.count && !options.is_painted()) {
+      answer.counts = {searcher.count(v, radius)};
+    } else {
+      searcher.neighborhood(v, radius, answer.vertices);
+      answer.counts = {answer.vertices.size()};
+    }
     if (method == "exact" || method == "bfs") note_whole_component(searcher, radius, answer, input);
     if (options.distances || sorter.needs_distances()) {
       for (const VertexId w : answer.vertices) answer.distances.push_back(distance(input.positions(), v, w));
