@@ -60,7 +60,7 @@ void write_column(io::NpzWriter& npz, const Column& column, std::size_t rows) {
 }
 
 void write_npz(const std::string& file, const RowTable& table, const std::function<void(io::NpzWriter&)>& begin) {
-  Task task("writing " + file);  // outlives the temporary file
+  const Task task("writing " + file);  // outlives the temporary file
   io::NpzWriter npz(file);
   begin(npz);
   if (!table.kinds.empty()) npz.add_texts("kinds", table.kinds);
@@ -81,7 +81,7 @@ void for_each_number(const RowTable& table, const Property& property, std::size_
 }
 
 void write_csv(const std::string& file, const RowTable& table) {
-  Task task("writing " + file);
+  const Task task("writing " + file);
   std::vector<std::string> names;
   for (const Property& property : table.properties) {
     if (property.width == 1) names.push_back(property.name);
@@ -181,9 +181,9 @@ void write_table(const TableFile& file, const RowTable& table, const std::functi
 void write_rows(const TableFile& file, RowTable& table, const BatchVertices& listed, const BatchRadius& radius) {
   std::vector<std::int64_t> vertices(table.rows);
   for (std::size_t row = 0; row < table.rows; ++row) vertices[row] = listed[row];
-  const auto add_first = [&](std::string name, auto numbers) {
+  const auto add_first = [&](const std::string& name, auto numbers) {
     table.properties.insert(table.properties.begin(), {name, table.columns.size(), 0, 1});
-    table.columns.push_back({.name = std::move(name), .numbers = std::move(numbers), .is_array = false});
+    table.columns.push_back({.name = name, .numbers = std::move(numbers), .is_array = false});
   };
   if (radius.list()) add_first("radius", std::vector<double>(radius.list()->begin(), radius.list()->end()));
   add_first("vertex", std::move(vertices));
