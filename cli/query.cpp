@@ -174,18 +174,19 @@ void print(const QueryCommand& options, std::span<const double> radii, const std
     return print_result(options.json, {{"output", output}, {"answers", answers.size()}},
                         fmt::format("{}: {} answers\n", printable_name(output), answers.size()));
   }
-  TextWriter text;
-  Json documents = Json::array();
-  for (const Answer& answer : answers) {
-    if (options.json) documents.push_back(to_json(options, answer));
-    if (!options.json) write_lines(text, options, radii, answer, options.start.is_list());
+  if (options.json) {
+    Json documents = Json::array();
+    for (const Answer& answer : answers) documents.push_back(to_json(options, answer));
+    return print_json({{"method", options.search.method},
+                       {"metric", options.search.metric},
+                       {"radii", radii},
+                       {"answers", std::move(documents)}});
   }
-  print_result(options.json,
-               {{"method", options.search.method},
-                {"metric", options.search.metric},
-                {"radii", radii},
-                {"answers", std::move(documents)}},
-               text.text());
+  for (const Answer& answer : answers) {
+    TextWriter text;
+    write_lines(text, options, radii, answer, options.start.is_list());
+    print_text(text.text());
+  }
 }
 
 void paint(const QueryCommand& options, Input& input, const std::vector<Answer>& answers) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@
 #include "meshhood/error.h"
 
 #include "io/mesh_io.h"
-#include "io/npz_writer.h"
 #include "methods.h"
 #include "options.h"
 #include "task.h"
@@ -62,7 +62,7 @@ void write_column(io::NpzWriter& npz, const Column& column, std::size_t rows) {
 void write_npz(const std::string& file, const RowTable& table, const std::function<void(io::NpzWriter&)>& begin) {
   const Task task("writing " + file);  // outlives the temporary file
   io::NpzWriter npz(file);
-  begin(npz);
+  if (begin) begin(npz);
   if (!table.kinds.empty()) npz.add_texts("kinds", table.kinds);
   for (const Column& column : table.columns) {
     if (column.is_array) write_column(npz, column, table.rows);
@@ -121,9 +121,9 @@ std::vector<float> values_of(const RowTable& table, const Property& property) {
 /// The properties of a mesh. The shown one is the first.
 std::vector<Property> mesh_properties(const RowTable& table) {
   std::vector<Property> properties = table.properties;
-  std::erase_if(properties, [&](const Property& property) {
-    return std::holds_alternative<std::vector<std::int64_t>>(table.columns[property.column].numbers);
-  });
+  const auto is_long = []<class T>(const std::vector<T>&) { return std::is_integral_v<T> && sizeof(T) == 8; };
+  std::erase_if(properties,
+                [&](const Property& property) { return std::visit(is_long, table.columns[property.column].numbers); });
   const auto shown = std::ranges::find(properties, table.shown, &Property::name);
   std::rotate(properties.begin(), shown, std::next(shown));
   return properties;

@@ -79,9 +79,7 @@ struct RowTable {
 };
 
 /// Writes the arrays of a table, after those that `begin` writes; or the properties as text.
-void write_table(
-    const TableFile& file, const RowTable& table,
-    const std::function<void(io::NpzWriter&)>& begin = [](io::NpzWriter&) {});
+void write_table(const TableFile& file, const RowTable& table, const std::function<void(io::NpzWriter&)>& begin = {});
 
 /// The same with the vertex of each row, and the radii. As text, the vertex is the first property, which is added to
 /// the table, and the radius the second if each row has its own.
