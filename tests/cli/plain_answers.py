@@ -125,8 +125,8 @@ def table_of_rows(run):
     if "--radii" in run.asked:
         arrays["radii"] = columns.pop("radius")[None]
     if run.command == "aggregate":
-        channels = run.files.values.shape[1]
-        arrays["values"] = np.stack(list(columns.values())).reshape(-1, channels, len(arrays["vertices"])).swapaxes(1, 2)
+        shape = (-1, run.files.values.shape[1], len(arrays["vertices"]))
+        arrays["values"] = np.stack(list(columns.values())).reshape(shape).swapaxes(1, 2)
         return arrays
     if run.command == "features":
         kinds = run.asked.get("--kinds", "crease").split(",")
@@ -155,8 +155,12 @@ def table_of_pairs(run):
     for begin, end in zip(begins, [*begins[1:], len(of)]):
         rows.setdefault(of[begin], slice(begin, end))
     is_in_index_order = run.asked.get("--order") == "index"
-    places = places_in_index(run.files, run.file, words_of(run, READING)) if is_in_index_order else {}
-    vertices = list(places) or run.files.vertices if "--vertices" in run.asked or places else range(run.files.count)
+    if is_in_index_order:
+        vertices = list(places_in_index(run.files, run.file, words_of(run, READING)))
+    elif "--vertices" in run.asked:
+        vertices = run.files.plain("--weld" in run.asked).kept[run.files.vertices]
+    else:
+        vertices = range(run.files.count)
     found = [rows.get(v, slice(0, 0)) for v in vertices]
     arrays = {"indptr": np.cumsum([0, *(one.stop - one.start for one in found)]),
               "indices": np.concatenate([ids[one] for one in found])}
