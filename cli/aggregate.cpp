@@ -83,7 +83,7 @@ class AggregateQuantity : public Quantity {
     const Channels values = read_channels(values_, task.input.vertex_count());
     const std::vector<double> weights = weights_of(task.input);
     const SignalView signal{values.numbers, values.channels, weights};
-    fill(table, task, aggregates(task, signal, query_of(task, table.radii)), values.channels);
+    fill(table, aggregates(task, signal, query_of(task, table.radii)), values.channels);
     return table;
   }
 
@@ -113,25 +113,26 @@ class AggregateQuantity : public Quantity {
                                                const AggregateQuery& query) const {
     const Index& index = task.input.exact_index(task.options.threads);
     const std::size_t numbers = aggregate_size(index, signal, query);
-    SizeLimit(task.files.first(), max_bytes_).check({task.rows.size(), numbers}, 8 * static_cast<double>(numbers));
+    const double least_bytes = task.files.table.is_csv() ? 2 : 8;  // of a number: a digit and a comma
+    SizeLimit(task.files.first(), max_bytes_)
+        .check({task.rows.size(), numbers}, least_bytes * static_cast<double>(numbers));
     Task shown("computing", {"rows", static_cast<double>(task.options.scale_count())});
     return aggregate(index, signal, query, {.threads = task.options.threads, .progress = shown.progress()});
   }
 
   /// Of several channels, the names of the properties end in the number of the channel.
-  void fill(RowTable& table, const RowTask& task, std::vector<double> found, std::size_t channels) const {
-    const std::size_t scales = task.options.scale_count();
-    table.columns = {{"values", std::move(found), scales, channels}};
-    for (std::size_t i = 0; i < scales; ++i) {
+  void fill(RowTable& table, std::vector<double> found, std::size_t channels) const {
+    table.columns = {{"values", std::move(found), table.scales, channels}};
+    for (std::size_t i = 0; i < table.scales; ++i) {
       for (std::size_t channel = 0; channel < channels; ++channel) {
         const std::string end = channels == 1 ? "" : fmt::format("_{}", channel);
         table.add_property(fmt::format("{}_{}{}", reduce_, i, end), "values", i, channel);
       }
     }
-    table.shown = table.properties[(scales - 1) * channels].name;
-    table.summary = {{"reduce", reduce_}, {"radii", scales}, {"rows", table.rows}, {"channels", channels}};
-    table.text = fmt::format("{}: {} of {} rows, radii: {}, channels: {}\n", names_of(task.files), reduce_, table.rows,
-                             scales, channels);
+    table.shown = table.properties[(table.scales - 1) * channels].name;
+    table.summary = {{"reduce", reduce_}, {"channels", channels}};
+    table.text = fmt::format("{}, channels: {}", reduce_, channels);
+    table.max_bytes = max_bytes_;
   }
 
   std::string values_;

@@ -12,6 +12,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -23,17 +25,23 @@
 #include "input.h"
 #include "io/npz_writer.h"
 #include "methods.h"
+#include "names.h"
 #include "options.h"
 #include "output.h"
 #include "quantity.h"
-#include "row_file.h"
 #include "row_query.h"
+#include "row_table.h"
 #include "size_limit.h"
 #include "task.h"
 #include "vertex_order.h"
 
 namespace meshhood::cli {
 namespace {
+
+enum class RowOrder { Index, Vertex, List };
+
+constexpr Names<RowOrder, 3> kRowOrders{
+    {{"index", RowOrder::Index}, {"vertex", RowOrder::Vertex}, {"list", RowOrder::List}}};
 
 struct BatchCommand {
   std::string file;
@@ -46,22 +54,38 @@ struct BatchCommand {
   bool distances = false;
   bool json = false;
   std::optional<std::uint64_t> max_bytes;
-  std::string output;
+  TableFile output;
 };
 
-/// Rows that are streamed come in index order, which is the fastest. Sizes are found as fast in vertex order, where
-/// the number of a row is that of its vertex.
+/// Arrays of rows come in index order, which is the fastest. Sizes are found as fast in vertex order, where the number
+/// of a row is that of its vertex, and text is read by people.
 RowOrder row_order(const BatchCommand& options) {
   const bool is_exact = options.search.method == "exact";
   if (options.order == "index" && !is_exact) raise(ErrorCode::InvalidOption, "--order index: expected --method exact");
   if (!options.rows.vertices.empty()) return RowOrder::List;
   if (!options.order.empty()) return value_of(kRowOrders, options.order);
-  return is_exact && !options.count ? RowOrder::Index : RowOrder::Vertex;
+  return is_exact && !options.count && !options.output.is_csv() ? RowOrder::Index : RowOrder::Vertex;
+}
+
+/// Whether the file says of which vertex a row is.
+bool has_vertices(RowOrder order) { return order != RowOrder::Vertex; }
+
+/// Rows in vertex order or in that of a list are a sparse matrix that `scipy.sparse.load_npz` reads: `format`, `shape`,
+/// `indptr`, `indices`, `data`; `vertices` has the list. Rows in index order are not stored as a matrix, because SciPy
+/// would ignore `vertices` and take row `i` for that of vertex `i`. They are `vertices`, `indptr`, `indices`,
+/// `distances`, and SciPy refuses them.
+bool is_matrix(RowOrder order) { return order != RowOrder::Index; }
+
+/// SciPy uses 32-bit indices where they suffice, and would convert others. `count`: of the stored values.
+bool fits_32_bits(std::uint64_t count, std::uint64_t columns) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
+  return count <= kMost && columns <= kMost;
 }
 
 /// Rows as the methods write them are in the order of the ids, or of the index except along the edges.
 bool sorts_rows(const BatchCommand& options) {
-  return options.sort == "distance" || (options.sort == "index" && options.search.metric == "path");
+  const bool is_path = value_of(kMetrics, options.search.metric) == Metric::Path;
+  return options.sort == "distance" || (options.sort == "index" && is_path);
 }
 
 /// The approximate size of the file: the members without the zip headers. The ones of a matrix without distances
@@ -76,68 +100,117 @@ double file_bytes(const BatchCommand& options, const BatchSize& total, std::size
 }
 
 /// One for each array of the file whose length is that of the answer, and one to count.
-std::size_t number_of_passes(const BatchCommand& options) { return options.count ? 1 : options.distances ? 3 : 2; }
+std::size_t number_of_passes(const BatchCommand& options) {
+  return options.output.is_csv() ? 1 : options.distances ? 3 : 2;
+}
 
-/// Writes the rows of a batch, of one radius unless they are only counted. The length of an array precedes its values,
-/// so the rows are counted first. Then each array is computed and written in a pass of its own, so that memory holds
-/// only a few numbers per row.
+/// Text is refused while it is written.
+void check_size(const BatchCommand& options, const BatchSize& size, std::size_t columns, std::string_view about = "") {
+  if (options.output.is_csv()) return;
+  SizeLimit(options.output.name, options.max_bytes).check(size, file_bytes(options, size, columns), about);
+}
+
+BatchSize size_of(std::span<const std::uint64_t> sizes, std::size_t scales) {
+  return {sizes.size() / scales, std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
+}
+
+/// Those that the file names.
+BatchVertices listed_rows(const BatchCommand& options, const BatchQuery& query) {
+  return has_vertices(row_order(options)) ? query.vertices : BatchVertices();
+}
+
+BatchSize write_counts(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options) {
+  std::vector<std::uint64_t> sizes = [&] {
+    Task task("computing", {"rows", 1});
+    return counts(method, query, {.threads = options.rows.threads, .progress = task.progress()});
+  }();
+  const std::size_t scales = options.rows.scale_count();
+  const BatchSize total = size_of(sizes, scales);
+  RowTable table{.rows = total.rows, .scales = scales, .columns = {{"count", std::move(sizes), scales}}};
+  table.add_properties({"count"});
+  table.max_bytes = options.max_bytes;
+  check_size(options, total, method.vertex_count());
+  write_rows(options.output, table, listed_rows(options, query), query.radius);
+  return total;
+}
+
+/// Writes the rows of a batch, of one radius. The length of an array precedes its values, so the rows are counted
+/// first. Then each array is computed and written in a pass of its own, so that memory holds only a few numbers per
+/// row. Text is written in one pass.
 class Writer {
  public:
   Writer(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, VertexSorter& sorter,
-         const SizeLimit& limit, Task& task, io::NpzWriter& npz)
-      : method_(method),
-        query_(query),
-        options_(options),
-        order_(row_order(options)),
-        sorter_(sorter),
-        limit_(limit),
-        task_(task),
-        npz_(npz) {}
+         Task& task)
+      : method_(method), query_(query), options_(options), order_(row_order(options)), sorter_(sorter), task_(task) {}
 
   BatchSize write() {
+    if (options_.output.is_csv()) return write_pairs();
     const std::vector<std::uint64_t> sizes = counts(method_, query_, next_run());
-    const std::size_t scales = options_.rows.scale_count();
-    const BatchSize total{sizes.size() / scales, std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
-    limit_.check(total, file_bytes(options_, total, method_.vertex_count()));
-    if (options_.count) {
-      npz_.begin<std::uint64_t>("count", std::array<std::uint64_t, 2>{scales, total.rows});
-      npz_.append<std::uint64_t>(sizes);
-    } else {
-      write_rows(sizes, total);
-    }
+    const BatchSize total = size_of(sizes, 1);
+    check_size(options_, total, method_.vertex_count());
+    write_arrays(sizes, total);
     return total;
   }
 
  private:
-  void write_rows(std::span<const std::uint64_t> sizes, const BatchSize& total) {
-    begin_rows(npz_, order_, total.rows, method_.vertex_count());
-    if (fits_32_bits(total.count, method_.vertex_count())) {
-      write_pattern<std::int32_t>(sizes, total);
-    } else {
-      write_pattern<std::int64_t>(sizes, total);
+  [[nodiscard]] BatchVertices listed() const { return listed_rows(options_, query_); }
+
+  /// A line for each vertex of each row.
+  BatchSize write_pairs() {
+    CsvWriter csv(options_.output.name, pair_names(options_.distances), options_.max_bytes);
+    BatchSize total;
+    for_each_row(options_.distances || sorter_.needs_distances(),
+                 [&](std::span<const VertexId> ids, std::span<const double> distances) {
+                   const VertexId v = listed()[total.rows++];
+                   total.count += ids.size();
+                   for (std::size_t i = 0; i < ids.size(); ++i) {
+                     csv.add(v);
+                     csv.add(ids[i]);
+                     if (options_.distances) csv.add(distances[i]);
+                     csv.end_row();
+                   }
+                 });
+    Task::check_cancelled();
+    csv.commit();
+    return total;
+  }
+
+  void write_arrays(std::span<const std::uint64_t> sizes, const BatchSize& total) {
+    io::NpzWriter npz(options_.output.name);
+    write_vertices(npz, listed());
+    const std::uint64_t columns = method_.vertex_count();
+    if (is_matrix(order_)) {
+      const std::array<std::int64_t, 2> shape{static_cast<std::int64_t>(total.rows),
+                                              static_cast<std::int64_t>(columns)};
+      npz.add_text("format", "csr");
+      npz.add<std::int64_t>("shape", shape);
     }
-    options_.distances ? write_distances(total) : end_rows(npz_, order_, total.count);
+    fits_32_bits(total.count, columns) ? write_pattern<std::int32_t>(npz, sizes, total)
+                                       : write_pattern<std::int64_t>(npz, sizes, total);
+    if (options_.distances) {
+      npz.begin<double>(is_matrix(order_) ? "data" : "distances", total.count);
+      for_each_row(
+          true, [&](std::span<const VertexId> /*ids*/, std::span<const double> distances) { npz.append(distances); });
+    } else if (is_matrix(order_)) {
+      npz.add_ones("data", total.count);
+    }
+    Task::check_cancelled();
+    npz.commit();
   }
 
   template <class Integer>
-  void write_pattern(std::span<const std::uint64_t> sizes, const BatchSize& total) {
+  void write_pattern(io::NpzWriter& npz, std::span<const std::uint64_t> sizes, const BatchSize& total) {
     std::vector<Integer> offsets(sizes.size() + 1);
     std::transform_inclusive_scan(sizes.begin(), sizes.end(), offsets.begin() + 1, std::plus<>(),
                                   [](std::uint64_t size) { return static_cast<Integer>(size); });
-    npz_.add<Integer>("indptr", offsets);
+    npz.add<Integer>("indptr", offsets);
     std::vector<Integer> converted;
     const auto write = [&](std::span<const VertexId> ids, std::span<const double> /*distances*/) {
       converted.assign(ids.begin(), ids.end());
-      npz_.append<Integer>(converted);
+      npz.append<Integer>(converted);
     };
-    npz_.begin<Integer>("indices", total.count);
+    npz.begin<Integer>("indices", total.count);
     for_each_row(sorter_.needs_distances(), write);
-  }
-
-  void write_distances(const BatchSize& total) {
-    npz_.begin<double>(distances_name(order_), total.count);
-    for_each_row(true,
-                 [&](std::span<const VertexId> /*ids*/, std::span<const double> distances) { npz_.append(distances); });
   }
 
   /// Calls `write(ids, distances)` for each row, sorted as the options say.
@@ -167,9 +240,7 @@ class Writer {
   const BatchCommand& options_;
   RowOrder order_;
   VertexSorter& sorter_;
-  const SizeLimit& limit_;
   Task& task_;
-  io::NpzWriter& npz_;
   std::size_t passes_begun_ = 0;
 };
 
@@ -181,19 +252,13 @@ std::string task_name(const BatchCommand& options, const std::optional<BatchEsti
 
 BatchSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options,
                 VertexSorter& sorter) {
-  const SizeLimit limit(options.output, options.max_bytes);
-  const std::optional<BatchEstimate> expected = options.count ? std::nullopt : estimate(method, query);
+  if (options.count) return write_counts(method, query, options);
+  const std::optional<BatchEstimate> expected = options.output.is_csv() ? std::nullopt : estimate(method, query);
   const std::size_t columns = method.vertex_count();
-  if (expected) limit.check(expected->lower, file_bytes(options, expected->lower, columns), "at least ");
+  if (expected) check_size(options, expected->lower, columns, "at least ");
   Task task(task_name(options, expected, columns),
             {"rows", static_cast<double>(number_of_passes(options))});  // outlives the temporary file
-  io::NpzWriter npz(options.output);
-  if (has_vertices(row_order(options))) write_vertices(npz, query.vertices);
-  if (options.count) write_radii(npz, query.radius);
-  const BatchSize total = Writer(method, query, options, sorter, limit, task, npz).write();
-  Task::check_cancelled();
-  npz.commit();
-  return total;
+  return Writer(method, query, options, sorter, task).write();
 }
 
 /// Without the vertices that have become others.
@@ -226,7 +291,7 @@ void batch(const BatchCommand& options) {
   Input input(options.file, options.reading, threads);
   const RowQuery rows(options.rows, input);
   BatchQuery query = options.count ? rows.query() : rows.query_of_scale(0);
-  query.metric = value_of(kMetrics, options.search.metric);
+  query.metric = metric_of(options.search.metric, input);
   const SearchMethod method = method_of(options.search, input, {}, threads);
   VertexSorter sorter(options.sort, input);
   std::vector<VertexId> in_index_order;
@@ -240,11 +305,14 @@ void batch(const BatchCommand& options) {
     }
   }
   const BatchSize total = write(method, query, options, sorter);
-  Json document{{"output", options.output}, {"method", options.search.method}};
-  if (!options.search.is_straight()) document["metric"] = options.search.metric;
-  document.update({{"order", name_of(kRowOrders, order)}, {"rows", total.rows}, {"count", total.count}});
-  print_result(options.json, document,
-               fmt::format("{}: {} rows{}, {} vertices in them\n", printable_name(options.output), total.rows,
+  print_result(options.json,
+               {{"output", options.output.name},
+                {"method", options.search.method},
+                {"metric", options.search.metric},
+                {"order", name_of(kRowOrders, order)},
+                {"rows", total.rows},
+                {"count", total.count}},
+               fmt::format("{}: {} rows{}, {} vertices in them\n", printable_name(options.output.name), total.rows,
                            order == RowOrder::Index ? " in index order" : "", total.count));
 }
 
@@ -260,7 +328,7 @@ void add_batch(CLI::App& program) {
   add_choice(
       *command, "--order",
       "order of all rows; index: the fastest, with the array vertices; vertex: a matrix for scipy.sparse.load_npz "
-      "(default: index; with --count or another method: vertex)",
+      "(default: index; with --count, a table or another method: vertex)",
       {"index", "vertex"}, options->order)
       ->excludes("--vertices");
   add_method(*command, options->search);
@@ -272,7 +340,9 @@ void add_batch(CLI::App& program) {
                  "also write distances in the metric of the radius: the array distances, or the values of the matrix")
       ->excludes(count);
   add_max_bytes(*command, options->max_bytes);
-  add_output(*command, ".npz", "file to write", options->output)->required();
+  add_table_output(*command, ".npz", "file to write: arrays, or a table with a line for each vertex of each row",
+                   options->output)
+      ->required();
   add_json(*command, options->json);
   command->callback([options] { batch(*options); });
 }

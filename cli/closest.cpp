@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // meshhood closest: the points of the surface nearest to points in space.
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -16,9 +17,9 @@
 
 #include "commands.h"
 #include "input.h"
-#include "io/npz_writer.h"
 #include "options.h"
 #include "output.h"
+#include "row_table.h"
 #include "start.h"
 #include "task.h"
 #include "vertex_files.h"
@@ -32,7 +33,7 @@ struct ClosestCommand {
   std::vector<std::string> point;
   std::string points;  ///< a file with a list
   unsigned threads = kAllProcessors;
-  std::string output;
+  TableFile output;
   bool json = false;
 };
 
@@ -42,28 +43,32 @@ std::vector<SurfacePoint> compute(const ClosestCommand& options, std::span<const
   return surface.closest_points(points, {.threads = options.threads, .progress = task.progress()});
 }
 
-void write_npz(const std::string& file, const std::vector<SurfacePoint>& found) {
-  io::NpzWriter npz(file);
-  const auto add = [&]<class T>(const char* name, auto&& numbers_of) {
-    std::vector<T> numbers;
-    for (const SurfacePoint& one : found) {
-      for (const auto number : numbers_of(one)) numbers.push_back(static_cast<T>(number));
-    }
-    npz.begin<T>(name, std::array<std::uint64_t, 2>{found.size(), 3});
-    npz.append<T>(numbers);
-  };
+RowTable table_of(const std::vector<SurfacePoint>& found) {
   std::vector<std::int64_t> faces;
   std::vector<double> distances;
+  std::vector<double> points;
+  std::vector<std::int64_t> vertices;
+  std::vector<double> weights;
   for (const SurfacePoint& one : found) {
     faces.push_back(static_cast<std::int64_t>(one.face));
     distances.push_back(one.distance);
+    points.insert(points.end(), one.point.begin(), one.point.end());
+    vertices.insert(vertices.end(), one.vertices.begin(), one.vertices.end());
+    weights.insert(weights.end(), one.weights.begin(), one.weights.end());
   }
-  npz.add<std::int64_t>("face", faces);
-  add.template operator()<std::int64_t>("vertices", [](const SurfacePoint& one) { return one.vertices; });
-  add.template operator()<double>("weights", [](const SurfacePoint& one) { return one.weights; });
-  add.template operator()<double>("point", [](const SurfacePoint& one) { return one.point; });
-  npz.add<double>("distance", distances);
-  npz.commit();
+  RowTable table{.rows = found.size()};
+  table.columns = {{"face", std::move(faces)},
+                   {"distance", std::move(distances)},
+                   {"point", std::move(points), 0, 3},
+                   {"vertices", std::move(vertices), 0, 3},
+                   {"weights", std::move(weights), 0, 3}};
+  table.add_property("face", "face");
+  table.add_property("distance", "distance");
+  table.add_property("point", "point", 0, 0, 3);
+  for (const char* name : {"vertices", "weights"}) {
+    for (std::size_t i = 0; i < 3; ++i) table.add_property(fmt::format("{}_{}", name, i), name, 0, i);
+  }
+  return table;
 }
 
 Json to_json(const std::vector<SurfacePoint>& found) {
@@ -96,10 +101,11 @@ void closest(const ClosestCommand& options) {
   const std::vector<SpacePoint> points =
       options.points.empty() ? std::vector{parse_point(options.point)} : read_points(options.points);
   const std::vector<SurfacePoint> found = compute(options, points, input);
-  if (options.output.empty()) return print_result(options.json, to_json(found), to_text(found));
-  write_npz(options.output, found);
-  print_result(options.json, {{"output", options.output}, {"points", found.size()}},
-               fmt::format("{}: {} points\n", printable_name(options.output), found.size()));
+  const std::string& output = options.output.name;
+  if (output.empty()) return print_result(options.json, to_json(found), to_text(found));
+  write_table(options.output, table_of(found));
+  print_result(options.json, {{"output", output}, {"points", found.size()}},
+               fmt::format("{}: {} points\n", printable_name(output), found.size()));
 }
 
 }  // namespace
@@ -114,9 +120,10 @@ void add_closest(CLI::App& program) {
   add_file_option(*command, "--points", "many points: text with X Y Z on each line, or an array of NumPy (.npy)",
                   options->points);
   add_threads(*command, options->threads);
-  add_output(*command, ".npz",
-             "arrays to write instead: face, distance, point, and the vertices of its triangle with their weights",
-             options->output);
+  add_table_output(
+      *command, ".npz",
+      "arrays or a table to write instead: face, distance, point, and the vertices of its triangle with their weights",
+      options->output);
   add_json(*command, options->json);
   command->callback([options] { closest(*options); });
 }

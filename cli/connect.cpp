@@ -42,7 +42,8 @@ struct Connections {
 Connections connections_of(const ConnectCommand& options, Input& input) {
   const StartQuery query(options.start, input);
   const Start start = query.starts.front().view();
-  Searcher searcher(input.exact_index(), value_of(kMetrics, options.metric));
+  const Metric metric = metric_of(options.metric, input);
+  Searcher searcher(input.exact_index(), metric);
   Connections found;
   if (options.nearest) {
     const std::size_t k = std::min<std::size_t>(*options.nearest, input.vertex_count());

@@ -65,10 +65,9 @@ class CurvatureQuantity : public Quantity {
 
  private:
   static RowTable table_of(const RowTask& task, Curvatures all) {
-    const std::size_t scales = task.options.scale_count();
     RowTable table = task.table();
-    describe(table, all.state, scales);
-    table.text = fmt::format("{}: {}", names_of(task.files), table.text);
+    const std::size_t scales = table.scales;
+    describe(table, all.state);
     std::vector<double> mean(all.k1.size());
     for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = (all.k1[i] + all.k2[i]) / 2;
     std::vector<std::int32_t> state;
@@ -82,15 +81,12 @@ class CurvatureQuantity : public Quantity {
   }
 
   /// How many rows have each state.
-  static void describe(RowTable& table, const std::vector<CurvatureState>& states, std::size_t scales) {
-    table.summary = {{"rows", table.rows}, {"radii", scales}};
-    std::string text;
+  static void describe(RowTable& table, const std::vector<CurvatureState>& states) {
     for (const auto& [state, key, name] : kStates) {
       const auto count = std::count(states.begin(), states.end(), state);
       table.summary[key] = count;
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+      table.text += fmt::format("{}{} {}", table.text.empty() ? "" : ", ", count, name);
     }
-    table.text = fmt::format("{} rows, radii: {}; {}\n", table.rows, scales, text);
   }
 
   bool like_libigl_ = false;

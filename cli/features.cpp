@@ -92,6 +92,7 @@ class FeaturesQuantity : public Quantity {
     RowTable table = task.table();
     const std::vector<double> scales = scales_of(task);
     if (!has_rows) table.radii = scales;
+    table.scales = scales.size();
     static_cast<void>(persistence({}, scales, threshold_));  // refuses wrong radii before the work begins
     table.kinds = kinds_;
     add_features(table, values_of(task, scales), scales.size());
@@ -188,11 +189,10 @@ class FeaturesQuantity : public Quantity {
     const auto& counts = std::get<std::vector<std::int32_t>>(table.columns[1].numbers);
     std::vector<std::size_t> lasting(kinds_.size());
     for (std::size_t i = 0; i < counts.size(); ++i) lasting[i % kinds_.size()] += counts[i] != 0 ? 1 : 0;
-    table.text = fmt::format("{} rows, {} radii\n", table.rows, scales.size());
+    table.text = fmt::format("vertices at {} or more", threshold_);
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-      table.text += fmt::format("{}: {} vertices at {} or more\n", kinds_[kind], lasting[kind], threshold_);
+      table.text += fmt::format("{} {} {}", kind == 0 ? ":" : ",", kinds_[kind], lasting[kind]);
     }
-    table.summary["rows"] = table.rows;
     if (task.options.row_radii.empty()) table.summary["radii"] = scales;
     table.summary.update({{"kinds", kinds_}, {"threshold", threshold_}, {"lasting", lasting}});
   }

@@ -33,17 +33,15 @@ class GapsQuantity : public Quantity {
         found += one.face == kNoFace ? 0 : 1;
       }
     });
-    const std::size_t scales = task.options.scale_count();
     const std::size_t none = faces.size() - found;
     RowTable table = task.table();
-    table.columns = {{"gap", std::move(distances), scales},
-                     {"face", std::move(faces), scales},
-                     {"point", std::move(points), scales, 3}};
-    table.add_properties({"gap"});
-    table.shown = fmt::format("gap_{}", scales - 1);
-    table.summary = {{"rows", table.rows}, {"radii", scales}, {"found", found}, {"none", none}};
-    table.text = fmt::format("{}: {} rows, radii: {}; {} with a gap, {} without\n", names_of(task.files), table.rows,
-                             scales, found, none);
+    table.columns = {{"gap", std::move(distances), table.scales},
+                     {"face", std::move(faces), table.scales},
+                     {"point", std::move(points), table.scales, 3}};
+    table.add_properties({"gap", "face", "point"});
+    table.shown = fmt::format("gap_{}", table.scales - 1);
+    table.summary = {{"found", found}, {"none", none}};
+    table.text = fmt::format("{} with a gap, {} without", found, none);
     return table;
   }
 };

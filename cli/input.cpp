@@ -19,6 +19,7 @@
 
 #include "meshhood/error.h"
 #include "meshhood/masks.h"
+#include "meshhood/surface.h"
 
 #include "output.h"
 #include "parts/manifest.h"
@@ -158,14 +159,23 @@ void Input::ignore_welded() {
   }
 }
 
+void Input::search_along_surface() {
+  need_faces("--metric surface");
+  is_along_surface_ = true;
+}
+
 const Index& Input::exact_index(unsigned threads) {
   if (!exact_) {
     exact_ = mesh_ && !adjacency_ ? build_exact_index(mesh_->view(), threads) : build_exact_index(graph(), threads);
   }
-  if (masks_.walls.empty() && masks_.ignored.empty()) return *exact_;
-  if (!masked_)
+  const bool has_masks = !masks_.walls.empty() || !masks_.ignored.empty();
+  if (has_masks && !masked_) {
     masked_ = meshhood::masked(*exact_, {.walls = masks_.walls, .ignored = masks_.ignored}, {.threads = threads});
-  return *masked_;
+  }
+  const Index& index = has_masks ? *masked_ : *exact_;
+  if (!is_along_surface_) return index;
+  if (!along_surface_) along_surface_ = surface_paths(Surface(index, surface()), {.threads = threads});
+  return *along_surface_;
 }
 
 const paper::Index& Input::paper_index() {

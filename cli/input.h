@@ -79,6 +79,9 @@ class Input {
   /// vertices by their places, connected or not.
   void ignore_welded();
 
+  /// From now on the paths of the index are those along the surface (see `surface_paths`). Throws as `need_faces`.
+  void search_along_surface();
+
   /// With the masks. The file must have edges.
   [[nodiscard]] const Index& exact_index(unsigned threads = kAllProcessors);
 
@@ -94,6 +97,8 @@ class Input {
   std::optional<Index> exact_;
   OwnedMasks masks_;
   std::optional<Index> masked_;
+  bool is_along_surface_ = false;
+  std::optional<Index> along_surface_;
   std::optional<GraphData> graph_;  // of the exact index in the file
   std::optional<paper::Index> paper_;
   std::optional<PositionsData> positions_;  // of the paper's index in the file

@@ -21,19 +21,17 @@ class InvariantsQuantity : public Quantity {
  public:
   RowTable compute(const RowTask& task) override {
     const Surface surface(task.input.exact_index(task.options.threads), task.input.surface());
-    const std::size_t scales = task.options.scale_count();
+    RowTable table = task.table();
     Invariants found = [&] {
-      Task shown("measuring", {"rows", static_cast<double>(scales)});
+      Task shown("measuring", {"rows", static_cast<double>(table.scales)});
       return invariants(surface, task.rows.query(), {.threads = task.options.threads, .progress = shown.progress()});
     }();
     const auto none = std::ranges::count_if(found.volume, [](double volume) { return std::isnan(volume); });
-    RowTable table = task.table();
-    table.columns = {{"area", std::move(found.area), scales}, {"volume", std::move(found.volume), scales}};
+    table.columns = {{"area", std::move(found.area), table.scales}, {"volume", std::move(found.volume), table.scales}};
     table.add_properties({"area", "volume"});
-    table.shown = fmt::format("volume_{}", scales - 1);
-    table.summary = {{"rows", table.rows}, {"radii", scales}, {"without_volume", none}};
-    table.text =
-        fmt::format("{}: {} rows, radii: {}; {} without a volume\n", names_of(task.files), table.rows, scales, none);
+    table.shown = fmt::format("volume_{}", table.scales - 1);
+    table.summary = {{"without_volume", none}};
+    table.text = fmt::format("{} without a volume", none);
     return table;
   }
 };

@@ -20,22 +20,26 @@ void add_method(CLI::App& command, MethodOptions& options) {
 void add_metric(CLI::App& command, std::string& metric) {
   add_choice(command, "--metric",
              "of the radius; straight: distances in a straight line; path: lengths of the shortest paths along the "
-             "edges; rings: numbers of edges",
+             "edges; surface: along edges and over pairs of triangles; rings: numbers of edges",
              names_of(kMetrics), metric);
 }
 
-Metric checked_metric(const std::string& name, const std::string& unit) {
+Metric metric_of(const std::string& name, Input& input) {
+  if (name == "surface") input.search_along_surface();
+  return value_of(kMetrics, name);
+}
+
+void check_metric(const std::string& name, const std::string& unit) {
   if (name == "rings" && unit != "mesh") {
     raise(ErrorCode::InvalidOption, "--metric rings: expected --unit mesh, because the radius is a number of edges");
   }
-  return value_of(kMetrics, name);
 }
 
 void check_method(const MethodOptions& options, bool has_masks, const std::string& unit) {
   if (options.method != "exact" && (!options.is_straight() || has_masks)) {
     raise(ErrorCode::InvalidOption, "--metric, --walls and --ignored require --method exact");
   }
-  static_cast<void>(checked_metric(options.metric, unit));
+  check_metric(options.metric, unit);
 }
 
 SearchMethod method_of(const MethodOptions& options, Input& input, const paper::QueryOptions& settings,

@@ -14,8 +14,9 @@
 /// How a search finds vertices and measures their distances, by names.
 namespace meshhood::cli {
 
-inline constexpr Names<Metric, 3> kMetrics{
-    {{"straight", Metric::Straight}, {"path", Metric::Path}, {"rings", Metric::Rings}}};
+/// Paths along the surface are those of another index (see `Input::search_along_surface`).
+inline constexpr Names<Metric, 4> kMetrics{
+    {{"straight", Metric::Straight}, {"path", Metric::Path}, {"surface", Metric::Path}, {"rings", Metric::Rings}}};
 
 struct MethodOptions {
   std::string method = "exact";
@@ -30,8 +31,12 @@ void add_method(CLI::App& command, MethodOptions& options);
 /// --metric alone, of a command that always searches by the index.
 void add_metric(CLI::App& command, std::string& metric);
 
-/// Throws Error{InvalidOption} if it has no radii of this unit.
-[[nodiscard]] Metric checked_metric(const std::string& name, const std::string& unit);
+/// The metric by which the index of the input then searches. Throws Error{InvalidOption} if it needs faces, and the
+/// input has none.
+[[nodiscard]] Metric metric_of(const std::string& name, Input& input);
+
+/// Throws Error{InvalidOption} if the metric has no radii of this unit.
+void check_metric(const std::string& name, const std::string& unit);
 
 /// Throws Error{InvalidOption} if the options contradict each other, masks, or the unit of the radius.
 void check_method(const MethodOptions& options, bool has_masks, const std::string& unit);

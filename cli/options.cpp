@@ -96,13 +96,13 @@ CLI::Validator input_name(const std::string& option) {
 }
 
 /// A name without extension may be a pipe or a device, and is accepted.
-CLI::Validator output_name(const std::string& option, const std::string& extension) {
-  const auto check = [option, extension](std::string& name) -> std::string {
+CLI::Validator output_name(const std::string& option, const std::string& extensions) {
+  const auto check = [option, extensions](std::string& name) -> std::string {
     if (name.empty()) return kEmptyName;
     if (name == kStream) name = io::kStandardOutput;
     const std::string found = io::lower_case(std::filesystem::path(name).extension().string());
-    if (!found.empty() && found != extension) {
-      return fmt::format("'{}' has the extension {}, but the file will be {}", name, found, extension);
+    if (!found.empty() && (extensions + ' ').find(found + ' ') == std::string::npos) {
+      return fmt::format("'{}' has the extension {}, but the file will be {}", name, found, extensions);
     }
     name_output(option, name);
     return {};
@@ -170,6 +170,18 @@ CLI::Option* add_numbers(CLI::App& command, const std::string& name, const std::
   return add_number(command, name, description, values)->delimiter(',')->allow_extra_args(false);
 }
 
+CLI::Option* add_vertices(CLI::App& command, const std::string& name, const std::string& description,
+                          std::vector<std::string>& vertices) {
+  const auto check = [stream = input_name(name), number = whole_number()](std::string& text) {
+    return text == kStream ? stream(text) : number(text);
+  };
+  return command.add_option(name, vertices, description)
+      ->transform(CLI::Validator(check, ""))
+      ->type_name("NUMBER")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
 CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::string& description,
                         std::vector<std::string> values, std::string& value) {
   const std::string type = fmt::format("{}", fmt::join(values, "|"));
@@ -210,10 +222,10 @@ void add_surface(CLI::App& command, std::string& file) {
       ->type_name("");
 }
 
-CLI::Option* add_output(CLI::App& command, const std::string& extension, const std::string& description,
+CLI::Option* add_output(CLI::App& command, const std::string& extensions, const std::string& description,
                         std::string& file, const std::string& name) {
-  return command.add_option(name, file, fmt::format("{} ({})", description, extension))
-      ->transform(output_name(name, extension))
+  return command.add_option(name, file, fmt::format("{} ({})", description, extensions))
+      ->transform(output_name(name, extensions))
       ->type_name("FILE");
 }
 

@@ -40,6 +40,10 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, const std::s
 CLI::Option* add_numbers(CLI::App& command, const std::string& name, const std::string& description,
                          std::vector<std::uint64_t>& values);
 
+/// The same for vertices, or `-` for a list of them on standard input, which is then stored as its name.
+CLI::Option* add_vertices(CLI::App& command, const std::string& name, const std::string& description,
+                          std::vector<std::string>& vertices);
+
 /// An option whose value is one of `values`; the one at hand is the default.
 CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::string& description,
                         std::vector<std::string> values, std::string& value);
@@ -58,8 +62,8 @@ void add_mesh(CLI::App& command, std::string& file);
 void add_surface(CLI::App& command, std::string& file);
 
 /// --output, or the option `name`, optional unless made required. `-` is standard output. An extension other than
-/// `extension` (".ply") is refused.
-CLI::Option* add_output(CLI::App& command, const std::string& extension, const std::string& description,
+/// `extensions` (".ply", or ".npz or .csv") is refused.
+CLI::Option* add_output(CLI::App& command, const std::string& extensions, const std::string& description,
                         std::string& file, const std::string& name = "-o,--output");
 
 /// --weld and --precision.

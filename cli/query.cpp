@@ -18,12 +18,12 @@
 
 #include "commands.h"
 #include "input.h"
-#include "measure/timing.h"
 #include "methods.h"
 #include "options.h"
 #include "output.h"
 #include "painting.h"
 #include "start.h"
+#include "table_file.h"
 #include "vertex_order.h"
 
 namespace meshhood::cli {
@@ -40,33 +40,22 @@ struct QueryCommand {
   bool count = false;
   bool distances = false;
   bool json = false;
-  std::string output;
+  TableFile output;
+
+  [[nodiscard]] bool is_painted() const { return !output.name.empty() && !output.is_csv(); }
 };
 
 struct Answer {
-  std::optional<VertexId> vertex;   ///< none for --point
-  std::vector<std::size_t> counts;  ///< for each radius
-  std::vector<VertexId> vertices;   ///< ring by ring; empty if they are neither printed nor painted
-  std::vector<double> distances;    ///< of `vertices`, if requested
-  double seconds = 0;               ///< 0 if it was not measured
+  std::optional<VertexId> vertex;        ///< none for --point
+  std::vector<std::size_t> counts = {};  ///< for each radius
+  std::vector<VertexId> vertices = {};   ///< ring by ring; empty if they are neither printed nor painted
+  std::vector<double> distances = {};    ///< of `vertices`, if requested
 };
 
 AnySearcher searcher_of(const QueryCommand& options, Input& input) {
   paper::QueryOptions settings;
   if (options.factor) settings.radius_ratio = parse_radius("--factor", *options.factor);
   return method_of(options.search, input, settings).make_searcher();
-}
-
-/// The answer of `searcher`, with the median time of several runs.
-Answer timed_answer(const QueryCommand& options, AnySearcher& searcher, VertexId v, double radius) {
-  Answer answer{.vertex = v, .counts = {0}, .vertices = {}, .distances = {}};
-  if (options.count && options.output.empty()) {
-    answer.seconds = measure::median_seconds([&] { answer.counts.front() = searcher.count(v, radius); });
-    return answer;
-  }
-  answer.seconds = measure::median_seconds([&] { searcher.neighborhood(v, radius, answer.vertices); });
-  answer.counts.front() = answer.vertices.size();
-  return answer;
 }
 
 /// How many of `component` are welded with vertices of other components. `first`: by vertex, the one that it becomes.
@@ -114,63 +103,89 @@ void note_whole_component(AnySearcher& searcher, double radius, const Answer& an
                           advice_to_weld(component, input)));
 }
 
-Json to_json(const QueryCommand& options, std::span<const double> radii, const Answer& answer) {
+Json to_json(const QueryCommand& options, const Answer& answer) {
   Json document;
   if (answer.vertex) {
     document["vertex"] = *answer.vertex;
   } else {
     document["point"] = options.start.center();
   }
-  if (radii.size() == 1) {
-    document["radius"] = radii.front();
-  } else {
-    document["radii"] = radii;
-  }
-  document["method"] = options.search.method;
-  if (!options.search.is_straight()) document["metric"] = options.search.metric;
-  if (answer.counts.size() == 1) {
-    document["count"] = answer.counts.front();
-  } else {
-    document["counts"] = answer.counts;
-  }
+  document["counts"] = answer.counts;
   if (!options.count) document["vertices"] = answer.vertices;
   if (options.distances) document["distances"] = answer.distances;
-  if (answer.seconds > 0) document["seconds"] = answer.seconds;
   return document;
 }
 
-/// With several answers, each line begins with the query vertex. With several radii, the radius comes before a count,
+/// Text for people, with the functions of `CsvWriter`.
+class TextWriter {
+ public:
+  template <class Number>
+  void add(Number number) {
+    text_ += fmt::format("{}{}", text_.empty() || text_.back() == '\n' ? "" : " ", number);
+  }
+  void end_row() { text_ += '\n'; }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+/// A line begins with the query vertex if there may be several. With several radii, the radius comes before a count,
 /// and after a vertex.
-std::string to_text(const QueryCommand& options, std::span<const double> radii, const Answer& answer, bool is_single) {
-  const std::string prefix = is_single ? "" : fmt::format("{} ", *answer.vertex);
+template <class Writer>
+void write_lines(Writer& writer, const QueryCommand& options, std::span<const double> radii, const Answer& answer,
+                 bool has_vertex) {
   const bool is_nested = radii.size() > 1;
-  std::string text;
   if (options.count) {
     for (std::size_t i = 0; i < answer.counts.size(); ++i) {
-      text += prefix + (is_nested ? fmt::format("{} ", radii[i]) : "") + fmt::format("{}\n", answer.counts[i]);
+      if (has_vertex) writer.add(*answer.vertex);
+      if (is_nested) writer.add(radii[i]);
+      writer.add(answer.counts[i]);
+      writer.end_row();
     }
-    return text;
+    return;
   }
   std::size_t ring = 0;
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) {
     while (i == answer.counts[ring]) ++ring;
-    text += prefix + std::to_string(answer.vertices[i]);
-    if (options.distances) text += fmt::format(" {}", answer.distances[i]);
-    if (is_nested) text += fmt::format(" {}", radii[ring]);
-    text += '\n';
+    if (has_vertex) writer.add(*answer.vertex);
+    writer.add(answer.vertices[i]);
+    if (options.distances) writer.add(answer.distances[i]);
+    if (is_nested) writer.add(radii[ring]);
+    writer.end_row();
   }
-  return text;
+}
+
+/// The lines of the text, always with the query vertex, which a point has not.
+void write_answers(const QueryCommand& options, std::span<const double> radii, const std::vector<Answer>& answers) {
+  std::vector<std::string> names = options.count ? std::vector<std::string>{"vertex"} : pair_names(options.distances);
+  if (radii.size() > 1) names.emplace_back("radius");
+  if (options.count) names.emplace_back("count");
+  const bool has_vertex = options.start.point.empty();
+  if (!has_vertex) names.erase(names.begin());
+  CsvWriter csv(options.output.name, names);
+  for (const Answer& answer : answers) write_lines(csv, options, radii, answer, has_vertex);
+  csv.commit();
 }
 
 void print(const QueryCommand& options, std::span<const double> radii, const std::vector<Answer>& answers) {
-  if (!options.json) {
-    for (const Answer& answer : answers) print_text(to_text(options, radii, answer, answers.size() == 1));
-  } else if (answers.size() == 1) {
-    print_json(to_json(options, radii, answers.front()));
-  } else {
+  if (options.output.is_csv()) {
+    const std::string& output = options.output.name;
+    return print_result(options.json, {{"output", output}, {"answers", answers.size()}},
+                        fmt::format("{}: {} answers\n", printable_name(output), answers.size()));
+  }
+  if (options.json) {
     Json documents = Json::array();
-    for (const Answer& answer : answers) documents.push_back(to_json(options, radii, answer));
-    print_json(documents);
+    for (const Answer& answer : answers) documents.push_back(to_json(options, answer));
+    return print_json({{"method", options.search.method},
+                       {"metric", options.search.metric},
+                       {"radii", radii},
+                       {"answers", std::move(documents)}});
+  }
+  for (const Answer& answer : answers) {
+    TextWriter text;
+    write_lines(text, options, radii, answer, options.start.is_list());
+    print_text(text.text());
   }
 }
 
@@ -182,7 +197,7 @@ void paint(const QueryCommand& options, Input& input, const std::vector<Answer>&
   for (const Answer& answer : answers) {
     if (answer.vertex) painting.paint(std::span(&*answer.vertex, 1), kQueryColor);
   }
-  painting.write(options.output, input.surface());
+  painting.write(options.output.name, input.surface());
 }
 
 std::vector<Answer> answers_of_method(const QueryCommand& options, const StartQuery& query, double radius,
@@ -193,7 +208,13 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, const StartQu
   std::vector<Answer> answers;
   for (const QueryStart& start : query.starts) {
     const VertexId v = *start.vertex();
-    Answer answer = timed_answer(options, searcher, v, radius);
+    Answer answer{.vertex = v};
+    if (options.count && !options.is_painted()) {
+      answer.counts = {searcher.count(v, radius)};
+    } else {
+      searcher.neighborhood(v, radius, answer.vertices);
+      answer.counts = {answer.vertices.size()};
+    }
     if (method == "exact" || method == "bfs") note_whole_component(searcher, radius, answer, input);
     if (options.distances || sorter.needs_distances()) {
       for (const VertexId w : answer.vertices) answer.distances.push_back(distance(input.positions(), v, w));
@@ -262,7 +283,8 @@ void query_command(const QueryCommand& options) {
   const std::vector<Answer> answers = options.start.is_plain() && options.search.is_straight() && radii.size() == 1
                                           ? answers_of_method(options, query, radii.front(), input)
                                           : answers_of_starts(options, query, radii, input);
-  if (!options.output.empty()) paint(options, input, answers);
+  if (options.is_painted()) paint(options, input, answers);
+  if (options.output.is_csv()) write_answers(options, radii, answers);
   print(options, radii, answers);
 }
 
@@ -278,10 +300,11 @@ void add_query(CLI::App& program) {
           "radius of the ball; a vertex at exactly this distance is inside; several, ascending: -r 1,2 or -r 1 -r 2, "
           "then each vertex is printed once, with the smallest radius whose neighborhood has it, and --count prints a "
           "line for each radius");
-  add_start(*command,
-            "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, then each line of the "
-            "answer begins with the query vertex",
-            options->start);
+  add_start(
+      *command,
+      "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, or -v - for a list on standard "
+      "input, one in each line; then each line of the answer begins with the query vertex",
+      options->start);
   add_method(*command, options->search);
   add_sort(*command, options->sort);
   command
@@ -293,7 +316,8 @@ void add_query(CLI::App& program) {
   command
       ->add_flag("--distances", options->distances, "print each vertex with its distance, in the metric of the radius")
       ->excludes(count);
-  add_output(*command, ".ply", "also write the mesh with the neighborhood in color", options->output);
+  add_table_output(*command, ".ply", "the mesh with the neighborhood in color, beside the answer, or a table instead",
+                   options->output);
   add_json(*command, options->json);
   command->callback([options] { query_command(*options); });
 }

@@ -62,10 +62,11 @@ CLI::Option* add_rows(CLI::App& command, RowOptions& options) {
 RowQuery::RowQuery(const RowOptions& options, Input& input)
     : list_(list_of(options.vertices, input)),
       rows_(rows_of(list_, input)),
-      metric_(checked_metric(options.metric, options.radii.unit)),
+      metric_(metric_of(options.metric, input)),
       size_(rows_.count(input.vertex_count())),
       are_of_rows_(!options.row_radii.empty()),
       radii_(radii_of(options, size_, input)) {
+  check_metric(options.metric, options.radii.unit);
   input.set_masks(read_masks(options.masks, input));
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@
 #include "meshhood/error.h"
 
 #include "io/mesh_io.h"
-#include "io/npz_writer.h"
 #include "methods.h"
 #include "options.h"
 #include "task.h"
@@ -31,14 +31,14 @@ struct TableCommand {
 /// Calls `f(key, name)` for each requested file.
 template <class F>
 void for_each(const ValueFiles& files, F&& f) {
-  if (!files.npz.empty()) f("output", files.npz);
+  if (!files.table.name.empty()) f("output", files.table.name);
   if (!files.ply.empty()) f("ply", files.ply);
   if (!files.vtk.empty()) f("vtk", files.vtk);
 }
 
-/// --output, --ply and --vtk. A mesh has values of all vertices, so the last two exclude --vertices.
+/// --output, --csv, --ply and --vtk. A mesh has values of all vertices, so the last two exclude --vertices.
 void add_files(CLI::App& command, ValueFiles& files, const std::string& shown) {
-  add_output(command, ".npz", "arrays to write", files.npz);
+  add_table_output(command, ".npz", "arrays or a table to write", files.table);
   const std::string mesh = "mesh to write, with the values of its vertices";
   add_output(command, ".ply", fmt::format("{}; its property quality, which MeshLab shows, is {}", mesh, shown),
              files.ply, "--ply")
@@ -59,18 +59,45 @@ void write_column(io::NpzWriter& npz, const Column& column, std::size_t rows) {
   std::visit(write, column.numbers);
 }
 
-void write_npz(const TableCommand& options, const RowTable& table, const RowQuery& rows) {
-  const std::string& file = options.files.npz;
-  Task task("writing " + file);  // outlives the temporary file
+void write_npz(const std::string& file, const RowTable& table, const std::function<void(io::NpzWriter&)>& begin) {
+  const Task task("writing " + file);  // outlives the temporary file
   io::NpzWriter npz(file);
-  write_radii(npz, options.rows.row_radii.empty() ? BatchRadius::scales(table.radii) : BatchRadius(table.radii));
-  write_vertices(npz, rows.listed());
+  if (begin) begin(npz);
   if (!table.kinds.empty()) npz.add_texts("kinds", table.kinds);
   for (const Column& column : table.columns) {
     if (column.is_array) write_column(npz, column, table.rows);
   }
   Task::check_cancelled();
   npz.commit();
+}
+
+/// Calls `f(number)` for each number of a property in a row.
+template <class F>
+void for_each_number(const RowTable& table, const Property& property, std::size_t row, F&& f) {
+  const auto read = [&](const auto& numbers) {
+    for (std::size_t i = 0; i < property.width; ++i) f(numbers[property.first + row * property.stride + i]);
+  };
+  std::visit(read, table.columns[property.column].numbers);
+}
+
+void write_csv(const std::string& file, const RowTable& table) {
+  const Task task("writing " + file);
+  std::vector<std::string> names;
+  for (const Property& property : table.properties) {
+    if (property.width == 1) names.push_back(property.name);
+    for (const char* axis : {"x", "y", "z"}) {
+      if (property.width == 3) names.push_back(fmt::format("{}_{}", property.name, axis));
+    }
+  }
+  CsvWriter csv(file, names, table.max_bytes);
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    for (const Property& property : table.properties) {
+      for_each_number(table, property, row, [&](auto number) { csv.add(number); });
+    }
+    csv.end_row();
+    Task::check_cancelled();
+  }
+  csv.commit();
 }
 
 /// Infinite if it is too large.
@@ -84,25 +111,30 @@ float to_float(double value) {
 std::vector<float> values_of(const RowTable& table, const Property& property) {
   std::vector<float> values;
   values.reserve(table.rows * property.width);
-  const auto copy = [&](const auto& numbers) {
-    for (std::size_t row = 0; row < table.rows; ++row) {
-      for (std::size_t i = 0; i < property.width; ++i) {
-        values.push_back(to_float(static_cast<double>(numbers[property.first + row * property.stride + i])));
-      }
-    }
-  };
-  std::visit(copy, table.columns[property.column].numbers);
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    for_each_number(table, property, row,
+                    [&](auto number) { values.push_back(to_float(static_cast<double>(number))); });
+  }
   return values;
 }
 
-/// The shown property is the first.
-void write_meshes(const ValueFiles& files, RowTable& table, const MeshView& mesh) {
-  const auto shown = std::ranges::find(table.properties, table.shown, &Property::name);
-  std::rotate(table.properties.begin(), shown, std::next(shown));
+/// The properties of a mesh. The shown one is the first.
+std::vector<Property> mesh_properties(const RowTable& table) {
+  std::vector<Property> properties = table.properties;
+  const auto is_long = []<class T>(const std::vector<T>&) { return std::is_integral_v<T> && sizeof(T) == 8; };
+  std::erase_if(properties,
+                [&](const Property& property) { return std::visit(is_long, table.columns[property.column].numbers); });
+  const auto shown = std::ranges::find(properties, table.shown, &Property::name);
+  std::rotate(properties.begin(), shown, std::next(shown));
+  return properties;
+}
+
+void write_meshes(const ValueFiles& files, const RowTable& table, const MeshView& mesh) {
+  const std::vector<Property> of_mesh = mesh_properties(table);
   std::vector<std::vector<float>> values;
-  for (const Property& property : table.properties) values.push_back(values_of(table, property));
+  for (const Property& property : of_mesh) values.push_back(values_of(table, property));
   std::vector<io::VertexProperty> properties;
-  for (std::size_t i = 0; i < values.size(); ++i) properties.push_back({table.properties[i].name, values[i]});
+  for (std::size_t i = 0; i < values.size(); ++i) properties.push_back({of_mesh[i].name, values[i]});
   if (!files.vtk.empty()) {
     Task task("writing " + files.vtk);
     io::write_vtk(files.vtk, mesh, {.properties = properties, .progress = task.progress()});
@@ -116,28 +148,49 @@ void write_meshes(const ValueFiles& files, RowTable& table, const MeshView& mesh
 
 void run(const TableCommand& options, const QuantityName& name, Quantity& quantity) {
   quantity.check();
-  if (options.files.first().empty()) raise(ErrorCode::InvalidOption, "expected --output, --ply or --vtk");
+  if (options.files.first().empty()) raise(ErrorCode::InvalidOption, "expected --output, --csv, --ply or --vtk");
   check_outputs();
   Input input(options.file, options.reading, options.rows.threads);
   name.needs_faces ? input.need_faces(name.name) : input.need_edges(name.name);
   const RowQuery rows(options.rows, input);
   RowTable table = quantity.compute({input, rows, options.rows, options.files});
-  if (!options.files.npz.empty()) write_npz(options, table, rows);
-  if (options.files.has_mesh()) write_meshes(options.files, table, input.surface());
   Json document;
-  for_each(options.files, [&](const char* key, const std::string& file) { document[key] = file; });
+  std::string names;
+  for_each(options.files, [&](const char* key, const std::string& file) {
+    document[key] = file;
+    names += (names.empty() ? "" : ", ") + printable_name(file);
+  });
+  document.update({{"rows", table.rows}, {"radii", table.scales}});
   document.update(table.summary);
-  print_result(options.json, document, table.text);
+  const std::string text = fmt::format("{}: {} rows, radii: {}; {}\n", names, table.rows, table.scales, table.text);
+  if (options.files.has_mesh()) write_meshes(options.files, table, input.surface());
+  if (!options.files.table.name.empty()) {
+    const BatchRadius radius =
+        options.rows.row_radii.empty() ? BatchRadius::scales(table.radii) : BatchRadius(table.radii);
+    write_rows(options.files.table, table, rows.listed(), radius);
+  }
+  print_result(options.json, document, text);
 }
 
 }  // namespace
 
-std::string names_of(const ValueFiles& files) {
-  std::string names;
-  for_each(files, [&](const char* /*key*/, const std::string& name) {
-    names += (names.empty() ? "" : ", ") + printable_name(name);
+void write_table(const TableFile& file, const RowTable& table, const std::function<void(io::NpzWriter&)>& begin) {
+  file.is_csv() ? write_csv(file.name, table) : write_npz(file.name, table, begin);
+}
+
+void write_rows(const TableFile& file, RowTable& table, const BatchVertices& listed, const BatchRadius& radius) {
+  std::vector<std::int64_t> vertices(table.rows);
+  for (std::size_t row = 0; row < table.rows; ++row) vertices[row] = listed[row];
+  const auto add_first = [&](const std::string& name, auto numbers) {
+    table.properties.insert(table.properties.begin(), {name, table.columns.size(), 0, 1});
+    table.columns.push_back({.name = name, .numbers = std::move(numbers), .is_array = false});
+  };
+  if (radius.list()) add_first("radius", std::vector<double>(radius.list()->begin(), radius.list()->end()));
+  add_first("vertex", std::move(vertices));
+  write_table(file, table, [&](io::NpzWriter& npz) {
+    write_radii(npz, radius);
+    write_vertices(npz, listed);
   });
-  return names;
 }
 
 void RowTable::add_property(std::string name, std::string_view column, std::size_t scale, std::size_t channel,
@@ -149,7 +202,7 @@ void RowTable::add_property(std::string name, std::string_view column, std::size
 }
 
 void RowTable::add_properties(std::initializer_list<std::string_view> names) {
-  for (std::size_t scale = 0; scale < columns.front().scales; ++scale) {
+  for (std::size_t scale = 0; scale < scales; ++scale) {
     for (const std::string_view name : names) {
       const std::size_t channels = std::ranges::find(columns, name, &Column::name)->channels;
       add_property(fmt::format("{}_{}", name, scale), name, scale, 0, std::max<std::size_t>(1, channels));

@@ -6,6 +6,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -16,8 +17,10 @@
 #include "meshhood/run.h"
 
 #include "input.h"
+#include "io/npz_writer.h"
 #include "output.h"
 #include "row_query.h"
+#include "table_file.h"
 
 /// The commands that compute a quantity of each row: numbers of a vertex at one or several radii. What is read, which
 /// rows, the files and what is printed are one for all; a new command is a `Quantity`.
@@ -25,46 +28,47 @@ namespace meshhood::cli {
 
 /// The names of the files; "" for one that was not requested. A mesh has the values for ParaView, PyVista and MeshLab.
 struct ValueFiles {
-  std::string npz;
+  TableFile table;
   std::string ply;
   std::string vtk;
 
   [[nodiscard]] bool has_mesh() const { return !ply.empty() || !vtk.empty(); }
-  [[nodiscard]] const std::string& first() const { return !npz.empty() ? npz : !ply.empty() ? ply : vtk; }
+  [[nodiscard]] const std::string& first() const { return !table.name.empty() ? table.name : !ply.empty() ? ply : vtk; }
 };
-
-/// The requested files, for a message.
-[[nodiscard]] std::string names_of(const ValueFiles& files);
 
 /// What is computed: an array, with `scales` and `channels` numbers of each row, scale after scale.
 struct Column {
   std::string name;
-  std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::int64_t>> numbers;
+  std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::int64_t>, std::vector<std::uint64_t>>
+      numbers;
   std::size_t scales = 0;    ///< 0: the array has no axis of scales
   std::size_t channels = 0;  ///< 0: the array has no axis of channels
-  bool is_array = true;      ///< of the .npz; otherwise only of a mesh
+  bool is_array = true;      ///< of the .npz; otherwise only of text and meshes
 };
 
-/// One number of each vertex of a mesh, or a vector of three.
+/// One number of each row, or a vector of three: of a table of text, and unless its numbers have 64 bits, which float
+/// does not keep, of a mesh.
 struct Property {
   std::string name;
   std::size_t column;
-  std::size_t first;   ///< the place of that of vertex 0
-  std::size_t stride;  ///< from one vertex to the next
+  std::size_t first;   ///< the place of that of row 0
+  std::size_t stride;  ///< from one row to the next
   std::size_t width = 1;
 };
 
 /// The result of a quantity.
 struct RowTable {
   std::size_t rows;
+  std::size_t scales = 1;
   std::vector<double> radii = {};       ///< of the scales, or with --radii of the rows
   std::vector<std::string> kinds = {};  ///< names of the channels, an array of their own; or empty
   std::vector<Column> columns = {};
   std::vector<Property> properties = {};
-  std::string shown = {};                 ///< the property that a program shows at once, MeshLab as `quality`
-  std::vector<std::uint8_t> colors = {};  ///< #V by 3 for PLY, or empty
-  Json summary = {};                      ///< what JSON says beside the files
-  std::string text = {};                  ///< the same for people
+  std::string shown = {};                       ///< the property that a program shows at once, MeshLab as `quality`
+  std::vector<std::uint8_t> colors = {};        ///< #V by 3 for PLY, or empty
+  Json summary = {};                            ///< what JSON says beside the files, rows and radii
+  std::string text = {};                        ///< the same for people
+  std::optional<std::uint64_t> max_bytes = {};  ///< of a table of text
 
   /// A property of a channel of the column of this name, at a scale; of three channels with `width` 3.
   void add_property(std::string name, std::string_view column, std::size_t scale = 0, std::size_t channel = 0,
@@ -74,6 +78,13 @@ struct RowTable {
   void add_properties(std::initializer_list<std::string_view> names);
 };
 
+/// Writes the arrays of a table, after those that `begin` writes; or the properties as text.
+void write_table(const TableFile& file, const RowTable& table, const std::function<void(io::NpzWriter&)>& begin = {});
+
+/// The same with the vertex of each row, and the radii. As text, the vertex is the first property, which is added to
+/// the table, and the radius the second if each row has its own.
+void write_rows(const TableFile& file, RowTable& table, const BatchVertices& listed, const BatchRadius& radius);
+
 /// What is asked: the input, whose masks are set, its rows, and the options of all quantities.
 struct RowTask {
   Input& input;
@@ -82,7 +93,9 @@ struct RowTask {
   const ValueFiles& files;
 
   /// One for each scale that --radius or --radii name.
-  [[nodiscard]] RowTable table() const { return {.rows = rows.size(), .radii = rows.radii()}; }
+  [[nodiscard]] RowTable table() const {
+    return {.rows = rows.size(), .scales = options.scale_count(), .radii = rows.radii()};
+  }
 
   /// Calls `compute(query, run)` for each scale. `description` is for the display of the progress.
   void for_each_scale(std::string_view description,

@@ -10,6 +10,7 @@
 #include "meshhood/error.h"
 #include "meshhood/search.h"
 
+#include "io/descriptor.h"
 #include "io/messages.h"
 #include "io/number.h"
 #include "methods.h"
@@ -56,7 +57,7 @@ CLI::Option* add_point(CLI::App& command, const std::string& description, std::v
 }
 
 void add_start(CLI::App& command, const std::string& vertex, StartOptions& options) {
-  add_numbers(command, "-v,--vertex", vertex, options.vertices);
+  add_vertices(command, "-v,--vertex", vertex, options.vertices);
   CLI::Option* point = add_point(command, "start at any point in space instead of a vertex; also X Y Z", options.point);
   add_numbers(command, "--seed",
               "with --point: the vertices from which the search starts, such as the corners of a face; by default the "
@@ -66,11 +67,15 @@ void add_start(CLI::App& command, const std::string& vertex, StartOptions& optio
   add_masks(command, options.masks);
 }
 
+bool StartOptions::is_list() const {
+  return vertices.size() > 1 || (vertices.size() == 1 && vertices.front() == io::kStandardInput);
+}
+
 void check_start_options(const StartOptions& options, bool takes_many, const std::string& metric) {
   if (options.point.empty() == options.vertices.empty()) {
     raise(ErrorCode::InvalidOption, "expected either --vertex or --point");
   }
-  if (!takes_many && options.vertices.size() > 1) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
+  if (!takes_many && options.is_list()) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
   if (!options.point.empty() && metric != "straight") {
     raise(ErrorCode::InvalidOption,
           fmt::format("--metric {}: expected --vertex instead of --point, because a point has no edges", metric));
@@ -85,12 +90,21 @@ QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(optio
 StartQuery::StartQuery(const StartOptions& options, Input& input) {
   input.set_masks(read_masks(options.masks, input));
   if (!options.point.empty()) starts.emplace_back(options, input);
-  for (const std::uint64_t v : options.vertices) starts.emplace_back(resolve_vertex(v, input));
+  for (const std::string& typed : options.vertices) {
+    if (const auto v = io::parse_count(typed)) {
+      starts.emplace_back(resolve_vertex(*v, input));
+      continue;
+    }
+    for (const VertexId v : read_vertex_list(typed, input.vertex_count())) {
+      starts.emplace_back(input.welding().kept(v));
+    }
+  }
 }
 
 StartAnswer regions_of(const QueryStart& start, const std::string& metric, std::span<const double> radii,
                        Input& input) {
-  Searcher searcher(input.exact_index(), value_of(kMetrics, metric));
+  const Metric by = metric_of(metric, input);
+  Searcher searcher(input.exact_index(), by);
   StartAnswer answer;
   searcher.neighborhood(start.view(), radii.back(), answer.vertices, answer.distances);
   if (!searcher.has_seed(start.view(), radii.back())) note_far_point(input.positions(), start.view(), radii.back());

@@ -25,7 +25,7 @@ CLI::Option* add_point(CLI::App& command, const std::string& description, std::v
 [[nodiscard]] SpacePoint parse_point(const std::vector<std::string>& point);
 
 struct StartOptions {
-  std::vector<std::uint64_t> vertices;
+  std::vector<std::string> vertices;  ///< numbers; or the name of standard input, for those that it lists
   std::vector<std::string> point;
   std::vector<std::uint64_t> seeds;
   MaskFiles masks;
@@ -33,11 +33,15 @@ struct StartOptions {
   /// --point. Throws Error{InvalidOption}.
   [[nodiscard]] SpacePoint center() const { return parse_point(point); }
 
+  /// Whether there may be several answers.
+  [[nodiscard]] bool is_list() const;
+
   /// Whether the query has none of these options.
   [[nodiscard]] bool is_plain() const { return point.empty() && masks.empty(); }
 };
 
-/// --vertex, with its description, --point, --seed, --walls and --ignored.
+/// --vertex, with its description; `-` is a list on standard input. Also --point, --seed, --walls and
+/// --ignored.
 void add_start(CLI::App& command, const std::string& vertex, StartOptions& options);
 
 /// Throws Error{InvalidOption} unless there is either a point, or a vertex, or several for a command that `takes_many`.
@@ -67,7 +71,7 @@ class QueryStart {
 
 /// What these options mean for an input.
 struct StartQuery {
-  /// Reads the files, and sets the masks of the input. Throws as `QueryStart` and `read_masks`.
+  /// Reads the lists, and sets the masks of the input. Throws as `QueryStart`, `read_vertex_list` and `read_masks`.
   StartQuery(const StartOptions& options, Input& input);
 
   std::vector<QueryStart> starts;  ///< that of --point, or those of the vertices

@@ -31,14 +31,12 @@ class UnconnectedQuantity : public Quantity {
     });
     const auto none = static_cast<std::size_t>(std::count(others.begin(), others.end(), -1));
     const std::size_t found = others.size() - none;
-    const std::size_t scales = task.options.scale_count();
     RowTable table = task.table();
-    table.columns = {{"other", std::move(others), scales}, {"gap", std::move(gaps), scales}};
-    table.add_properties({"gap"});
-    table.shown = fmt::format("gap_{}", scales - 1);
-    table.summary = {{"rows", table.rows}, {"radii", scales}, {"found", found}, {"none", none}};
-    table.text = fmt::format("{}: {} rows, radii: {}; {} with an unconnected vertex, {} without\n",
-                             names_of(task.files), table.rows, scales, found, none);
+    table.columns = {{"other", std::move(others), table.scales}, {"gap", std::move(gaps), table.scales}};
+    table.add_properties({"other", "gap"});
+    table.shown = fmt::format("gap_{}", table.scales - 1);
+    table.summary = {{"found", found}, {"none", none}};
+    table.text = fmt::format("{} with an unconnected vertex, {} without", found, none);
     return table;
   }
 };

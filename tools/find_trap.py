@@ -29,7 +29,7 @@ def main(meshhood, file, radius):
     def counts(method):
         answers = run(meshhood, "query", file, "--radius", radius, "--unit", "edge", "--method", method, "--count",
                       "--json", "--vertex", ",".join(map(str, sample)))
-        return [answer["count"] for answer in answers]
+        return [answer["counts"][0] for answer in answers["answers"]]
 
     exact, paper, ball = counts("exact"), counts("paper"), counts("ball")
 

@@ -100,7 +100,7 @@ class Plain:
             found = self._component(starts, (squared <= r * r) & ~walls)
             found = {w: math.sqrt(squared[w]) for w in found}
         else:
-            found = self._along_edges(starts[0], r, walls, metric == "rings")
+            found = self._along(starts[0], r, walls, metric)
         return {w: d for w, d in sorted(found.items()) if not ignored[w]}
 
     def _component(self, starts, inside):
@@ -113,15 +113,47 @@ class Plain:
                     queue.append(w)
         return found
 
-    def _along_edges(self, start, r, walls, by_rings):
+    @functools.cached_property
+    def lines(self):
+        """By vertex: the straight lines over pairs of triangles, as (other end, length, the ends of the side)."""
+        T = self.corners.reshape(-1, 3)
+        sides = np.concatenate([T[:, [k, (k + 1) % 3, (k + 2) % 3]] for k in range(3)])
+        sides[:, :2].sort(axis=1)
+        sides = sides[np.lexsort(sides.T[::-1])]
+        _, first, count = np.unique(sides[:, :2], axis=0, return_index=True, return_counts=True)
+        first = first[count == 2]
+        a, b, c, d = sides[first, 0], sides[first, 1], sides[first, 2], sides[first + 1, 2]
+        along = self.V[b] - self.V[a]
+        length = np.linalg.norm(along, axis=1)
+        along /= length[:, None]
+        (x, height), (other_x, other_height) = (
+            (np.einsum("ij,ij->i", along, self.V[p] - self.V[a]),
+             np.linalg.norm(np.cross(along, self.V[p] - self.V[a]), axis=1)) for p in (c, d))
+        crossing = x + (other_x - x) * height / (height + other_height)
+        lines = {}
+        for i in np.flatnonzero((crossing > 0) & (crossing < length) & (c != d)):
+            step = math.hypot(other_x[i] - x[i], height[i] + other_height[i])
+            for v, w in ((c[i], d[i]), (d[i], c[i])):
+                lines.setdefault(int(v), []).append((int(w), step, (int(a[i]), int(b[i]))))
+        return lines
+
+    def _steps(self, v, metric, walls):
+        """The vertices one step away, and the length of the step."""
+        for w in self.neighbors(v):
+            yield w, 1.0 if metric == "rings" else math.sqrt(sum((self.V[v] - self.V[w]) ** 2))
+        if metric == "surface":
+            for w, step, side in self.lines.get(v, ()):
+                if not walls[list(side)].any():
+                    yield w, step
+
+    def _along(self, start, r, walls, metric):
         found, queue = {}, [] if walls[start] else [(0.0, start)]
         while queue:
             d, v = heapq.heappop(queue)
             if v in found:
                 continue
             found[v] = d
-            for w in self.neighbors(v):
-                step = 1.0 if by_rings else math.sqrt(sum((self.V[v] - self.V[w]) ** 2))
+            for w, step in self._steps(v, metric, walls):
                 if not walls[w] and w not in found and d + step <= r:
                     heapq.heappush(queue, (d + step, w))
         return found

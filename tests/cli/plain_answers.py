@@ -103,7 +103,82 @@ def sample(count):
 
 
 def arrays_of(run, name="--output"):
+    if name == "--output" and "--csv" in run.asked:
+        return TABLES.get(run.command, table_of_rows)(run)
     return dict(np.load(io.BytesIO(run.output(name))))
+
+
+# Tables of text, as the arrays that the same command writes. They have no radii but those of --radii.
+
+
+def columns_of(run):
+    """The numbers of each column by its name, in their order."""
+    lines = run.output().decode().splitlines()
+    names = lines[0].split(",")
+    numbers = np.array([line.split(",") for line in lines[1:]], float).reshape(-1, len(names))
+    return dict(zip(names, numbers.T))
+
+
+def table_of_rows(run):
+    columns = columns_of(run)
+    arrays = {"vertices": columns.pop("vertex").astype(int)}
+    if "--radii" in run.asked:
+        arrays["radii"] = columns.pop("radius")[None]
+    if run.command == "aggregate":
+        shape = (-1, run.files.values.shape[1], len(arrays["vertices"]))
+        arrays["values"] = np.stack(list(columns.values())).reshape(shape).swapaxes(1, 2)
+        return arrays
+    if run.command == "features":
+        kinds = run.asked.get("--kinds", "crease").split(",")
+        of_kinds = [[columns.pop(f"{kind}_{name}") for kind in kinds] for name in ("scales", "strength", "radius")]
+        arrays.update(zip(("scales", "strength", "radius"), (np.stack(one, axis=1) for one in of_kinds)))
+        arrays["features"] = np.stack(list(columns.values())).reshape(len(kinds), -1, len(arrays["vertices"]))
+        arrays["features"] = np.moveaxis(arrays["features"], 0, 2)
+        return arrays
+    for name in dict.fromkeys(re.sub(r"_\d+(_[xyz])?$", "", name) for name in columns):
+        of_name = [column for key, column in columns.items() if re.fullmatch(rf"{name}_\d+", key)]
+        if not of_name:
+            of_name = [column for key, column in columns.items() if re.fullmatch(rf"{name}_\d+_[xyz]", key)]
+            of_name = np.stack(of_name).reshape(-1, 3, len(arrays["vertices"])).swapaxes(1, 2)
+        arrays[name] = np.stack(list(of_name))
+    return arrays
+
+
+def table_of_pairs(run):
+    """Rows of ids: one after the other for each vertex, and none where it is empty."""
+    if "--count" in run.asked:
+        return table_of_rows(run)
+    columns = columns_of(run)
+    of, ids = columns["vertex"].astype(int), columns["neighbor"].astype(int)
+    begins = np.flatnonzero(np.diff(of, prepend=-1))
+    rows = {}
+    for begin, end in zip(begins, [*begins[1:], len(of)]):
+        rows.setdefault(of[begin], slice(begin, end))
+    is_in_index_order = run.asked.get("--order") == "index"
+    if is_in_index_order:
+        vertices = list(places_in_index(run.files, run.file, words_of(run, READING)))
+    elif "--vertices" in run.asked:
+        vertices = run.files.plain("--weld" in run.asked).kept[run.files.vertices]
+    else:
+        vertices = range(run.files.count)
+    found = [rows.get(v, slice(0, 0)) for v in vertices]
+    arrays = {"indptr": np.cumsum([0, *(one.stop - one.start for one in found)]),
+              "indices": np.concatenate([ids[one] for one in found])}
+    arrays.update({"vertices": np.array(vertices)} if is_in_index_order else
+                  {"shape": np.array([len(vertices), run.files.count])})
+    name = "distances" if is_in_index_order else "data"
+    if "--distances" in run.asked:
+        arrays[name] = np.concatenate([columns["distance"][one] for one in found])
+    return arrays
+
+
+def table_of_points(run):
+    columns = columns_of(run)
+    arrays = {name: columns[name] for name in ("face", "distance")}
+    return arrays | {"point": np.stack([columns[f"point_{axis}"] for axis in "xyz"], axis=1)}
+
+
+TABLES = {"batch": table_of_pairs, "closest": table_of_points}
 
 
 # Single queries.
@@ -112,10 +187,12 @@ def arrays_of(run, name="--output"):
 def answers_of_query(question, text):
     """For each start: the counts, the vertices, their distances and their radii, as printed."""
     asked, starts, radii = question.run.asked, question.starts, question.radii
+    if "--csv" in asked:
+        yield from answers_of_table(question)
+        return
     if question.json:
-        documents = json.loads(text)
-        for one in documents if isinstance(documents, list) else [documents]:
-            counts = one.get("counts", [one.get("count")])
+        for one in json.loads(text)["answers"]:
+            counts = one["counts"]
             rings = np.searchsorted(counts, np.arange(counts[-1]), side="right")
             yield counts, one.get("vertices"), one.get("distances"), [radii[i] for i in rings]
         return
@@ -129,6 +206,20 @@ def answers_of_query(question, text):
         ring = [float(row[-1]) for row in rows] if len(radii) > 1 else [radii[0]] * len(rows)
         counts = [sum(one <= r * (1 + 1e-9) for one in ring) for r in radii]
         yield counts, [int(row[0]) for row in rows], distances, ring
+
+
+def answers_of_table(question):
+    columns, radii = columns_of(question.run), question.radii
+    for start in question.starts:
+        mine = slice(None) if start is None else columns["vertex"] == start
+        if "count" in columns:
+            yield columns["count"][mine].astype(int).tolist(), None, None, None
+            continue
+        ids = columns["neighbor"][mine].astype(int).tolist()
+        ring = columns["radius"][mine].tolist() if "radius" in columns else [radii[0]] * len(ids)
+        distances = columns["distance"][mine] if "distance" in columns else None
+        counts = [sum(one <= r * (1 + 1e-9) for one in ring) for r in radii]
+        yield counts, ids, distances, ring
 
 
 def query(run, wrong):
@@ -210,7 +301,7 @@ def connecting_radii(mesh, v, most, walls, ignored, point, seeds):
 def closest(run, wrong):
     question = Question(run)
     points = np.array([question.point]) if question.point else question.files.points
-    if "--output" in run.asked:
+    if {"--output", "--csv"} & set(run.asked):
         arrays = arrays_of(run)
         found = np.column_stack([arrays["face"], arrays["point"], arrays["distance"]])
     elif question.json:
@@ -297,6 +388,11 @@ def batch(run, wrong):
 def check_radii(question, arrays, wrong):
     per_row = "--radii" in question.run.asked
     expected = question.files.radii[None, : len(question.rows)] * question.unit if per_row else np.array(question.radii)
+    if "--csv" in question.run.asked:
+        rows = question.mesh.kept[question.rows] if "--vertices" in question.run.asked else question.rows
+        expect(wrong, "vertices", arrays["vertices"].tolist(), rows.tolist())
+        if not per_row:
+            return
     expect(wrong, "radii", arrays["radii"].shape, expected.shape)
     expect(wrong, "radii", arrays["radii"], expected)
 
@@ -378,19 +474,22 @@ def fits(run, wrong):
         radii = largest * np.arange(1, count + 1) / count
         if "--smallest" in asked:
             radii = smallest * (largest / smallest) ** (np.arange(count) / (count - 1))
-        expect(wrong, "radii", arrays["radii"], radii * question.unit)
+        radii = radii * question.unit
+        expect(wrong, "radii", arrays.setdefault("radii", radii), radii)
         if "--unit" in options:
             options = tuple(word for word in options if word not in ("--unit", "edge"))
         radii = ",".join(map(repr, arrays["radii"].tolist()))
     else:
         check_radii(question, arrays, wrong)
+    is_rounded = {"--csv", "--largest"} <= set(asked)  # text does not have the radii that were computed
     for row in sample(len(rows))[::20]:
         of_row = repr(question.files.radii[row].item()) if "--radii" in asked else radii
         one = fitted(question.files, run.command, run.file, options, of_row, int(rows[row]))
         for name in set(one) - {"radii", "vertices", "kinds"}:
             axis = 0 if name in ("scales", "strength", "radius") else 1
             found = np.take(arrays[name], [row], axis)
-            if not np.array_equal(found, one[name], equal_nan=True):
+            same = agree(found, one[name]) if is_rounded else np.array_equal(found, one[name], equal_nan=True)
+            if not same:
                 what = f"{name} of row {row}, vertex {rows[row]}"
                 wrong.append(f"{what}: expected {one[name].ravel()}, got {found.ravel()}")
     shown = {"features": lambda: arrays["features"][-1, :, 0], "invariants": lambda: arrays["volume"][-1],

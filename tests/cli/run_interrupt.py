@@ -59,15 +59,15 @@ def wait_for_file(folder, before, process):
         time.sleep(0.01)
 
 
-def batch_keeps_old_file(program, folder, number):
+def batch_keeps_old_file(program, folder, number, name):
     """A batch is slow enough for the signal to arrive while it writes."""
-    target = folder / "out.npz"
+    target = folder / name
     target.write_text("old")
     before = set(folder.iterdir())
     with running(program, folder, BATCH, target.name) as process:
         wait_for_file(folder, before, process)
         process.send_signal(number)
-        interrupted = was_interrupted(process, f"{number.name} in batch")
+        interrupted = was_interrupted(process, f"{number.name} in batch -o {name}")
     left = set(folder.iterdir()) - before
     print(f"  remaining files: {left or 'none'}")
     return interrupted and not left and target.read_text() == "old"
@@ -111,7 +111,8 @@ def main():
         folder = Path(name)
         subprocess.run([program, "generate", "sphere", "--vertices", VERTICES, "-o", "sphere.ply"], cwd=folder,
                        check=True, stdout=subprocess.DEVNULL)
-        passed = [batch_keeps_old_file(program, folder, number) for number in SIGNALS]
+        passed = [batch_keeps_old_file(program, folder, number, name) for number in SIGNALS
+                  for name in ("out.npz", "out.csv")]
         passed += [is_whole_or_old(program, folder, command) for command in SAVES]
         passed += [pipe_is_interrupted(program, folder, command, number) for command in SAVES for number in SIGNALS]
     return 0 if all(passed) else 1

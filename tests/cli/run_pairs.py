@@ -78,7 +78,7 @@ BASE = {
 
 # Of these, an option replaces that of the base. Two of them may be refused.
 INSTEAD = [{"--vertex", "--point"}, {"--radius", "--radii", "--largest"}, {"--point", "--points"},
-           {"--to", "--nearest"}, {"--parts", "--vertices-per-part"}, {"--list", "KIND"}, {"--list", "--output"}]
+           {"--output", "--csv"}, {"--to", "--nearest"}, {"--parts", "--vertices-per-part"}, {"--list", "KIND"}, {"--list", "--output"}]
 
 # What a setting needs besides what --help says; a scan for each of all rows would take long.
 NEEDS = {
@@ -153,7 +153,7 @@ class Option:
         self.name, self.type = match[1], match[2]
         self.default = (re.search(r"\|[a-z]+=([a-z]+)", line) or [None, None])[1]
         self.needs, self.excludes = ((match[i] or "").split() for i in (4, 5))
-        self.is_output = re.search(r"\((?!\.npy)\.\w+\)$", line) is not None
+        self.is_output = re.search(r"\((?!\.npy)\.\w+( or \.csv)?\)$", line) is not None
         self.is_input = "FILE" in (self.type or "") and not self.is_output
 
     def values(self, command):
@@ -353,6 +353,8 @@ class Run:
 
     def output(self, name="--output"):
         """The bytes of an output file; None without."""
+        if name == "--output" and "--csv" in self.asked:
+            return self.done.stdout
         value = self.asked.get(name)
         if value == "-":
             return self.done.stdout
@@ -361,7 +363,8 @@ class Run:
 
     def text(self):
         """What is printed."""
-        return (self.done.stderr if "-" in self.asked.values() else self.done.stdout).decode()
+        is_taken = "-" in self.asked.values() or "--csv" in self.asked
+        return (self.done.stderr if is_taken else self.done.stdout).decode()
 
     def close(self):
         shutil.rmtree(self.folder)

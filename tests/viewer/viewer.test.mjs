@@ -23,7 +23,7 @@ const file = (name) => join(folder, name);
 
 /** The answer of the command line. */
 const expected = (mesh, vertex, radius, method) =>
-  JSON.parse(meshhood('query', mesh, '-v', String(vertex), '-r', String(radius), '--method', method, '--json')).vertices;
+  JSON.parse(meshhood('query', mesh, '-v', String(vertex), '-r', String(radius), '--method', method, '--json')).answers[0].vertices;
 
 async function expectAnswers(page, mesh, vertex, radius) {
   for (const method of ['exact', 'paper', 'ball']) {

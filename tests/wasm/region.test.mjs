@@ -35,7 +35,7 @@ function region(center, seeds, radius, { walls, ignored } = {}) {
   return Uint32Array.from(found).filter((w) => !ignored?.[w]).sort();
 }
 
-const query = (...options) => JSON.parse(meshhood('query', 'roll.ply', ...options, '--json')).vertices;
+const query = (...options) => JSON.parse(meshhood('query', 'roll.ply', ...options, '--json')).answers[0].vertices;
 
 test('a neighborhood of a vertex with masks is that of the command line', () => {
   const found = index.neighborhood(502, 5, { walls, ignored, sort: 'id' });

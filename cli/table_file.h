@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "io/file_writer.h"
+
+/// The file of an answer that is a table: arrays, or text that R, pandas and awk read.
+namespace meshhood::cli {
+
+struct TableFile {
+  std::string name;         ///< "" if none was requested
+  bool is_printed = false;  ///< by --csv, on standard output
+
+  /// Whether it is text: by its extension, or printed.
+  [[nodiscard]] bool is_csv() const;
+};
+
+/// --output, of `extension` (".npz") or .csv, and --csv, which prints the table instead. Returns the former, which is
+/// required without --csv if made required.
+CLI::Option* add_table_output(CLI::App& command, const std::string& extension, const std::string& description,
+                              TableFile& file);
+
+/// The names of a table with a line for each vertex of an answer.
+[[nodiscard]] std::vector<std::string> pair_names(bool distances);
+
+/// Writes a table as text, atomically (see `io::FileWriter`): a line of names, then a line for each row, with commas
+/// between the numbers. A number has the fewest digits that read back as the same number; the others are NaN, Inf and
+/// -Inf, as R spells them and pandas and NumPy accept them.
+class CsvWriter {
+ public:
+  /// `max_bytes`: of the file. All functions throw Error{IoFailure}.
+  CsvWriter(const std::string& file, const std::vector<std::string>& names,
+            std::optional<std::uint64_t> max_bytes = std::nullopt);
+
+  void add(double number);
+  void add(std::integral auto number) { add_text(std::to_string(number)); }
+
+  /// Throws Error{TooLarge} beyond `max_bytes`.
+  void end_row();
+
+  /// Call it once, last.
+  void commit() { writer_.commit(); }
+
+ private:
+  void add_text(const std::string& text);
+
+  io::FileWriter writer_;
+  std::string file_;
+  std::string line_;
+  std::optional<std::uint64_t> max_bytes_;
+};
+
+}  // namespace meshhood::cli
