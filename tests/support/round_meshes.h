@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "support/test_mesh.h"
@@ -22,10 +23,10 @@ namespace meshhood::test {
   const auto top = add(0, 0, 1);
   std::vector<std::uint32_t> previous(sectors, top);
   for (std::size_t ring = 1; ring <= rings; ++ring) {
-    const double height = M_PI * static_cast<double>(ring) / static_cast<double>(rings);
+    const double height = std::numbers::pi * static_cast<double>(ring) / static_cast<double>(rings);
     std::vector<std::uint32_t> next(sectors, 0);
     for (std::size_t i = 0; i < sectors; ++i) {
-      const double around = 2 * M_PI * static_cast<double>(i) / static_cast<double>(sectors);
+      const double around = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(sectors);
       next[i] = ring == rings && i > 0
                     ? next[0]
                     : add(std::sin(height) * std::cos(around), std::sin(height) * std::sin(around), std::cos(height));

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <map>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -91,7 +92,7 @@ class PlainLines {
     const auto [a, b] = side;
     const double at_a = angle(a, b, c) + angle(a, b, d);
     const double at_b = angle(b, a, c) + angle(b, a, d);
-    if (!(at_a < M_PI && at_b < M_PI)) return;
+    if (!(at_a < std::numbers::pi && at_b < std::numbers::pi)) return;
     const double ac = distance(a, c);
     const double ad = distance(a, d);
     offer(c, d, std::sqrt(std::max(0.0, ac * ac + ad * ad - 2 * ac * ad * std::cos(at_a))));

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -154,7 +155,7 @@ TEST(Thickness, OfAPlateIsThatOfThePlateWhateverItsTriangles) {
 
 TEST(Thickness, OfAWedgeFollowsFromItsAngle) {
   for (const double degrees : {3.0, 30.0, 60.0, 90.0, 110.0}) {
-    const double angle = degrees * M_PI / 180;
+    const double angle = degrees * std::numbers::pi / 180;
     Random random(2);
     TestMesh mesh;
     add_sheet(mesh, random, {0, -4, 0}, {0, 8, 0}, {1, 0, 0}, 9);  // seen from below
@@ -192,7 +193,7 @@ TEST(Thickness, OfAPinIsItsDiameterUpToItsFaces) {
   TestMesh mesh;
   for (std::uint32_t ring = 0; ring <= 20; ++ring) {
     for (std::uint32_t i = 0; i < kSides; ++i) {
-      const double around = 2 * M_PI * i / kSides;
+      const double around = 2 * std::numbers::pi * i / kSides;
       mesh.add_vertex(std::cos(around), std::sin(around), 0.3 * ring);
     }
   }
