@@ -20,7 +20,8 @@ void add_method(CLI::App& command, MethodOptions& options) {
 void add_metric(CLI::App& command, std::string& metric) {
   add_choice(command, "--metric",
              "of the radius; straight: distances in a straight line; path: lengths of the shortest paths along the "
-             "edges; surface: along edges and over pairs of triangles; rings: numbers of edges",
+             "edges; surface: along edges and over pairs of triangles; rings: numbers of edges; space: all vertices in "
+             "the ball, connected or not",
              names_of(kMetrics), metric);
 }
 

@@ -15,8 +15,11 @@
 namespace meshhood::cli {
 
 /// Paths along the surface are those of another index (see `Input::search_along_surface`).
-inline constexpr Names<Metric, 4> kMetrics{
-    {{"straight", Metric::Straight}, {"path", Metric::Path}, {"surface", Metric::Path}, {"rings", Metric::Rings}}};
+inline constexpr Names<Metric, 5> kMetrics{{{"straight", Metric::Straight},
+                                            {"path", Metric::Path},
+                                            {"surface", Metric::Path},
+                                            {"rings", Metric::Rings},
+                                            {"space", Metric::Space}}};
 
 struct MethodOptions {
   std::string method = "exact";

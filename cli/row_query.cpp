@@ -68,6 +68,7 @@ RowQuery::RowQuery(const RowOptions& options, Input& input)
       radii_(radii_of(options, size_, input)) {
   check_metric(options.metric, options.radii.unit);
   input.set_masks(read_masks(options.masks, input));
+  if (metric_ == Metric::Space) input.ignore_welded();
 }
 
 BatchQuery RowQuery::query(BatchRadius radius) const {

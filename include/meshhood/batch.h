@@ -8,8 +8,8 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "meshhood/adjacency.h"
@@ -18,6 +18,7 @@
 #include "meshhood/mesh.h"
 #include "meshhood/metric.h"
 #include "meshhood/paper.h"
+#include "meshhood/reference.h"
 #include "meshhood/run.h"
 #include "meshhood/search.h"
 
@@ -27,6 +28,9 @@
 namespace meshhood MESHHOOD_API {
 
 struct SearcherFactory;
+
+/// The searcher of a `SearchMethod`, which `std::visit` gives to a callable.
+using AnySearcher = std::variant<Searcher, paper::Searcher, ReferenceSearcher, BallSearcher>;
 
 /// A way to find neighborhoods, chosen at run time: makes searchers for single queries, and is the first argument of a
 /// batch. Converts from either index. Borrows its arguments, which must outlive it and its searchers. A copy is cheap.
@@ -55,13 +59,8 @@ class SearchMethod {
   /// method is not the exact one of an `Index`, unless `metric` is `Straight`.
   [[nodiscard]] SearchMethod by(Metric metric) const;
 
-  /// The vertices within the radius in space, connected or not, by the tree of the index. Ids are in index order.
-  /// Throws Error{InvalidOption} if the index has masks.
-  [[nodiscard]] static SearchMethod in_space(const Index& index);
-  static SearchMethod in_space(const Index&&) = delete;
-
-  /// The same without an index, by a scan of all vertices for each query (see `BallSearcher`). The coordinates must be
-  /// valid.
+  /// The vertices in space without an index, by a scan of all vertices for each query (see `BallSearcher`). The
+  /// coordinates must be valid.
   [[nodiscard]] static SearchMethod ball_scan(const PositionsView& positions);
 
   /// #V.
@@ -74,7 +73,7 @@ class SearchMethod {
   [[nodiscard]] const SearcherFactory& searchers() const { return *searchers_; }
 
  private:
-  explicit SearchMethod(std::shared_ptr<const SearcherFactory> searchers);
+  explicit SearchMethod(SearcherFactory&& searchers);
 
   std::shared_ptr<const SearcherFactory> searchers_;
 };
@@ -111,10 +110,9 @@ class BatchRadius {
   /// No radius: every batch rejects it.
   BatchRadius() = default;
 
-  /// The same radius for every row, of any integer or floating-point type.
-  template <class Number>
-    requires(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>)
-  BatchRadius(Number radius) : common_(static_cast<double>(radius)) {}
+  /// The same radius for every row.
+  template <RadiusNumber Number>
+  BatchRadius(Number radius) : common_(Radius(radius)) {}
 
   /// One radius per row. A temporary container is rejected by the compiler.
   template <BorrowedArray<double> Range>
