@@ -94,7 +94,8 @@ double file_bytes(const BatchCommand& options, const BatchSize& total, std::size
   const auto rows = static_cast<double>(total.rows);
   const auto count = static_cast<double>(total.count);
   const double vertices = has_vertices(row_order(options)) ? 8 * rows : 0;
-  if (options.count) return vertices + 8 * rows * static_cast<double>(options.rows.scale_count());
+  const double radii = options.rows.row_radii.empty() ? 0 : 8 * rows;
+  if (options.count) return vertices + radii + 8 * rows * static_cast<double>(options.rows.scale_count());
   const double index_bytes = fits_32_bits(total.count, columns) ? 4 : 8;
   return vertices + index_bytes * (rows + count) + (options.distances ? 8 : 13.0 / 8 / 258) * count;
 }
@@ -291,7 +292,7 @@ void batch(const BatchCommand& options) {
   Input input(options.file, options.reading, threads);
   const RowQuery rows(options.rows, input);
   BatchQuery query = options.count ? rows.query() : rows.query_of_scale(0);
-  query.metric = metric_of(options.search.metric, input);
+  query.metric = choose_metric(options.search.metric, input);
   if (query.metric == Metric::Space) input.ignore_welded();
   const SearchMethod method = method_of(options.search, input, {}, threads);
   VertexSorter sorter(options.sort, input);

@@ -42,8 +42,7 @@ struct Connections {
 Connections connections_of(const ConnectCommand& options, Input& input) {
   const StartQuery query(options.start, options.metric, input);
   const Start start = query.starts.front().view();
-  const Metric metric = metric_of(options.metric, input);
-  Searcher searcher(input.exact_index(), metric);
+  Searcher searcher = make_searcher(options.metric, input);
   Connections found;
   if (options.nearest) {
     const std::size_t k = std::min<std::size_t>(*options.nearest, input.vertex_count());

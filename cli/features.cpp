@@ -193,7 +193,6 @@ class FeaturesQuantity : public Quantity {
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
       table.text += fmt::format("{} {} {}", kind == 0 ? ":" : ",", kinds_[kind], lasting[kind]);
     }
-    if (task.options.row_radii.empty()) table.summary["radii"] = scales;
     table.summary.update({{"kinds", kinds_}, {"threshold", threshold_}, {"lasting", lasting}});
   }
 

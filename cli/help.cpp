@@ -67,7 +67,13 @@ std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
   const std::string margin = fmt::format("\n{:{}}", "", width);
   std::string line = fmt::format("{:{}}", "  " + command->get_display_name(true), width);
   if (line.size() > width) line += margin;
-  for (const char c : in_column(command->get_description())) c == '\n' ? line += margin : line += c;
+  for (const char c : in_column(command->get_description())) {
+    if (c == '\n') {
+      line += margin;
+    } else {
+      line += c;
+    }
+  }
   return line + '\n';
 }
 

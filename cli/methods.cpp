@@ -25,9 +25,14 @@ void add_metric(CLI::App& command, std::string& metric) {
              names_of(kMetrics), metric);
 }
 
-Metric metric_of(const std::string& name, Input& input) {
+Metric choose_metric(const std::string& name, Input& input) {
   if (name == "surface") input.search_along_surface();
   return value_of(kMetrics, name);
+}
+
+Searcher make_searcher(const std::string& metric, Input& input) {
+  const Metric chosen = choose_metric(metric, input);
+  return Searcher(input.exact_index(), chosen);
 }
 
 void check_metric(const std::string& name, const std::string& unit) {

@@ -34,9 +34,12 @@ void add_method(CLI::App& command, MethodOptions& options);
 /// --metric alone, of a command that always searches by the index.
 void add_metric(CLI::App& command, std::string& metric);
 
-/// The metric by which the index of the input then searches. Throws Error{InvalidOption} if it needs faces, and the
-/// input has none.
-[[nodiscard]] Metric metric_of(const std::string& name, Input& input);
+/// The metric by which the index of the input then searches, which this may change: before it is first used. Throws
+/// Error{InvalidOption} if the metric needs faces, and the input has none.
+[[nodiscard]] Metric choose_metric(const std::string& name, Input& input);
+
+/// Of the index of the input. Throws as `choose_metric`.
+[[nodiscard]] Searcher make_searcher(const std::string& metric, Input& input);
 
 /// Throws Error{InvalidOption} if the metric has no radii of this unit.
 void check_metric(const std::string& name, const std::string& unit);

@@ -237,8 +237,9 @@ std::vector<Answer> answers_of_starts(const QueryCommand& options, const StartQu
   input.need_edges("this query");
   VertexSorter sorter(options.sort, input);
   std::vector<Answer> answers;
+  RegionSearch search(options.search.metric, input);
   for (const QueryStart& start : query.starts) {
-    StartAnswer found = regions_of(start, options.search.metric, radii, input);
+    StartAnswer found = search.regions(start, radii);
     std::size_t begin = 0;
     for (const std::size_t end : found.counts) {
       sorter.sort(std::span(found.vertices).subspan(begin, end - begin),

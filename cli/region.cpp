@@ -86,7 +86,7 @@ void region(const RegionCommand& options) {
   const StartQuery query(options.start, "straight", input);
   const QueryStart& start = query.starts.front();
   const double radius = resolve(options.radius, input);
-  const std::vector<VertexId> ids = regions_of(start, "straight", std::span(&radius, 1), input).vertices;
+  const std::vector<VertexId> ids = RegionSearch("straight", input).regions(start, std::span(&radius, 1)).vertices;
   const Surface surface(input.exact_index(), input.surface().faces);
   const Submesh part = surface.submesh(ids, options.faces == "all" ? Corners::All : Corners::Any);
   const Rim rim = surface.rim(ids, center_of(start.view(), input.positions()), radius);

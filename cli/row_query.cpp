@@ -62,7 +62,7 @@ CLI::Option* add_rows(CLI::App& command, RowOptions& options) {
 RowQuery::RowQuery(const RowOptions& options, Input& input)
     : list_(list_of(options.vertices, input)),
       rows_(rows_of(list_, input)),
-      metric_(metric_of(options.metric, input)),
+      metric_(choose_metric(options.metric, input)),
       size_(rows_.count(input.vertex_count())),
       are_of_rows_(!options.row_radii.empty()),
       radii_(radii_of(options, size_, input)) {

@@ -59,7 +59,7 @@ void write_column(io::NpzWriter& npz, const Column& column, std::size_t rows) {
   std::visit(write, column.numbers);
 }
 
-void write_npz(const std::string& file, const RowTable& table, const std::function<void(io::NpzWriter&)>& begin) {
+void write_npz(const std::string& file, const RowTable& table, const std::function<void(io::NpzWriter&)>& begin = {}) {
   const Task task("writing " + file);  // outlives the temporary file
   io::NpzWriter npz(file);
   if (begin) begin(npz);
@@ -160,37 +160,41 @@ void run(const TableCommand& options, const QuantityName& name, Quantity& quanti
     document[key] = file;
     names += (names.empty() ? "" : ", ") + printable_name(file);
   });
-  document.update({{"rows", table.rows}, {"radii", table.scales}});
+  document["rows"] = table.rows;
+  if (options.rows.row_radii.empty()) document["radii"] = table.radii;
   document.update(table.summary);
   const std::string text = fmt::format("{}: {} rows, radii: {}; {}\n", names, table.rows, table.scales, table.text);
   if (options.files.has_mesh()) write_meshes(options.files, table, input.surface());
   if (!options.files.table.name.empty()) {
     const BatchRadius radius =
         options.rows.row_radii.empty() ? BatchRadius::scales(table.radii) : BatchRadius(table.radii);
-    write_rows(options.files.table, table, rows.listed(), radius);
+    write_rows(options.files.table, std::move(table), rows.listed(), radius);
   }
   print_result(options.json, document, text);
 }
 
 }  // namespace
 
-void write_table(const TableFile& file, const RowTable& table, const std::function<void(io::NpzWriter&)>& begin) {
-  file.is_csv() ? write_csv(file.name, table) : write_npz(file.name, table, begin);
+void write_table(const TableFile& file, const RowTable& table) {
+  file.is_csv() ? write_csv(file.name, table) : write_npz(file.name, table);
 }
 
-void write_rows(const TableFile& file, RowTable& table, const BatchVertices& listed, const BatchRadius& radius) {
-  std::vector<std::int64_t> vertices(table.rows);
-  for (std::size_t row = 0; row < table.rows; ++row) vertices[row] = listed[row];
+void write_rows(const TableFile& file, RowTable table, const BatchVertices& listed, const BatchRadius& radius) {
+  if (!file.is_csv()) {
+    return write_npz(file.name, table, [&](io::NpzWriter& npz) {
+      write_radii(npz, radius);
+      write_vertices(npz, listed);
+    });
+  }
   const auto add_first = [&](const std::string& name, auto numbers) {
     table.properties.insert(table.properties.begin(), {name, table.columns.size(), 0, 1});
-    table.columns.push_back({.name = name, .numbers = std::move(numbers), .is_array = false});
+    table.columns.push_back({.name = name, .numbers = std::move(numbers)});
   };
   if (radius.list()) add_first("radius", std::vector<double>(radius.list()->begin(), radius.list()->end()));
+  std::vector<std::int64_t> vertices(table.rows);
+  for (std::size_t row = 0; row < table.rows; ++row) vertices[row] = listed[row];
   add_first("vertex", std::move(vertices));
-  write_table(file, table, [&](io::NpzWriter& npz) {
-    write_radii(npz, radius);
-    write_vertices(npz, listed);
-  });
+  write_csv(file.name, table);
 }
 
 void RowTable::add_property(std::string name, std::string_view column, std::size_t scale, std::size_t channel,

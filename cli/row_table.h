@@ -78,12 +78,12 @@ struct RowTable {
   void add_properties(std::initializer_list<std::string_view> names);
 };
 
-/// Writes the arrays of a table, after those that `begin` writes; or the properties as text.
-void write_table(const TableFile& file, const RowTable& table, const std::function<void(io::NpzWriter&)>& begin = {});
+/// Writes the arrays of a table, or the properties as text.
+void write_table(const TableFile& file, const RowTable& table);
 
-/// The same with the vertex of each row, and the radii. As text, the vertex is the first property, which is added to
-/// the table, and the radius the second if each row has its own.
-void write_rows(const TableFile& file, RowTable& table, const BatchVertices& listed, const BatchRadius& radius);
+/// The same with the vertex of each row, and the radii. As text, the vertex is the first property, and the radius the
+/// second if each row has its own.
+void write_rows(const TableFile& file, RowTable table, const BatchVertices& listed, const BatchRadius& radius);
 
 /// What is asked: the input, whose masks are set, its rows, and the options of all quantities.
 struct RowTask {

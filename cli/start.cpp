@@ -102,17 +102,16 @@ StartQuery::StartQuery(const StartOptions& options, const std::string& metric, I
   }
 }
 
-StartAnswer regions_of(const QueryStart& start, const std::string& metric, std::span<const double> radii,
-                       Input& input) {
-  const Metric by = metric_of(metric, input);
-  Searcher searcher(input.exact_index(), by);
+RegionSearch::RegionSearch(const std::string& metric, Input& input)
+    : positions_(input.positions()), searcher_(make_searcher(metric, input)), distance_of_(input.vertex_count()) {}
+
+StartAnswer RegionSearch::regions(const QueryStart& start, std::span<const double> radii) {
   StartAnswer answer;
-  searcher.neighborhood(start.view(), radii.back(), answer.vertices, answer.distances);
-  if (!searcher.has_seed(start.view(), radii.back())) note_far_point(input.positions(), start.view(), radii.back());
-  std::vector<double> distance_of(input.vertex_count());  // `nested` returns no distances
-  for (std::size_t i = 0; i < answer.vertices.size(); ++i) distance_of[answer.vertices[i]] = answer.distances[i];
-  searcher.nested(start.view(), radii, answer.vertices, answer.counts);
-  for (std::size_t i = 0; i < answer.vertices.size(); ++i) answer.distances[i] = distance_of[answer.vertices[i]];
+  searcher_.neighborhood(start.view(), radii.back(), answer.vertices, answer.distances);
+  if (!searcher_.has_seed(start.view(), radii.back())) note_far_point(positions_, start.view(), radii.back());
+  for (std::size_t i = 0; i < answer.vertices.size(); ++i) distance_of_[answer.vertices[i]] = answer.distances[i];
+  searcher_.nested(start.view(), radii, answer.vertices, answer.counts);
+  for (std::size_t i = 0; i < answer.vertices.size(); ++i) answer.distances[i] = distance_of_[answer.vertices[i]];
   return answer;
 }
 

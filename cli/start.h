@@ -71,7 +71,8 @@ class QueryStart {
 
 /// What these options mean for an input.
 struct StartQuery {
-  /// Reads the lists, and sets the masks of the input. Throws as `QueryStart`, `read_vertex_list` and `read_masks`.
+  /// Reads the lists, and sets the masks of the input, as a search by `metric` takes them. Throws as `QueryStart`,
+  /// `read_vertex_list` and `read_masks`.
   StartQuery(const StartOptions& options, const std::string& metric, Input& input);
 
   std::vector<QueryStart> starts;  ///< that of --point, or those of the vertices
@@ -84,9 +85,19 @@ struct StartAnswer {
   std::vector<std::size_t> counts;  ///< the first `counts[i]` vertices are within radius `i`
 };
 
-/// The neighborhoods of a start for ascending `radii`, at least one, as the rings of `Searcher::nested`. With the
-/// metric "path" or "rings" the start must be a vertex.
-[[nodiscard]] StartAnswer regions_of(const QueryStart& start, const std::string& metric, std::span<const double> radii,
-                                     Input& input);
+/// Answers starts one after the other, in memory that it keeps.
+class RegionSearch {
+ public:
+  RegionSearch(const std::string& metric, Input& input);
+
+  /// The neighborhoods of a start for ascending `radii`, at least one, as the rings of `Searcher::nested`. By paths and
+  /// rings the start must be a vertex.
+  [[nodiscard]] StartAnswer regions(const QueryStart& start, std::span<const double> radii);
+
+ private:
+  PositionsView positions_;
+  Searcher searcher_;
+  std::vector<double> distance_of_;  // #V; `nested` returns no distances
+};
 
 }  // namespace meshhood::cli

@@ -1,5 +1,8 @@
 # What a package for Debian has beside what `cmake --install` installs: run by CPack, in the folder that it packs.
-file(GLOB root ${CPACK_TEMPORARY_INSTALL_DIRECTORY}${CPACK_PACKAGING_INSTALL_PREFIX})
+if(NOT CPACK_GENERATOR STREQUAL "DEB")
+  return()
+endif()
+set(root ${CPACK_TEMPORARY_INSTALL_DIRECTORY}${CPACK_PACKAGING_INSTALL_PREFIX})
 set(share ${root}/share)
 set(documents ${share}/doc/${CPACK_PACKAGE_NAME})
 

@@ -24,7 +24,7 @@ from cyclonedx.validation.json import JsonStrictValidator
 from packageurl import PackageURL
 
 ROOT = Path(__file__).parents[1]
-# Each package of Debian that a library of NOTICE comes from. Wheels and the package for npm have other copies of libc++.
+# The package of Debian that a library of NOTICE comes from.
 DEBIAN = {
     "CLI11": "libcli11-dev",
     "fast_float": "libfast-float-dev",
@@ -43,6 +43,8 @@ def url(name):
         query = ["dpkg-query", "--show", "--showformat=${Version}", DEBIAN[name]]
         installed = subprocess.run(query, check=True, capture_output=True, text=True).stdout
         return PackageURL("deb", "debian", DEBIAN[name], installed)
+    if name == "libc++ of zig":
+        return PackageURL("pypi", None, "ziglang", version("ziglang"))
     if name in ("nanobind", "robin-map"):  # nanobind contains robin-map
         return PackageURL("pypi", None, "nanobind", version("nanobind"))
     lock = json.loads((ROOT / "viewer/package-lock.json").read_text())
@@ -85,6 +87,8 @@ def bill(package):
 
 def main():
     package, path = sys.argv[1:]
+    if package not in ("wheel", "deb", "npm"):
+        sys.exit(f"{package!r}, expected wheel, deb or npm")
     text = JsonV1Dot6(bill(package)).output_as_string(indent=2)
     mistake = JsonStrictValidator(SchemaVersion.V1_6).validate_str(text)
     if mistake is not None:

@@ -164,8 +164,8 @@ class _Filter(VTKPythonAlgorithmBase):
         raise NotImplementedError
 
     @property
-    def _words(self) -> dict[str, str]:
-        """Radius, unit and metric as the arguments of `MeshIndex` of these names."""
+    def _unit_and_metric(self) -> dict[str, str]:
+        """Unit and metric as the arguments of `MeshIndex` of these names."""
         return {"unit": _UNITS[self._unit], "metric": _METRICS[self._metric]}
 
     def _named(self, quantity: str, unit: str = "", metric: bool = True, letter: str = "r") -> str:
@@ -197,7 +197,7 @@ class MeshhoodNeighborhood(_Filter):
 
     def _add_arrays(self, mesh: Any, output: Any) -> None:
         start = self._vertex if self._start else _corner_at(self._index, self._point)
-        ids, distances = self._index.neighborhood(start, self._radius, return_distance=True, **self._words)
+        ids, distances = self._index.neighborhood(start, self._radius, return_distance=True, **self._unit_and_metric)
         inside, lengths = np.zeros(len(self._index), np.uint8), np.full(len(self._index), np.nan)
         inside[ids], lengths[ids] = 1, distances
         _add(output.GetPointData(), self._named("distance", "unit"), lengths)
@@ -255,7 +255,7 @@ class MeshhoodCurvature(_Filter):
             found = self._index.invariants(self._radius, unit=_UNITS[self._unit], progress=self._progress)
             _add(points, self._named("area", "unit^2", metric=False), found.area)
             _add(points, self._named("volume", "unit^3", metric=False), found.volume)
-        shape = self._index.curvature(self._radius, progress=self._progress, **self._words)
+        shape = self._index.curvature(self._radius, progress=self._progress, **self._unit_and_metric)
         _add(points, self._named("curvature_state"), shape.state)
         _add(points, self._named("shape_index"), shape.shape_index)
         _add(points, self._named("d2"), shape.d2)
@@ -288,7 +288,7 @@ class MeshhoodSmooth(_Filter):
             raise ValueError(f"Array: {name!r}, expected a point array of numbers")
         weights = "area" if self._weighted else None
         smooth = self._index.smooth(
-            vtk_to_numpy(array), self._radius, weights=weights, nan="omit", progress=self._progress, **self._words
+            vtk_to_numpy(array), self._radius, weights=weights, nan="omit", progress=self._progress, **self._unit_and_metric
         )
         _add(output.GetPointData(), self._named(name, letter="fwhm"), smooth)
 

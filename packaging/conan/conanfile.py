@@ -28,7 +28,7 @@ class Meshhood(ConanFile):
         self.version = ".".join(re.findall(r"define MESHHOOD_VERSION_\w+ (\d+)", text))
 
     def export_sources(self):
-        for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*", "io/*"):
+        for pattern in ("CMakeLists.txt", "LICENSE", "NOTICE", "cmake/*", "include/*", "src/*", "io/*"):
             copy(self, pattern, REPOSITORY, self.export_sources_folder)
 
     def layout(self):
@@ -61,7 +61,8 @@ class Meshhood(ConanFile):
 
     def package(self):
         CMake(self).install()
-        copy(self, "LICENSE", self.source_folder, Path(self.package_folder, "licenses"))
+        for text in ("LICENSE", "NOTICE"):
+            copy(self, text, self.source_folder, Path(self.package_folder, "licenses"))
         for folder in ("cmake", "pkgconfig"):
             rmdir(self, Path(self.package_folder, "lib", folder))  # CMakeDeps and PkgConfigDeps write these
         rmdir(self, Path(self.package_folder, "share"))

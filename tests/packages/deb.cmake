@@ -18,6 +18,8 @@ if(lintian)
   execute_process(COMMAND ${lintian} --allow-root --fail-on error --suppress-tags bogus-mail-host,bogus-mail-host-in-debian-changelog
     ${package}
     COMMAND_ERROR_IS_FATAL ANY)
+else()
+  message("lintian is not installed: it has not checked the package (tools/setup packages)")
 endif()
 execute_process(COMMAND apt-get install --simulate --quiet=2 ${package} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 

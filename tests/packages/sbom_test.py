@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from urllib.parse import unquote
 
 root = Path(sys.argv[1])
 
@@ -23,7 +24,7 @@ def names(package):
         subprocess.run([sys.executable, "-B", root / "packaging/sbom.py", package, path], check=True)
         components = json.loads(path.read_text())["components"]
     assert all(component["licenses"] and component["copyright"] for component in components)
-    return {re.search(r"/([^/@]+)@", component["purl"])[1] for component in components}
+    return {unquote(re.search(r"/([^/@]+)@", component["purl"])[1]) for component in components}
 
 
 setup = (root / "tools/setup").read_text()
@@ -33,5 +34,8 @@ bills = {package: names(package) for package in ("wheel", "deb", "npm")}
 for package in ("wheel", "deb"):
     missing = (built_with | page) - bills[package]
     assert not missing, f"the bill of {package} lacks {missing}: add them to NOTICE"
+module = {"libfast-float-dev", "libfmt-dev", "libhwy-dev", "libxxhash-dev", "libc++-22-dev-wasm32", "wasi-libc"}
+assert bills["npm"] == module, bills["npm"]
+assert {"nanobind", "ziglang"} <= bills["wheel"] and "ziglang" not in bills["deb"]
 assert "nanobind" in bills["wheel"] and "nanobind" not in bills["deb"]
 print({package: len(bill) for package, bill in bills.items()})

@@ -71,6 +71,19 @@ def test_what_are_no_rows_is_refused(indptr, values, message):
         meshhood.padded(indptr, values)
 
 
+@pytest.mark.parametrize("fill", (0.5, np.nan, 2**40, [7, 8]))
+def test_a_fill_that_the_values_cannot_hold_is_refused(fill):
+    with pytest.raises(ValueError, match="fill: .*, expected one value of int32"):
+        meshhood.padded(INDPTR, INDICES, fill=fill)
+
+
+def test_the_limit_counts_the_mask_once():
+    values = np.zeros((4, 100), np.uint8)
+    assert meshhood.padded([0, 2, 4], values, max_bytes=404)[0].nbytes == 400
+    with pytest.raises(MemoryError, match="404 bytes, exceeds max_bytes, 403"):
+        meshhood.padded([0, 2, 4], values, max_bytes=403)
+
+
 def test_a_width_is_a_number_and_a_large_result_is_refused():
     with pytest.raises(ValueError, match="width: -1, expected 0 to 2147483647"):
         meshhood.padded(INDPTR, INDICES, width=-1)

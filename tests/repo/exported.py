@@ -43,7 +43,8 @@ for library in arguments.libraries:
         if ours and ours[1] not in words or not ours and kind not in "WVu":
             faults.append(f"{library}: exports {name}, which no public header has")
 for path in arguments.released:
-    faults += [f"{path.stem} had {symbol}, which is gone" for symbol in path.read_text().split() if symbol not in interface]
+    gone = [symbol for symbol in path.read_text().split() if symbol not in interface]
+    faults += [f"{path.name} had {symbol}, which is gone" for symbol in gone]
 if arguments.list:
     print("\n".join(sorted(interface)))
     sys.exit(0)

@@ -17,9 +17,10 @@ from ._index import MeshIndex
 from ._mesh import kept_faces, mesh_arrays
 from ._other_files import WRITERS, Writing, bytes_of, read_other
 from ._progress import Progress, reporter
-from ._repr import in_a_line
+from ._repr import shown_in_a_line
 
 
+@shown_in_a_line
 class Mesh(NamedTuple):
     """Positions and faces, as `MeshIndex` takes them.
 
@@ -28,9 +29,6 @@ class Mesh(NamedTuple):
 
     vertices: Union[NDArray[np.float32], NDArray[np.float64]]
     faces: Union[NDArray[np.int32], tuple[NDArray[np.int64], NDArray[np.int32]]]
-
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
 
 def read_mesh(

@@ -24,7 +24,7 @@ from ._patches import Patches
 from ._progress import Progress, reporter
 from ._queries import Queries
 from ._region_mesh import Regions
-from ._repr import in_a_line
+from ._repr import shown_in_a_line
 from ._rows import Rows, check_size, check_sort, read_rows, result_dtype, sorted_rows
 from ._shape import Shape
 from ._surface_queries import SurfaceQueries
@@ -51,6 +51,7 @@ if TYPE_CHECKING:
 Order = Literal["query", "index"]
 
 
+@shown_in_a_line
 class Chunk(NamedTuple):
     """Some rows of a batch: row i is the neighborhood of vertices[i] (see `MeshIndex.iter_neighborhoods`).
 
@@ -62,9 +63,6 @@ class Chunk(NamedTuple):
     indptr: Offsets
     indices: Ids
     distances: Optional[Floats]
-
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
 
 class Quality(NamedTuple):

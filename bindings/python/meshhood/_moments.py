@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _convert, _core
-from ._repr import in_a_line
+from ._repr import shown_in_a_line
 from ._types import Floats, Reals
 
 
+@shown_in_a_line
 class PrincipalComponents(NamedTuple):
     """How the vertices of each neighborhood are distributed. With areas as weights, `weight`, `center` and `variances`
     are integral invariants of the surface in the neighborhood: its area, barycenter and covariance.
@@ -35,9 +36,6 @@ class PrincipalComponents(NamedTuple):
     variances: Floats
     axes: Floats
 
-    def __repr__(self) -> str:
-        return in_a_line(self)
-
     @property
     def normal(self) -> Floats:
         """The normal of the plane that fits best."""
@@ -52,6 +50,7 @@ class PrincipalComponents(NamedTuple):
             return shares[..., 0] / shares.sum(axis=-1)
 
 
+@shown_in_a_line
 class CorrectedCurvature(NamedTuple):
     """Curvature from measures (see `MeshIndex.corrected_curvature`). All but the area and the measures are NaN where
     the area is 0.
@@ -76,10 +75,8 @@ class CorrectedCurvature(NamedTuple):
     d2: Floats
     measures: Floats
 
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
-
+@shown_in_a_line
 class Persistence(NamedTuple):
     """Over how many scales a feature lasts (see `persistence`).
 
@@ -97,9 +94,6 @@ class Persistence(NamedTuple):
     scales: NDArray[np.int32]
     strength: Reals
     radius: Reals
-
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
 
 def geometric_radii(smallest: float, largest: float, count: int) -> Reals:

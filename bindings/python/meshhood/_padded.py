@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Optional
 
 import numpy as np
@@ -24,14 +25,14 @@ def padded(
     fill : what the other entries hold. 0 is an id of every mesh, so that such rows can be used as indices.
     max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
 
-    The arrays are new; the first has the dtype of `values`. Cost: O(#rows width).
+    The arrays are new; the first has the dtype of `values`. Cost: O(#rows width + #values).
 
     >>> indptr, indices = meshhood.MeshIndex(V, F).neighborhoods(0.3)
     >>> ids, mask = meshhood.padded(indptr, indices)
     >>> ids.shape == mask.shape, ids.dtype == indices.dtype
     (True, True)
     """
-    ends, rows = np.asarray(indptr), np.asarray(values)
+    ends, rows, one = (_convert.as_array(*each) for each in ((indptr, "indptr"), (values, "values"), (fill, "fill")))
     if ends.ndim != 1 or len(ends) == 0 or ends.dtype.kind not in "iu":
         raise ValueError(f"indptr: expected #rows + 1 integers, not {ends.dtype} of shape {ends.shape}")
     if rows.ndim == 0 or ends[0] != 0 or ends[-1] != len(rows):
@@ -44,10 +45,14 @@ def padded(
     if width is None:
         width = int(lengths.max(initial=0))
     width = _convert.integer(width, "width", 0, 2**31 - 1)
-    shape = (len(lengths), width, *rows.shape[1:])
-    check_size(shape, rows.itemsize + 1, max_bytes)
+    with np.errstate(invalid="ignore"):
+        filler = one.astype(rows.dtype)
+    if one.ndim or (rows.dtype.kind != "f" and filler != one):
+        raise ValueError(f"fill: {fill!r}, expected one value of {rows.dtype}")
+    shape = (len(lengths), width)
+    check_size(shape, rows.itemsize * math.prod(rows.shape[1:]) + 1, max_bytes)
     mask = np.arange(width) < lengths[:, None]
-    array = np.full(shape, fill, rows.dtype)
+    array = np.full((*shape, *rows.shape[1:]), filler, rows.dtype)
     place = np.arange(len(rows)) - np.repeat(ends[:-1], lengths)
     array[mask] = rows[place < width]
     return array, mask

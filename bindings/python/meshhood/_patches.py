@@ -11,11 +11,12 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._held import Held
 from ._progress import Progress
-from ._repr import in_a_line
+from ._repr import shown_in_a_line
 from ._rows import read_rows
 from ._types import AnyVertices, Ids, Mask, Radii, Reals, Scales, Unit
 
 
+@shown_in_a_line
 class Invariants(NamedTuple):
     """Area and volume of the surface in each ball (see `MeshIndex.invariants`).
 
@@ -35,10 +36,8 @@ class Invariants(NamedTuple):
     area: Reals
     volume: Reals
 
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
-
+@shown_in_a_line
 class Gaps(NamedTuple):
     """The nearest point that is not of the patch (see `MeshIndex.gaps`).
 
@@ -59,9 +58,6 @@ class Gaps(NamedTuple):
     vertices: Ids
     barycentric: Reals
     point: Reals
-
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
 
 class Patches(Held):

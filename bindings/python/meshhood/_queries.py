@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._held import Held
 from ._methods import Method, core_metric
-from ._repr import in_a_line
+from ._repr import shown_in_a_line
 from ._rows import check_sort, result_dtype, sorted_rows
 from ._types import METRICS, Counts, Floats, Ids, Mask, Metric, Number, Reals, Scales, Sort, Unit
 
@@ -24,6 +24,7 @@ Face = Union[int, "np.integer[Any]", None]
 Seeds = Union[int, "np.integer[Any]", Sequence[int], "NDArray[np.integer[Any]]", None]
 
 
+@shown_in_a_line
 class Nested(NamedTuple):
     """The neighborhoods of several radii, each vertex once: that of radii[i] is ids[:counts[i]] (see
     `MeshIndex.nested`).
@@ -34,10 +35,8 @@ class Nested(NamedTuple):
     counts: Counts
     ids: Ids
 
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
-
+@shown_in_a_line
 class Connected(NamedTuple):
     """The nearest connected vertices and their connecting radii (see `MeshIndex.nearest_connected`).
 
@@ -46,9 +45,6 @@ class Connected(NamedTuple):
 
     ids: Ids
     radii: Reals
-
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
 
 class Queries(Held):

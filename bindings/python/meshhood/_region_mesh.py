@@ -14,7 +14,7 @@ from ._held import Held
 from ._mesh import mesh_arrays
 from ._optional import optional
 from ._poly_data import poly_data
-from ._repr import in_a_line
+from ._repr import shown_in_a_line
 
 Ids = NDArray[np.int32]
 Corners = Literal["all", "any"]
@@ -35,6 +35,7 @@ class Submesh(NamedTuple):
     faces: NDArray[np.int64]  #: its faces by their rows in the whole mesh, ascending
     edges: Ids  #: (n, 2): of each further vertex, where a face is clipped, the ends of its edge in the whole mesh
     weights: NDArray[np.float64]  #: (n, 2) of these ends, with the sum 1
+    whole: int  #: the number of vertices of the whole mesh
 
     def __repr__(self) -> str:
         clipped = f", {len(self.edges)} of them where faces are clipped" if len(self.edges) else ""
@@ -55,9 +56,8 @@ class Submesh(NamedTuple):
         True
         """
         whole = _convert.as_array(values, "values")
-        most = max((int(array.max()) for array in (self.vertices, self.edges) if array.size), default=-1)
-        if whole.ndim == 0 or len(whole) <= most:
-            raise ValueError(f"values: of shape {whole.shape}, expected a row for each vertex of the whole mesh")
+        if whole.ndim == 0 or len(whole) != self.whole:
+            raise ValueError(f"values: of shape {whole.shape}, expected a row for each of the {self.whole} vertices")
         if not len(self.edges):
             return whole[self.vertices]
         if whole.dtype.kind != "f":
@@ -104,6 +104,7 @@ def _fans(offsets: Any) -> tuple[Any, Any]:
     return polygons, offsets[polygons] + 1 + np.arange(len(polygons)) - starts[polygons]
 
 
+@shown_in_a_line
 class RimLine(NamedTuple):
     """A polyline along which a surface leaves a ball.
 
@@ -116,9 +117,6 @@ class RimLine(NamedTuple):
     points: NDArray[np.float64]  #: (n, 3)
     edges: Ids  #: (n, 2): of each point, the end of its edge inside the region, and the other
     closed: bool  #: a loop, whose last point is joined to its first
-
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
 
 class RegionMesh:
@@ -176,9 +174,8 @@ class RegionMesh:
             return self._clipped(self._ids(ids), self._all(corners), clip)
         vertices, faces, offsets, flat = self._surface.submesh(self._ids(ids), self._all(corners))
         triangles = flat.reshape(-1, 3) if self._triangles else (offsets, flat)
-        return Submesh(
-            self._positions[vertices], triangles, vertices, faces, np.empty((0, 2), np.int32), np.empty((0, 2))
-        )
+        none = np.empty((0, 2), np.int32), np.empty((0, 2))
+        return Submesh(self._positions[vertices], triangles, vertices, faces, *none, len(self._positions))
 
     def rim(self, ids: ArrayLike, start: Any, r: Any) -> list[RimLine]:
         """Where the surface leaves a region: polylines whose points lie on edges, at the distance `r` from `start`.
@@ -207,7 +204,7 @@ class RegionMesh:
         is_new = edges[:, 0] != edges[:, 1]  # the last ones
         between = edges[is_new]
         weights = _weights(points[is_new], *np.moveaxis(self._positions[between].astype(np.float64), 1, 0))
-        return Submesh(points, (offsets, flat), edges[~is_new, 0], faces, between, weights)
+        return Submesh(points, (offsets, flat), edges[~is_new, 0], faces, between, weights, len(self._positions))
 
     def _center(self, start: Any) -> tuple[float, float, float]:
         if np.ndim(start) == 0:

@@ -3,13 +3,21 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 
-def in_a_line(result: Any) -> str:
-    """Of a named tuple: the shape of each array, and what is no array as it is."""
+Result = TypeVar("Result", bound=type)
+
+
+def shown_in_a_line(result: Result) -> Result:
+    """A named tuple whose arrays are shown by their shapes, and all else as it is."""
+    setattr(result, "__repr__", _in_a_line)
+    return result
+
+
+def _in_a_line(result: Any) -> str:
     parts = [f"{name} {_shown(value)}" for name, value in zip(result._fields, result)]
     return f"<meshhood.{type(result).__name__}: {', '.join(parts)}>"
 

@@ -13,7 +13,7 @@ from ._aggregate import area_weights
 from ._held import Held
 from ._mesh import mesh_arrays, positions_of, warn_if_coarse, warn_if_link_is_coarse
 from ._progress import Progress, reporter
-from ._repr import in_a_line
+from ._repr import shown_in_a_line
 from ._rows import Rows, read_rows
 from ._types import AnyVertices, Ids, Mask, Metric, Number, Offsets, Radii, Reals, Unit, Weights
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 _BYTES_OF_EDGE = 64
 
 
+@shown_in_a_line
 class Unconnected(NamedTuple):
     """What is near but not connected (see `MeshIndex.nearest_unconnected`).
 
@@ -33,10 +34,8 @@ class Unconnected(NamedTuple):
     vertices: Any
     gaps: Any
 
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
-
+@shown_in_a_line
 class ClosestPoint(NamedTuple):
     """A point of the surface, or several (see `MeshIndex.closest_point`).
 
@@ -48,10 +47,8 @@ class ClosestPoint(NamedTuple):
     barycentric: Reals
     point: Reals
 
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
-
+@shown_in_a_line
 class FirstHit(NamedTuple):
     """The first point of the surface on a ray, or on several (see `MeshIndex.first_hit`).
 
@@ -64,10 +61,8 @@ class FirstHit(NamedTuple):
     point: Reals
     distance: Any
 
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
-
+@shown_in_a_line
 class Nearest(NamedTuple):
     """The nearest connected vertices of each row (see `MeshIndex.k_nearest`).
 
@@ -77,10 +72,8 @@ class Nearest(NamedTuple):
     ids: Ids
     distances: Reals
 
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
-
+@shown_in_a_line
 class Discs(NamedTuple):
     """Discs of fixed area: row i is ids[indptr[i]:indptr[i + 1]] (see `MeshIndex.discs`).
 
@@ -90,9 +83,6 @@ class Discs(NamedTuple):
     indptr: Offsets
     ids: Ids
     distances: Reals
-
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
 
 class SurfaceQueries(Held):

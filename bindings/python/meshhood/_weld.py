@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from . import _convert, _core
 from ._mesh import mesh_arrays
-from ._repr import in_a_line
+from ._repr import shown_in_a_line
 from ._types import Ids, Number
 
 
+@shown_in_a_line
 class Welded(NamedTuple):
     """A welded mesh, and what has become of each vertex (see `weld`).
 
@@ -23,9 +24,6 @@ class Welded(NamedTuple):
     vertices: Union[NDArray[np.float32], NDArray[np.float64]]
     faces: Union[Ids, tuple[NDArray[np.int64], Ids]]
     ids: Ids
-
-    def __repr__(self) -> str:
-        return in_a_line(self)
 
 
 def weld(V: Any, F: Any = None, eps: Number = 0) -> Welded:

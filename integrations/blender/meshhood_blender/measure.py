@@ -122,8 +122,9 @@ def _usual(values: Any) -> tuple[float, float]:
 
 def _between(values: Any, low: float, high: float) -> Any:
     """-1 at the lower limit and below, 1 at the upper one and above; NaN stays."""
+    least = max(1e-6 * max(abs(low), abs(high)), np.finfo(float).tiny)  # below it, rounding
     with np.errstate(over="ignore"):
-        return np.clip((2 * values - low - high) / max(high - low, np.finfo(float).tiny), -1, 1)
+        return np.clip((2 * values - low - high) / max(high - low, least), -1, 1)
 
 
 def _colors(strengths: Any) -> Any:
