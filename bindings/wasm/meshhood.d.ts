@@ -164,7 +164,7 @@ export type Unit = 'mesh' | 'edge';
 /**
  * Of a radius and of distances. `straight`: in a straight line. `path`: lengths of the shortest paths along edges; the
  * vertices of one neighborhood then ascend by them. `rings`: numbers of edges. `space`: in a straight line, to every
- * vertex, connected or not. All but `straight` need method `exact`.
+ * vertex, connected or not; calls about what is connected refuse it. All but `straight` need method `exact`.
  */
 export type Metric = 'straight' | 'path' | 'rings' | 'space';
 

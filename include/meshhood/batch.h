@@ -207,12 +207,11 @@ void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, 
                            const BatchOptions& options = {}, const Run& run = {});
 
 /// Returns all rows. With an index they are counted first, so that memory is allocated once and exactly. What is found
-/// of exact neighborhoods and rings is kept meanwhile, so that their rows are searched once. It takes about as much
-/// memory as the ids at most, and is dropped if `max_bytes` is less than it and the result together.
-/// Rows of paths, in space and of `paper::Index` are searched twice. Without an index each row is searched once, and
-/// the result is held twice.
-/// Throws as `for_each_neighborhood`, and Error{TooLarge} if ids and distances exceed `run.max_bytes`: at once if a
-/// sample of the rows shows that they will not fit, else soon after the rows counted so far exceed the limit.
+/// of straight neighborhoods, in space and of rings is kept meanwhile, so that these rows are searched once. It takes
+/// about as much memory as the ids at most, and is dropped if `max_bytes` is less than it and the result together. Rows
+/// of paths and of `paper::Index` are searched twice. Without an index each row is searched once, and the result is
+/// held twice. Throws as `for_each_neighborhood`, and Error{TooLarge} if ids and distances exceed `run.max_bytes`: at
+/// once if a sample of the rows shows that they will not fit, else soon after the rows counted so far exceed the limit.
 [[nodiscard]] Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query,
                                           const BatchOptions& options = {}, const Run& run = {});
 

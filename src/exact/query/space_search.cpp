@@ -69,7 +69,7 @@ void SpaceSearch::search(const Point& center, double radius) {
   center_ = Center(index_->frame, center);
   ball_ = any_ball(center, radius);
   found_.clear();
-  visit_roots(index_->roots.levels.size() - 1, 0);
+  if (!index_->roots.levels.empty()) visit_roots(index_->roots.levels.size() - 1, 0);
   // Root groups are in no order.
   std::sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
   answer.clear();

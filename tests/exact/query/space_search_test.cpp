@@ -124,6 +124,11 @@ TEST_P(SpaceIn, EveryCallEqualsAScan) {
   }
 }
 
+TEST(Space, AroundAPointOfAMeshWithoutVerticesIsEmpty) {
+  const Index index = build(TestMesh{}.view());
+  EXPECT_EQ(Searcher(index, Metric::Space).count({{0, 0, 0}, {}}, kInfinity), 0U);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, SpaceIn, testing::ValuesIn(families()), family_name);
 
 }  // namespace
