@@ -244,7 +244,7 @@ class AllVertices {
 
   /// One worker, which receives the batch group by group.
   std::uint64_t counts_of_worker(Isa isa, std::span<const VertexId> rows, double radius) {
-    BatchWorker worker(std::make_unique<StraightRows>(mesh_.index, isa));
+    BatchWorker worker(std::make_unique<StraightRows>(mesh_.index, Metric::Straight, isa));
     const auto position_of = [&](VertexId v) { return IndexAccess::view(mesh_.index).slot[v]; };
     const auto group_of = [&](VertexId v) { return position_of(v) / StraightRows::kGroupPositions; };
     std::vector<BatchItem> chunk;

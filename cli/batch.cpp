@@ -227,6 +227,7 @@ void batch(const BatchCommand& options) {
   const RowQuery rows(options.rows, input);
   BatchQuery query = options.count ? rows.query() : rows.query_of_scale(0);
   query.metric = value_of(kMetrics, options.search.metric);
+  if (query.metric == Metric::Space) input.ignore_welded();
   const SearchMethod method = method_of(options.search, input, {}, threads);
   VertexSorter sorter(options.sort, input);
   std::vector<VertexId> in_index_order;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -44,7 +45,8 @@ std::vector<Row> answer(Input& input, VertexId v, double radius) {
   for (const char* const method : {"bfs", "ball", "paper", "exact"}) {
     AnySearcher searcher = method_of({.method = method}, input).make_searcher();
     Row row{method, {}, {}, 0};
-    row.microseconds = 1e6 * measure::median_seconds([&] { searcher.neighborhood(v, radius, row.vertices); });
+    const auto ask = [&](auto& one) { one.neighborhood(v, radius, row.vertices); };
+    row.microseconds = 1e6 * measure::median_seconds([&] { std::visit(ask, searcher); });
     std::erase_if(row.vertices, [&](VertexId w) { return input.welding().kept(w) != w; });  // the ball has them all
     if (!rows.empty()) row.difference = comparison.compare(rows.front().vertices, row.vertices);
     rows.push_back(std::move(row));

@@ -40,7 +40,7 @@ struct Connections {
 };
 
 Connections connections_of(const ConnectCommand& options, Input& input) {
-  const StartQuery query(options.start, input);
+  const StartQuery query(options.start, options.metric, input);
   const Start start = query.starts.front().view();
   Searcher searcher(input.exact_index(), value_of(kMetrics, options.metric));
   Connections found;
@@ -71,6 +71,9 @@ Json to_json(const Connections& found) { return {{"vertices", found.vertices}, {
 void connect(const ConnectCommand& options) {
   if (options.targets.empty() == !options.nearest) {
     raise(ErrorCode::InvalidOption, "expected either --to or --nearest");
+  }
+  if (options.nearest && options.metric == "space") {
+    raise(ErrorCode::InvalidOption, "--nearest: expected another --metric than space, in which nothing is connected");
   }
   check_start_options(options.start, false, options.metric);
   Input input(options.file, options.reading);

@@ -20,7 +20,7 @@ void add_method(CLI::App& command, MethodOptions& options) {
 void add_metric(CLI::App& command, std::string& metric) {
   add_choice(command, "--metric",
              "of the radius; straight: distances in a straight line; path: lengths of the shortest paths along the "
-             "edges; rings: numbers of edges",
+             "edges; rings: numbers of edges; space: all vertices in the ball, connected or not",
              names_of(kMetrics), metric);
 }
 

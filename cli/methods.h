@@ -14,8 +14,8 @@
 /// How a search finds vertices and measures their distances, by names.
 namespace meshhood::cli {
 
-inline constexpr Names<Metric, 3> kMetrics{
-    {{"straight", Metric::Straight}, {"path", Metric::Path}, {"rings", Metric::Rings}}};
+inline constexpr Names<Metric, 4> kMetrics{
+    {{"straight", Metric::Straight}, {"path", Metric::Path}, {"rings", Metric::Rings}, {"space", Metric::Space}}};
 
 struct MethodOptions {
   std::string method = "exact";

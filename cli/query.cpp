@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -58,7 +59,8 @@ AnySearcher searcher_of(const QueryCommand& options, Input& input) {
 }
 
 /// The answer of `searcher`, with the median time of several runs.
-Answer timed_answer(const QueryCommand& options, AnySearcher& searcher, VertexId v, double radius) {
+template <NeighborhoodSearcher S>
+Answer timed_answer(const QueryCommand& options, S& searcher, VertexId v, double radius) {
   Answer answer{.vertex = v, .counts = {0}, .vertices = {}, .distances = {}};
   if (options.count && options.output.empty()) {
     answer.seconds = measure::median_seconds([&] { answer.counts.front() = searcher.count(v, radius); });
@@ -101,7 +103,8 @@ std::string advice_to_weld(const std::vector<VertexId>& component, Input& input)
 
 /// An answer of all vertices of a component is a sign of a radius in the wrong unit, or of a mesh of unconnected
 /// triangles. Of several radii, `radius` is the largest.
-void note_whole_component(AnySearcher& searcher, double radius, const Answer& answer, Input& input) {
+template <NeighborhoodSearcher S>
+void note_whole_component(S& searcher, double radius, const Answer& answer, Input& input) {
   if (std::isinf(radius)) return;
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   if (answer.counts.back() != searcher.count(*answer.vertex, kUnlimited)) return;
@@ -188,13 +191,17 @@ void paint(const QueryCommand& options, Input& input, const std::vector<Answer>&
 std::vector<Answer> answers_of_method(const QueryCommand& options, const StartQuery& query, double radius,
                                       Input& input) {
   const std::string& method = options.search.method;
-  AnySearcher searcher = searcher_of(options, input);
+  AnySearcher chosen = searcher_of(options, input);
   VertexSorter sorter(options.sort, input);
   std::vector<Answer> answers;
   for (const QueryStart& start : query.starts) {
     const VertexId v = *start.vertex();
-    Answer answer = timed_answer(options, searcher, v, radius);
-    if (method == "exact" || method == "bfs") note_whole_component(searcher, radius, answer, input);
+    const auto ask = [&](auto& searcher) {
+      Answer answer = timed_answer(options, searcher, v, radius);
+      if (method == "exact" || method == "bfs") note_whole_component(searcher, radius, answer, input);
+      return answer;
+    };
+    Answer answer = std::visit(ask, chosen);
     if (options.distances || sorter.needs_distances()) {
       for (const VertexId w : answer.vertices) answer.distances.push_back(distance(input.positions(), v, w));
     }
@@ -221,7 +228,7 @@ std::vector<Answer> answers_of_starts(const QueryCommand& options, const StartQu
     answers.push_back({start.vertex(), std::move(found.counts), std::move(found.vertices), std::move(found.distances)});
   }
   if (options.start.is_plain() && options.search.is_straight()) {
-    AnySearcher searcher = searcher_of(options, input);
+    Searcher searcher(input.exact_index());
     for (const Answer& answer : answers) note_whole_component(searcher, radii.back(), answer, input);
   }
   return answers;
@@ -257,7 +264,7 @@ void query_command(const QueryCommand& options) {
   check_options(options);
   check_outputs();
   Input input(options.file, options.reading);
-  const StartQuery query(options.start, input);
+  const StartQuery query(options.start, options.search.metric, input);
   const std::vector<double> radii = ascending_radii(options, input);
   const std::vector<Answer> answers = options.start.is_plain() && options.search.is_straight() && radii.size() == 1
                                           ? answers_of_method(options, query, radii.front(), input)

@@ -83,7 +83,7 @@ void region(const RegionCommand& options) {
   check_outputs();
   Input input(options.file, options.reading);
   input.need_faces("region");
-  const StartQuery query(options.start, input);
+  const StartQuery query(options.start, "straight", input);
   const QueryStart& start = query.starts.front();
   const double radius = resolve(options.radius, input);
   const std::vector<VertexId> ids = regions_of(start, "straight", std::span(&radius, 1), input).vertices;

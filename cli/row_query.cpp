@@ -67,6 +67,7 @@ RowQuery::RowQuery(const RowOptions& options, Input& input)
       are_of_rows_(!options.row_radii.empty()),
       radii_(radii_of(options, size_, input)) {
   input.set_masks(read_masks(options.masks, input));
+  if (metric_ == Metric::Space) input.ignore_welded();
 }
 
 BatchQuery RowQuery::query(BatchRadius radius) const {

@@ -71,7 +71,7 @@ void check_start_options(const StartOptions& options, bool takes_many, const std
     raise(ErrorCode::InvalidOption, "expected either --vertex or --point");
   }
   if (!takes_many && options.vertices.size() > 1) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
-  if (!options.point.empty() && metric != "straight") {
+  if (!options.point.empty() && metric != "straight" && metric != "space") {
     raise(ErrorCode::InvalidOption,
           fmt::format("--metric {}: expected --vertex instead of --point, because a point has no edges", metric));
   }
@@ -82,8 +82,9 @@ QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(optio
   if (seeds_.empty()) seeds_.push_back(input.welding().kept(nearest(input.exact_index(), point_).vertex));
 }
 
-StartQuery::StartQuery(const StartOptions& options, Input& input) {
+StartQuery::StartQuery(const StartOptions& options, const std::string& metric, Input& input) {
   input.set_masks(read_masks(options.masks, input));
+  if (metric == "space") input.ignore_welded();
   if (!options.point.empty()) starts.emplace_back(options, input);
   for (const std::uint64_t v : options.vertices) starts.emplace_back(resolve_vertex(v, input));
 }

@@ -68,7 +68,7 @@ class QueryStart {
 /// What these options mean for an input.
 struct StartQuery {
   /// Reads the files, and sets the masks of the input. Throws as `QueryStart` and `read_masks`.
-  StartQuery(const StartOptions& options, Input& input);
+  StartQuery(const StartOptions& options, const std::string& metric, Input& input);
 
   std::vector<QueryStart> starts;  ///< that of --point, or those of the vertices
 };

@@ -6,6 +6,7 @@
 #include <random>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "measure/difference.h"
@@ -132,7 +133,7 @@ std::size_t share(std::size_t total, std::size_t i, std::size_t blocks) {
 Contestant contestant(std::string name, const SearchMethod& method) {
   const auto searcher = std::make_shared<AnySearcher>(method.make_searcher());
   return {.name = std::move(name), .neighborhood = [searcher](VertexId v, double radius, std::vector<VertexId>& out) {
-            searcher->neighborhood(v, radius, out);
+            std::visit([&](auto& one) { one.neighborhood(v, radius, out); }, *searcher);
           }};
 }
 

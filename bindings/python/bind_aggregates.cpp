@@ -95,7 +95,8 @@ void bind_aggregates(nb::module_& module) {
   nb::enum_<Metric>(module, "Metric")
       .value("straight", Metric::Straight)
       .value("path", Metric::Path)
-      .value("rings", Metric::Rings);
+      .value("rings", Metric::Rings)
+      .value("space", Metric::Space);
   nb::enum_<Nesting>(module, "Nesting").value("own", Nesting::Own).value("patch", Nesting::Patch);
   module.def("aggregate", &aggregates, nb::arg(), nb::arg("values"), nb::arg("weights").none(),
              nb::arg("vertices").none(), nb::arg("radii"), nb::arg("reduce"), nb::arg("kernel"), nb::arg("missing"),

@@ -160,10 +160,9 @@ void bind_makers(nb::module_& module) {
       nb::arg(), nb::arg(), nb::arg("offsets").none());
   module.def("hierarchy", &make_hierarchy, nb::arg(), nb::arg("levels"), nb::arg("discard"), nb::arg("fusion_growth"));
   module.def("paper", &make_paper, nb::arg(), nb::arg("radius_ratio"));
-  module.def("along_edges", [](std::shared_ptr<ExactMethod> exact) { return edge_method(std::move(exact)); });
-  module.def("rings", [](std::shared_ptr<ExactMethod> exact) { return ring_method(std::move(exact)); });
+  module.def("by_metric",
+             [](std::shared_ptr<ExactMethod> exact, Metric metric) { return metric_method(std::move(exact), metric); });
   module.def("bfs", [](std::shared_ptr<GraphData> graph) { return bfs_method(std::move(graph)); });
-  module.def("ball", [](std::shared_ptr<ExactMethod> exact) { return ball_method(std::move(exact)); });
 }
 
 }  // namespace meshhood::python

@@ -10,7 +10,7 @@
 namespace meshhood::python {
 
 Answer Method::neighborhood(VertexId v, double radius, bool distances) {
-  return with_searcher([&](AnySearcher& searcher) {
+  return with_searcher([&](auto& searcher) {
     Answer answer;
     if (distances) {
       searcher.neighborhood(v, radius, answer.ids, answer.distances);
@@ -22,7 +22,7 @@ Answer Method::neighborhood(VertexId v, double radius, bool distances) {
 }
 
 std::size_t Method::count(VertexId v, double radius) {
-  return with_searcher([&](AnySearcher& searcher) { return searcher.count(v, radius); });
+  return with_searcher([&](auto& searcher) { return searcher.count(v, radius); });
 }
 
 std::vector<std::uint64_t> Method::neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
@@ -44,24 +44,14 @@ std::shared_ptr<Method> paper_method(std::shared_ptr<const paper::Index> hierarc
   return std::make_shared<Method>(SearchMethod(index, options), std::move(hierarchy));
 }
 
-std::shared_ptr<Method> edge_method(std::shared_ptr<const ExactMethod> exact) {
+std::shared_ptr<Method> metric_method(std::shared_ptr<const ExactMethod> exact, Metric metric) {
   const Index& index = exact->index();
-  return std::make_shared<Method>(SearchMethod(index).by(Metric::Path), std::move(exact));
-}
-
-std::shared_ptr<Method> ring_method(std::shared_ptr<const ExactMethod> exact) {
-  const Index& index = exact->index();
-  return std::make_shared<Method>(SearchMethod(index).by(Metric::Rings), std::move(exact));
+  return std::make_shared<Method>(SearchMethod(index).by(metric), std::move(exact));
 }
 
 std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph) {
   const GraphView view = graph->view();
   return std::make_shared<Method>(without_lock([&] { return SearchMethod::breadth_first(view); }), std::move(graph));
-}
-
-std::shared_ptr<Method> ball_method(std::shared_ptr<const ExactMethod> exact) {
-  const Index& index = exact->index();
-  return std::make_shared<Method>(SearchMethod::in_space(index), std::move(exact));
 }
 
 }  // namespace meshhood::python

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "meshhood/adjacency.h"
@@ -43,7 +44,8 @@ class Method {
  private:
   template <class F>
   auto with_searcher(F&& f) {
-    return searchers_.with([this] { return method_.make_searcher(); }, std::forward<F>(f));
+    return searchers_.with([this] { return method_.make_searcher(); },
+                           [&](AnySearcher& searcher) { return std::visit(f, searcher); });
   }
 
   std::shared_ptr<const void> owner_;
@@ -68,16 +70,10 @@ class ExactMethod : public Method {
 [[nodiscard]] std::shared_ptr<Method> paper_method(std::shared_ptr<const paper::Index> hierarchy,
                                                    const paper::QueryOptions& options);
 
-/// The vertices within the radius along the edges, with path distances.
-[[nodiscard]] std::shared_ptr<Method> edge_method(std::shared_ptr<const ExactMethod> exact);
-
-/// The vertices within a number of edges.
-[[nodiscard]] std::shared_ptr<Method> ring_method(std::shared_ptr<const ExactMethod> exact);
+/// The neighborhood by another metric.
+[[nodiscard]] std::shared_ptr<Method> metric_method(std::shared_ptr<const ExactMethod> exact, Metric metric);
 
 /// Breadth-first search.
 [[nodiscard]] std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph);
-
-/// Every vertex within the radius in space, by the tree of the index.
-[[nodiscard]] std::shared_ptr<Method> ball_method(std::shared_ptr<const ExactMethod> exact);
 
 }  // namespace meshhood::python

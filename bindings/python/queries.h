@@ -33,7 +33,8 @@ class Queries {
 
  private:
   std::shared_ptr<const ExactMethod> exact_;
-  std::array<Pool<Searcher>, 3> searchers_;  // by metric
+  // By metric, of which `Space` is the last.
+  std::array<Pool<Searcher>, static_cast<std::size_t>(Metric::Space) + 1> searchers_;
 };
 
 }  // namespace meshhood::python

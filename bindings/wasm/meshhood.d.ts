@@ -153,8 +153,8 @@ export function weld(positions: Float32Array | Float64Array, corners: Indices, o
 
 /**
  * `exact`: the exact neighborhood, by the index. `paper`: the approximate neighborhood of the paper, a superset of
- * `exact` and a subset of `ball`. `bfs`: the exact neighborhood by breadth-first search, for comparison. `ball`: every
- * vertex within the radius in space, connected or not. What a method other than `exact` needs is made at its first use.
+ * `exact` and a subset of `ball`. `bfs`: the exact neighborhood by breadth-first search, for comparison. `ball`:
+ * another word for metric `space`. What a method other than `exact` needs is made at its first use.
  */
 export type Method = 'exact' | 'paper' | 'bfs' | 'ball';
 
@@ -163,9 +163,10 @@ export type Unit = 'mesh' | 'edge';
 
 /**
  * Of a radius and of distances. `straight`: in a straight line. `path`: lengths of the shortest paths along edges; the
- * vertices of one neighborhood then ascend by them. `rings`: numbers of edges. The last two need method `exact`.
+ * vertices of one neighborhood then ascend by them. `rings`: numbers of edges. `space`: in a straight line, to every
+ * vertex, connected or not; calls about what is connected refuse it. All but `straight` need method `exact`.
  */
-export type Metric = 'straight' | 'path' | 'rings';
+export type Metric = 'straight' | 'path' | 'rings' | 'space';
 
 export interface QueryOptions {
   method?: Method;
@@ -174,7 +175,7 @@ export interface QueryOptions {
 }
 
 /**
- * Restricts searches; needs method `exact`. A mask has #V bytes; one other than 0 puts its vertex into the set. The index
+ * Restricts searches; needs method `exact` or `ball`. A mask has #V bytes; one other than 0 puts its vertex into the set. The index
  * of the last masks is kept: new ones take O(#V), the same are compared.
  */
 export interface Masks {
@@ -210,7 +211,7 @@ export interface Rows {
 /** A vertex, or a point in space, which is then the center of the ball. */
 export type Start = number | readonly [number, number, number] | Float32Array | Float64Array;
 
-/** Where a search starts, and what it may pass. A metric other than `straight` needs a vertex as start. */
+/** Where a search starts, and what it may pass. The metrics `path` and `rings` need a vertex as start. */
 export interface StartOptions extends Masks {
   metric?: Metric;
   /**

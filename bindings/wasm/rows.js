@@ -9,7 +9,7 @@ export const ROWS = { vertices: null, metric: 'straight', ...MASKS, unit: 'mesh'
 export const SCALED_ROWS = { ...ROWS, scales: null };
 
 // The places are those of meshhood::Metric.
-export const METRICS = ['straight', 'path', 'rings'];
+export const METRICS = ['straight', 'path', 'rings', 'space'];
 
 /** `r` is a radius, or one for each row; or null, with `scales` for all rows. `unit` is a factor. */
 function readRadius(r, scales, unit) {

@@ -51,7 +51,7 @@ enum class MissingValues : std::uint8_t {
               ///< and its count 0
 };
 
-/// The meaning of several radii. Both are the same with `Metric::Path`.
+/// The meaning of several radii. Both are the same with `Metric::Path` and `Metric::Space`.
 enum class Nesting : std::uint8_t {
   Own,    ///< each radius has a neighborhood of its own
   Patch,  ///< the neighborhood of the largest radius, and of it the vertices within each smaller radius, whether
@@ -133,12 +133,13 @@ struct AggregateQuery {
 /// channels may sum in another way than one of fewer, or one with values above 2^300, so that the last bits differ.
 ///
 /// With `Metric::Path`, each row takes the time of a search of a `Searcher` at the largest radius, and the first call
-/// for an index computes the lengths of its edges. Else the neighborhoods of one leaf are found together, and vertices
-/// that they have in common are read once for all of them, most of them as precomputed sums, but one by one for a
-/// Gaussian. Memory: for up to 16 channels at a time 9 bytes for each vertex and channel, and as much for the weights;
-/// with a kernel 14 bytes instead; with a Gaussian 8, for up to 32 channels at a time; twice as much for a channel with
-/// values above 2^300. Added are the time of `counts`, 8 to 16 bytes a row of at most 2^22 rows at a time, and for each
-/// thread a searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).
+/// for an index computes the lengths of its edges. In space, each row is searched alone. Else the neighborhoods of one
+/// leaf are found together, and vertices that they have in common are read once for all of them, most of them as
+/// precomputed sums, but one by one for a Gaussian. Memory: for up to 16 channels at a time 9 bytes for each vertex and
+/// channel, and as much for the weights; with a kernel 14 bytes instead; with a Gaussian 8, for up to 32 channels at a
+/// time; twice as much for a channel with values above 2^300. Added are the time of `counts`, 8 to 16 bytes a row of at
+/// most 2^22 rows at a time, and for each thread a searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry
+/// of a group (docs/joint.md).
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming row, radius or vertex. The
 /// contents of `result` are then unspecified.

@@ -10,6 +10,7 @@
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "meshhood/adjacency.h"
@@ -18,6 +19,7 @@
 #include "meshhood/mesh.h"
 #include "meshhood/metric.h"
 #include "meshhood/paper.h"
+#include "meshhood/reference.h"
 #include "meshhood/run.h"
 #include "meshhood/search.h"
 
@@ -27,6 +29,9 @@
 namespace meshhood MESHHOOD_API {
 
 struct SearcherFactory;
+
+/// The searcher of a `SearchMethod`, which `std::visit` gives to a callable.
+using AnySearcher = std::variant<Searcher, paper::Searcher, ReferenceSearcher, BallSearcher>;
 
 /// A way to find neighborhoods, chosen at run time: makes searchers for single queries, and is the first argument of a
 /// batch. Converts from either index. Borrows its arguments, which must outlive it and its searchers. A copy is cheap.
@@ -55,13 +60,8 @@ class SearchMethod {
   /// method is not the exact one of an `Index`, unless `metric` is `Straight`.
   [[nodiscard]] SearchMethod by(Metric metric) const;
 
-  /// The vertices within the radius in space, connected or not, by the tree of the index. Ids are in index order.
-  /// Throws Error{InvalidOption} if the index has masks.
-  [[nodiscard]] static SearchMethod in_space(const Index& index);
-  static SearchMethod in_space(const Index&&) = delete;
-
-  /// The same without an index, by a scan of all vertices for each query (see `BallSearcher`). The coordinates must be
-  /// valid.
+  /// The vertices in space without an index, by a scan of all vertices for each query (see `BallSearcher`). The
+  /// coordinates must be valid.
   [[nodiscard]] static SearchMethod ball_scan(const PositionsView& positions);
 
   /// #V.
@@ -74,7 +74,7 @@ class SearchMethod {
   [[nodiscard]] const SearcherFactory& searchers() const { return *searchers_; }
 
  private:
-  explicit SearchMethod(std::shared_ptr<const SearcherFactory> searchers);
+  explicit SearchMethod(SearcherFactory&& searchers);
 
   std::shared_ptr<const SearcherFactory> searchers_;
 };
@@ -209,12 +209,11 @@ void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, 
                            const BatchOptions& options = {}, const Run& run = {});
 
 /// Returns all rows. With an index they are counted first, so that memory is allocated once and exactly. What is found
-/// of exact neighborhoods and rings is kept meanwhile, so that their rows are searched once. It takes about as much
-/// memory as the ids at most, and is dropped if `max_bytes` is less than it and the result together.
-/// Rows of paths, in space and of `paper::Index` are searched twice. Without an index each row is searched once, and
-/// the result is held twice.
-/// Throws as `for_each_neighborhood`, and Error{TooLarge} if ids and distances exceed `run.max_bytes`: at once if a
-/// sample of the rows shows that they will not fit, else soon after the rows counted so far exceed the limit.
+/// of straight neighborhoods, in space and of rings is kept meanwhile, so that these rows are searched once. It takes
+/// about as much memory as the ids at most, and is dropped if `max_bytes` is less than it and the result together. Rows
+/// of paths and of `paper::Index` are searched twice. Without an index each row is searched once, and the result is
+/// held twice. Throws as `for_each_neighborhood`, and Error{TooLarge} if ids and distances exceed `run.max_bytes`: at
+/// once if a sample of the rows shows that they will not fit, else soon after the rows counted so far exceed the limit.
 [[nodiscard]] Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query,
                                           const BatchOptions& options = {}, const Run& run = {});
 

@@ -20,7 +20,7 @@ namespace meshhood MESHHOOD_API {
 struct NearestOptions {
   /// By what vertices are near. Straight: the connecting radius, as for `Searcher::nearest_connected`; then the
   /// distance, then the id. Path: the path distance; rings: the number of edges; each then by
-  /// the place in index order.
+  /// the place in index order. Not `Space`, in which nothing is connected.
   Metric metric = Metric::Straight;
 
   /// Only vertices of this connecting radius, path distance or number of edges, or less. >= 0 or infinite.

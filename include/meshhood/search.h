@@ -4,7 +4,6 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -79,10 +78,11 @@ struct Dab {
 ///   so the search finds the least sum to the last bit, as does the algorithm of Dijkstra (1959). An index of
 ///   `surface_paths` also has lines over pairs of triangles.
 /// - `Metric::Rings`: the vertices that at most `radius` edges, rounded down, separate from the vertex.
+/// - `Metric::Space`: the vertices within the radius of the center, connected or not. Seeds do not count.
 ///
 /// Walls of a masked index are not in its mesh; ignored vertices are passed, but belong to no answer.
 ///
-/// start   a vertex in [0, #V); or, straight, a point.
+/// start   a vertex in [0, #V); or, straight and in space, a point.
 /// radius  >= 0 or infinite, in the unit of the positions, or a number of edges; a vertex at exactly `radius` is
 /// inside.
 ///
@@ -93,8 +93,8 @@ struct Dab {
 /// The cost of a ball around a vertex grows with the number of leaves that its surface intersects, not with the size of
 /// the result or the mesh; on folded surfaces, and from a point, with the number of leaves of the result. Paths take
 /// O(n log n) for a result of n vertices, and the first search of an index O(#V + #E): the index keeps the lengths of
-/// all edges for all searchers (80 bytes a vertex with six edges). Rings take O(n). Nothing is allocated once the
-/// buffers have grown.
+/// all edges for all searchers (80 bytes a vertex with six edges). Rings take O(n), space a time that grows with the
+/// leaves at the surface of the ball. Nothing is allocated once the buffers have grown.
 ///
 /// Use one object per thread: it owns scratch memory, 23 to 30 bytes per leaf for balls around vertices, 64 for all
 /// else of the straight metric; 8 bytes a vertex for paths. Each part is made when it is first needed. It shares the
@@ -106,7 +106,8 @@ struct Dab {
 /// does not count. The query that makes it takes O(#V + #E).
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed, the coordinate or the dab; arguments
-/// are then unchanged. A point as a start by paths or rings is an InvalidOption, because a point has no edges.
+/// are then unchanged. A point as a start by paths or rings is an InvalidOption, because a point has no edges; so is
+/// `nearest_connected` in space, where nothing is connected.
 class Searcher {
  public:
   explicit Searcher(const Index& index, Metric metric = Metric::Straight);
@@ -146,8 +147,8 @@ class Searcher {
   /// The number of vertices of the neighborhood.
   [[nodiscard]] std::size_t count(const Start& start, double radius);
 
-  /// Whether a seed lies in the ball, as a vertex that is the start always does. If none does, the center is too far
-  /// from the mesh, and the neighborhood is empty. O(#seeds).
+  /// Whether a seed lies in the ball, as a vertex that is the start always does; in space, which needs none, true. If
+  /// none does, the center is too far from the mesh, and the neighborhood is empty. O(#seeds).
   [[nodiscard]] bool has_seed(const Start& start, double radius) const;
 
   /// The neighborhoods of one start for several radii, each vertex once. About as fast as the neighborhoods one by one
@@ -166,7 +167,7 @@ class Searcher {
 
   /// The smallest radius whose neighborhood has vertex `w`; infinite if there is none. Straight, it is the minimum,
   /// over all paths from a seed to `w`, of the largest distance between a vertex of the path and the center (a
-  /// bottleneck shortest path); else the path distance, or the number of edges.
+  /// bottleneck shortest path); else the path distance, the number of edges, or the distance in space.
   ///
   /// Costs about as much as the neighborhood of the result.
   [[nodiscard]] double connecting_radius(const Start& start, VertexId w);
@@ -191,80 +192,6 @@ class Searcher {
 
   Metric metric_;  // also of one that has been moved from, which can be bound again
   detail::Owner<SingleQueries> queries_;
-};
-
-/// A searcher of any type, for a choice at run time: its answers, order and errors are those of the searcher that it is
-/// made from. `SearchMethod::make_searcher` makes one for each method.
-class AnySearcher {
- public:
-  template <NeighborhoodSearcher S>
-  explicit AnySearcher(S searcher)
-      : searcher_(std::shared_ptr<Concept>(std::make_shared<Model<S>>(std::move(searcher)))) {}
-
-  /// #V.
-  [[nodiscard]] std::size_t vertex_count() const { return searcher_->vertex_count(); }
-
-  /// That of the searcher.
-  [[nodiscard]] std::span<const VertexId> permutation() const& { return searcher_->permutation(); }
-  [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
-
-  /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
-  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
-    std::vector<VertexId> out;
-    neighborhood(v, radius, out);
-    return out;
-  }
-
-  /// out     replaced, its capacity reused: ids without duplicates, `v` included.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out) { searcher_->find(v, radius, out, nullptr); }
-
-  /// Also returns the distance of each vertex from `v`, in the order of the ids.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
-    searcher_->find(v, radius, out, &distances);
-  }
-
-  /// The neighborhood as ranges of the searcher's order; valid until the next call. See `visit` and `reduce`.
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) & {
-    return searcher_->ranges(v, radius);
-  }
-
-  /// The number of vertices of the neighborhood.
-  [[nodiscard]] std::size_t count(VertexId v, double radius) { return searcher_->count(v, radius); }
-
- private:
-  struct Concept {
-    Concept() = default;
-    Concept(const Concept&) = delete;
-    Concept& operator=(const Concept&) = delete;
-    virtual ~Concept() = default;
-
-    [[nodiscard]] virtual std::size_t vertex_count() const = 0;
-    [[nodiscard]] virtual std::span<const VertexId> permutation() const = 0;
-    virtual void find(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>* distances) = 0;
-    virtual std::span<const VertexRange> ranges(VertexId v, double radius) = 0;
-    virtual std::size_t count(VertexId v, double radius) = 0;
-  };
-
-  template <class S>
-  struct Model final : Concept {
-    S searcher;
-
-    explicit Model(S from) : searcher(std::move(from)) {}
-
-    [[nodiscard]] std::size_t vertex_count() const override { return searcher.vertex_count(); }
-    [[nodiscard]] std::span<const VertexId> permutation() const override { return searcher.permutation(); }
-    void find(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>* distances) override {
-      if (distances == nullptr) {
-        searcher.neighborhood(v, radius, out);
-      } else {
-        searcher.neighborhood(v, radius, out, *distances);
-      }
-    }
-    std::span<const VertexRange> ranges(VertexId v, double radius) override { return searcher.ranges(v, radius); }
-    std::size_t count(VertexId v, double radius) override { return searcher.count(v, radius); }
-  };
-
-  detail::Owner<Concept> searcher_;
 };
 
 /// Calls `on_run(VertexRange)` for each range of the neighborhood, in the order of `ranges`: with a `Searcher`

@@ -28,7 +28,7 @@ struct Unconnected {
 /// query    as for a batch: one radius for all rows, or one for each row. By paths, the neighborhood has the vertices
 ///          within `r` along the edges, and the ball is that of radius `r` in space. A number of edges is no radius in
 ///          space: by rings, the nearest of all other vertices is found. Walls and ignored vertices are never the
-///          nearest, and for a wall there is none.
+///          nearest, and for a wall there is none. Not by `Metric::Space`, in which nothing is connected.
 ///
 /// The neighborhoods are found as by `counts`; what the tree of the index has in the balls besides them is searched,
 /// the nearest first. So far away from any gap, all leaves that the surface of a ball meets are compared with it. Where

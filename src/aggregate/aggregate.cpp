@@ -28,6 +28,7 @@
 #include "batch/packets.h"
 #include "batch/rows.h"
 #include "exact/index_access.h"
+#include "exact/query/arguments.h"
 #include "shared/distance.h"
 #include "shared/text.h"
 
@@ -137,7 +138,7 @@ std::unique_ptr<Reduction> make_reduction(const IndexView& index, const NodeTree
     case Reduce::Count: break;
   }
   SumColumns columns(std::move(block), query.reduce);
-  if (query.metric != Metric::Straight && query.kernel != SmoothingKernel::Box) {
+  if (is_along_edges(query.metric) && query.kernel != SmoothingKernel::Box) {
     return std::make_unique<LengthReduction>(index, kernels, std::move(columns), query.kernel);
   }
   switch (query.kernel) {
@@ -276,7 +277,7 @@ class Aggregation {
 
   /// For weights, and to cut scales.
   [[nodiscard]] bool needs_lengths() const {
-    return query_.metric != Metric::Straight && (query_.kernel != SmoothingKernel::Box || shares_search());
+    return is_along_edges(query_.metric) && (query_.kernel != SmoothingKernel::Box || shares_search());
   }
 
   /// `blocks`: how many blocks of channels it reduces.

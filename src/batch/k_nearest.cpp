@@ -43,6 +43,7 @@ class NearestRows {
  public:
   NearestRows(const Index& index, const BatchVertices& vertices, const NearestOptions& options, const Run& run)
       : index_(index), options_(options), run_(run) {
+    check_connects(options.metric);
     check_radius(options.radius);
     const std::size_t count = vertices.count(index.vertex_count());
     vertices_.reserve(count);

@@ -18,7 +18,6 @@
 #include "batch/searcher_factory.h"
 #include "batch/straight_rows.h"
 #include "exact/index_access.h"
-#include "exact/query/space_search.h"
 #include "exact/search/vertex_bfs.h"
 #include "paper/hierarchy.h"
 
@@ -29,8 +28,6 @@ static_assert(NeighborhoodSearcher<Searcher>);
 static_assert(NeighborhoodSearcher<paper::Searcher>);
 static_assert(NeighborhoodSearcher<ReferenceSearcher>);
 static_assert(NeighborhoodSearcher<BallSearcher>);
-static_assert(NeighborhoodSearcher<SpaceSearcher>);
-static_assert(NeighborhoodSearcher<AnySearcher>);
 
 /// Answers rows one by one, by a searcher of any order.
 class SingleRows final : public RowSearch {
@@ -45,7 +42,7 @@ class SingleRows final : public RowSearch {
   }
 
   [[nodiscard]] const PerLane<std::uint64_t>& counts() override {
-    counts_[0] = searcher_.count(item_.vertex, item_.radius);
+    counts_[0] = std::visit([&](auto& searcher) { return searcher.count(item_.vertex, item_.radius); }, searcher_);
     return counts_;
   }
 
@@ -59,11 +56,11 @@ class SingleRows final : public RowSearch {
 
   bool write(std::span<const BatchItem> /*items*/, const RowAnswers& /*answers*/, bool distances,
              RowReceiver& receiver) override {
-    if (distances) {
-      searcher_.neighborhood(item_.vertex, item_.radius, ids_, distances_);
-    } else {
-      searcher_.neighborhood(item_.vertex, item_.radius, ids_);
-    }
+    const auto find = [&](auto& searcher) {
+      if (distances) return searcher.neighborhood(item_.vertex, item_.radius, ids_, distances_);
+      searcher.neighborhood(item_.vertex, item_.radius, ids_);
+    };
+    std::visit(find, searcher_);
     const BatchMemory memory = receiver.memory(item_.row, ids_.size());
     std::copy(ids_.begin(), ids_.end(), memory.ids.begin());
     if (distances) std::copy(distances_.begin(), distances_.end(), memory.distances.begin());
@@ -78,41 +75,30 @@ class SingleRows final : public RowSearch {
   std::vector<double> distances_;
 };
 
-std::shared_ptr<const SearcherFactory> shared(SearcherFactory factory) {
-  return std::make_shared<const SearcherFactory>(std::move(factory));
-}
-
 std::uint32_t position_in_paper_index(const paper::Index& index, VertexId v) {
   return std::visit([v](const auto& hierarchy) { return static_cast<std::uint32_t>(hierarchy.lowest_cluster[v]); },
                     paper::IndexAccess::hierarchy(index));
-}
-
-/// What the metrics have in common. The index must outlive all that use it.
-SearcherFactory factory_of(const Index& index) {
-  return {.vertex_count = index.vertex_count(),
-          .make_searcher = {},
-          .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; },
-          .of_slots = &index,
-          .is_count_cheap = true,
-          .positions_together = kLeafCapacity};
 }
 
 std::unique_ptr<RowSearch> make_rows(const Index& index, Metric metric) {
   switch (metric) {
     case Metric::Path: return std::make_unique<PathRows>(index);
     case Metric::Rings: return std::make_unique<RingRows>(index);
-    case Metric::Straight: break;
+    case Metric::Straight:
+    case Metric::Space: break;
   }
-  return std::make_unique<StraightRows>(index);
+  return std::make_unique<StraightRows>(index, metric);
 }
 
+/// The index must outlive all that use it.
 SearcherFactory exact_factory(const Index& index, Metric metric) {
-  SearcherFactory factory = factory_of(index);
-  factory.has_metrics = true;
-  factory.make_searcher = [&index, metric] { return AnySearcher(Searcher(index, metric)); };
-  if (metric == Metric::Straight) factory.positions_together = StraightRows::kGroupPositions;
-  factory.make_joint_search = [&index, metric] { return make_rows(index, metric); };
-  return factory;
+  return {.vertex_count = index.vertex_count(),
+          .make_searcher = [&index, metric] { return Searcher(index, metric); },
+          .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; },
+          .of_slots = &index,
+          .is_count_cheap = true,
+          .positions_together = metric == Metric::Straight ? StraightRows::kGroupPositions : kLeafCapacity,
+          .make_joint_search = [&index, metric] { return make_rows(index, metric); }};
 }
 
 constexpr auto kOwnOrder = [](VertexId v) { return std::uint32_t{v}; };
@@ -124,48 +110,38 @@ std::unique_ptr<BatchWorker> SearcherFactory::make_worker() const {
                                                          : std::make_unique<SingleRows>(make_searcher()));
 }
 
-SearchMethod::SearchMethod(std::shared_ptr<const SearcherFactory> searchers) : searchers_(std::move(searchers)) {}
+SearchMethod::SearchMethod(SearcherFactory&& searchers)
+    : searchers_(std::make_shared<const SearcherFactory>(std::move(searchers))) {}
 
-SearchMethod::SearchMethod(const Index& index) : SearchMethod(shared(exact_factory(index, Metric::Straight))) {}
+SearchMethod::SearchMethod(const Index& index) : SearchMethod(exact_factory(index, Metric::Straight)) {}
 
 SearchMethod::SearchMethod(const paper::Index& index, const paper::QueryOptions& options)
-    : SearchMethod(shared({.vertex_count = index.vertex_count(),
-                           .make_searcher = [&index, options] { return AnySearcher(paper::Searcher(index, options)); },
-                           .position = [&index](VertexId v) { return position_in_paper_index(index, v); },
-                           .is_count_cheap = true})) {
+    : SearchMethod(SearcherFactory{.vertex_count = index.vertex_count(),
+                                   .make_searcher = [&index, options] { return paper::Searcher(index, options); },
+                                   .position = [&index](VertexId v) { return position_in_paper_index(index, v); },
+                                   .is_count_cheap = true}) {
   paper::validate(options);
 }
 
 SearchMethod SearchMethod::breadth_first(const GraphView& graph) {
   validate(graph);
-  return SearchMethod(shared({.vertex_count = graph.positions.size(),
-                              .make_searcher = [graph] { return AnySearcher(ReferenceSearcher(graph)); },
-                              .position = kOwnOrder}));
+  return SearchMethod(SearcherFactory{.vertex_count = graph.positions.size(),
+                                      .make_searcher = [graph] { return ReferenceSearcher(graph); },
+                                      .position = kOwnOrder});
 }
 
 SearchMethod SearchMethod::by(Metric metric) const {
-  if (!searchers_->has_metrics) {
+  if (searchers_->of_slots == nullptr) {
     if (metric == Metric::Straight) return *this;
     raise(ErrorCode::InvalidOption, "metric: expected Straight, because the method is not the exact one of an Index");
   }
-  return SearchMethod(shared(exact_factory(*searchers_->of_slots, metric)));
-}
-
-SearchMethod SearchMethod::in_space(const Index& index) {
-  const IndexView& view = IndexAccess::view(index);
-  if (!view.walls.empty() || !view.ignored.empty()) {
-    raise(ErrorCode::InvalidOption, "the ball in space has no masks, expected an index without");
-  }
-  SearcherFactory factory = factory_of(index);
-  factory.make_searcher = [&index] { return AnySearcher(SpaceSearcher(index)); };
-  factory.positions_together = 1;
-  return SearchMethod(shared(std::move(factory)));
+  return SearchMethod(exact_factory(*searchers_->of_slots, metric));
 }
 
 SearchMethod SearchMethod::ball_scan(const PositionsView& positions) {
-  return SearchMethod(shared({.vertex_count = positions.size(),
-                              .make_searcher = [positions] { return AnySearcher(BallSearcher(positions)); },
-                              .position = kOwnOrder}));
+  return SearchMethod(SearcherFactory{.vertex_count = positions.size(),
+                                      .make_searcher = [positions] { return BallSearcher(positions); },
+                                      .position = kOwnOrder});
 }
 
 std::size_t SearchMethod::vertex_count() const { return searchers_->vertex_count; }

@@ -24,11 +24,8 @@ struct SearcherFactory {
   /// Ascends with the order in which vertices are best searched: near vertices have near positions.
   std::function<std::uint32_t(VertexId v)> position;
 
-  /// The index whose slots the positions are; null if they are others. Lives as long as the functions.
+  /// The index whose slots the positions are, of a method that has metrics; else null. Lives as long as the functions.
   const Index* of_slots = nullptr;
-
-  /// Whether the method is the exact one of the index, by any metric.
-  bool has_metrics = false;
 
   /// Counting takes much less time than listing. If not, rows to be kept are searched once, and copied.
   bool is_count_cheap = false;

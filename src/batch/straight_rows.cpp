@@ -22,16 +22,17 @@ LeafId group_of(const RowRun& run) { return leaf_of_run(run) / kFanOut; }
 
 }  // namespace
 
-StraightRows::StraightRows(const Index& index, Isa isa)
+StraightRows::StraightRows(const Index& index, Metric metric, Isa isa)
     : index_(index),
       view_(IndexAccess::view(index)),
+      metric_(metric),
       isa_(isa),
-      unlike_a_surface_(is_unlike_a_surface(view_)),
+      is_single_(metric == Metric::Space || is_unlike_a_surface(view_)),
       radius_(view_.frame, 0),
       writer_(view_, isa) {}
 
 bool StraightRows::pays(std::span<const BatchItem> items, bool /*distances*/) const {
-  if (unlike_a_surface_) return false;  // few vertices of a leaf have the same neighbors
+  if (is_single_) return false;
   const BatchItem& first = items.front();
   const bool is_large = first.radius > kLargeRadius * view_.tree.front().mean_radius / view_.frame.scale;
   // If all vertices of a small leaf are queried, then mostly all vertices of its group are.
@@ -48,10 +49,20 @@ bool StraightRows::run(std::span<const RowRun> runs) {
     for (const BatchItem& item : items) queries_.push_back({lane_of(item.position), prepared(item.radius)});
     joint_->run(leaf_of_run(runs.front()), queries_);
   } else {
-    if (!single_) single_.emplace(BoundIndex(index_), IndexAccess::share_graph(index_), best_isa());
-    single_->search(items.front().vertex, items.front().radius);
+    found_ = &search(items.front().vertex, items.front().radius);
   }
   return true;
+}
+
+VertexSet& StraightRows::search(VertexId v, double radius) {
+  if (metric_ == Metric::Space) {
+    if (!space_) space_.emplace(view_, kernels(isa_));
+    space_->search(v, radius);
+    return space_->answer;
+  }
+  if (!single_) single_.emplace(BoundIndex(index_), IndexAccess::share_graph(index_), best_isa());
+  single_->search(v, radius);
+  return single_->answer;
 }
 
 /// With the first run. The radii of its rows belong to the group.
@@ -81,14 +92,14 @@ const JointRadius& StraightRows::prepared(double radius) {
 
 const PerLane<std::uint64_t>& StraightRows::counts() {
   if (is_joint_) return joint_->counts();
-  counts_[0] = single_->answer.count();
+  counts_[0] = found_->count();
   return counts_;
 }
 
 std::span<const Piece> StraightRows::pieces() {
   if (is_joint_) return joint_->pieces();
-  if (single_->way == StraightSearch::Way::VertexBfs) single_->answer.align_to_leaves();
-  return pieces_of(single_->answer);
+  if (single_ && single_->way == StraightSearch::Way::VertexBfs) found_->align_to_leaves();
+  return pieces_of(*found_);
 }
 
 std::span<const Piece> StraightRows::pieces_of(VertexSet& found) {

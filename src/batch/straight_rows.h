@@ -9,19 +9,20 @@
 #include "exact/joint/joint_search.h"
 #include "exact/joint/row_writer.h"
 #include "exact/layout.h"
+#include "exact/query/space_search.h"
 #include "exact/search/straight_search.h"
 #include "exact/vertex_set.h"
 
 namespace meshhood {
 
-/// The exact neighborhoods of a batch: the joint search for many rows of a leaf, and a single search for others. The
-/// index must outlive it.
+/// The rows of straight lines. Neighborhoods: the joint search for many rows of a leaf, and a single search for others.
+/// In space, each row alone. The index must outlive it.
 class StraightRows final : public RowSearch {
  public:
   /// The positions of a group: rows that lie between two multiples of it should come in one chunk.
   static constexpr std::uint32_t kGroupPositions = kFanOut * kLeafCapacity;
 
-  explicit StraightRows(const Index& index, Isa isa = best_isa());
+  explicit StraightRows(const Index& index, Metric metric = Metric::Straight, Isa isa = best_isa());
 
   void begin_chunk() override { leaves_.clear(); }
   [[nodiscard]] bool pays(std::span<const BatchItem> items, bool distances) const override;
@@ -35,20 +36,24 @@ class StraightRows final : public RowSearch {
 
  private:
   void begin_group(std::span<const RowRun> runs);
+  [[nodiscard]] VertexSet& search(VertexId v, double radius);
   [[nodiscard]] const JointRadius& prepared(double radius);
   [[nodiscard]] std::span<const Piece> pieces_of(VertexSet& found);
 
   const Index& index_;
   const IndexView& view_;
+  Metric metric_;
   Isa isa_;
-  bool unlike_a_surface_;
+  bool is_single_;  // each row is answered alone: unlike on a surface, few vertices of a leaf have the same neighbors
   JointRadius radius_;  // of the last row, because most batches have one radius
   RowWriter writer_;
   // Made by the first run that needs them:
   std::optional<StraightSearch> single_;
+  std::optional<SpaceSearch> space_;
   std::optional<JointSearch> joint_;
   // Of the last run:
   bool is_joint_ = false;
+  VertexSet* found_ = nullptr;  // of a single row
   std::vector<LeafId> leaves_;  // of its group; none at the begin of a chunk
   std::vector<JointQuery> queries_;
   PerLane<std::uint64_t> counts_{};

@@ -18,6 +18,7 @@
 #include "batch/packets.h"
 #include "exact/index_access.h"
 #include "exact/query/any_center.h"
+#include "exact/query/arguments.h"
 #include "exact/query/nearest_first.h"
 #include "shared/distance.h"
 #include "simd/ball.h"
@@ -198,6 +199,7 @@ class UnconnectedSearch {
 }  // namespace
 
 Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const Run& run) {
+  check_connects(query.metric);
   const std::size_t rows = query.vertices.count(index.vertex_count());
   Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kNoGap)};
   const IndexView& view = IndexAccess::view(index);

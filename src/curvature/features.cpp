@@ -146,7 +146,7 @@ class FeatureExtraction {
   void check_patches() const {
     if (!needs(Source::Invariants) && !needs(Source::Gaps)) return;
     const std::string kinds = "area, volume and gap are of the surface in a ball: ";
-    if (metric_ != Metric::Straight) raise(ErrorCode::InvalidOption, kinds + "expected the distance in space");
+    if (metric_ != Metric::Straight) raise(ErrorCode::InvalidOption, kinds + "expected the straight metric");
     if (!has_faces()) raise(ErrorCode::InvalidOption, kinds + "expected a surface with faces");
   }
 

@@ -77,17 +77,21 @@ void VertexSet::align_to_leaves() {
   add_lanes(leaf, last.lanes);
 }
 
-void VertexSet::leave_out(std::span<const LaneMask> by_leaf) {
-  sorted_.clear();
+void VertexSet::collect(std::vector<LeafSubset>& found) const {
   for (const Part& part : parts()) {
     LeafId leaf = leaf_of(index_->slot_at(part.begin));
     for (; leaf + 1 < index_->leaf_begin.size() && index_->leaf_begin[leaf] < part.end; ++leaf) {
       const auto all = first_lanes(static_cast<unsigned>(vertices_of(leaf).size()));
-      sorted_.push_back({leaf, (part.is_run() ? all : part.lanes) & ~by_leaf[leaf]});
+      found.push_back({leaf, part.is_run() ? all : part.lanes});
     }
   }
+}
+
+void VertexSet::leave_out(std::span<const LaneMask> by_leaf) {
+  sorted_.clear();
+  collect(sorted_);
   clear();
-  for (const LeafSubset& subset : sorted_) add_lanes(subset);
+  for (const auto& [leaf, lanes] : sorted_) add_lanes({leaf, lanes & ~by_leaf[leaf]});
 }
 
 void VertexSet::assign_difference(const VertexSet& all, const VertexSet& part) {

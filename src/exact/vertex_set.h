@@ -81,7 +81,10 @@ class VertexSet {
   /// is one of a leaf. Only sets of `VertexBfs` need it.
   void align_to_leaves();
 
-  /// Takes vertices out, given by leaf. Runs have whole leaves, and subsets are of a leaf.
+  /// Adds the vertices of each leaf to `found`. Runs have whole leaves, and subsets are of a leaf.
+  void collect(std::vector<LeafSubset>& found) const;
+
+  /// Takes vertices out, given by leaf, of such a set.
   void leave_out(std::span<const LaneMask> by_leaf);
 
   /// Refills the set with the union of `subsets`, in any order, each vertex once.

@@ -52,7 +52,7 @@ void for_each_row(const PatchState& state, const Rows& rows, TaskContext& task, 
 
 void check_metric(const BatchQuery& query) {
   if (query.metric == Metric::Straight) return;
-  raise(ErrorCode::InvalidOption, "a patch by another metric, expected the distance in space");
+  raise(ErrorCode::InvalidOption, "a patch by another metric, expected the straight one");
 }
 
 }  // namespace

@@ -189,6 +189,8 @@ class AggregateCase {
       const double searched = scales && query.nesting == Nesting::Patch ? largest : radius;
       if (query.metric == Metric::Straight) {
         reference.neighborhood(v, searched, ids_, distances_);
+      } else if (query.metric == Metric::Space) {
+        BallSearcher(mesh_.positions_view()).neighborhood(v, searched, ids_, distances_);
       } else if (i == 0 || v != paths_from_) {
         find_paths(v, graph, query.metric);
       }
@@ -236,13 +238,15 @@ class AggregateCase {
   std::vector<Item> items(const SignalView& signal, std::size_t channel, VertexId v, Metric metric, const Masks& masks,
                           double radius) {
     std::vector<Item> result;
-    if (masks.walls.size() != 0 && masks.walls[v]) return result;
+    const auto is_in = [](VertexMask mask, VertexId w) { return mask.size() != 0 && mask[w]; };
+    if (is_in(masks.walls, v)) return result;
+    const bool is_straight = metric == Metric::Straight || metric == Metric::Space;
     for (std::size_t i = 0; i < ids_.size(); ++i) {
       if (distances_[i] > radius) continue;  // of a patch
-      if (masks.ignored.size() != 0 && masks.ignored[ids_[i]]) continue;
+      if (is_in(masks.ignored, ids_[i]) || is_in(masks.walls, ids_[i])) continue;
       result.push_back({signal.values[ids_[i] * signal.channels + channel],
                         signal.weights.empty() ? 1 : signal.weights[ids_[i]],
-                        metric == Metric::Straight ? exact_distance(v, ids_[i]) : distances_[i]});
+                        is_straight ? exact_distance(v, ids_[i]) : distances_[i]});
     }
     return result;
   }
@@ -284,7 +288,7 @@ TEST_P(AggregateOfFamily, EqualsTheDefinition) {
         query.radius = BatchRadius::scales({scene.radius(random), scene.radius(random)});
         const auto walls = draw_mask(random, scene.size(), random.below(2) * 8);
         const auto ignored = draw_mask(random, scene.size(), random.below(2) * 5);
-        query.metric = std::array{Metric::Straight, Metric::Path, Metric::Rings}[random.below(3)];
+        query.metric = std::array{Metric::Straight, Metric::Path, Metric::Rings, Metric::Space}[random.below(4)];
         const bool weighted = random.below(2) == 0;
         if (!weighted) query.ddof = static_cast<unsigned>(random.below(2));
         std::vector<VertexId> list;
@@ -360,7 +364,7 @@ TEST_F(Aggregate, WithARadiusForEachRowEqualsThatOfEachRadiusToTheBit) {
   const std::vector<double> choices{0, 1.5, 4, 9.5};
   std::vector<double> radii;
   for (std::size_t v = 0; v < scene.size(); ++v) radii.push_back(choices[random.below(choices.size())]);
-  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
+  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings, Metric::Space}) {
     for (const Reduce reduce : {Reduce::Mean, Reduce::Maximum, Reduce::StandardDeviation}) {
       for (const SmoothingKernel kernel : kKernels) {
         if (kernel != SmoothingKernel::Box && !may_have_kernel(reduce)) continue;

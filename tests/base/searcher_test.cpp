@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -15,7 +16,6 @@
 #include "meshhood/meshhood.h"
 #include "meshhood/search.h"
 
-#include "exact/query/space_search.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/refusal.h"
@@ -77,7 +77,7 @@ TEST_P(Searchers, AllMembersGiveTheSameAnswer) {
   paper::Searcher approximate(hierarchy);
   ReferenceSearcher reference(view);
   BallSearcher ball(view.positions);
-  SpaceSearcher space(index);
+  Searcher space(index, Metric::Space);
   Random random(3);
   for (int i = 0; i < 30; ++i) {
     const auto v = static_cast<VertexId>(random.below(mesh.size()));
@@ -102,7 +102,7 @@ TEST_P(Searchers, AllMembersGiveTheSameAnswer) {
 /// The same vertices in the same order, the same distances and ranges.
 template <NeighborhoodSearcher S>
 void expect_same(const SearchMethod& method, S direct, VertexId v, double radius) {
-  AnySearcher chosen = method.make_searcher();
+  auto chosen = std::get<S>(method.make_searcher());
   EXPECT_EQ(chosen.vertex_count(), method.vertex_count());
   EXPECT_TRUE(std::ranges::equal(chosen.permutation(), direct.permutation()));
   std::vector<VertexId> ids;
@@ -139,7 +139,7 @@ TEST_P(Searchers, OfAMethodGiveTheAnswersOfTheSearcherThatItNames) {
     expect_same(SearchMethod::breadth_first(graph), ReferenceSearcher(graph), v, radius);
     expect_same(SearchMethod(index).by(Metric::Path), Searcher(index, Metric::Path), v, radius);
     expect_same(SearchMethod::ball_scan(graph.positions), BallSearcher(graph.positions), v, radius);
-    expect_same(SearchMethod::in_space(index), SpaceSearcher(index), v, radius);
+    expect_same(SearchMethod(index).by(Metric::Space), Searcher(index, Metric::Space), v, radius);
   }
 }
 

@@ -17,7 +17,6 @@
 
 #include "meshhood/meshhood.h"
 
-#include "exact/query/space_search.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/refusal.h"
@@ -146,7 +145,7 @@ TEST_P(Families, RowsAreTheAnswersToSingleQueries) {
     expect_right<paper::Searcher>(approximate, approximate, random);
     expect_right<ReferenceSearcher>(SearchMethod::breadth_first(graph), graph, random);
     expect_right<BallSearcher>(SearchMethod::ball_scan(graph.positions), graph.positions, random);
-    expect_right<SpaceSearcher>(SearchMethod::in_space(exact), exact, random);
+    expect_right<BallSearcher>(SearchMethod(exact).by(Metric::Space), graph.positions, random);
     rows += random.vertices.size();
   }
   std::printf("%s: %zu rows, %zu numbers of threads\n", std::string(GetParam().name).c_str(), rows, kThreads.size());

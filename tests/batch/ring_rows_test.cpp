@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <variant>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -99,7 +100,7 @@ TEST(Rings, OfASearcherAreThoseOfABatch) {
   const TestMesh mesh = make_grid(7, 9, false).finish(true);
   const Index index = build(mesh.view());
   const SearchMethod method = SearchMethod(index).by(Metric::Rings);
-  AnySearcher searcher = method.make_searcher();
+  auto searcher = std::get<Searcher>(method.make_searcher());
   const Neighborhoods found = neighborhoods(method, {.radius = 2.5}, {.distances = true});
   std::vector<VertexId> ids;
   std::vector<double> distances;

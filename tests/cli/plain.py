@@ -95,13 +95,18 @@ class Plain:
         """The vertices and their distances, by id. `point` and `seeds`: the start, instead of `v`."""
         walls, ignored = self.mask(walls), self.mask(ignored)
         starts = [int(self.kept[s]) for s in (seeds if seeds is not None else [v])]
-        if metric == "straight":
+        if metric in ("straight", "space"):
             squared = self.squared(self.V[starts[0]] if point is None else np.array(point))
-            found = self._component(starts, (squared <= r * r) & ~walls)
+            inside = (squared <= r * r) & ~walls
+            found = self._component(starts, inside) if metric == "straight" else self._in_space(starts, inside, point)
             found = {w: math.sqrt(squared[w]) for w in found}
         else:
             found = self._along_edges(starts[0], r, walls, metric == "rings")
         return {w: d for w, d in sorted(found.items()) if not ignored[w]}
+
+    def _in_space(self, starts, inside, point):
+        is_wall = point is None and not inside[starts[0]]
+        return [] if is_wall else np.flatnonzero(inside & (self.kept == np.arange(len(self.V)))).tolist()
 
     def _component(self, starts, inside):
         found = {s for s in starts if inside[s]}

@@ -104,6 +104,7 @@ VALUES = {
     ("region", "--radius"): ["5.5"],
     ("compare", "--radius"): ["5.5"],
     ("view", "--radius"): ["5.5"],
+    ("unconnected", "--metric"): ["path", "rings"],  # in space nothing is connected
     "--point": ["point"],
     "--seed": ["20011"],
     "--to": ["3,LAST,20300"],

@@ -238,7 +238,7 @@ TEST(Features, RefuseInvalidArgumentsAndNameThem) {
     expect_refused(ErrorCode::InvalidOption, "expected a surface with faces", [&] {
       (void)features(Surface::of_normals(bumps.index, normals), {{}, 1.0}, {.kinds = {kind}, .areas = bumps.areas});
     });
-    expect_refused(ErrorCode::InvalidOption, "expected the distance in space",
+    expect_refused(ErrorCode::InvalidOption, "expected the straight metric",
                    [&] { (void)features(bumps.surface, {{}, 1.0, Metric::Path}, {.kinds = {kind}}); });
   }
   expect_refused(ErrorCode::InvalidOption, "0 radii", [&] { (void)geometric_radii(1, 2, 0); });

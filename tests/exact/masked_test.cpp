@@ -246,9 +246,9 @@ TEST(Masked, AnswersSingleQueriesAsBatches) {
   const std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), 6);
   const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), 4);
   const Index searched = masked(index, {walls, ignored});
-  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
+  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings, Metric::Space}) {
     const Neighborhoods expected = neighborhoods(searched, {.radius = 2.5, .metric = metric}, {.distances = true});
-    AnySearcher searcher = SearchMethod(searched).by(metric).make_searcher();
+    Searcher searcher(searched, metric);
     std::vector<VertexId> ids;
     std::vector<double> distances;
     for (VertexId v = 0; v < mesh.size(); ++v) {
@@ -285,10 +285,7 @@ TEST(Masked, RefusesMasksOfAnotherSizeAndWhatWouldLoseThem) {
                    [&] { static_cast<void>(refit(searched, mesh.positions_view())); });
     expect_refused(ErrorCode::InvalidOption, "not refitted", [&] { searched.refit_in_place(mesh.positions_view()); });
   }
-  std::vector<std::uint8_t> wall(mesh.size(), 0);
-  wall[3] = 1;
-  const Index searched = masked(index, {.walls = wall});
-  expect_refused(ErrorCode::InvalidOption, "no masks", [&] { static_cast<void>(SearchMethod::in_space(searched)); });
+  const Index searched = masked(index, {.walls = mask});
   index.refit_in_place(mesh.positions_view());
   expect_refused(ErrorCode::InvalidOption, "refitted in place",
                  [&] { static_cast<void>(counts(searched, {.radius = 1})); });

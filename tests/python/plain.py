@@ -45,10 +45,14 @@ class PlainMesh:
     def straight(self, v, r):
         return self.region(self.V[v], [v], r)
 
-    def ball(self, v, r):
-        distances = self.distances(self.V[v])
-        ids = np.flatnonzero(distances <= r)
+    def space(self, start, r):
+        """Around a vertex or a point."""
+        is_vertex = np.ndim(start) == 0
+        distances = self.distances(self.V[start] if is_vertex else start)
+        ids = np.flatnonzero((distances <= r) & ~self.hidden & (not (is_vertex and self.walls[start])))
         return ids, distances[ids]
+
+    ball = space
 
     def path(self, v, r):
         return self._by_key({v: 0.0}, r, lambda key, a, b: key + float(self.distances_of(a, b)))

@@ -73,7 +73,7 @@ OPTIONS = {
     "scales": {"two": SCALES},
     "walls": {"mask": WALLS},
     "ignored": {"mask": IGNORED},
-    "metric": {"path": "path", "surface": "surface", "rings": "rings"},
+    "metric": {"path": "path", "surface": "surface", "rings": "rings", "space": "space"},
     "unit": {"edge": "edge"},
     "workers": {"3": 3},
     "progress": {"function": lambda words: Watch()},
@@ -213,7 +213,8 @@ def asked_plainly(call, words, v, radius):
     has_other_edges |= call.name in ("k_nearest", "discs") and "metric" in words  # of equal lengths, by their places
     if has_other_edges and "walls" in words:  # whose values depend on the order or the mean length of all edges
         index, plain["walls"] = INDEX, WALLS
-    if call.name == "nearest_unconnected" and "walls" in words:  # where a vertex without edges is not connected, too
+    is_in_space = words.get("metric") == "space" or words.get("method") == "ball"
+    if (call.name == "nearest_unconnected" or is_in_space) and "walls" in words:  # a vertex without edges is found, too
         plain["ignored"] = WALLS | words.get("ignored", False)
     return call.rows(call.ask(index, plain), plain)[0]
 
@@ -231,12 +232,15 @@ def check_plain(call, words, v, radius, found):
             np.testing.assert_array_equal(a, b)
 
 
+PLAIN_METRICS = ("straight", "path", "surface", "rings", "space", "ball")
+
+
 def near(words, v, radius):
     """By `PlainMesh`, the ids and the distances of a row; none where only the library knows the answer."""
     plain = PLAIN["walls" in words, "ignored" in words]
     how = words.get("method", words.get("metric", "straight"))
     how = {"exact": "straight", "bfs": "straight"}.get(how, how)
-    return getattr(plain, how)(int(v), radius) if how in ("straight", "path", "surface", "rings", "ball") else None
+    return getattr(plain, how)(int(v), radius) if how in PLAIN_METRICS else None
 
 
 def weights_of(words):
@@ -461,7 +465,7 @@ OPTIONS_OF_START = {
     "walls": {"mask": WALLS},
     "ignored": {"mask": IGNORED},
     "sort": {"id": "id", "index": "index", "distance": "distance"},
-    "metric": {"path": "path", "surface": "surface", "rings": "rings"},
+    "metric": {"path": "path", "surface": "surface", "rings": "rings", "space": "space"},
     "unit": {"edge": "edge"},
     "method": {"bfs": "bfs", "ball": "ball"},
     "dtype": {"single": np.float32},

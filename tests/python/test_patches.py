@@ -54,7 +54,7 @@ def test_features_are_invariants_and_gaps_without_unit():
     np.testing.assert_array_equal(index.features(1, [3], kinds="volume"), found[1, [3], 1])
     walls = index.invariants(1, walls=[0]).area / PI
     np.testing.assert_allclose(index.features(1, kinds="area", walls=[0]), np.where(walls > 0, walls, np.nan), rtol=1e-15)
-    with pytest.raises(ValueError, match="expected the distance in space"):
+    with pytest.raises(ValueError, match="expected the straight metric"):
         index.features(1, kinds=("crease", "gap"), metric="path")
 
 

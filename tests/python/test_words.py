@@ -167,7 +167,7 @@ def test_an_index_with_masks_has_the_attributes_of_a_subclass():
 
 def test_an_index_with_masks_answers_as_calls_with_them():
     index = INDEX.masked(**MASKS)
-    for metric in ("straight", "path", "rings"):
+    for metric in ("straight", "path", "rings", "space"):
         np.testing.assert_array_equal(index.counts(2, metric=metric), INDEX.counts(2, metric=metric, **MASKS))
     np.testing.assert_array_equal(index.curvature(2.5).k1, INDEX.curvature(2.5, **MASKS).k1)
     np.testing.assert_array_equal(index.neighborhood(4, 2.5), INDEX.neighborhood(4, 2.5, **MASKS))
@@ -179,7 +179,6 @@ def test_an_index_with_masks_answers_as_calls_with_them():
         (lambda: index.refit(V), "not refitted"),
         (lambda: pickle.dumps(index), "not saved"),
         (lambda: index.counts(2, method="bfs"), "method: 'bfs', expected 'exact' with walls"),
-        (lambda: index.count(3, 2, method="ball"), "method: 'ball', expected 'exact' with walls"),
     ):
         with pytest.raises(ValueError, match=message):
             refused()

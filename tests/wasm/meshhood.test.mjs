@@ -39,7 +39,7 @@ for (const [name, mesh] of Object.entries(families)) {
       assert.deepEqual(index.neighborhood(v, radius, { sort: 'id' }), expected, `vertex ${v}, radius ${radius}`);
       assert.deepEqual(index.neighborhood(v, radius, { sort: 'id', method: 'bfs' }), expected);
       assert.equal(index.count(v, radius), expected.length);
-      assert.deepEqual(index.neighborhood(v, radius, { method: 'ball' }), ball(mesh.positions, v, radius));
+      assert.deepEqual(index.neighborhood(v, radius, { method: 'ball', sort: 'id' }), ball(mesh.positions, v, radius));
       const all = new Set(index.viewNeighborhood(v, radius, { method: 'ball' }));
       const paper = new Set(index.neighborhood(v, radius, { method: 'paper' }));
       assert.ok(expected.every((w) => paper.has(w)));

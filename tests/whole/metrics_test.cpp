@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What follows from a neighborhood along the edges: moments, components, curvature, features and the nearest
-// unconnected vertex, by paths and by rings. Compared with the definition, and with the same call of all vertices, of
+// What follows from a neighborhood: moments, components, curvature, features and the nearest unconnected vertex, by
+// paths, by rings and in space. Compared with the definition, and with the same call of all vertices, of
 // which those of no neighborhood are ignored.
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,7 @@
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/random.h"
+#include "support/refusal.h"
 #include "support/region_oracle.h"
 #include "support/scale.h"
 
@@ -91,8 +92,9 @@ class MetricCase {
       std::vector<std::uint8_t> others(mesh_.size(), 1);
       for (const VertexId id : ids) others[id] = 0;
       const Ids vertex{rows_[row]};
-      const Curvatures expected =
-          curvatures(surface_.on(masked(index_, {.ignored = others})), {.vertices = vertex, .radius = kInfinity});
+      const Metric all = metric_ == Metric::Space ? Metric::Space : Metric::Straight;
+      const Curvatures expected = curvatures(surface_.on(masked(index_, {.ignored = others})),
+                                             {.vertices = vertex, .radius = kInfinity, .metric = all});
       EXPECT_EQ(expected.state[0], CurvatureState::Fitted);
       EXPECT_EQ(expected.count[0], found.count[row]);
       const double tolerance = 1e-6 * (std::abs(expected.k1[0]) + std::abs(expected.k2[0]) + 1e-3 / edge());
@@ -138,6 +140,7 @@ class MetricCase {
   [[nodiscard]] double edge() const { return oracle_.graph().mean_edge(); }
 
   [[nodiscard]] Ids neighborhood(std::size_t row) const {
+    if (metric_ == Metric::Space) return neighborhood_in_space(row);
     PlainStart start;
     start.seeds = {rows_[row]};
     start.walls = walls_;
@@ -148,6 +151,15 @@ class MetricCase {
     Ids ids;
     for (VertexId v = 0; v < lengths.size(); ++v) {
       if (lengths[v] < kInfinity && ignored_[v] == 0) ids.push_back(v);
+    }
+    return ids;
+  }
+
+  [[nodiscard]] Ids neighborhood_in_space(std::size_t row) const {
+    Ids ids;
+    for (VertexId v = 0; v < mesh_.size() && walls_[rows_[row]] == 0; ++v) {
+      const bool is_masked = walls_[v] != 0 || ignored_[v] != 0;
+      if (!is_masked && oracle_.graph().distance(rows_[row], v) <= radii_[row]) ids.push_back(v);
     }
     return ids;
   }
@@ -188,7 +200,7 @@ class MetricsOfFamily : public testing::TestWithParam<Family> {};
 TEST_P(MetricsOfFamily, AnswerAsTheVerticesOfTheNeighborhood) {
   std::size_t fits = 0;
   Random random(5);
-  for (const Metric metric : {Metric::Path, Metric::Rings}) {
+  for (const Metric metric : {Metric::Path, Metric::Rings, Metric::Space}) {
     const TestMesh mesh = make_mesh(GetParam(), 3, 400);
     if (mesh.size() == 0) continue;
     MetricCase scene(mesh, metric);
@@ -197,7 +209,7 @@ TEST_P(MetricsOfFamily, AnswerAsTheVerticesOfTheNeighborhood) {
       for (const double edges : {0.0, 2.0, 5.0}) {
         scene.draw_rows(random, edges);
         scene.compare_moments();
-        scene.compare_unconnected();
+        if (metric != Metric::Space) scene.compare_unconnected();
         if (edges > 0) fits += scene.compare_curvatures();
       }
     }
@@ -206,6 +218,21 @@ TEST_P(MetricsOfFamily, AnswerAsTheVerticesOfTheNeighborhood) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, MetricsOfFamily, testing::ValuesIn(surface_families()), family_name);
+
+TEST(Metrics, InSpaceRefuseWhatAsksForConnections) {
+  const TestMesh mesh = make_grid(4, 4, false);
+  const Index index = build(mesh.view());
+  const std::vector<double> areas(mesh.size(), 1);
+  const auto refuses = [](const auto& ask) { expect_refused(ErrorCode::InvalidOption, "nothing is connected", ask); };
+  Ids ids{7};
+  std::vector<double> radii{7};
+  refuses([&] { Searcher(index, Metric::Space).nearest_connected(0, 2, ids, radii); });
+  EXPECT_EQ(ids, Ids{7});
+  EXPECT_EQ(radii, std::vector<double>{7});
+  refuses([&] { static_cast<void>(k_nearest(index, {}, 2, {.metric = Metric::Space})); });
+  refuses([&] { static_cast<void>(discs(index, {}, 2, areas, {.metric = Metric::Space})); });
+  refuses([&] { static_cast<void>(nearest_unconnected(index, {.radius = 1, .metric = Metric::Space})); });
+}
 
 TEST(Metrics, AreOfAnIndexAlone) {
   const TestMesh mesh = make_grid(4, 4, false);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -72,14 +73,15 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
   const auto add_method = [&](const std::string& name, const SearchMethod& method) {
     all[name + ": counts"] = [=] { return numbers(counts(method, {.radius = kRadius})); };
     all[name + ": ids"] = [=] { return numbers(neighborhoods(method, {.radius = kRadius}).ids); };
-    add_searcher(name + ": searcher", method.make_searcher());
+    std::visit([&](auto&& searcher) { add_searcher(name + ": searcher", std::move(searcher)); },
+               method.make_searcher());
   };
   add_searcher("Searcher", Searcher(index));
   add_searcher("Searcher by paths", Searcher(index, Metric::Path));
   const std::vector<std::pair<std::string, SearchMethod>> methods{{"straight", SearchMethod(index)},
                                                                   {"paths", SearchMethod(index).by(Metric::Path)},
                                                                   {"rings", SearchMethod(index).by(Metric::Rings)},
-                                                                  {"space", SearchMethod::in_space(index)}};
+                                                                  {"space", SearchMethod(index).by(Metric::Space)}};
   for (const auto& [name, method] : methods) {
     add_method(name, method);
   }
@@ -90,7 +92,7 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
     all[name + ": ids"] = [=] {
       return numbers(neighborhoods(*with_walls, {.radius = kRadius, .metric = metric}).ids);
     };
-    add_searcher(name + ": searcher", SearchMethod(*with_walls).by(metric).make_searcher());
+    add_searcher(name + ": searcher", Searcher(*with_walls, metric));
   }
   for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
     const auto searcher = kept(Searcher(index, metric));
@@ -257,7 +259,8 @@ TEST_F(Outlives, AMethodByAMetricIsOneByAnother) {
   EXPECT_EQ(counts(paths.by(Metric::Straight), {.radius = kRadius}), counts(index, {.radius = kRadius}));
   EXPECT_NE(counts(paths, {.radius = kRadius}), counts(index, {.radius = kRadius}));
   expect_refused(ErrorCode::InvalidOption, "metric: expected Straight", [&] {
-    static_cast<void>(counts(SearchMethod::in_space(index), {.radius = kRadius, .metric = Metric::Path}));
+    static_cast<void>(
+        counts(SearchMethod::ball_scan(mesh.view().positions), {.radius = kRadius, .metric = Metric::Path}));
   });
 }
 
@@ -277,7 +280,6 @@ TEST_F(Outlives, WhatHasBeenMovedFromRefusesUntilItIsAssigned) {
   const auto find = [](auto& searcher) { static_cast<void>(searcher.count(44, kRadius)); };
   expect_moved_from_refused<Searcher>("Searcher", Searcher(index), find);
   expect_moved_from_refused<ReferenceSearcher>("ReferenceSearcher", ReferenceSearcher(mesh.view()), find);
-  expect_moved_from_refused<AnySearcher>("AnySearcher", SearchMethod(index).make_searcher(), find);
   const paper::Index approximate = paper::build(mesh.view());
   expect_moved_from_refused<paper::Searcher>("paper::Searcher", paper::Searcher(approximate), find);
   expect_moved_from_refused<paper::Index>("paper::Index", paper::build(mesh.view()),

@@ -222,7 +222,7 @@ std::vector<Call> nearest_calls(const Scene& scene, double radius) {
                      },
                      0, false});
   }
-  for (const Metric metric : {Metric::Path, Metric::Rings}) {
+  for (const Metric metric : {Metric::Path, Metric::Rings, Metric::Space}) {
     for (const SmoothingKernel kernel : kKernels) {
       calls.push_back({"sums of metric " + std::to_string(static_cast<int>(metric)) + ", kernel " +
                            std::to_string(static_cast<int>(kernel)),
@@ -270,7 +270,7 @@ std::vector<Call> surface_calls(const Scene& scene) {
 
 std::vector<Call> all_calls(const Scene& scene, double radius) {
   std::vector<Call> calls = aggregates(scene, radius);
-  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
+  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings, Metric::Space}) {
     for (Call& call : curvature_calls(scene, radius, metric)) calls.push_back(std::move(call));
   }
   for (Call& call : nearest_calls(scene, radius)) calls.push_back(std::move(call));

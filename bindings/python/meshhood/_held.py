@@ -12,7 +12,7 @@ import numpy as np
 from . import _convert, _core
 from ._curvature import normals_of
 from ._mesh import face_arrays
-from ._methods import Methods
+from ._methods import Methods, core_metric
 from ._types import METRICS
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class Held:
         if metric != "straight":
             if method != "exact":
                 raise ValueError(f"method: {method!r}, expected 'exact' with metric={metric!r}")
-            return self._methods.rings if metric == "rings" else self._methods.along_edges
+            return self._methods[core_metric(metric)]
         try:
             return self._methods[method]
         except TypeError:

@@ -113,7 +113,8 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         paths. "surface", the same for paths that also run straight over two triangles that share a side: nearer to
         geodesics than paths along edges (docs/queries.md). The index must have faces; their lines are kept, about 150
         bytes a vertex. "rings", the vertices that at most `r` edges separate from the vertex; distances are
-        then numbers of edges.
+        then numbers of edges. "space", the vertices within `r` in space, connected or not; calls about what is
+        connected refuse it.
     unit : of `r` and `scales`: "mesh" is that of V, "edge" is `mean_edge_length`.
     workers, progress : as above. Progress is over all scales. The result does not depend on `workers`.
 

@@ -6,12 +6,11 @@ from __future__ import annotations
 import os
 import threading
 from dataclasses import dataclass
-from typing import Literal, Union
+from typing import Any, Literal, Union
 
 from . import _convert, _core
 
 _MOST_LEVELS = 64  # no mesh has more
-_ALONG_EDGES, _RINGS = object(), object()  # no methods that callers can name
 
 
 @dataclass(frozen=True)
@@ -49,8 +48,13 @@ class Paper:
 Method = Union[Literal["exact", "paper", "bfs", "ball"], Paper]
 
 
+def core_metric(metric: str) -> Any:
+    """By this the index of `Held._searched` is searched."""
+    return _core.Metric.path if metric == "surface" else getattr(_core.Metric, metric)
+
+
 class Methods(dict):
-    """The methods of an index, by name or `Paper`. Each is made at its first use and then kept."""
+    """The methods of an index, by name, `Paper` or metric. Each is made at its first use and then kept."""
 
     def __init__(self, exact, whole=None):
         """`whole`: of an index with masks, the methods of that without."""
@@ -75,14 +79,12 @@ class Methods(dict):
         return self._locks.setdefault(os.getpid(), threading.RLock())
 
     def _make(self, method):
-        if method is _ALONG_EDGES:
-            return _core.along_edges(self["exact"])
-        if method is _RINGS:
-            return _core.rings(self["exact"])
-        if self._whole is not None and (method in ("ball", "bfs", "paper") or isinstance(method, Paper)):
-            raise ValueError(f"method: {method!r}, expected 'exact' with walls or ignored vertices")
+        if isinstance(method, _core.Metric):
+            return _core.by_metric(self["exact"], method)
         if method == "ball":
-            return _core.ball(self["exact"])
+            return self[_core.Metric.space]
+        if self._whole is not None and (method in ("bfs", "paper") or isinstance(method, Paper)):
+            raise ValueError(f"method: {method!r}, expected 'exact' with walls or ignored vertices")
         if method == "bfs":
             return _core.bfs(self.graph())
         paper = Paper() if method == "paper" else method
@@ -108,14 +110,6 @@ class Methods(dict):
             if self._positions is None:
                 self._positions = _core.positions(self["exact"])
             return self._positions
-
-    @property
-    def along_edges(self):
-        return self[_ALONG_EDGES]
-
-    @property
-    def rings(self):
-        return self[_RINGS]
 
     def graph(self):
         """The mesh as a graph, extracted from the index at the first use."""

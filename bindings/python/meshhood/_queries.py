@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _convert, _core
 from ._held import Held
-from ._methods import Method
+from ._methods import Method, core_metric
 from ._repr import in_a_line
-from ._rows import check_sort, core_metric, result_dtype, sorted_rows
+from ._rows import check_sort, result_dtype, sorted_rows
 from ._types import METRICS, Counts, Floats, Ids, Mask, Metric, Number, Reals, Scales, Sort, Unit
 
 if TYPE_CHECKING:
@@ -102,13 +102,14 @@ class Queries(Held):
             ascending, and by id where equal. Without it they are not sorted: those of "exact" and "ball" are in index
             order, those of metric="path" and "surface" ascend by length, and those of "paper" and "bfs" have an order
             of their own, which is always the same.
-        metric, walls, ignored, unit : see `MeshIndex`. All but "straight" need a vertex as start.
+        metric, walls, ignored, unit : see `MeshIndex`. All but "straight" and "space" need a vertex as start.
         method : "exact", the exact neighborhood, by the index;
                  "paper", the approximate neighborhood of the paper, a superset of "exact" and a subset of "ball", or
                  `Paper` with other parameters;
                  "bfs", the exact neighborhood by breadth-first search, for comparison;
-                 "ball", every vertex within `r` in space, connected or not.
-            "paper" builds an index of its own at the first use. Masks, points, and the other metrics need "exact".
+                 "ball", another word for metric="space".
+            "paper" builds an index of its own at the first use. Points and the other metrics need "exact", masks
+            "exact" or "ball".
         dtype : of the distances, float64 unless given.
 
         The cost of "exact" grows with the part of the mesh at the surface of the ball rather than with the size of the
@@ -130,7 +131,7 @@ class Queries(Held):
         center, first, radius, searched = self._asked(start, r, seeds, face, metric, walls, ignored, unit, method)
         distances: Any = None
         if center is not None:
-            indices, distances = self._around_point(center, first, radius, walls, ignored)
+            indices, distances = self._around_point(center, first, radius, metric, walls, ignored)
         elif return_distance or sort == "distance":
             indices, distances = searched.neighborhood_and_distances(int(first[0]), radius)
         else:
@@ -161,7 +162,7 @@ class Queries(Held):
         center, first, radius, searched = self._asked(start, r, seeds, face, metric, walls, ignored, unit, method)
         if center is None:
             return int(searched.count(int(first[0]), radius))
-        return len(self._around_point(center, first, radius, walls, ignored)[0])
+        return len(self._around_point(center, first, radius, metric, walls, ignored)[0])
 
     def stroke(
         self,
@@ -358,8 +359,11 @@ class Queries(Held):
         _check_vertex(center, metric, "exact", wanted)
         return core_metric(metric)
 
-    def _around_point(self, center: Any, first: Ids, radius: float, walls: Any, ignored: Any) -> tuple[Ids, Reals]:
-        ids, distances, has_seed = self._searched("straight", walls, ignored)._queries.region(_core.Metric.straight, center, first, radius)
+    def _around_point(
+        self, center: Any, first: Ids, radius: float, metric: str, walls: Any, ignored: Any
+    ) -> tuple[Ids, Reals]:
+        queries = self._searched(metric, walls, ignored)._queries
+        ids, distances, has_seed = queries.region(core_metric(metric), center, first, radius)
         _warn_unless(has_seed or not len(first), "start: the", stacklevel=4)
         return ids, distances
 
@@ -401,7 +405,7 @@ class Queries(Held):
 
 
 def _check_vertex(center: Any, metric: str, method: Any, wanted: str = "start: expected a vertex") -> None:
-    if center is not None and metric != "straight":
+    if center is not None and metric not in ("straight", "space"):
         raise ValueError(f"{wanted} with metric={metric!r}, because a point has no edges")
     if center is not None and method != "exact":
         raise ValueError(f"method: {method!r}, expected 'exact' around a point")

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 
-from . import _convert, _core
+from . import _convert
+from ._methods import core_metric
 from ._progress import Progress, Report, in_parts, reporter
 from ._types import METRICS, Ids, Reals
 
@@ -82,11 +83,6 @@ def read_rows(
         _convert.threads(workers),
         progress,
     )
-
-
-def core_metric(metric: str) -> Any:
-    """By this the index of `Held._searched` is searched."""
-    return _core.Metric.path if metric == "surface" else getattr(_core.Metric, metric)
 
 
 def result_dtype(dtype: Any, default: Any = np.float64) -> Any:

@@ -22,7 +22,7 @@ Scales = Union[Sequence[float], "NDArray[np.floating[Any]]", "NDArray[np.integer
 Radii = Union[Number, Scales]
 Mask = Union[NDArray[np.bool_], NDArray[np.integer[Any]], Sequence[int], None]
 Unit = Literal["mesh", "edge"]
-Metric = Literal["straight", "path", "surface", "rings"]
+Metric = Literal["straight", "path", "surface", "rings", "space"]
 Sort = Literal["index", "id", "distance"]
 Weights = Union[Literal["area"], ArrayLike, None]
 

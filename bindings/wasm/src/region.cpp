@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "meshhood/meshhood.h"
@@ -57,7 +58,7 @@ extern "C" {
     searcher.neighborhood(start, radius, answer.ids);
   };
   if (method != MethodName::Exact) {
-    search(workspace.searcher(method), origin.vertex());
+    std::visit([&](auto& searcher) { search(searcher, origin.vertex()); }, workspace.searcher(method));
     return true;
   }
   Searcher& searcher = workspace.searcher(row_metric);
@@ -67,7 +68,8 @@ extern "C" {
 
 [[clang::export_name("count")]] std::size_t count(MethodName method, double radius) {
   if (method == MethodName::Exact) return workspace.searcher(row_metric).count(origin, radius);
-  return workspace.searcher(method).count(origin.vertex(), radius);
+  return std::visit([&](auto& searcher) { return searcher.count(origin.vertex(), radius); },
+                    workspace.searcher(method));
 }
 
 /// Whether a seed lies in the largest ball.

@@ -91,14 +91,14 @@ const paper::Index& Workspace::paper_index() {
 }
 
 SearchMethod Workspace::make_method(MethodName name) {
-  if (has_masks_ && (name == MethodName::Paper || name == MethodName::Bfs || name == MethodName::Ball)) {
+  if (has_masks_ && (name == MethodName::Paper || name == MethodName::Bfs)) {
     raise(ErrorCode::InvalidOption, "method: expected 'exact' with walls or ignored vertices");
   }
   switch (name) {
     case MethodName::Exact: return searched();
     case MethodName::Paper: return paper_index();
     case MethodName::Bfs: return SearchMethod::breadth_first(graph().view());
-    case MethodName::Ball: return SearchMethod::ball_scan(graph().view().positions);
+    case MethodName::Ball: return SearchMethod(searched()).by(Metric::Space);
   }
   __builtin_unreachable();
 }

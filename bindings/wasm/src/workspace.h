@@ -19,6 +19,7 @@ namespace meshhood::wasm {
 enum class MethodName : std::uint8_t { Exact, Paper, Bfs, Ball };
 
 inline constexpr std::size_t kMethodCount = 4;
+inline constexpr std::size_t kMetricCount = static_cast<std::size_t>(Metric::Space) + 1;
 
 /// A method, and a searcher for single queries, made when it is first used; those of the exact method are `by_metric`.
 struct Method {
@@ -29,7 +30,7 @@ struct Method {
 /// The searches of an index, each made when it is first used.
 struct Searches {
   std::array<std::optional<Method>, kMethodCount> methods;  // by their names
-  std::array<std::optional<Searcher>, 3> by_metric;
+  std::array<std::optional<Searcher>, kMetricCount> by_metric;
   std::optional<Surface> surface;
   std::optional<PatchSearcher> patches;
 };

@@ -44,6 +44,11 @@ void check_ascending(std::span<const double> radii) {
   }
 }
 
+void check_connects(Metric metric) {
+  if (metric != Metric::Space) return;
+  raise(ErrorCode::InvalidOption, "metric: expected another than space, in which nothing is connected");
+}
+
 Point position_of(const IndexView& index, VertexId v) {
   const std::uint32_t slot = index.slot[v];
   return index.position(leaf_of(slot), lane_of(slot));

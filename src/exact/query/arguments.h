@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "meshhood/metric.h"
 #include "meshhood/start.h"
 
 #include "exact/layout.h"
@@ -25,6 +26,12 @@ void check_start(const Start& start, std::size_t vertices, std::string_view wher
 
 /// Error{InvalidRadius} unless the radii are valid and strictly ascend.
 void check_ascending(std::span<const double> radii);
+
+/// Error{InvalidOption} in space, of a question about what is connected.
+void check_connects(Metric metric);
+
+/// Whether neighborhoods by the metric need a vertex as start, and their distances are lengths along edges.
+[[nodiscard]] constexpr bool is_along_edges(Metric metric) { return metric == Metric::Path || metric == Metric::Rings; }
 
 /// The position of a vertex.
 [[nodiscard]] Point position_of(const IndexView& index, VertexId v);

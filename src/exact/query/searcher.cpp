@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A searcher: the arguments of its calls, and their results. What answers them is one of two: `StraightQueries` or
-// `LengthQueries`.
+// A searcher: the arguments of its calls, and their results. What answers them is made by `make_queries`.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -12,6 +11,7 @@
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
 #include "exact/query/single_queries.h"
+#include "exact/query/space_search.h"
 #include "exact/query/straight_queries.h"
 #include "shared/distance.h"
 
@@ -20,7 +20,8 @@ namespace {
 
 std::unique_ptr<SingleQueries> make_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph, Metric metric,
                                             Isa isa) {
-  if (metric != Metric::Straight) return make_length_queries(std::move(index), std::move(graph), metric, isa);
+  if (is_along_edges(metric)) return make_length_queries(std::move(index), std::move(graph), metric, isa);
+  if (metric == Metric::Space) return make_space_queries(std::move(index), std::move(graph), isa);
   return std::make_unique<StraightQueries>(std::move(index), std::move(graph), isa);
 }
 
@@ -29,7 +30,7 @@ std::unique_ptr<SingleQueries> make_queries(BoundIndex index, std::shared_ptr<Ke
 void SingleQueries::check(const Start& start, std::string_view where) const {
   index.check_current();
   check_start(start, index->vertex_count(), where);
-  if (metric == Metric::Straight || !start.center()) return;
+  if (!is_along_edges(metric) || !start.center()) return;
   raise(ErrorCode::InvalidOption,
         std::string(where) + "start: expected a vertex by path or rings, because a point has no edges");
 }
@@ -37,6 +38,35 @@ void SingleQueries::check(const Start& start, std::string_view where) const {
 void SingleQueries::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) {
   index = std::move(bound);
   graph = std::move(kept);
+}
+
+Point SingleQueries::center_of(const Start& start) const {
+  if (!start.center()) return position_of(*index, start.vertex());
+  const auto& [x, y, z] = *start.center();
+  return {x, y, z};
+}
+
+void SingleQueries::list(const Start& start, double radius, std::vector<VertexId>& out,
+                         std::vector<double>* distances) {
+  const VertexSet& found = search(start, radius);
+  const Point center = distances != nullptr ? center_of(start) : Point{};
+  if (distances != nullptr) distances->reserve(found.count());  // before `out` changes
+  replace_ids(found, *index, *kernels, out);
+  if (distances == nullptr) return;
+  distances->resize(out.size());
+  write_distances(found, *index, center, distances->data());
+}
+
+void SingleQueries::nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& ids,
+                           std::vector<std::size_t>& sizes) {
+  VertexSet before(*index);
+  for (const double radius : radii) {
+    VertexSet& found = search(start, radius);
+    answer.assign_difference(found, before);
+    append_ids(answer, *index, *kernels, ids);
+    sizes.push_back(ids.size());
+    std::swap(before, found);
+  }
 }
 
 Searcher::Searcher(const Index& index, Metric metric)
@@ -75,9 +105,8 @@ std::size_t Searcher::count(const Start& start, double radius) { return queries_
 bool Searcher::has_seed(const Start& start, double radius) const {
   queries_->check(start);
   check_radius(radius);
-  if (!start.center()) return true;
-  const SpacePoint& p = *start.center();
-  const SearchBall ball({p[0], p[1], p[2]}, radius);
+  if (!start.center() || metric_ == Metric::Space) return true;
+  const SearchBall ball(queries_->center_of(start), radius);
   return std::ranges::any_of(start.seeds(),
                              [&](VertexId seed) { return ball.contains(position_of(*queries_->index, seed)); });
 }

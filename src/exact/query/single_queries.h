@@ -52,19 +52,22 @@ struct SingleQueries {
   /// The neighborhood, valid until the next call. Checks its arguments.
   [[nodiscard]] virtual VertexSet& search(const Start& start, double radius) = 0;
 
+  /// Its center.
+  [[nodiscard]] Point center_of(const Start& start) const;
+
   /// Its size. Checks its arguments.
   [[nodiscard]] virtual std::size_t count(const Start& start, double radius) { return search(start, radius).count(); }
 
   /// Refills `out` with its ids, and `distances` unless that is null. Checks its arguments, and changes nothing if it
   /// throws.
-  virtual void list(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>* distances) = 0;
+  virtual void list(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>* distances);
 
   /// Adds its vertices to `found`.
   virtual void collect(const Start& start, double radius, std::vector<LeafSubset>& found) = 0;
 
   /// Adds its rings to `ids`, and their ends to `sizes`. There is a radius.
   virtual void nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& ids,
-                      std::vector<std::size_t>& sizes) = 0;
+                      std::vector<std::size_t>& sizes);
 
   [[nodiscard]] virtual bool contains(const Start& start, VertexId w, double radius) = 0;
   [[nodiscard]] virtual double connecting_radius(const Start& start, VertexId w) = 0;

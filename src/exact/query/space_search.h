@@ -2,47 +2,47 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
+#include <memory>
 #include <vector>
 
-#include "meshhood/index.h"
-#include "meshhood/search.h"
-
-#include "exact/bound_index.h"
+#include "exact/layout.h"
 #include "exact/query/any_center.h"
+#include "exact/query/single_queries.h"
 #include "exact/vertex_set.h"
 #include "simd/ball.h"
 #include "simd/kernels.h"
 
 namespace meshhood {
 
-/// Finds every vertex within `radius` of `v` in space, connected or not, by the tree of the index: a node inside the
-/// ball is taken as a whole, one outside is skipped. Satisfies `NeighborhoodSearcher`; answers are in index order.
-class SpaceSearcher {
+/// Finds every vertex within a radius in space, connected or not, by the tree of the index: a node inside the ball is
+/// taken as a whole, one outside is skipped. Leaves out walls and ignored vertices. Arguments are valid. One object a
+/// thread.
+class SpaceSearch {
  public:
-  explicit SpaceSearcher(const Index& index);
+  SpaceSearch(const IndexView& index, const Kernels& kernels);
 
-  [[nodiscard]] std::size_t vertex_count() const { return index_->vertex_count(); }
-  [[nodiscard]] std::span<const VertexId> permutation() const;
+  VertexSet answer;
 
-  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius);
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
-  [[nodiscard]] std::size_t count(VertexId v, double radius);
+  /// Refills `answer` with the vertices around a vertex; none around a wall.
+  void search(VertexId v, double radius);
+
+  /// The same around a point.
+  void search(const Point& center, double radius);
 
  private:
-  void search(VertexId v, double radius);
   void visit_roots(std::size_t level, std::size_t first);
   void visit_group(std::size_t group);
   void visit_leaf(LeafId leaf);
 
-  BoundIndex index_;
+  const IndexView* index_;
   const Kernels* kernels_;
   Center center_;
   LeafBall ball_;
   std::vector<VertexSet::Part> found_;  // root group by root group, ascending within each
-  VertexSet answer_;
 };
+
+/// The answers of the metric.
+[[nodiscard]] std::unique_ptr<SingleQueries> make_space_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph,
+                                                                Isa isa);
 
 }  // namespace meshhood

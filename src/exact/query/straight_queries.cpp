@@ -20,12 +20,6 @@ void StraightQueries::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) 
   if (neighborhoods_) neighborhoods_->rebind(index, graph);
 }
 
-Point StraightQueries::center_of(const Start& start) const {
-  if (is_neighborhood(start)) return position_of(*index, start.vertex());
-  const SpacePoint& p = *start.center();
-  return {p[0], p[1], p[2]};
-}
-
 Flood& StraightQueries::begin(const Start& start) {
   if (!flood_) flood_.emplace(*index, *kernels);
   flood_->start(center_of(start));
@@ -53,17 +47,6 @@ VertexSet& StraightQueries::search(const Start& start, double radius) {
   return answer;
 }
 
-void StraightQueries::list(const Start& start, double radius, std::vector<VertexId>& out,
-                           std::vector<double>* distances) {
-  const VertexSet& found = search(start, radius);
-  const Point center = distances != nullptr ? center_of(start) : Point{};
-  if (distances != nullptr) distances->reserve(found.count());  // before `out` changes
-  replace_ids(found, *index, *kernels, out);
-  if (distances == nullptr) return;
-  distances->resize(out.size());
-  write_distances(found, *index, center, distances->data());
-}
-
 void StraightQueries::collect(const Start& start, double radius, std::vector<LeafSubset>& found) {
   begin(start).grow(radius);
   add_reached(0, found);
@@ -71,20 +54,7 @@ void StraightQueries::collect(const Start& start, double radius, std::vector<Lea
 
 void StraightQueries::nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& ids,
                              std::vector<std::size_t>& sizes) {
-  const auto append_answer = [&] {
-    append_ids(answer, *index, *kernels, ids);
-    sizes.push_back(ids.size());
-  };
-  if (is_neighborhood(start)) {
-    VertexSet before(*index);
-    for (const double radius : radii) {
-      VertexSet& found = search(start, radius);
-      answer.assign_difference(found, before);
-      append_answer();
-      std::swap(before, found);
-    }
-    return;
-  }
+  if (is_neighborhood(start)) return SingleQueries::nested(start, radii, ids, sizes);
   Flood& flood = begin(start);
   for (const double radius : radii) {
     const std::size_t before = flood.reached().size();
@@ -92,7 +62,8 @@ void StraightQueries::nested(const Start& start, std::span<const double> radii, 
     found_.clear();
     add_reached(before, found_);
     answer.assign(found_);
-    append_answer();
+    append_ids(answer, *index, *kernels, ids);
+    sizes.push_back(ids.size());
   }
 }
 

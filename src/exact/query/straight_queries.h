@@ -34,7 +34,6 @@ struct StraightQueries final : SingleQueries {
 
   void rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) override;
   VertexSet& search(const Start& start, double radius) override;
-  void list(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>* distances) override;
   void collect(const Start& start, double radius, std::vector<LeafSubset>& found) override;
   void nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& ids,
               std::vector<std::size_t>& sizes) override;
@@ -55,8 +54,6 @@ struct StraightQueries final : SingleQueries {
  private:
   /// Begins a flood with nothing reached.
   Flood& begin(const Start& start);
-
-  [[nodiscard]] Point center_of(const Start& start) const;
 
   /// Adds what the flood has reached, except in its first `skip` steps, without ignored vertices.
   void add_reached(std::size_t skip, std::vector<LeafSubset>& found) const;
