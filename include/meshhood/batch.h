@@ -8,7 +8,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -111,10 +110,9 @@ class BatchRadius {
   /// No radius: every batch rejects it.
   BatchRadius() = default;
 
-  /// The same radius for every row, of any integer or floating-point type.
-  template <class Number>
-    requires(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>)
-  BatchRadius(Number radius) : common_(static_cast<double>(radius)) {}
+  /// The same radius for every row.
+  template <RadiusNumber Number>
+  BatchRadius(Number radius) : common_(Radius(radius)) {}
 
   /// One radius per row. A temporary container is rejected by the compiler.
   template <BorrowedArray<double> Range>

@@ -62,7 +62,7 @@ concept NeighborhoodSearcher = requires(S& searcher, const S& constant, VertexId
 /// One step of a brush stroke: a start and a radius.
 struct Dab {
   Start start;
-  double radius;
+  Radius radius;
 };
 
 /// Answers questions about one vertex, or one point, at a time by an `Index`. A *start* is a vertex, or a point in
@@ -127,29 +127,29 @@ class Searcher {
   [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
-  [[nodiscard]] std::vector<VertexId> neighborhood(const Start& start, double radius) {
+  [[nodiscard]] std::vector<VertexId> neighborhood(const Start& start, Radius radius) {
     std::vector<VertexId> out;
     neighborhood(start, radius, out);
     return out;
   }
 
   /// out     replaced, its capacity reused. Empty if no seed lies in the ball (see `has_seed`), or if all are walls.
-  void neighborhood(const Start& start, double radius, std::vector<VertexId>& out);
+  void neighborhood(const Start& start, Radius radius, std::vector<VertexId>& out);
 
   /// Also returns the distance of each vertex from the center (see `distance`), its path distance or its number of
   /// edges, in the order of the ids.
-  void neighborhood(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
+  void neighborhood(const Start& start, Radius radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
   /// The neighborhood as ranges of the index order, without copying ids. Ascending, with gaps between them, none empty;
   /// valid until the next call. See `visit` and `reduce`.
-  [[nodiscard]] std::span<const VertexRange> ranges(const Start& start, double radius) &;
+  [[nodiscard]] std::span<const VertexRange> ranges(const Start& start, Radius radius) &;
 
   /// The number of vertices of the neighborhood.
-  [[nodiscard]] std::size_t count(const Start& start, double radius);
+  [[nodiscard]] std::size_t count(const Start& start, Radius radius);
 
   /// Whether a seed lies in the ball, as a vertex that is the start always does; in space, which needs none, true. If
   /// none does, the center is too far from the mesh, and the neighborhood is empty. O(#seeds).
-  [[nodiscard]] bool has_seed(const Start& start, double radius) const;
+  [[nodiscard]] bool has_seed(const Start& start, Radius radius) const;
 
   /// The neighborhoods of one start for several radii, each vertex once. About as fast as the neighborhoods one by one
   /// for balls around a vertex; else as that of the largest radius.
@@ -163,7 +163,7 @@ class Searcher {
               std::vector<std::size_t>& counts);
 
   /// Whether the neighborhood has vertex `w`. Costs at most as much as it, and less if the search reaches `w` early.
-  [[nodiscard]] bool contains(const Start& start, VertexId w, double radius);
+  [[nodiscard]] bool contains(const Start& start, VertexId w, Radius radius);
 
   /// The smallest radius whose neighborhood has vertex `w`; infinite if there is none. Straight, it is the minimum,
   /// over all paths from a seed to `w`, of the largest distance between a vertex of the path and the center (a

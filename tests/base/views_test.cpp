@@ -59,6 +59,25 @@ static_assert(HasRanges<paper::Searcher&> && !HasRanges<paper::Searcher>);
 static_assert(HasRanges<ReferenceSearcher&> && !HasRanges<ReferenceSearcher>);
 static_assert(HasRanges<BallSearcher&> && !HasRanges<BallSearcher>);
 
+// A bool is no radius.
+template <class R>
+concept IsRadius = requires(Searcher searcher, std::vector<VertexId> ids, R radius) {
+  searcher.neighborhood(0, radius, ids);
+  searcher.count(0, radius);
+  searcher.contains(0, 1, radius);
+  BatchRadius(radius);
+};
+static_assert(IsRadius<double> && IsRadius<float> && IsRadius<int> && IsRadius<std::uint64_t>);
+
+template <class R>
+concept IsRadiusAnywhere = requires(Searcher searcher, R radius) { searcher.count(0, radius); } ||
+                           requires(Searcher searcher, R radius) { searcher.neighborhood(0, radius); } ||
+                           requires(Searcher searcher, R radius) { searcher.ranges(0, radius); } ||
+                           requires(Searcher searcher, R radius) { searcher.has_seed(0, radius); } ||
+                           requires(Searcher searcher, R radius) { searcher.contains(0, 1, radius); } ||
+                           requires(R radius) { Dab{0, radius}; } || requires(R radius) { BatchRadius(radius); };
+static_assert(!IsRadiusAnywhere<bool>);
+
 // Each field and parameter that borrows takes a container that lives, and a view of one, but no temporary.
 template <class T>
 constexpr bool kIsBorrowed = std::constructible_from<T, const std::vector<typename T::value_type>&> &&

@@ -87,22 +87,22 @@ std::span<const VertexId> Searcher::permutation() const& {
   return padded.empty() ? padded : padded.first(vertex_count());
 }
 
-void Searcher::neighborhood(const Start& start, double radius, std::vector<VertexId>& out) {
+void Searcher::neighborhood(const Start& start, Radius radius, std::vector<VertexId>& out) {
   queries_->list(start, radius, out, nullptr);
 }
 
-void Searcher::neighborhood(const Start& start, double radius, std::vector<VertexId>& out,
+void Searcher::neighborhood(const Start& start, Radius radius, std::vector<VertexId>& out,
                             std::vector<double>& distances) {
   queries_->list(start, radius, out, &distances);
 }
 
-std::span<const VertexRange> Searcher::ranges(const Start& start, double radius) & {
+std::span<const VertexRange> Searcher::ranges(const Start& start, Radius radius) & {
   return queries_->search(start, radius).ranges();
 }
 
-std::size_t Searcher::count(const Start& start, double radius) { return queries_->count(start, radius); }
+std::size_t Searcher::count(const Start& start, Radius radius) { return queries_->count(start, radius); }
 
-bool Searcher::has_seed(const Start& start, double radius) const {
+bool Searcher::has_seed(const Start& start, Radius radius) const {
   queries_->check(start);
   check_radius(radius);
   if (!start.center() || metric_ == Metric::Space) return true;
@@ -138,7 +138,7 @@ void Searcher::nested(const Start& start, std::span<const double> radii, std::ve
   counts = std::move(sizes);
 }
 
-bool Searcher::contains(const Start& start, VertexId w, double radius) {
+bool Searcher::contains(const Start& start, VertexId w, Radius radius) {
   queries_->check(start);
   check_vertex(w, vertex_count(), "vertex");
   check_radius(radius);
