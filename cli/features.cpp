@@ -97,7 +97,7 @@ class FeaturesQuantity : public Quantity {
     table.kinds = kinds_;
     add_features(table, values_of(task, scales), scales.size());
     add_lasting(table, scales, has_rows);
-    describe(table, task, scales);
+    describe(table);
     return table;
   }
 
@@ -185,7 +185,7 @@ class FeaturesQuantity : public Quantity {
     }
   }
 
-  void describe(RowTable& table, const RowTask& task, const std::vector<double>& scales) const {
+  void describe(RowTable& table) const {
     const auto& counts = std::get<std::vector<std::int32_t>>(table.columns[1].numbers);
     std::vector<std::size_t> lasting(kinds_.size());
     for (std::size_t i = 0; i < counts.size(); ++i) lasting[i % kinds_.size()] += counts[i] != 0 ? 1 : 0;
