@@ -295,9 +295,9 @@ def test_values_are_carried_to_the_points_of_a_clip(size):
     assert len(whole.edges) == len(whole.weights) == 0
     with pytest.raises(TypeError, match="values: expected floats for a clipped mesh, not int"):
         clipped.carry(np.arange(81))
-    for short in (1.0, np.ones(40)):
-        with pytest.raises(ValueError, match="values: of shape .* a row for each vertex of the whole mesh"):
-            clipped.carry(short)
+    for wrong in (1.0, np.ones(40), np.ones(82)):
+        with pytest.raises(ValueError, match="values: of shape .* a row for each of the 81 vertices of the whole mesh"):
+            clipped.carry(wrong)
 
 
 def test_an_edge_without_a_length_has_its_point_at_the_begin():

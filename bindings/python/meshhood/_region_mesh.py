@@ -57,7 +57,8 @@ class Submesh(NamedTuple):
         """
         whole = _convert.as_array(values, "values")
         if whole.ndim == 0 or len(whole) != self.whole:
-            raise ValueError(f"values: of shape {whole.shape}, expected a row for each of the {self.whole} vertices")
+            rows = f"a row for each of the {self.whole} vertices of the whole mesh"
+            raise ValueError(f"values: of shape {whole.shape}, expected {rows}")
         if not len(self.edges):
             return whole[self.vertices]
         if whole.dtype.kind != "f":
