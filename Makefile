@@ -8,7 +8,7 @@
 #   make serve                builds it and shows it at http://localhost:8000; PORT=n for another port
 #   make test                 runs the short tests; about ten minutes
 #   make packages             makes and tests what a release publishes, in build/packages/release; half an hour
-#   make test-platforms       tests the core as other compilers and machines have it, in QEMU and Wine too; two hours
+#   make test-platforms       tests the core as other compilers and machines have it, in QEMU and Wine too; takes long
 #   make test-all             runs also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
 #
 # These measure the tables of docs/benchmarks again. They write them and print how long each part took. They need a quiet

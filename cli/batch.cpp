@@ -131,7 +131,7 @@ BatchSize write_counts(const SearchMethod& method, const BatchQuery& query, cons
   table.add_properties({"count"});
   table.max_bytes = options.max_bytes;
   check_size(options, total, method.vertex_count());
-  write_rows(options.output, table, listed_rows(options, query), query.radius);
+  write_rows(options.output, std::move(table), listed_rows(options, query), query.radius);
   return total;
 }
 
@@ -186,8 +186,11 @@ class Writer {
       npz.add_text("format", "csr");
       npz.add<std::int64_t>("shape", shape);
     }
-    fits_32_bits(total.count, columns) ? write_pattern<std::int32_t>(npz, sizes, total)
-                                       : write_pattern<std::int64_t>(npz, sizes, total);
+    if (fits_32_bits(total.count, columns)) {
+      write_pattern<std::int32_t>(npz, sizes, total);
+    } else {
+      write_pattern<std::int64_t>(npz, sizes, total);
+    }
     if (options_.distances) {
       npz.begin<double>(is_matrix(order_) ? "data" : "distances", total.count);
       for_each_row(
