@@ -43,10 +43,16 @@ function(meshhood_own_target target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF COMPILE_WARNING_AS_ERROR ${MESHHOOD_WARNINGS})
 endfunction()
 
-# The names of a shared library: while the first number of the version is 0, a change of the second breaks programs.
+# The names of a shared library: while the first number of the version is 0, a change of the second breaks programs. Each
+# symbol has the name of its library for version, so that a process can have two of them.
 function(meshhood_version_library target)
   set_target_properties(${target} PROPERTIES
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  include(CheckLinkerFlag)
+  check_linker_flag(CXX -Wl,--default-symver MESHHOOD_VERSIONS_SYMBOLS)
+  if(BUILD_SHARED_LIBS AND MESHHOOD_VERSIONS_SYMBOLS)
+    target_link_options(${target} PRIVATE -Wl,--default-symver)
+  endif()
 endfunction()
 
 # For large programs that spend little time in their own code: optimizing them takes longer than it saves. -Og compiles

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "meshhood/export.h"
+#include "meshhood/version.h"  // IWYU pragma: keep (every program names the version of its headers)
 
 namespace meshhood MESHHOOD_API {
 

@@ -43,6 +43,21 @@ execute_process(COMMAND ${COMPILER} -std=c++20 -fvisibility=hidden ${SOURCE_DIR}
   ${flags} -Wl,-rpath,${folder} -o ${WORK_DIR}/consumer COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${WORK_DIR}/consumer ${WORK_DIR} COMMAND_ERROR_IS_FATAL ANY)
 
+# Two minor versions can be in one process, and an object of the headers of one does not link to the library of another.
+execute_process(COMMAND nm -D ${WORK_DIR}/consumer OUTPUT_VARIABLE used COMMAND_ERROR_IS_FATAL ANY)
+if(NOT used MATCHES " U _ZN8meshhood[^\n]*@libmeshhood[.]so[.]${soname}")
+  message(FATAL_ERROR "the symbols of the library have no version: ${used}")
+endif()
+file(COPY ${SOURCE_DIR}/include/meshhood DESTINATION ${WORK_DIR}/next)
+file(READ ${SOURCE_DIR}/include/meshhood/version.h header)
+string(REPLACE "VERSION_MINOR " "VERSION_MINOR 9" header "${header}")
+file(WRITE ${WORK_DIR}/next/meshhood/version.h "${header}")
+execute_process(COMMAND ${COMPILER} -std=c++20 -I${WORK_DIR}/next ${SOURCE_DIR}/tests/install/consumer/small.cpp
+  ${flags} -o ${WORK_DIR}/small ERROR_VARIABLE said RESULT_VARIABLE result)
+if(result EQUAL 0 OR NOT said MATCHES "undefined reference to `meshhood::detail::headers_of_[0-9]+_9[0-9]+'")
+  message(FATAL_ERROR "headers of another version link: ${said}")
+endif()
+
 # With the command line, which uses more of io than programs may.
 execute_process(COMMAND ${CMAKE_COMMAND} -DMESHHOOD_BUILD_CLI=ON ${WORK_DIR}/build
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
