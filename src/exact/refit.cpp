@@ -17,7 +17,6 @@
 #include "base/validate.h"
 #include "exact/arrays.h"
 #include "exact/build/geometry.h"
-#include "exact/build/leaf_spheres.h"
 #include "exact/build/tree.h"
 #include "exact/index_access.h"
 #include "exact/weighted_graph.h"

@@ -8,8 +8,6 @@
 #include <unistd.h>
 #endif
 
-#include "shared/failure.h"
-
 namespace meshhood {
 
 bool prepare_exceptions() {

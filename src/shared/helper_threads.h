@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <exception>
 #include <functional>
 
 #if defined(__STDCPP_THREADS__)
@@ -19,6 +21,35 @@ namespace meshhood MESHHOOD_API {
 /// exception; if memory has run out by then, glibc ends the process, where the runtime was loaded by the program while
 /// it ran, as Python does. False if memory is that short already.
 bool prepare_exceptions();
+
+/// Keeps the first exception of several threads. Without exceptions, nothing fails.
+class Failure {
+ public:
+  /// Calls `f`; false if it threw.
+  template <class F>
+  bool guard(F&& f) {
+#if defined(__cpp_exceptions)
+    try {
+      f();
+    } catch (...) {
+      if (!happened_.test_and_set()) exception_ = std::current_exception();
+      return false;
+    }
+#else
+    f();
+#endif
+    return true;
+  }
+
+  /// Called when all threads have stopped.
+  void pass_on() const {
+    if (exception_) std::rethrow_exception(exception_);
+  }
+
+ private:
+  std::atomic_flag happened_;
+  std::exception_ptr exception_;
+};
 
 #if defined(__STDCPP_THREADS__)
 

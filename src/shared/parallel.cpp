@@ -9,7 +9,6 @@
 
 #include "meshhood/error.h"
 
-#include "shared/failure.h"
 #include "shared/helper_threads.h"
 
 namespace meshhood {

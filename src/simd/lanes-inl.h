@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "simd/lane_tables.h"
 #include "simd/leaf.h"
 #include "simd/query_word.h"
 #include "simd/target_list.h"

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "meshhood/mesh.h"
 
 #include "exact/arrays.h"
+#include "exact/build/tree.h"
 #include "exact/layout.h"
 #include "shared/parallel.h"
 
@@ -23,5 +26,10 @@ void make_geometry(const PositionsView& positions, const IndexView& connectivity
 
 /// The same from the positions in `geometry`, in index order.
 void measure_geometry(const IndexView& connectivity, GeometryData& geometry, TaskContext& task);
+
+/// The bounding spheres of some leaves, or of all places for leaves. A leaf without vertices has an empty sphere.
+/// `index` has the frame, the positions and the leaves. O(#V) of the leaves.
+[[nodiscard]] Spheres measure_leaves(std::span<const LeafId> leaves, const IndexView& index, TaskContext& task);
+[[nodiscard]] Spheres measure_leaves(const IndexView& index, TaskContext& task);
 
 }  // namespace meshhood
