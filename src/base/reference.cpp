@@ -133,6 +133,7 @@ std::size_t ReferenceSearcher::vertex_count() const { return state_->adjacency.s
 
 void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
   const std::span<const VertexId> found = state_->neighborhood(v, radius);
+  out.reserve(found.size());  // `assign` of libc++ frees what there was before it allocates
   out.assign(found.begin(), found.end());
 }
 
@@ -141,6 +142,7 @@ void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<Vert
   const std::span<const VertexId> found = state_->neighborhood(v, radius);
   // Reserved first: if memory runs out, neither has changed.
   distances.reserve(found.size());
+  out.reserve(found.size());
   out.assign(found.begin(), found.end());
   state_->measure(v, found, distances);
 }
