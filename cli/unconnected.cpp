@@ -23,18 +23,18 @@ class UnconnectedQuantity : public Quantity {
     task.input.ignore_welded();
     const Index& index = task.input.exact_index(task.options.threads);
     std::vector<std::int64_t> others;  // -1 where there is none
-    std::vector<double> gaps;
+    std::vector<double> distances;
     task.for_each_scale("searching", [&](const BatchQuery& query, const Run& run) {
       const Unconnected found = nearest_unconnected(index, query, run);
       for (const VertexId v : found.vertices) others.push_back(v == kNoVertex ? -1 : std::int64_t{v});
-      gaps.insert(gaps.end(), found.gaps.begin(), found.gaps.end());
+      distances.insert(distances.end(), found.distances.begin(), found.distances.end());
     });
     const auto none = static_cast<std::size_t>(std::count(others.begin(), others.end(), -1));
     const std::size_t found = others.size() - none;
     RowTable table = task.table();
-    table.columns = {{"other", std::move(others), table.scales}, {"gap", std::move(gaps), table.scales}};
-    table.add_properties({"other", "gap"});
-    table.shown = fmt::format("gap_{}", table.scales - 1);
+    table.columns = {{"other", std::move(others), table.scales}, {"distance", std::move(distances), table.scales}};
+    table.add_properties({"other", "distance"});
+    table.shown = fmt::format("distance_{}", table.scales - 1);
     table.summary = {{"found", found}, {"none", none}};
     table.text = fmt::format("{} with an unconnected vertex, {} without", found, none);
     return table;
@@ -47,7 +47,7 @@ void add_unconnected(CLI::App& program) {
   add_quantity(program,
                {.name = "unconnected",
                 .description = "Write the nearest vertex of each ball that is not connected in it",
-                .shown = "the gap at the last radius",
+                .shown = "the distance at the last radius",
                 .needs_faces = false},
                std::make_shared<UnconnectedQuantity>());
 }

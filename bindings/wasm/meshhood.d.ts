@@ -555,9 +555,9 @@ export class MeshIndex {
   /**
    * For each vertex the nearest of those in its ball that do not belong to its neighborhood: another sheet, the other
    * side of a wall. Of several at the same distance, the one with the smallest id. Walls and ignored vertices are never
-   * the nearest. Where there is none, as for a wall, the gap is Infinity and the id 2^32 - 1.
+   * the nearest. Where there is none, as for a wall, the distance is Infinity and the vertex 2^32 - 1.
    */
-  nearestUnconnected(r: Radii, options?: RowOptions): { ids: Uint32Array; gaps: Float64Array };
+  nearestUnconnected(r: Radii, options?: RowOptions): { vertices: Uint32Array; distances: Float64Array };
 
   /**
    * The area of the patch of each vertex, the connected surface in the ball, and the volume of the part of the ball

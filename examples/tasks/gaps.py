@@ -1,4 +1,4 @@
-# What is near each vertex, within 3 mm, but not connected with it there: the width of sulci, the thickness of walls.
+# What is near each vertex, within 3 mm, but not connected with it there: as the width of sulci.
 import sys, meshhood  # noqa: E401
 V, F = meshhood.read_mesh(sys.argv[1])
 

@@ -14,7 +14,7 @@ namespace meshhood MESHHOOD_API {
 /// For each row of a query, the nearest vertex in the ball that does not belong to the neighborhood.
 struct Unconnected {
   std::vector<VertexId> vertices;  ///< #rows; `kNoVertex` where there is none
-  std::vector<double> gaps;        ///< #rows: its distance (see `distance`); infinite where there is none
+  std::vector<double> distances;   ///< #rows: infinite where there is none
 };
 
 /// Finds, for each row `v` with radius `r`, the nearest of the vertices that lie within `r` of `v` in space and are not
@@ -31,10 +31,10 @@ struct Unconnected {
 ///          nearest, and for a wall there is none. Not by `Metric::Space`, in which nothing is connected.
 ///
 /// The neighborhoods are found as by `counts`; what the tree of the index has in the balls besides them is searched,
-/// the nearest first. So far away from any gap, all leaves that the surface of a ball meets are compared with it. Where
+/// the nearest first. So far away from any other sheet, all leaves that the surface of a ball meets are compared with it. Where
 /// neighbors are not near in space, as in a random tree, all vertices are compared, as by a plain scan; between
 /// hubs this takes longer than a scan. Vertices at the same place that no edge joins are not connected: of a mesh whose
-/// corners were not merged, gaps are 0 along its seams; weld it first (`io/weld.h`). Memory besides the result: as for
+/// corners were not merged, distances are 0 along its seams; weld it first (`io/weld.h`). Memory besides the result: as for
 /// `counts`.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.

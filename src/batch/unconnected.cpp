@@ -27,7 +27,7 @@
 namespace meshhood {
 namespace {
 
-constexpr double kNoGap = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Where neighbors are not near in space, nodes are large, and a search through the tree visits most of them. To visit
 /// one for each so many vertices takes about as long as a scan, which then takes over.
@@ -54,7 +54,7 @@ class UnconnectedSearch {
       const std::uint32_t slot = index_->slot[packet.vertices[i]];
       const Point p = index_->position(leaf_of(slot), lane_of(slot));
       const double from_center = std::sqrt(squared_distance(center.exact, p));
-      const double radius = metric_ == Metric::Rings ? kNoGap : packet.radii[i];
+      const double radius = metric_ == Metric::Rings ? kInfinity : packet.radii[i];
       queries_.push_back({Center(index_->frame, p), LeafBall(p, LeafBounds(radius)), from_center, radius});
       open_ |= QueryWord{!index_->is_wall(leaf_of(slot), lane_of(slot))} << i;
     }
@@ -66,9 +66,9 @@ class UnconnectedSearch {
 
   struct Found {
     VertexId vertex;
-    double gap;
+    double distance;
   };
-  [[nodiscard]] Found found(std::size_t query) const { return {queries_[query].vertex, queries_[query].gap}; }
+  [[nodiscard]] Found found(std::size_t query) const { return {queries_[query].vertex, queries_[query].distance}; }
 
   [[nodiscard]] double reach() const { return reach_; }
 
@@ -97,7 +97,7 @@ class UnconnectedSearch {
     double from_center;  // of the search
     double limit;        // the distance of the nearest vertex so far, or the radius
     VertexId vertex = kNoVertex;
-    double gap = kNoGap;
+    double distance = kInfinity;
   };
 
   /// Visits the nodes around the center, until none are left to visit.
@@ -169,10 +169,10 @@ class UnconnectedSearch {
     const Point p = std::visit([&](auto xyz) { return point(xyz, vertex); }, index_->positions);
     const double distance = std::sqrt(squared_distance(query.ball.center, p));
     const VertexId id = index_->id(vertex);
-    if (distance > query.limit || (distance == query.gap && query.vertex < id)) return false;
+    if (distance > query.limit || (distance == query.distance && query.vertex < id)) return false;
     const bool has_shrunk = distance < query.limit;
     query.vertex = id;
-    query.gap = query.limit = distance;
+    query.distance = query.limit = distance;
     if (has_shrunk) query.ball = LeafBall(query.ball.center, LeafBounds(distance));
     return has_shrunk;
   }
@@ -201,15 +201,15 @@ class UnconnectedSearch {
 Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const Run& run) {
   check_connects(query.metric);
   const std::size_t rows = query.vertices.count(index.vertex_count());
-  Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kNoGap)};
+  Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kInfinity)};
   const IndexView& view = IndexAccess::view(index);
   const auto make_visitor = [&](unsigned /*thread*/) -> PacketVisitor {
     return [search = UnconnectedSearch(view, query.metric), &result](const PacketAnswer& packet) mutable {
       search.run(packet);
       for (std::size_t i = 0; i < packet.rows.size(); ++i) {
-        const auto [vertex, gap] = search.found(i);
+        const auto [vertex, distance] = search.found(i);
         result.vertices[packet.rows[i]] = vertex;
-        result.gaps[packet.rows[i]] = gap;
+        result.distances[packet.rows[i]] = distance;
       }
     };
   };

@@ -67,7 +67,7 @@ TEST_P(UnconnectedFamilies, AreTheFirstOfAScan) {
       for (VertexId v = 0; v < mesh.size(); v += static_cast<VertexId>(1 + mesh.size() / scaled(150, 20))) {
         const NearestVertex expected = scan(oracle, v, radii[v]);
         ASSERT_EQ(result.vertices[v], expected.vertex) << mesh.name << ", vertex " << v << ", radius " << radii[v];
-        ASSERT_EQ(result.gaps[v], expected.distance) << mesh.name << ", vertex " << v << ", radius " << radii[v];
+        ASSERT_EQ(result.distances[v], expected.distance) << mesh.name << ", vertex " << v << ", radius " << radii[v];
         ++rows;
         found += static_cast<std::size_t>(expected.vertex != kNoVertex);
       }
@@ -87,7 +87,7 @@ TEST(Unconnected, OfAFoldedSheetIsTheOtherHalf) {
   for (VertexId v = 0; v < mesh.size(); ++v) {
     const NearestVertex expected = scan(oracle, v, 3);
     ASSERT_EQ(result.vertices[v], expected.vertex) << v;
-    across += static_cast<std::size_t>(std::abs(result.gaps[v] - 0.7) < 1e-6);
+    across += static_cast<std::size_t>(std::abs(result.distances[v] - 0.7) < 1e-6);
   }
   EXPECT_GT(across, mesh.size() / 2);
 }
@@ -102,7 +102,7 @@ TEST(Unconnected, AtTheDistanceOfTheFoldAreThoseOfAScan) {
     for (VertexId v = 0; v < mesh.size(); ++v) {
       const NearestVertex expected = scan(oracle, v, radius);
       ASSERT_EQ(result.vertices[v], expected.vertex) << v;
-      ASSERT_EQ(result.gaps[v], expected.distance) << v;
+      ASSERT_EQ(result.distances[v], expected.distance) << v;
     }
   }
 }
@@ -131,7 +131,7 @@ TEST(Unconnected, IsNeitherAWallNorIgnored) {
       if (!is_out[w] && distance <= 2.5 && distance < expected.distance) expected = {w, distance};
     }
     ASSERT_EQ(result.vertices[v], expected.vertex) << v;
-    ASSERT_EQ(result.gaps[v], expected.distance) << v;
+    ASSERT_EQ(result.distances[v], expected.distance) << v;
     found += static_cast<std::size_t>(expected.vertex != kNoVertex);
   }
   EXPECT_GT(found, mesh.size() / 2);
@@ -146,7 +146,7 @@ TEST(Unconnected, DoesNotDependOnTheOtherRowsOrOnThreads) {
   ASSERT_EQ(result.vertices.size(), some.size());
   for (std::size_t i = 0; i < some.size(); ++i) {
     EXPECT_EQ(result.vertices[i], all.vertices[some[i]]);
-    EXPECT_EQ(result.gaps[i], all.gaps[some[i]]);
+    EXPECT_EQ(result.distances[i], all.distances[some[i]]);
   }
 }
 
@@ -160,7 +160,7 @@ TEST(Unconnected, OfSeveralIsTheOneWithTheSmallestId) {
   const Index index = build(mesh.finish(true).view());
   const Unconnected result = nearest_unconnected(index, {.radius = 1});
   EXPECT_THAT(result.vertices, testing::ElementsAre(2, 3, 0, 0, 0));
-  EXPECT_THAT(result.gaps, testing::Each(1));
+  EXPECT_THAT(result.distances, testing::Each(1));
 }
 
 TEST(Unconnected, RefusesARowThatDoesNotExistAndARadiusThatIsNone) {

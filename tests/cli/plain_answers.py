@@ -438,14 +438,14 @@ def areas(mesh):
 def unconnected(run, wrong):
     question = Question(run)
     arrays, rows = arrays_of(run), question.rows
-    expect(wrong, "shape", arrays["gap"].shape, (len(question.radii_of(0)), len(rows)))
+    expect(wrong, "shape", arrays["distance"].shape, (len(question.radii_of(0)), len(rows)))
     check_radii(question, arrays, wrong)
     for row in sample(len(rows)):
         for scale, r in enumerate(question.radii_of(row)):
-            other, gap = question.mesh.nearest_unconnected(int(rows[row]), r, question.walls, question.ignored, question.metric)
+            other, distance = question.mesh.nearest_unconnected(int(rows[row]), r, question.walls, question.ignored, question.metric)
             expect(wrong, f"other of row {row}, vertex {rows[row]}", int(arrays["other"][scale, row]), other)
-            expect(wrong, f"gap of row {row}", arrays["gap"][scale, row], gap)
-    check_mesh_files(run, wrong, arrays["gap"][-1])
+            expect(wrong, f"distance of row {row}", arrays["distance"][scale, row], distance)
+    check_mesh_files(run, wrong, arrays["distance"][-1])
     return len(sample(len(rows)))
 
 

@@ -21,8 +21,8 @@ def test_nearest_unconnected_takes_a_mask_radii_and_a_unit(mesh):
     V, _, index, _ = mesh
     rows = np.zeros(len(V), bool)
     rows[[4, 9]] = True
-    other, gap = index.nearest_unconnected([0.1, 2.0], rows)
-    assert other[0] == -1 and gap[0] == np.inf and gap[1] == 0.25
+    other, distance = index.nearest_unconnected([0.1, 2.0], rows)
+    assert other[0] == -1 and distance[0] == np.inf and distance[1] == 0.25
     a = index.nearest_unconnected(2, unit="edge")
     b = index.nearest_unconnected(2 * index.mean_edge_length)
     np.testing.assert_array_equal(a[0], b[0])

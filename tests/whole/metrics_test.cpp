@@ -125,7 +125,7 @@ class MetricCase {
         gap = distance;
       }
       ASSERT_EQ(found.vertices[row], nearest) << mesh_.name << ", vertex " << v << ", radius " << radii_[row];
-      ASSERT_EQ(found.gaps[row], gap);
+      ASSERT_EQ(found.distances[row], gap);
     }
   }
 

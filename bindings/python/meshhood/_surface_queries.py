@@ -28,11 +28,11 @@ _BYTES_OF_EDGE = 64
 class Unconnected(NamedTuple):
     """What is near but not connected (see `MeshIndex.nearest_unconnected`).
 
-    >>> vertices, gaps = meshhood.MeshIndex(V, F).nearest_unconnected(0.5)
+    >>> vertices, distances = meshhood.MeshIndex(V, F).nearest_unconnected(0.5)
     """
 
     vertices: Any
-    gaps: Any
+    distances: Any
 
 
 @shown_in_a_line
@@ -145,8 +145,8 @@ class SurfaceQueries(Held):
         progress: Progress = None,
     ) -> Unconnected:
         """The nearest vertex within `r` in space that is not in the neighborhood with radius `r`, and its distance:
-        `Unconnected(vertices, gaps)`, both (#rows,), or an int and a float for a single vertex; -1 and inf where there
-        is none. Of several at the same distance, the one with the smallest id.
+        `Unconnected(vertices, distances)`, both (#rows,), or an int and a float for a single vertex; -1 and inf where
+        there is none. Of several at the same distance, the one with the smallest id.
 
         r : one radius, or one for each row. A vertex at exactly `r` counts.
         vertices, walls, ignored, unit, workers, progress : see `MeshIndex`. Walls and ignored vertices are never the
@@ -160,12 +160,12 @@ class SurfaceQueries(Held):
         r=inf only other components count.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> other, gap = index.nearest_unconnected(0.5)
-        >>> thin = gap < 0.1
+        >>> other, distance = index.nearest_unconnected(0.5)
+        >>> thin = distance < 0.1
         """
         rows = read_rows(self, vertices, r, None, metric, walls, ignored, unit, workers, progress)
         with rows.reporter("nearest_unconnected") as report:
-            other, gap = _core.nearest_unconnected(
+            other, distance = _core.nearest_unconnected(
                 rows.index._exact,
                 rows.vertices,
                 rows.radii[0],
@@ -173,7 +173,7 @@ class SurfaceQueries(Held):
                 progress=report,
                 metric=rows.core_metric,
             )
-        return Unconnected(int(other[0]), float(gap[0])) if rows.shape == () else Unconnected(other, gap)
+        return Unconnected(int(other[0]), float(distance[0])) if rows.shape == () else Unconnected(other, distance)
 
     def closest_point(
         self, q: ArrayLike, *, F: Any = None, workers: int = -1, progress: Progress = None

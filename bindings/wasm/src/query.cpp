@@ -97,7 +97,7 @@ extern "C" {
   const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
   Unconnected found = meshhood::nearest_unconnected(workspace.searched(), rows.query());
   answer.ids = std::move(found.vertices);
-  answer.reals = std::move(found.gaps);
+  answer.reals = std::move(found.distances);
 }
 
 /// All vertices if `vertices` is null. The ids and reals of the answer have `k` places for each row.
