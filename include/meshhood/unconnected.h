@@ -31,11 +31,11 @@ struct Unconnected {
 ///          nearest, and for a wall there is none. Not by `Metric::Space`, in which nothing is connected.
 ///
 /// The neighborhoods are found as by `counts`; what the tree of the index has in the balls besides them is searched,
-/// the nearest first. So far away from any other sheet, all leaves that the surface of a ball meets are compared with it. Where
-/// neighbors are not near in space, as in a random tree, all vertices are compared, as by a plain scan; between
-/// hubs this takes longer than a scan. Vertices at the same place that no edge joins are not connected: of a mesh whose
-/// corners were not merged, distances are 0 along its seams; weld it first (`io/weld.h`). Memory besides the result: as for
-/// `counts`.
+/// the nearest first. So far away from any other sheet, all leaves that the surface of a ball meets are compared with
+/// it. Where neighbors are not near in space, as in a random tree, all vertices are compared, as by a plain scan;
+/// between hubs this takes longer than a scan. Vertices at the same place that no edge joins are not connected: of a
+/// mesh whose corners were not merged, distances are 0 along its seams; weld it first (`io/weld.h`). Memory besides the
+/// result: as for `counts`.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const Run& run = {});
