@@ -4,6 +4,17 @@
 import numpy as np
 
 
+def divided(V, F, splits):
+    """V, F: the same surface, whose triangles are divided into four `splits` times."""
+    for _ in range(splits):
+        sides = np.sort(np.stack([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]], axis=1).reshape(-1, 2), axis=1)
+        edges, middles = np.unique(sides, axis=0, return_inverse=True)
+        m = middles.reshape(-1, 3) + len(V)
+        V = np.concatenate([V, V[edges].mean(axis=1)])
+        F = np.concatenate([m] + [np.c_[F[:, i], m[:, i], m[:, i - 1]] for i in range(3)])
+    return V, F
+
+
 def sphere(splits):
     """V, F: an icosahedron whose triangles are divided into four `splits` times."""
     golden = (1 + 5**0.5) / 2
@@ -15,12 +26,7 @@ def sphere(splits):
     F = np.array([(a, b, c) for a, b, c in triples if near[a, b] and near[b, c] and near[a, c]])
     outward = np.einsum("ij,ij->i", np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]), V[F[:, 0]]) > 0
     F[~outward] = F[~outward][:, ::-1]
-    for _ in range(splits):
-        sides = np.sort(np.stack([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]], axis=1).reshape(-1, 2), axis=1)
-        edges, middles = np.unique(sides, axis=0, return_inverse=True)
-        m = middles.reshape(-1, 3) + len(V)
-        V = np.concatenate([V, V[edges].mean(axis=1)])
-        F = np.concatenate([m] + [np.c_[F[:, i], m[:, i], m[:, i - 1]] for i in range(3)])
+    V, F = divided(V, F, splits)
     return V / np.linalg.norm(V, axis=1, keepdims=True), F
 
 
@@ -61,6 +67,15 @@ def bowl():
     return revolved([*outer, *inner[::-1]], 160)
 
 
+def pin_in_a_cup(cup_splits):
+    """V in mm, F, and the vertices of the pin, of 16 mm, which leans in a cup with a bore of 18 mm. The cup is as CAD writes
+    it, of few, long triangles, which are divided `cup_splits` times; the pin has many."""
+    pin, G = divided(*revolved([(0, 0), (8, 0), (8, 40), (0, 40)], 36), 4)
+    pin[:, 0] += pin[:, 2] / 60
+    cup, F = divided(*revolved([(0, -6), (14, -6), (14, 40), (9, 40), (9, -2), (0, -2)], 36), cup_splits)
+    return np.concatenate([pin, cup]), np.concatenate([G, F + len(pin)]), np.arange(len(pin))
+
+
 def rolled(turn, side=100):
     """V, F: a sheet of 3 side by side vertices, 1 apart, rolled up by `turn` turns 4 apart; its middle stays."""
     along, across = (axis.ravel().astype(float) for axis in np.indices((3 * side, side)))
@@ -73,4 +88,25 @@ def rolled(turn, side=100):
     V -= V[3 * side // 2 * side] * (1, 1, 0)
     ids = np.arange(3 * side * side).reshape(3 * side, side)
     a, b, c, d = ids[:-1, :-1].ravel(), ids[1:, :-1].ravel(), ids[1:, 1:].ravel(), ids[:-1, 1:].ravel()
+    return V, np.concatenate([np.c_[a, b, c], np.c_[a, c, d]])
+
+
+def worn_tablet(side=240):
+    """V in mm, F: a pillow of clay with strokes of 0.6 mm, worn until they are 0.4 mm deep, and grains."""
+    random = np.random.default_rng(3)
+    x, y = (axis.ravel().astype(float) for axis in np.indices((side, side)))
+    depth = np.zeros((side, side))
+    for middle in np.stack(np.meshgrid(*2 * [np.arange(30, side - 20, 36)]), -1).reshape(-1, 2):
+        for angle in np.pi / 4 * random.choice(4, 2, replace=False):
+            u = (x - middle[0]) * np.cos(angle) + (y - middle[1]) * np.sin(angle)
+            v = (y - middle[1]) * np.cos(angle) - (x - middle[0]) * np.sin(angle)
+            stroke = np.clip(1.5 * (1 - abs(u) / 15), 0, 1) - abs(v) / 4
+            depth = np.maximum(depth, np.clip(stroke, 0, 1).reshape(side, side))
+    for shift in (1, 1, 2, 2):
+        depth = (depth + np.roll(depth, shift, 0) + np.roll(depth, -shift, 0)) / 3
+        depth = (depth + np.roll(depth, shift, 1) + np.roll(depth, -shift, 1)) / 3
+    pillow = 20 - 40 * ((x / side - 0.5) ** 2 + (y / side - 0.5) ** 2)
+    ids = np.arange(side * side).reshape(side, side)
+    a, b, c, d = ids[:-1, :-1].ravel(), ids[1:, :-1].ravel(), ids[1:, 1:].ravel(), ids[:-1, 1:].ravel()
+    V = np.c_[x, y, pillow - 0.6 * depth.ravel() + random.normal(0, 0.05, len(x))]
     return V, np.concatenate([np.c_[a, b, c], np.c_[a, c, d]])
