@@ -68,8 +68,8 @@ def bowl():
 
 
 def pin_in_a_cup(cup_splits):
-    """V in mm, F, and the vertices of the pin, of 16 mm, which leans in a cup with a bore of 18 mm. The cup is as CAD writes
-    it, of few, long triangles, which are divided `cup_splits` times; the pin has many."""
+    """V in mm, F, and the vertices of the pin: a pin of 16 mm leans in a cup with a bore of 18 mm. The cup is as CAD
+    writes it, of few, long triangles, which are divided `cup_splits` times. The pin has many."""
     pin, G = divided(*revolved([(0, 0), (8, 0), (8, 40), (0, 40)], 36), 4)
     pin[:, 0] += pin[:, 2] / 60
     cup, F = divided(*revolved([(0, -6), (14, -6), (14, 40), (9, 40), (9, -2), (0, -2)], 36), cup_splits)
