@@ -48,24 +48,24 @@ RowTable table_of(const std::vector<SurfacePoint>& found) {
   std::vector<double> distances;
   std::vector<double> points;
   std::vector<std::int64_t> vertices;
-  std::vector<double> weights;
+  std::vector<double> barycentric;
   for (const SurfacePoint& one : found) {
     faces.push_back(static_cast<std::int64_t>(one.face));
     distances.push_back(one.distance);
     points.insert(points.end(), one.point.begin(), one.point.end());
     vertices.insert(vertices.end(), one.vertices.begin(), one.vertices.end());
-    weights.insert(weights.end(), one.weights.begin(), one.weights.end());
+    barycentric.insert(barycentric.end(), one.barycentric.begin(), one.barycentric.end());
   }
   RowTable table{.rows = found.size()};
   table.columns = {{"face", std::move(faces)},
                    {"distance", std::move(distances)},
                    {"point", std::move(points), 0, 3},
                    {"vertices", std::move(vertices), 0, 3},
-                   {"weights", std::move(weights), 0, 3}};
+                   {"barycentric", std::move(barycentric), 0, 3}};
   table.add_property("face", "face");
   table.add_property("distance", "distance");
   table.add_property("point", "point", 0, 0, 3);
-  for (const char* name : {"vertices", "weights"}) {
+  for (const char* name : {"vertices", "barycentric"}) {
     for (std::size_t i = 0; i < 3; ++i) table.add_property(fmt::format("{}_{}", name, i), name, 0, i);
   }
   return table;
@@ -76,7 +76,7 @@ Json to_json(const std::vector<SurfacePoint>& found) {
   for (const SurfacePoint& one : found) {
     documents.push_back({{"face", one.face},
                          {"vertices", one.vertices},
-                         {"weights", one.weights},
+                         {"barycentric", one.barycentric},
                          {"point", one.point},
                          {"distance", one.distance}});
   }
@@ -120,10 +120,10 @@ void add_closest(CLI::App& program) {
   add_file_option(*command, "--points", "many points: text with X Y Z on each line, or an array of NumPy (.npy)",
                   options->points);
   add_threads(*command, options->threads);
-  add_table_output(
-      *command, ".npz",
-      "arrays or a table to write instead: face, distance, point, and the vertices of its triangle with their weights",
-      options->output);
+  add_table_output(*command, ".npz",
+                   "arrays or a table to write instead: face, distance, point, and the vertices of its triangle with "
+                   "its barycentric coordinates",
+                   options->output);
   add_json(*command, options->json);
   command->callback([options] { closest(*options); });
 }

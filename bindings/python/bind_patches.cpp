@@ -50,22 +50,22 @@ class Patches {
     std::vector<double> distances;
     std::vector<std::int64_t> faces;
     std::vector<std::array<VertexId, 3>> corners;
-    std::vector<std::array<double, 3>> weights;
+    std::vector<std::array<double, 3>> barycentric;
     std::vector<SpacePoint> points;
     without_lock([&] {
       for (const SurfacePoint& gap : gaps(surface_, query, run)) {
         distances.push_back(gap.distance);
         faces.push_back(static_cast<std::int64_t>(gap.face));
         corners.push_back(gap.vertices);
-        weights.push_back(gap.weights);
+        barycentric.push_back(gap.barycentric);
         points.push_back(gap.point);
       }
     });
     static_assert(static_cast<std::int64_t>(kNoFace) == -1);
     const std::size_t rows = distances.size();
     return std::tuple(owned<double>(std::move(distances)), owned<std::int64_t>(std::move(faces)),
-                      owned<std::int32_t>(std::move(corners), {rows, 3}), owned<double>(std::move(weights), {rows, 3}),
-                      owned<double>(std::move(points), {rows, 3}));
+                      owned<std::int32_t>(std::move(corners), {rows, 3}),
+                      owned<double>(std::move(barycentric), {rows, 3}), owned<double>(std::move(points), {rows, 3}));
   }
 
   auto faces(VertexId vertex, std::optional<std::size_t> face, const SpacePoint& point, double radius) {

@@ -70,21 +70,21 @@ auto columns(unsigned threads, nb::handle progress, const Find& find) {
   const Run run{.threads = threads, .progress = progress_to(progress)};
   std::vector<std::int64_t> faces;
   std::vector<std::array<std::size_t, 3>> corners;
-  std::vector<std::array<double, 3>> weights;
+  std::vector<std::array<double, 3>> barycentric;
   std::vector<SpacePoint> points;
   std::vector<double> distances;
   without_lock([&] {
     for (const SurfacePoint& hit : find(run)) {
       faces.push_back(static_cast<std::int64_t>(hit.face));  // -1 for kNoFace
       corners.push_back(hit.corners);
-      weights.push_back(hit.weights);
+      barycentric.push_back(hit.barycentric);
       points.push_back(hit.point);
       distances.push_back(hit.distance);
     }
   });
   const std::size_t rows = faces.size();
   return std::tuple(owned<std::int64_t>(std::move(faces)), owned<std::int64_t>(std::move(corners), {rows, 3}),
-                    owned<double>(std::move(weights), {rows, 3}), owned<double>(std::move(points), {rows, 3}),
+                    owned<double>(std::move(barycentric), {rows, 3}), owned<double>(std::move(points), {rows, 3}),
                     owned<double>(std::move(distances)));
 }
 

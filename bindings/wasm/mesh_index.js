@@ -267,7 +267,7 @@ export class MeshIndex extends Owner {
   #takeSurfacePoint() {
     const numbers = this.instance.takeReals();
     return {
-      face: this.instance.takeCounts()[0], vertices: this.instance.takeIds(), weights: numbers.slice(0, 3),
+      face: this.instance.takeCounts()[0], vertices: this.instance.takeIds(), barycentric: numbers.slice(0, 3),
       point: numbers.slice(3, 6), distance: numbers[6],
     };
   }
@@ -376,8 +376,8 @@ export class MeshIndex extends Owner {
     this.#callOnSurface('gaps', r, withDefaults(options, SURFACE_ROWS));
     const numbers = this.instance.takeReals();
     const found = {
-      faces: this.instance.takeCounts(), vertices: this.instance.takeIds(), weights: columns(numbers, 0, 3),
-      points: columns(numbers, 3, 6), distances: columns(numbers, 6, 7),
+      face: this.instance.takeCounts(), vertices: this.instance.takeIds(), barycentric: columns(numbers, 0, 3),
+      point: columns(numbers, 3, 6), distance: columns(numbers, 6, 7),
     };
     this.instance.releaseAnswer();
     return found;

@@ -78,10 +78,10 @@ export interface Faces {
 /** A point on a face. */
 export interface SurfacePoint {
   face: number;
-  /** Of its triangle, in the order of the weights. */
+  /** Of its triangle, in the order of `barycentric`. */
   vertices: Uint32Array;
-  /** Its barycentric coordinates there. */
-  weights: Float64Array;
+  /** Its coordinates there: >= 0, with the sum 1. */
+  barycentric: Float64Array;
   point: Float64Array;
   /** From the point that was asked for, or the origin of the ray. */
   distance: number;
@@ -347,14 +347,14 @@ export interface SurfaceOptions extends Omit<RowOptions, 'metric'> {
 /** The nearest points of the surface that are not of the patch, one for each row. */
 export interface Gaps {
   /** 2^32 - 1 where there is none. */
-  faces: Uint32Array;
+  face: Uint32Array;
   /** #rows by 3: of the triangle of the face that has the point, and its barycentric coordinates there. */
   vertices: Uint32Array;
-  weights: Float64Array;
+  barycentric: Float64Array;
   /** #rows by 3; NaN where there is none. */
-  points: Float64Array;
+  point: Float64Array;
   /** Infinity where there is none. */
-  distances: Float64Array;
+  distance: Float64Array;
 }
 
 export interface FeatureOptions extends RowOptions, Scales {

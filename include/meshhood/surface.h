@@ -29,8 +29,7 @@ struct SurfacePoint {
   std::size_t face = kNoFace;                                         ///< its number
   std::array<std::size_t, 3> corners{};                               ///< of its triangle: their places in the face
   std::array<VertexId, 3> vertices{kNoVertex, kNoVertex, kNoVertex};  ///< of its triangle
-  std::array<double, 3> weights{kNone, kNone,
-                                kNone};  ///< barycentric coordinates in it: >= 0, with the sum 1 up to rounding
+  std::array<double, 3> barycentric{kNone, kNone, kNone};  ///< coordinates in it: >= 0, with the sum 1 up to rounding
   SpacePoint point{kNone, kNone, kNone};
   double distance = std::numeric_limits<double>::infinity();  ///< from the point that was asked for
 
@@ -143,7 +142,7 @@ class Surface {
   /// The distance from a triangle is the least of those from its corners, its sides and the foot of the perpendicular,
   /// each computed in double: it is off by a few units in the last place of itself and of the longest side, whatever
   /// the shape. So beside sides of 10^19 in a mesh, a face that is nearer by less than ten thousand may be missed. A
-  /// triangle without an area has only sides. Points on a side or at a corner have weights that are exactly 0.
+  /// triangle without an area has only sides. Points on a side or at a corner have coordinates that are exactly 0.
   ///
   /// Throws Error{InvalidOption} if a coordinate is not finite or beyond 2^500, and Error{InvalidMesh} if no face has
   /// three corners. O(log #V) on most surfaces; more where many triangles are about equally far. Allocates nothing.
@@ -163,9 +162,9 @@ class Surface {
   /// No ray slips through where faces meet. The place of a corner as the ray sees it is computed in double, off by a
   /// few units in the last place of its distance, and is the same for all faces; on which side of a line the ray passes
   /// is then decided exactly. A ray that meets a side or a corner meets all faces there: their distances are the same,
-  /// bit for bit, and the weights of other corners are exactly 0. A triangle that the ray sees exactly from its side is
-  /// not hit, but those that meet it are. The distance is off by a few units in the last place of those of the corners,
-  /// times the slope of the triangle against the ray.
+  /// bit for bit, and the coordinates of other corners are exactly 0. A triangle that the ray sees exactly from its
+  /// side is not hit, but those that meet it are. The distance is off by a few units in the last place of those of the
+  /// corners, times the slope of the triangle against the ray.
   ///
   /// Throws Error{InvalidOption} as `closest_point` for `origin`, and for `direction`, and Error{InvalidMesh} if no
   /// face has three corners. O(log #V) on most surfaces; O(#F) from farther away than 10^14 times the mesh. Allocates

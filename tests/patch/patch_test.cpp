@@ -76,7 +76,7 @@ struct Case {
       double largest = radius;
       for (std::size_t i = 0; i < 3; ++i) {
         const double x = mesh.positions[3 * std::size_t{gap.vertices[i]} + axis];
-        sum += gap.weights[i] * x;
+        sum += gap.barycentric[i] * x;
         largest = std::max(largest, std::abs(x));
       }
       EXPECT_NEAR(gap.point[axis], sum, 1e-14 * largest);

@@ -102,8 +102,8 @@ TEST_P(ClosestPointIn, FindsTheFirstOfAScan) {
       ASSERT_EQ(found.distance, expected) << i;
       ASSERT_EQ(found.vertices, triangles.corners[nearest]) << i;
       for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(mesh.face(found.face)[found.corners[k]], found.vertices[k]);
-      ASSERT_NEAR(found.weights[0] + found.weights[1] + found.weights[2], 1, 1e-15);
-      ASSERT_GE(std::min({found.weights[0], found.weights[1], found.weights[2]}), 0);
+      ASSERT_NEAR(found.barycentric[0] + found.barycentric[1] + found.barycentric[2], 1, 1e-15);
+      ASSERT_GE(std::min({found.barycentric[0], found.barycentric[1], found.barycentric[2]}), 0);
     }
   }
   std::printf("%s: %zu points\n", std::string(GetParam().name).c_str(), points);
@@ -123,13 +123,13 @@ TEST(TrianglePoint, HasTheDistanceOfTheRegionsAroundIt) {
     ASSERT_NEAR(found.distance, static_cast<double>(expected), 1e-14);
     Point sum{0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
-      sum.x += found.weights[k] * corners[k].x;
-      sum.y += found.weights[k] * corners[k].y;
-      sum.z += found.weights[k] * corners[k].z;
+      sum.x += found.barycentric[k] * corners[k].x;
+      sum.y += found.barycentric[k] * corners[k].y;
+      sum.z += found.barycentric[k] * corners[k].z;
     }
     ASSERT_NEAR(std::sqrt(squared_distance(sum, found.point)), 0, 1e-14);
     ASSERT_NEAR(std::sqrt(squared_distance(q, found.point)), found.distance, 1e-14);
-    ++zeros[static_cast<std::size_t>(std::count(found.weights.begin(), found.weights.end(), 0.0))];
+    ++zeros[static_cast<std::size_t>(std::count(found.barycentric.begin(), found.barycentric.end(), 0.0))];
   }
   std::printf("inside %zu, sides %zu, corners %zu\n", zeros[0], zeros[1], zeros[2]);
   EXPECT_GT(std::min({zeros[0], zeros[1], zeros[2]}), 100U);
@@ -143,11 +143,11 @@ TEST(TrianglePoint, OfTrianglesWithASideInCommonHasTheSameDistanceThere) {
     const std::array corners{draw(), draw(), draw()};
     const Point q = draw();
     const TrianglePoint found = nearest_in_triangle(q, corners, 1);
-    if (found.weights[2] != 0) continue;
+    if (found.barycentric[2] != 0) continue;
     const TrianglePoint other = nearest_in_triangle(q, {corners[1], corners[0], draw()}, 1);
-    if (other.weights[2] != 0) continue;
+    if (other.barycentric[2] != 0) continue;
     ASSERT_EQ(found.distance, other.distance) << i;
-    at_side += static_cast<std::size_t>(found.weights[0] != 0 && found.weights[1] != 0);
+    at_side += static_cast<std::size_t>(found.barycentric[0] != 0 && found.barycentric[1] != 0);
   }
   EXPECT_GT(at_side, 100U);
 }
@@ -180,7 +180,7 @@ TEST(TrianglePoint, WithoutAnAreaIsItsSides) {
   EXPECT_EQ(on_line.point.x, 1);
   const TrianglePoint one_point = nearest_in_triangle({1, 2, 0}, {{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, 1);
   EXPECT_EQ(one_point.distance, 2);
-  EXPECT_THAT(one_point.weights, testing::Contains(1.0));
+  EXPECT_THAT(one_point.barycentric, testing::Contains(1.0));
 }
 
 TEST(ClosestPoint, OfFacesThatMeetFindsTheOneWithTheSmallestNumber) {
@@ -210,7 +210,7 @@ TEST(ClosestPoint, OfAConvexPolygonIsThatOfItsFan) {
   EXPECT_EQ(found.face, 1U);
   EXPECT_THAT(found.corners, testing::ElementsAre(0, 2, 3));
   EXPECT_THAT(found.vertices, testing::ElementsAre(0, 2, 3));
-  EXPECT_THAT(found.weights, testing::ElementsAre(0.25, 0.25, 0.5));
+  EXPECT_THAT(found.barycentric, testing::ElementsAre(0.25, 0.25, 0.5));
   EXPECT_EQ(found.point, (SpacePoint{1, 3, 0}));
   EXPECT_EQ(found.distance, 5);
 }

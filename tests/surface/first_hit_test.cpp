@@ -136,10 +136,10 @@ TEST_P(FirstHitIn, IsTheFirstOfAScan) {
       ASSERT_EQ(found.face, triangles.faces[expected.triangle]) << i;
       ASSERT_EQ(found.vertices, triangles.corners[expected.triangle]) << i;
       ASSERT_EQ(found.point, space(expected.at.point)) << i;
-      ASSERT_EQ(found.weights, expected.at.weights) << i;
+      ASSERT_EQ(found.barycentric, expected.at.barycentric) << i;
       for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(mesh.face(found.face)[found.corners[k]], found.vertices[k]);
-      ASSERT_NEAR(found.weights[0] + found.weights[1] + found.weights[2], 1, 1e-15);
-      ASSERT_GE(std::min({found.weights[0], found.weights[1], found.weights[2]}), 0);
+      ASSERT_NEAR(found.barycentric[0] + found.barycentric[1] + found.barycentric[2], 1, 1e-15);
+      ASSERT_GE(std::min({found.barycentric[0], found.barycentric[1], found.barycentric[2]}), 0);
     }
   }
   std::printf("%s: %zu rays, %zu hits\n", std::string(GetParam().name).c_str(), rays, hits);
@@ -213,11 +213,11 @@ TEST(Ray, OnASideMeetsBothTrianglesAtTheSameDistance) {
     const Ray ray(origin, direction, {});
     const auto found = ray.meet(corners);
     const auto other = ray.meet({corners[1], corners[0], draw()});
-    if (!found || !other || found->weights[2] != 0 || other->weights[2] != 0) continue;
+    if (!found || !other || found->barycentric[2] != 0 || other->barycentric[2] != 0) continue;
     ASSERT_EQ(found->distance, other->distance) << i;
-    ASSERT_EQ(found->weights[0], other->weights[1]) << i;
+    ASSERT_EQ(found->barycentric[0], other->barycentric[1]) << i;
     ASSERT_EQ(space(found->point), space(other->point)) << i;
-    at_side += static_cast<std::size_t>(found->weights[0] != 0 && found->weights[1] != 0);
+    at_side += static_cast<std::size_t>(found->barycentric[0] != 0 && found->barycentric[1] != 0);
   }
   std::printf("%zu at a side\n", at_side);
   EXPECT_GT(at_side, 1000U);
@@ -239,7 +239,7 @@ TEST(FirstHit, FromInsideIsNeverNoneThroughCornersAndSides) {
     const double share = i % 2 == 0 ? 0 : random.uniform();
     const SurfacePoint found = surface.first_hit(space(origin), space(a + share * (b - a) - origin));
     ASSERT_NE(found.face, kNoFace) << i;
-    exact += static_cast<std::size_t>(std::ranges::count(found.weights, 0.0) > 0);
+    exact += static_cast<std::size_t>(std::ranges::count(found.barycentric, 0.0) > 0);
   }
   std::printf("%zu exactly at a side or a corner\n", exact);
   EXPECT_GT(exact, 1000U);

@@ -29,7 +29,7 @@ namespace {
 std::vector<double> answers(const Surface& surface, std::span<const SpacePoint> points) {
   std::vector<double> all;
   for (const SurfacePoint& hit : surface.closest_points(points)) {
-    all.insert(all.end(), {static_cast<double>(hit.face), hit.distance, hit.weights[0], hit.point[2]});
+    all.insert(all.end(), {static_cast<double>(hit.face), hit.distance, hit.barycentric[0], hit.point[2]});
   }
   const Curvatures k = curvatures(surface, {.radius = 2.0});
   all.insert(all.end(), k.k1.begin(), k.k1.end());

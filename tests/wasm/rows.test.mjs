@@ -162,12 +162,12 @@ test('areas, volumes and gaps are those of the surface in the ball', () => {
     near(volume[i], (Math.PI / 6) * r ** 3);
   }
   const gaps = two.gaps(Float64Array.of(0.4, 0.1), options);
-  assert.deepEqual([...gaps.faces], [0, 2 ** 32 - 1]);
+  assert.deepEqual([...gaps.face], [0, 2 ** 32 - 1]);
   assert.deepEqual([...gaps.vertices.subarray(0, 3)].sort(), [0, 1, 2]);
-  near(gaps.distances[0], 0.2);
-  assert.equal(gaps.distances[1], Infinity);
-  assert.deepEqual([...gaps.points].map(Math.abs), [0, 0, 0, NaN, NaN, NaN]);
-  assert.deepEqual([...gaps.weights.subarray(0, 3)].sort(), [0, 0, 1]);
+  near(gaps.distance[0], 0.2);
+  assert.equal(gaps.distance[1], Infinity);
+  assert.deepEqual([...gaps.point].map(Math.abs), [0, 0, 0, NaN, NaN, NaN]);
+  assert.deepEqual([...gaps.barycentric.subarray(0, 3)].sort(), [0, 0, 1]);
   const walled = two.invariants(0.4, { ...options, walls: Uint8Array.of(0, 0, 0, 1, 0, 0, 0, 0) });
   near(walled.area[1], (1 / 4) * Math.PI * 0.16);
   assert.ok(Number.isNaN(walled.volume[1]));
@@ -248,7 +248,7 @@ test('the closest point of the surface is that of the command line', () => {
   for (const point of [[3.3, 4.2, 9], [-1, 2.5, 0], [10.5, 10.25, -3]]) {
     const [expected] = JSON.parse(meshhood('closest', 'hills.ply', '--point', point.join(','), '--json'));
     const found = index.closestPoint(point, { faces: mesh });
-    assert.deepEqual({ ...found, vertices: [...found.vertices], weights: [...found.weights], point: [...found.point] }, expected);
+    assert.deepEqual({ ...found, vertices: [...found.vertices], barycentric: [...found.barycentric], point: [...found.point] }, expected);
   }
   const { point, vertices: seeds } = index.closestPoint([3.3, 4.2, 9], { faces: mesh });
   assert.ok(index.neighborhood(point, 2, { seeds }).length > 5);

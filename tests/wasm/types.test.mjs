@@ -40,7 +40,7 @@ const USE = `
   const creases: Float64Array = index.features(null, { faces, scales, kinds: ['crease', 'area'] });
   const { vertices, point, face } = index.closestPoint([0, 0, 1], { faces });
   const volume: Float64Array = index.invariants(null, { faces, scales, walls }).volume;
-  const between: Float64Array = index.gaps(scales, { faces, vertices: near, unit: 'edge' }).distances;
+  const between: Float64Array = index.gaps(scales, { faces, vertices: near, unit: 'edge' }).distance;
   const patch: Uint32Array = index.patch(point, 2, { faces, face });
   index.neighborhood(point, 2, { seeds: vertices, sort: 'id' });
   const hit: SurfacePoint | null = index.firstHit(point, [0, 0, -1], { faces });

@@ -253,7 +253,7 @@ std::vector<Call> surface_calls(const Scene& scene) {
                      std::vector<double> numbers;
                      for (const SurfacePoint& hit :
                           scene.surface.first_hits(origins, directions, {.threads = threads})) {
-                       numbers.insert(numbers.end(), {static_cast<double>(hit.face), hit.distance, hit.weights[0]});
+                       numbers.insert(numbers.end(), {static_cast<double>(hit.face), hit.distance, hit.barycentric[0]});
                      }
                      return numbers;
                    },

@@ -19,12 +19,12 @@ struct Answer {
 /// One for each instance of the module, which has one thread.
 inline Answer answer;
 
-/// Three ids, the vertices of the triangle; seven reals, their weights, the point and its distance; and a count, the
-/// face, of which `kNoFace` has all bits set.
+/// Three ids, the vertices of the triangle; seven reals, its barycentric coordinates in it, the point and its distance;
+/// and a count, the face, of which `kNoFace` has all bits set.
 inline void append_point(const SurfacePoint& found) {
   answer.counts.push_back(static_cast<std::uint32_t>(found.face));
   answer.ids.insert(answer.ids.end(), found.vertices.begin(), found.vertices.end());
-  answer.reals.insert(answer.reals.end(), found.weights.begin(), found.weights.end());
+  answer.reals.insert(answer.reals.end(), found.barycentric.begin(), found.barycentric.end());
   answer.reals.insert(answer.reals.end(), found.point.begin(), found.point.end());
   answer.reals.push_back(found.distance);
 }
