@@ -27,7 +27,7 @@
 namespace meshhood {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Where neighbors are not near in space, nodes are large, and a search through the tree visits most of them. To visit
 /// one for each so many vertices takes about as long as a scan, which then takes over.
@@ -54,7 +54,7 @@ class UnconnectedSearch {
       const std::uint32_t slot = index_->slot[packet.vertices[i]];
       const Point p = index_->position(leaf_of(slot), lane_of(slot));
       const double from_center = std::sqrt(squared_distance(center.exact, p));
-      const double radius = metric_ == Metric::Rings ? kInfinity : packet.radii[i];
+      const double radius = metric_ == Metric::Rings ? kInfinite : packet.radii[i];
       queries_.push_back({Center(index_->frame, p), LeafBall(p, LeafBounds(radius)), from_center, radius});
       open_ |= QueryWord{!index_->is_wall(leaf_of(slot), lane_of(slot))} << i;
     }
@@ -97,7 +97,7 @@ class UnconnectedSearch {
     double from_center;  // of the search
     double limit;        // the distance of the nearest vertex so far, or the radius
     VertexId vertex = kNoVertex;
-    double distance = kInfinity;
+    double distance = kInfinite;
   };
 
   /// Visits the nodes around the center, until none are left to visit.
@@ -201,7 +201,7 @@ class UnconnectedSearch {
 Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const Run& run) {
   check_connects(query.metric);
   const std::size_t rows = query.vertices.count(index.vertex_count());
-  Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kInfinity)};
+  Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kInfinite)};
   const IndexView& view = IndexAccess::view(index);
   const auto make_visitor = [&](unsigned /*thread*/) -> PacketVisitor {
     return [search = UnconnectedSearch(view, query.metric), &result](const PacketAnswer& packet) mutable {

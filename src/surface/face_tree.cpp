@@ -112,7 +112,7 @@ std::array<Point, 3> corners_of(const IndexView& index, const std::array<std::ui
 SurfacePoint surface_point(const IndexView& index, const StoredFaces& faces, std::size_t face,
                            const std::array<std::uint32_t, 3>& places, const TrianglePoint& found) {
   const std::span<const VertexId> all = faces[face];
-  SurfacePoint result{face, {}, {}, found.weights, {found.point.x, found.point.y, found.point.z}, found.distance};
+  SurfacePoint result{face, {}, {}, found.barycentric, {found.point.x, found.point.y, found.point.z}, found.distance};
   for (std::size_t i = 0; i < 3; ++i) {
     result.vertices[i] = index.id(places[i]);
     result.corners[i] = static_cast<std::size_t>(std::ranges::find(all, result.vertices[i]) - all.begin());

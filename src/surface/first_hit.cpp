@@ -119,12 +119,12 @@ std::optional<TrianglePoint> Ray::meet(const std::array<Point, 3>& corners) cons
   if ((least < 0 && most > 0) || (least == 0 && most == 0)) return std::nullopt;
   TrianglePoint found{{}, {0, 0, 0}, 0};
   const auto zero = static_cast<std::size_t>(std::ranges::find(areas, 0.0) - areas.begin());
-  found.weights = zero == areas.size() ? weights_inside(seen, areas)
-                                       : weights_on_side(corners, seen, (zero + 1) % 3, (zero + 2) % 3);
+  found.barycentric = zero == areas.size() ? weights_inside(seen, areas)
+                                           : weights_on_side(corners, seen, (zero + 1) % 3, (zero + 2) % 3);
   double way = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    found.point = found.point + found.weights[i] * corners[i];
-    way += found.weights[i] * seen[i].z;
+    found.point = found.point + found.barycentric[i] * corners[i];
+    way += found.barycentric[i] * seen[i].z;
   }
   if (!(way >= 0)) return std::nullopt;
   found.distance = way / scale_ * length_;

@@ -11,7 +11,7 @@ namespace meshhood {
 
 /// A point of a triangle, and its distance from another point.
 struct TrianglePoint {
-  std::array<double, 3> weights;  // barycentric
+  std::array<double, 3> barycentric;
   Point point;
   double distance;
 };
