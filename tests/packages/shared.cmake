@@ -33,6 +33,7 @@ if(result EQUAL 0 OR NOT said MATCHES "0.0.9 had _ZN8meshhood4goneEv, which is g
   message(FATAL_ERROR "a symbol that is gone was not noticed: ${said}")
 endif()
 
+list(GET COMPILERS 0 COMPILER)
 file(GLOB packages ${prefix}/*/pkgconfig)
 set(ENV{PKG_CONFIG_PATH} ${packages})
 execute_process(COMMAND pkg-config --cflags --libs meshhood-io
