@@ -9,7 +9,7 @@
 #include "base/vector.h"
 #include "exact/layout.h"
 #include "simd/ball.h"
-#include "simd/query_word.h"
+#include "simd/leaf.h"
 
 namespace meshhood {
 

@@ -7,7 +7,7 @@
 
 #include "simd/aggregate.h"
 #include "simd/gaussian.h"
-#include "simd/query_word.h"
+#include "simd/leaf.h"
 
 #define HWY_TARGET_INCLUDE "simd/aggregate_kernels.cpp"
 #include "simd/lanes-inl.h"

@@ -9,7 +9,7 @@
 
 #include "base/frame.h"
 #include "simd/kernels.h"
-#include "simd/query_word.h"
+#include "simd/leaf.h"
 
 /// The inner loops of the joint search, which answers up to 32 queries of one leaf at once. As in `Kernels`, each
 /// function gives the same result on every processor, bit for bit.

@@ -9,7 +9,6 @@
 
 #include "simd/joint.h"
 #include "simd/leaf.h"
-#include "simd/query_word.h"
 
 #define HWY_TARGET_INCLUDE "simd/joint_kernels.cpp"
 #include "simd/lanes-inl.h"

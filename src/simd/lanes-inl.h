@@ -7,7 +7,6 @@
 #include <cstdint>
 
 #include "simd/leaf.h"
-#include "simd/query_word.h"
 #include "simd/target_list.h"
 
 // clang-format off: in this order.

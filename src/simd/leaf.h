@@ -9,7 +9,6 @@
 #include <variant>
 
 #include "shared/distance.h"
-#include "simd/query_word.h"
 
 namespace meshhood {
 
@@ -32,6 +31,18 @@ using LaneMask = std::uint32_t;
 template <class F>
 void for_each_lane(LaneMask lanes, F&& f) {
   for (; lanes != 0; lanes &= lanes - 1) f(static_cast<unsigned>(std::countr_zero(lanes)));
+}
+
+/// A set of rows of a packet (see exact/joint/packet_answer.h): bit `i` stands for row `i` of the packet.
+using QueryWord = std::uint32_t;
+
+/// The most rows of a packet.
+inline constexpr std::size_t kPacketCapacity = 32;
+
+/// Calls `f(i)` for each row of the set, in ascending order.
+template <class F>
+constexpr void for_each_query(QueryWord queries, F&& f) {
+  for (; queries != 0; queries &= queries - 1) f(static_cast<std::size_t>(std::countr_zero(queries)));
 }
 
 /// An edge between two leaves, by the lanes of its ends: `from` in this leaf, `to` in the linked one.

@@ -10,7 +10,6 @@
 
 #include "simd/leaf.h"
 #include "simd/moments.h"
-#include "simd/query_word.h"
 
 #define HWY_TARGET_INCLUDE "simd/moment_kernels.cpp"
 #include "simd/lanes-inl.h"
