@@ -125,8 +125,14 @@ ERRORS = (
     ("index.curvature(1, normals=V[:3])", ValueError,
         "normals: expected an array of shape (50, 3), not (3, 3)"),
     ("points.curvature(1)", ValueError,
-        "F: expected the faces, because this index has none: it was built with keep_faces=False or from a "
-        "graph, or loaded from a file without faces; index.save(path, faces=True) saves an index with its faces"),
+        "F: expected the faces, because this index has none: it was built with keep_faces=False, from a graph or "
+        "from points, or loaded from a file that was saved without faces=True"),
+    ("meshhood.weld((V, F), 1e-5)", TypeError,
+        "F: 1e-05, expected faces; the distance is eps=1e-05"),
+    ('meshhood.write_mesh("values.ply", V, F, values=V[:, 0])', TypeError,
+        "values: ndarray, expected a dict of arrays by name, as {'height': array}"),
+    ('index.gaps(1, metric="path")', TypeError,
+        "MeshIndex.gaps() got an unexpected keyword argument 'metric'"),
     ("index.nearest([1, 2])", ValueError,
         "points: expected 3 numbers or an array (n, 3), not an array of shape (2,)"),
     ("index.first_hit([0, 0, 0], [0, 0, 0])", ValueError,

@@ -28,7 +28,9 @@ from ._padded import padded
 from ._partition import partition
 from ._patches import Gaps, Invariants
 from ._plot import plot_neighborhood
+from ._queries import Connected, Nested
 from ._region_mesh import RegionMesh, RimLine, Submesh
+from ._surface_queries import ClosestPoint, Discs, FirstHit, Nearest, Unconnected
 from ._view import Page, view
 from ._weld import Welded, weld
 from .distributed import open_parts
@@ -49,12 +51,18 @@ def show_config() -> None:
 
 __all__ = [
     "Chunk",
+    "ClosestPoint",
+    "Connected",
     "CorrectedCurvature",
     "Curvature",
+    "Discs",
+    "FirstHit",
     "Gaps",
     "Invariants",
     "Mesh",
     "MeshIndex",
+    "Nearest",
+    "Nested",
     "Page",
     "Paper",
     "Persistence",
@@ -63,6 +71,7 @@ __all__ = [
     "RegionMesh",
     "RimLine",
     "Submesh",
+    "Unconnected",
     "Welded",
     "__version__",
     "geometric_radii",

@@ -114,8 +114,8 @@ def ascending(values, name):
     return array
 
 
-def points(values, name):
-    """`values`, one point or (n, 3), as a new float64 array (n, 3) of finite numbers."""
+def points(values, name, advice=""):
+    """`values`, one point or (n, 3), as a new float64 array (n, 3) of finite numbers. `advice` ends the error if not."""
     array = np.array(as_array(values, name))
     if array.dtype.kind not in "iuf":
         raise TypeError(f"{name}: expected numbers, not {array.dtype}")
@@ -129,7 +129,7 @@ def points(values, name):
         row, axis = wrong[0]
         raise ValueError(
             f"{name}: row {row}: coordinate {axis} is {array[row, axis]}, "
-            "expected a finite number of magnitude up to 2^500"
+            f"expected a finite number of magnitude up to 2^500{advice}"
         )
     return array
 
@@ -142,7 +142,7 @@ def point(value, name, meant):
         raise TypeError(
             f"{name}: integers of shape {given.shape}, expected a vertex, or a point as 3 floats; for vertices: {meant}"
         )
-    array = points(given, name)
+    array = points(given, name, "; a ray that meets nothing has face -1 and no point")
     if len(array) != 1 or given.ndim != 1:
         raise ValueError(f"{name}: expected a vertex or 3 numbers, not an array of shape {given.shape}")
     return array

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from . import _convert, _core
 from ._atomic_file import atomic_file
 from ._index import MeshIndex
-from ._mesh import kept_faces, mesh_arrays
+from ._mesh import face_arrays, kept_faces, mesh_arrays, warn_if_coarse
 from ._other_files import WRITERS, Writing, bytes_of, read_other
 from ._progress import Progress, reporter
 from ._repr import shown_in_a_line
@@ -61,6 +61,10 @@ def read_mesh(
         vertices, faces, notes = read
         for note in notes:
             warnings.warn(f"{os.fsdecode(path)}: {note}", stacklevel=2)
+        single = np.asarray(vertices, np.float32)  # as these files have them, though a library may return float64
+        if np.array_equal(single, vertices):
+            corners, offsets = face_arrays(faces)
+            warn_if_coarse(single, corners, offsets, 3)
         return Mesh(vertices.astype(real or vertices.dtype, copy=False), faces)
     with reporter(progress, "read_mesh", "bytes") as report:
         vertices, corners, offsets, irregularities = _core.read_mesh(
@@ -104,12 +108,16 @@ def write_mesh(
     if colors is not None and extension in (".vtk", ".gii"):
         raise ValueError(f"colors: expected None for {extension}")
     positions, corners, offsets = mesh_arrays(V, F)
+    if values is not None and not isinstance(values, Mapping):
+        raise TypeError(f"values: {type(values).__name__}, expected a dict of arrays by name, as {{'height': array}}")
     named = [(name, _scalars(numbers, f"values[{name!r}]", len(positions))) for name, numbers in (values or {}).items()]
     if colors is not None:
         colors = np.ascontiguousarray(_convert.as_array(colors, "colors"))
         if colors.dtype != np.uint8 or colors.shape != (len(positions), 3):
             raise ValueError(f"colors: {colors.dtype} of shape {colors.shape}, expected uint8 ({len(positions)}, 3)")
     if extension in WRITERS:
+        if extension != ".vtp" and not os.fsdecode(path).lower().endswith((".shape.gii", ".func.gii")):
+            warn_if_coarse(np.asarray(positions, np.float32), corners, offsets, 3)
         content = bytes_of(extension, Writing(positions, corners, offsets, named, colors), os.fsdecode(path))
         with atomic_file(path) as file:
             file.write(content)

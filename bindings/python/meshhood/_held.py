@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import hashlib
 import weakref
+from types import FunctionType
 from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
@@ -21,6 +22,11 @@ if TYPE_CHECKING:
 
 class Held:
     """The base of the classes that make up `MeshIndex`."""
+
+    def __init_subclass__(cls) -> None:
+        for name, member in vars(cls).items():
+            if isinstance(member, FunctionType):
+                member.__qualname__ = f"MeshIndex.{name}"  # which the error for an unknown argument says
 
     _exact: Any
     _faces: Any  # corners and offsets, as `face_arrays` returns them, or None
@@ -133,8 +139,8 @@ class Held:
         """Corners and offsets of the faces that the index keeps. `wish`: the beginning of the error if it has none."""
         if self._faces is None:
             raise ValueError(
-                f"{wish} this index has none: it was built with keep_faces=False or from a graph, or loaded from a file "
-                "without faces; index.save(path, faces=True) saves an index with its faces"
+                f"{wish} this index has none: it was built with keep_faces=False, from a graph or from points, or loaded "
+                "from a file that was saved without faces=True"
             )
         return self._faces
 

@@ -371,8 +371,8 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
 
         mode : "connectivity", 1.0 for each vertex of the neighborhood; or "distance", the distances, with zeros stored.
             Both are float64, as in scikit-learn, unless `dtype` says otherwise.
-        The other arguments are those of `neighborhoods`; the ids of a row ascend. With one radius for each row the matrix is
-        not symmetric. Needs SciPy.
+        The other arguments are those of `neighborhoods`; the ids of a row ascend. The matrix is not quite symmetric: what
+        connects two vertices in the ball around one may leave that around the other. Needs SciPy.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> index.radius_neighbors_graph(0.3, [42, 43], mode="distance").shape

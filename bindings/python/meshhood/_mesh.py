@@ -395,8 +395,12 @@ def warn_if_unwelded(positions, corners, offsets, stacklevel):
         starts = offsets[:-1] if offsets is not None else np.arange(0, len(corners), 3)
         starts = starts[starts + 1 < len(corners)]
         first, second = positions[corners[starts]].astype(np.float64), positions[corners[starts + 1]]
-        eps = float(f"{np.linalg.norm(first - second, axis=1).mean() / 1000:.0e}")
-        distinct = len(_core.weld(positions, corners, offsets=offsets, eps=eps)[0])
+        side = np.linalg.norm(first - second, axis=1).mean()
+        for share in 10.0 ** np.arange(-7, -2):  # the smallest that is enough: a larger one may join what is apart
+            eps = float(f"{side * share:.0e}")
+            distinct = len(_core.weld(positions, corners, offsets=offsets, eps=eps)[0])
+            if 2 * distinct <= len(positions):
+                break
     if 2 * distinct <= len(positions):
         places, tolerance = ("nearly equal", f", eps={eps:g}") if eps else ("different", "")
         warnings.warn(

@@ -173,6 +173,8 @@ def _gifti(nibabel: Any, arrays: Iterable[tuple[Any, str, str]]) -> bytes:
 def _write_gifti(nibabel: Any, writing: Writing, path: str) -> bytes:
     """A surface, or of .shape.gii and .func.gii the values alone, as programs expect them."""
     kind = os.path.splitext(os.path.splitext(path)[0])[1].lower()
+    if kind == ".label":
+        raise ValueError("path: .label.gii, expected .surf.gii, .shape.gii or .func.gii")
     if kind not in (".shape", ".func"):
         if writing.values:
             raise ValueError("values: expected None for a surface; .shape.gii and .func.gii have values without it")

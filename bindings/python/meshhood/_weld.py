@@ -50,6 +50,8 @@ def weld(V: Any, F: Any = None, eps: Number = 0) -> Welded:
     >>> len(welded.vertices)
     642
     """
+    if isinstance(F, (int, float)):
+        raise TypeError(f"F: {F}, expected faces; the distance is eps={F}")
     positions, corners, offsets = mesh_arrays(V, F)
     distance = _convert.finite(eps, "eps", or_zero=True)
     # A copy, because another thread may write to the array once it is checked.
