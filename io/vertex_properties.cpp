@@ -28,7 +28,8 @@ void check_properties(std::span<const VertexProperty> properties, std::size_t ve
                       std::vector<std::string_view> taken) {
   for (const VertexProperty& property : properties) {
     if (!is_property_name(property.name)) refuse(property, ": expected printable ASCII without blanks");
-    if (std::find(taken.begin(), taken.end(), property.name) != taken.end()) refuse(property, " occurs twice, or is one that the file has of itself: expected another name");
+    if (std::find(taken.begin(), taken.end(), property.name) != taken.end())
+      refuse(property, " occurs twice, or is one that the file has of itself: expected another name");
     taken.push_back(property.name);
     const std::size_t values = property.values.size();
     if (values == vertices || values == 3 * vertices) continue;

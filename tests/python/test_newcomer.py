@@ -61,7 +61,8 @@ ERRORS = (
     ("index.neighborhood([0.5, 0.5], 1)", ValueError,
         "start: expected 3 numbers or an array (n, 3), not an array of shape (2,)"),
     ("index.neighborhood([0.5, 0.5, np.nan], 1)", ValueError,
-        "start: row 0: coordinate 2 is nan, expected a finite number of magnitude up to 2^500"),
+        "start: row 0: coordinate 2 is nan, expected a finite number of magnitude up to 2^500; a ray that meets nothing "
+        "has face -1 and no point"),
     ("index.neighborhood(3, 1, face=2)", ValueError,
         "face: expected None, because the start is a vertex"),
     ("index.neighborhood([0.5, 0.5, 0], 1, face=999)", ValueError,
