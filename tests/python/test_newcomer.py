@@ -32,7 +32,7 @@ ERRORS = (
     ("MeshIndex(V.astype(str), F)", TypeError,
         "V: text, expected a number"),
     ("MeshIndex(V * [1, 1, np.nan], F)", ValueError,
-        "V: vertex 0: z is nan, expected a finite number of at most 2^500 in magnitude"),
+        "V: vertex 0 has no position (NaN), but face 0 has it as corner 0"),
     ("MeshIndex(V, F, cut=[1, 2])", ValueError,
         "cut: expected an array (n, 2), not one of shape (2,)"),
     ("MeshIndex(V, F, workers=0)", ValueError,
