@@ -203,7 +203,8 @@ Mesh MeshBuilder::finish(Format format) {
   Mesh mesh{.format = format,
             .positions = std::move(positions.values()),
             .offsets = std::move(faces.offsets()),
-            .corners = std::move(faces.corners())};
+            .corners = std::move(faces.corners()),
+            .warnings = {}};
   if (positions.have_nan()) place_vertices(mesh);
   mesh.warnings = std::move(warnings.list());
   if (positions.are_double() && !positions.are_open()) return mesh;
