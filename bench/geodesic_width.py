@@ -53,7 +53,8 @@ def main():
             rows.append((ends[lengths <= radius], lengths[lengths <= radius]))
             widths.append([width(areas[w] * 1000 ** -((d / radius) ** 2), distance[w]) for w, d in rows])
         names = zip((*METRICS, "exact geodesics"), np.mean(widths, axis=0))
-        print(f"fwhm {fwhm:g}:", ", ".join(f"{name} {mean:.3f} ({100 * (mean / fwhm - 1):+.1f} %)" for name, mean in names))
+        text = [f"{name} {mean:.3f} ({100 * (mean / fwhm - 1):+.1f} %)" for name, mean in names]
+        print(f"fwhm {fwhm:g}:", ", ".join(text))
 
 
 if __name__ == "__main__":
