@@ -62,7 +62,7 @@ std::vector<VertexId> kept_vertices(const io::Mesh& mesh, double eps) {
   std::visit(
       [&]<class Real>(const std::vector<Real>& all) {
         std::vector<Real> xyz;
-        for (const VertexId v : others) xyz.insert(xyz.end(), &all[3 * v], &all[3 * v] + 3);
+        for (const std::size_t v : others) xyz.insert(xyz.end(), &all[3 * v], &all[3 * v] + 3);
         const std::vector<VertexId> kept_others = kept_vertices(xyz, eps);
         for (std::size_t i = 0; i < others.size(); ++i) kept[others[i]] = others[kept_others[i]];
       },
