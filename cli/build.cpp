@@ -110,6 +110,7 @@ void build(const BuildCommand& options) {
   }
   check_outputs();
   io::Mesh mesh = read_mesh(options.mesh, options.reading, options.threads);
+  io::refuse_walls(mesh, printable_name(options.mesh));
   const Welding welding(mesh, options.reading.weld, options.mesh);
   const std::optional<FacesView> faces = options.faces ? std::optional(mesh.view().faces) : std::nullopt;
   Summary summary{};

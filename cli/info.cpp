@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // meshhood info: properties of a mesh or an index.
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -156,7 +158,10 @@ void note_split_components(const Input& input, const Statistics& summary) {
 
 /// With --index, also builds both indexes.
 void info_of_mesh(const InfoCommand& options, Input& input) {
-  const Statistics summary = statistics(input.mesh()->view(), input.graph().adjacency);
+  Statistics summary = statistics(input.mesh()->view(), input.graph().adjacency);
+  const std::vector<std::uint8_t>& walls = input.mesh()->walls;  // they are where another vertex is
+  summary.repeated_positions -=
+      std::min(summary.repeated_positions, static_cast<std::size_t>(std::ranges::count(walls, 1)));
   note_split_components(input, summary);
   Json document = to_json(input, summary);
   std::string text = to_text(input, summary);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -92,6 +93,7 @@ Input::Input(std::string file, const Reading& reading, unsigned threads) : name_
   if (auto* mesh = std::get_if<io::Mesh>(&content)) {
     mesh_ = std::move(*mesh);
     print_warnings(*mesh_, name_);
+    masks_.walls = mesh_->walls;
     welding_ = Welding(*mesh_, reading.weld, name_);
     return;
   }
@@ -149,6 +151,22 @@ MeshView Input::surface() {
   if (exact_ && exact_->faces()) return {positions(), *exact_->faces()};
   print_error("warning: ", name_ + ": this index has no faces, so the picture has only vertices");
   return {positions(), FacesView{}};
+}
+
+void Input::set_masks(OwnedMasks masks) {
+  masks_ = std::move(masks);
+  if (!mesh_ || mesh_->walls.empty()) return;
+  masks_.walls.resize(mesh_->walls.size());
+  std::transform(masks_.walls.begin(), masks_.walls.end(), mesh_->walls.begin(), masks_.walls.begin(),
+                 std::bit_or<std::uint8_t>());
+}
+
+void Input::need_positions(const std::string& method) const {
+  if (!mesh_ || mesh_->walls.empty()) return;
+  raise(ErrorCode::InvalidOption,
+        fmt::format("{}: has vertices without a position, which are walls: {} does not pass them by; expected --method "
+                    "exact",
+                    printable_name(name_), method));
 }
 
 void Input::ignore_welded() {

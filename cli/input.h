@@ -24,7 +24,7 @@ struct Reading {
   std::string precision;
 };
 
-/// The masks of --walls and --ignored: each empty, or #V.
+/// The masks of --walls and --ignored, and of vertices without a position: each empty, or #V.
 struct OwnedMasks {
   std::vector<std::uint8_t> walls;
   std::vector<std::uint8_t> ignored;
@@ -71,9 +71,14 @@ class Input {
   /// The mesh; of an index without faces only the vertices, with a warning that a picture has only these.
   [[nodiscard]] MeshView surface();
 
-  /// What all searches leave out. Before the first use of the index.
-  void set_masks(OwnedMasks masks) { masks_ = std::move(masks); }
+  /// What all searches leave out, beside vertices without a position. Before the first use of the index.
+  void set_masks(OwnedMasks masks);
   [[nodiscard]] const OwnedMasks& masks() const { return masks_; }
+  [[nodiscard]] bool is_wall(VertexId v) const { return !masks_.walls.empty() && masks_.walls[v] != 0; }
+
+  /// Throws Error{InvalidOption} if a vertex has no position, which only searches of the exact index pass by. `method`
+  /// is for the message: "--method bfs".
+  void need_positions(const std::string& method) const;
 
   /// Ignores the vertices that have become others by welding, too, which are still at their places. For what finds
   /// vertices by their places, connected or not.

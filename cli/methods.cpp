@@ -53,6 +53,7 @@ SearchMethod method_of(const MethodOptions& options, Input& input, const paper::
   const std::string& name = options.method;
   if (!options.is_straight()) input.need_edges("--metric " + options.metric);
   if (name == "exact" || name == "bfs") input.need_edges("--method " + name);
+  if (name != "exact") input.need_positions("--method " + name);
   if (name == "bfs") return SearchMethod::breadth_first(input.graph());
   if (name == "ball") return SearchMethod::ball_scan(input.positions());
   if (name == "paper") return {input.paper_index(), settings};

@@ -66,6 +66,7 @@ std::ptrdiff_t count_shared(const std::vector<VertexId>& component, const std::v
   std::vector<std::uint8_t> is_shared(first.size());  // by the first vertex at each position
   for (const VertexId v : component) is_of_component[v] = 1;
   for (std::size_t v = 0; v < first.size(); ++v) {
+    if (input.is_wall(static_cast<VertexId>(v))) continue;
     if (is_of_component[v] == 0 && input.welding().kept(static_cast<VertexId>(v)) == v) is_shared[first[v]] = 1;
   }
   return std::count_if(component.begin(), component.end(), [&](VertexId v) { return is_shared[first[v]] != 0; });
@@ -93,7 +94,7 @@ std::string advice_to_weld(const std::vector<VertexId>& component, Input& input)
 /// triangles. Of several radii, `radius` is the largest.
 template <NeighborhoodSearcher S>
 void note_whole_component(S& searcher, double radius, const Answer& answer, Input& input) {
-  if (std::isinf(radius)) return;
+  if (std::isinf(radius) || input.is_wall(*answer.vertex)) return;
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   if (answer.counts.back() != searcher.count(*answer.vertex, kUnlimited)) return;
   std::vector<VertexId> component;

@@ -76,9 +76,9 @@ void check_start_options(const StartOptions& options, bool takes_many, const std
     raise(ErrorCode::InvalidOption, "expected either --vertex or --point");
   }
   if (!takes_many && options.is_list()) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
-  if (!options.point.empty() && metric != "straight" && metric != "space") {
+  if (!options.point.empty() && metric == "rings") {
     raise(ErrorCode::InvalidOption,
-          fmt::format("--metric {}: expected --vertex instead of --point, because a point has no edges", metric));
+          "--metric rings: expected --vertex instead of --point, because a point has no edges");
   }
 }
 

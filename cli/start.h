@@ -45,7 +45,7 @@ struct StartOptions {
 void add_start(CLI::App& command, const std::string& vertex, StartOptions& options);
 
 /// Throws Error{InvalidOption} unless there is either a point, or a vertex, or several for a command that `takes_many`.
-/// A metric that is not straight takes no point.
+/// Rings take no point.
 void check_start_options(const StartOptions& options, bool takes_many, const std::string& metric = "straight");
 
 /// Where a search starts. Owns the seeds.
@@ -90,8 +90,8 @@ class RegionSearch {
  public:
   RegionSearch(const std::string& metric, Input& input);
 
-  /// The neighborhoods of a start for ascending `radii`, at least one, as the rings of `Searcher::nested`. By paths and
-  /// rings the start must be a vertex.
+  /// The neighborhoods of a start for ascending `radii`, at least one, as the rings of `Searcher::nested`. By rings the
+  /// start must be a vertex.
   [[nodiscard]] StartAnswer regions(const QueryStart& start, std::span<const double> radii);
 
  private:

@@ -14,6 +14,7 @@
 #include "io/number.h"
 #include "shared/coarse_float.h"
 #include "shared/distance.h"
+#include "shared/unplaced.h"
 
 namespace meshhood::io {
 namespace {
@@ -41,6 +42,7 @@ template <class Real>
 std::optional<std::string_view> to_coordinate(std::string_view token, Real& value) {
   const auto number = parse_real<Real>(token);
   if (!number) return "is not a number";
+  if (std::isnan(*number)) value = *number;
   if (!std::isfinite(*number)) return reason_not_finite(token);
   if (double{std::abs(*number)} > kLargestCoordinate) return "is too large";
   value = *number;
@@ -49,6 +51,7 @@ std::optional<std::string_view> to_coordinate(std::string_view token, Real& valu
 
 template <class Real>
 std::optional<std::string_view> to_coordinate(double number, Real& value) {
+  if (std::isnan(number)) value = std::numeric_limits<Real>::quiet_NaN();
   if (!std::isfinite(number)) return "is not finite";
   const bool fits =
       std::is_same_v<Real, float> ? std::abs(number) < kFloatOverflow : std::abs(number) <= kLargestCoordinate;
@@ -77,7 +80,8 @@ template <class Source>
 std::optional<std::string_view> Positions::append_as(Source source) {
   const auto visitor = [source](auto& xyz) {
     typename std::remove_cvref_t<decltype(xyz)>::value_type value = 0;
-    const auto problem = to_coordinate(source, value);
+    auto problem = to_coordinate(source, value);
+    if (std::isnan(value)) problem.reset();
     if (!problem) xyz.push_back(value);
     return problem;
   };
@@ -86,7 +90,9 @@ std::optional<std::string_view> Positions::append_as(Source source) {
 
 std::optional<std::string_view> Positions::append(std::string_view token) {
   const auto problem = append_as(token);
-  if (is_open_ && !problem) note(float_keeps(token, std::get<std::vector<double>>(xyz_).back()));
+  if (!is_open_ || problem) return problem;
+  const double number = std::get<std::vector<double>>(xyz_).back();
+  note(std::isnan(number) || float_keeps(token, number));
   return problem;
 }
 
@@ -100,6 +106,21 @@ void Positions::append(const PlainBlock<Real>& block) {
 
 template void Positions::append(const PlainBlock<float>& block);
 template void Positions::append(const PlainBlock<double>& block);
+
+void Positions::end_vertex(const Location& location) {
+  constexpr std::size_t kMost = std::size_t{1} << 18U;  // little memory
+  const bool has_nan = std::visit(
+      [](const auto& xyz) { return std::any_of(xyz.end() - 3, xyz.end(), [](auto x) { return std::isnan(x); }); },
+      xyz_);
+  if (has_nan && nan_vertices_.size() < kMost) nan_vertices_.emplace_back(vertex_count() - 1, location);
+}
+
+std::optional<Location> Positions::location_of_nan(std::uint64_t vertex) const {
+  const auto found = std::lower_bound(nan_vertices_.begin(), nan_vertices_.end(), vertex,
+                                      [](const auto& known, std::uint64_t v) { return known.first < v; });
+  if (found == nan_vertices_.end() || found->first != vertex) return std::nullopt;
+  return found->second;
+}
 
 void Positions::reorder_last(const std::array<std::size_t, 3>& ranks) {
   const auto visitor = [&ranks](auto& xyz) {
@@ -156,11 +177,36 @@ void Warnings::add(std::string_view what, const Location& location, std::uint64_
 }
 
 MeshBuilder::MeshBuilder(const InputBuffer& input, const ReadOptions& options, Declared declared)
-    : positions(options.precision, declared), warnings(input.name(), options.strict), way_out_(way_out(declared)) {}
+    : positions(options.precision, declared),
+      warnings(input.name(), options.strict),
+      file_(input.name()),
+      way_out_(way_out(declared)) {}
+
+void MeshBuilder::place_vertices(Mesh& mesh) {
+  const FacesView all = mesh.view().faces;
+  const auto place_all = [&]<class Real>(std::vector<Real>& xyz) { return place(std::span<Real>(xyz), all); };
+  Unplaced unplaced = std::visit(place_all, mesh.positions);
+  const std::size_t first = mesh.format == Format::Obj ? 1 : 0;  // the number of the first vertex
+  if (const auto& used = unplaced.used) {
+    if (const auto location = positions.location_of_nan(used->vertex)) {
+      fail_at(file_, *location, ErrorCode::MalformedFile, used->text(first));
+    }
+    raise(ErrorCode::MalformedFile, fmt::format("{}: {}", file_, used->text(first)));
+  }
+  warnings.add(
+      fmt::format("vertices without a position (NaN), the first of which is {}, are walls", unplaced.first + first),
+      positions.location_of_nan(unplaced.first).value_or(Location{}), unplaced.count);
+  mesh.walls = std::move(unplaced.walls);
+}
 
 Mesh MeshBuilder::finish(Format format) {
-  Mesh mesh{format, std::move(positions.values()), std::move(faces.offsets()), std::move(faces.corners()),
-            std::move(warnings.list())};
+  Mesh mesh{.format = format,
+            .positions = std::move(positions.values()),
+            .offsets = std::move(faces.offsets()),
+            .corners = std::move(faces.corners()),
+            .warnings = {}};
+  if (positions.have_nan()) place_vertices(mesh);
+  mesh.warnings = std::move(warnings.list());
   if (positions.are_double() && !positions.are_open()) return mesh;
   const auto coarse = coarse_float(mesh.view());
   if (!positions.are_double()) {

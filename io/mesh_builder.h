@@ -21,7 +21,7 @@
 namespace meshhood::io {
 
 /// Reads a coordinate into `value`. Returns nothing, or the problem: "is not a number", "is not finite", "is too
-/// large".
+/// large". NaN is not finite, but becomes the value.
 template <class Real>
 [[nodiscard]] std::optional<std::string_view> to_coordinate(std::string_view token, Real& value);
 template <class Real>
@@ -72,7 +72,7 @@ class Positions {
   /// Reserves memory, so that appending does not copy.
   void reserve(std::uint64_t vertices);
 
-  /// Appends the next coordinate, or returns the problem as `to_coordinate`.
+  /// Appends the next coordinate, which may be NaN, or returns the problem as `to_coordinate`.
   [[nodiscard]] std::optional<std::string_view> append(std::string_view token);
   [[nodiscard]] std::optional<std::string_view> append(double number) { return append_as(number); }
 
@@ -91,6 +91,15 @@ class Positions {
   template <class Real>
   void append(const PlainBlock<Real>& block);
 
+  /// Ends a vertex whose coordinates were appended one by one, the last of them at `location`.
+  void end_vertex(const Location& location);
+
+  /// Where the file has a vertex with NaN, if it is among the first of them: there may be any number.
+  [[nodiscard]] std::optional<Location> location_of_nan(std::uint64_t vertex) const;
+
+  /// Whether there is a vertex with NaN.
+  [[nodiscard]] bool have_nan() const { return !nan_vertices_.empty(); }
+
   /// Sorts the last three coordinates into the order x, y, z. They were appended in ascending order of `ranks`, which
   /// has one value for each of x, y, z.
   void reorder_last(const std::array<std::size_t, 3>& ranks);
@@ -106,6 +115,7 @@ class Positions {
   [[nodiscard]] std::optional<std::string_view> append_as(Source source);
 
   std::variant<std::vector<float>, std::vector<double>> xyz_;
+  std::vector<std::pair<std::uint64_t, Location>> nan_vertices_;  // by ascending vertex
   bool is_open_;
 };
 
@@ -163,9 +173,13 @@ struct MeshBuilder {
 
   /// Moves the arrays out. Open positions become float unless that is coarse for the mesh. Warns if positions are float
   /// and that is coarse, also in strict mode: it is no deviation from the format.
+  /// Vertices with NaN become walls, with a warning, or an error if a face has one.
   [[nodiscard]] Mesh finish(Format format);
 
  private:
+  void place_vertices(Mesh& mesh);
+
+  std::string file_;
   std::string_view way_out_;  // where float is coarse
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/mesh_io.h"
 
+#include <algorithm>
 #include <new>
 #include <stdexcept>
 
@@ -70,6 +71,15 @@ MeshView Mesh::view() const& {
   const auto view_of_positions = [](const auto& xyz) { return PositionsView(xyz); };
   const auto faces = offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(offsets, corners);
   return {std::visit(view_of_positions, positions), faces};
+}
+
+void refuse_walls(const Mesh& mesh, const std::string& name) {
+  const auto wall = std::find(mesh.walls.begin(), mesh.walls.end(), 1);
+  if (wall == mesh.walls.end()) return;
+  raise(ErrorCode::InvalidMesh,
+        fmt::format("{}: vertex {} has no position (NaN), which an index file cannot say; write the mesh without such "
+                    "vertices",
+                    name, wall - mesh.walls.begin()));
 }
 
 Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {

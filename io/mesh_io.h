@@ -59,6 +59,10 @@ struct Mesh {
   std::vector<std::uint32_t> corners;                               ///< the corners of all faces, face after face
   std::vector<Warning> warnings;
 
+  /// #V, or empty if there are none: 1 for each vertex without a position, for `masked`. Such a vertex is in no face,
+  /// and `positions` has it where another vertex is.
+  std::vector<std::uint8_t> walls = {};
+
   /// Borrows from this mesh. A view of a temporary does not compile.
   [[nodiscard]] MeshView view() const&;
   [[nodiscard]] MeshView view() const&& = delete;
@@ -76,6 +80,9 @@ struct Mesh {
 /// neighboring floats at the largest coordinate. Where float is chosen otherwise and edges are shorter, a warning says
 /// so.
 ///
+/// A vertex whose position is NaN, as scanners and depth cameras mark holes, is a wall if no face has it (see
+/// `Mesh::walls`), with a warning; otherwise it is an error.
+///
 /// If each row of an ASCII PLY file has a line of its own, further numbers in the line are skipped with a warning, and
 /// fewer are an error. Otherwise rows may run over lines and share them, and there must be exactly as many numbers as
 /// the header declares. Where more than 16 MiB follow the first row that ends within a line, rows are taken for lines.
@@ -90,6 +97,10 @@ struct Mesh {
 /// The same for bytes in memory. `name` is the file in messages; its extension is used as that of a file.
 [[nodiscard]] Mesh read_mesh(std::span<const std::byte> bytes, const std::string& name,
                              const ReadOptions& options = {});
+
+/// Throws Error{InvalidMesh} if the mesh has vertices without a position: for what stores a mesh without its walls.
+/// `name` is the file in the message.
+void refuse_walls(const Mesh& mesh, const std::string& name);
 
 /// An additional value, or vector, for each vertex of a written file.
 struct VertexProperty {

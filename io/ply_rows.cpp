@@ -51,15 +51,15 @@ PlyRows text_vertices(Text& text, const ReaderOptions& options, const VertexRow&
 }
 
 // In a binary file, plain rows are in the byte order of the processor. The next two functions take rows from the front
-// of `bytes` as long as they are complete and valid, into an array that they replace, and return how many bytes they
-// took.
+// of `bytes` as long as they are complete and valid.
 
-/// Rows of `stride` bytes, with coordinates of the type `Real` at `offsets`.
+/// Rows of `stride` bytes, with coordinates of the type `Real` at `offsets`. Returns how many, and writes them over the
+/// front of `positions`, which grows but does not shrink: there may be many calls for few rows each.
 template <class Real>
 std::size_t take_vertices(std::string_view bytes, std::size_t stride, const std::array<std::size_t, 3>& offsets,
                           std::uint64_t most, std::vector<Real>& positions) {
   const auto rows = static_cast<std::size_t>(std::min<std::uint64_t>(most, bytes.size() / stride));
-  positions.resize(3 * rows);
+  positions.resize(std::max(positions.size(), 3 * rows));
   for (std::size_t row = 0; row < rows; ++row) {
     bool are_valid = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -67,16 +67,13 @@ std::size_t take_vertices(std::string_view bytes, std::size_t stride, const std:
       std::memcpy(&coordinate, bytes.data() + row * stride + offsets[axis], sizeof(Real));
       are_valid = are_valid && double{std::abs(coordinate)} <= kLargestCoordinate;
     }
-    if (!are_valid) {
-      positions.resize(3 * row);
-      return row * stride;
-    }
+    if (!are_valid) return row;
   }
-  return rows * stride;
+  return rows;
 }
 
-/// Rows of a byte, which is `count`, and as many indices of 32 bits, each smaller than `end`. A `count` known to the
-/// compiler is faster.
+/// Replaces `corners`, and returns how many bytes it took. Rows of a byte, which is `count`, and as many indices of 32
+/// bits, each smaller than `end`. A `count` known to the compiler is faster.
 template <class Count>
 std::size_t take_faces(std::string_view bytes, Count count, std::uint32_t end, std::uint64_t most,
                        std::vector<std::uint32_t>& corners) {
@@ -130,9 +127,9 @@ PlyRows binary_vertices(InputBuffer& input, const ReaderOptions& options, const 
   const auto is_other = [&](std::size_t axis) { return element.properties[axis].type != kType; };
   if (std::any_of(axes.begin(), axes.end(), is_other)) return {};
   const auto take_some = [=, &positions, xyz = std::vector<Real>()](std::string_view bytes, uint64_t most) mutable {
-    const std::size_t taken = take_vertices(bytes, stride, offsets, most, xyz);
-    positions.append(std::span<const Real>(xyz));
-    return Taken{taken, xyz.size() / 3};
+    const std::size_t rows = take_vertices(bytes, stride, offsets, most, xyz);
+    positions.append(std::span<const Real>(xyz).first(3 * rows));
+    return Taken{rows * stride, rows};
   };
   return binary_rows(input, options, take_some);
 }

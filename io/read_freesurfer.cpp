@@ -79,6 +79,7 @@ class FreeSurferReader {
     for (uint64_t i = 0; i < 3 * vertices; ++i) {
       const auto problem = builder_.positions.append(double{value<float>("vertex", i / 3)});
       if (problem) malformed(fmt::format("vertex {}, {} {}", i / 3, axis(i), *problem));
+      if (i % 3 == 2) builder_.positions.end_vertex({.byte = begin_});
     }
   }
 

@@ -155,6 +155,7 @@ class ObjReader {
     const auto vertex = builder_.positions.vertex_count();
     check_vertex_count(vertex + 1, text_.input().name(), text_.location());
     for (int i = 0; i < 3; ++i) read_coordinate(vertex);
+    builder_.positions.end_vertex(text_.location());
     std::array<double, 4> rest = {};
     std::size_t count = 0;
     for (auto token = text_.token_on_continued_line(); !token.empty(); token = text_.token_on_continued_line()) {

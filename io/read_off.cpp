@@ -140,6 +140,7 @@ class OffReader {
       const auto problem = builder_.positions.append(token);
       if (problem) text_.malformed("vertex {}, {} = {} {}", vertex, name, quote(token), *problem);
     }
+    builder_.positions.end_vertex(text_.location());
     if (!has_attributes_ && !text_.at_line_end()) {
       builder_.warnings.add("more than three numbers in a line of a vertex", text_.location());
       has_long_lines_ = true;

@@ -148,6 +148,7 @@ class PlyReader {
       require(values_->take_coordinate(property_->type, builder_.positions));
       next = axis_property + 1;
     }
+    builder_.positions.end_vertex(values_->location());
     skip_properties(next, vertex_.properties.size());
     if (sorted != axes_) builder_.positions.reorder_last(axes_);
   }

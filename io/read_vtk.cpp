@@ -223,6 +223,7 @@ class VtkReader {
       if (const auto problem = values_.append_to<Real>(builder_.positions)) {
         values_.malformed("point {}, {} {}", i / 3, axis(i), *problem);
       }
+      if (i % 3 == 2) builder_.positions.end_vertex(values_.location());
     }
   }
 

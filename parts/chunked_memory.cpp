@@ -49,6 +49,7 @@ class MeshInMemory final : public ChunkedMesh {
 }  // namespace
 
 std::unique_ptr<ChunkedMesh> chunked(io::Mesh mesh, const std::string& name) {
+  io::refuse_walls(mesh, name);
   return std::make_unique<MeshInMemory>(std::move(mesh), name);
 }
 

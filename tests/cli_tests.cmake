@@ -3,7 +3,7 @@ meshhood_test(whole/shapes meshhood_shapes)
 
 if(MESHHOOD_BUILD_CLI)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
-  set(transcripts aggregate batch build check closest compare connect curvature errors features generate help index info names paper partition patch precision query region shell streams tables unconnected values view weld)
+  set(transcripts aggregate batch build check closest compare connect curvature errors features generate help holes index info names paper partition patch precision query region shell streams tables unconnected values view weld)
   if(MESHHOOD_LONG_TESTS AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     list(APPEND transcripts limits)
   endif()

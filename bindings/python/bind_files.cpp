@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -49,8 +51,11 @@ auto read(const std::filesystem::path& path, std::size_t scalar_bytes, unsigned 
   io::Mesh mesh = without_lock([&] { return io::read_mesh(path, options); });
   check_vertex_count(mesh.view().positions.size());
   nb::object positions = std::visit(
-      [](auto& xyz) {
+      [&walls = mesh.walls](auto& xyz) {
         using Real = typename std::decay_t<decltype(xyz)>::value_type;
+        for (std::size_t v = 0; v < walls.size(); ++v) {  // as in the file; an index makes them walls again
+          if (walls[v] != 0) std::fill_n(&xyz[3 * v], 3, std::numeric_limits<Real>::quiet_NaN());
+        }
         const std::size_t size = xyz.size() / 3;
         return nb::cast(owned<Real>(std::move(xyz), {size, 3}));
       },

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -13,10 +14,12 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/error.h"
 #include "meshhood/face_graph.h"
 #include "meshhood/index.h"
 #include "meshhood/link_points.h"
@@ -30,6 +33,7 @@
 #include "interpreter.h"
 #include "methods.h"
 #include "shared/coarse_float.h"
+#include "shared/unplaced.h"
 
 namespace nb = nanobind;
 
@@ -50,6 +54,21 @@ std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& cor
     }
     const GraphData copy = positions_copy(mesh.positions, "V");
     return about("F", [&] { return exact_method(build(MeshView{copy.view().positions, mesh.faces}, run)); });
+  });
+}
+
+/// For vertices of NaN in no face: positions with these at another vertex, and the mask of them. Otherwise None.
+std::optional<std::pair<nb::object, Output<bool>>> place_all(const Input& positions, const Input& corners,
+                                                             const std::optional<Input>& offsets) {
+  const FacesView faces = faces_of(corners, offsets);
+  return positions_of(positions, "V").visit([&](const auto& given) -> decltype(place_all(positions, corners, offsets)) {
+    using Real = std::remove_cvref_t<decltype(given.packed().front())>;
+    const std::span<const Real> all = given.packed();
+    if (std::none_of(all.begin(), all.end(), [](Real x) { return std::isnan(x); })) return std::nullopt;
+    std::vector<Real> xyz(all.begin(), all.end());
+    Unplaced unplaced = without_lock([&] { return about("F", [&] { return place(std::span<Real>(xyz), faces); }); });
+    if (unplaced.used) raise(ErrorCode::InvalidMesh, "V: " + unplaced.used->text());
+    return std::pair(nb::cast(owned<Real>(std::move(xyz), {given.size(), 3})), owned<bool>(std::move(unplaced.walls)));
   });
 }
 
@@ -142,6 +161,7 @@ void bind_makers(nb::module_& module) {
   static_cast<void>(nb::class_<paper::Index>(module, "Hierarchy"));
   module.def("exact", &make_exact, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("cut").none(),
              nb::arg("threads"), nb::arg("progress").none());
+  module.def("place", &place_all, nb::arg(), nb::arg(), nb::arg("offsets").none());
   module.def("exact_of_points", &make_linked, nb::arg(), nb::arg("link"), nb::arg("max_edges"), nb::arg("threads"),
              nb::arg("progress").none());
   module.def("exact_of_faces", &make_of_faces, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("threads"),

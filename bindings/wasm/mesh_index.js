@@ -5,7 +5,7 @@ import {
 } from './arguments.js';
 import { Curvature } from './curvature.js';
 import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
-import { MASKS, METRICS, ROWS, SCALED_ROWS, withMasks, withRows } from './rows.js';
+import { MASKS, METRIC, METRICS, ROWS, SCALED_ROWS, useFaces, withMasks, withRows } from './rows.js';
 
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
 const ORDERS = ['index', 'id', 'distance'];
@@ -24,23 +24,23 @@ const KINDS_OF_AREAS = ['height', 'variation'];
 
 // The options of the calls, with their defaults. Made once: a small query takes less time than spreading them.
 const BUILDING = { offsets: null, cut: null, progress: undefined };
-const QUERY = { method: 'exact', metric: 'straight', unit: 'mesh' };
+const QUERY = { method: 'exact', ...METRIC, unit: 'mesh' };
 const ANSWER = { sort: null, distances: false };
-const SEARCH = { seeds: null, metric: 'straight', ...MASKS };
+const SEARCH = { seeds: null, ...METRIC, ...MASKS };
 const SCALED_SEARCH = { unit: 'mesh', ...SEARCH };
 const QUERY_OF_START = { ...QUERY, ...SEARCH };
 const LIST_OF_START = { ...QUERY_OF_START, ...ANSWER };
 const COUNTS = { ...QUERY, ...SCALED_ROWS };
 const LISTS = { ...QUERY, ...ROWS, ...ANSWER };
 const NEAREST = { r: Infinity, ...ROWS };
-const DISCS = { ...NEAREST, weights: 'area', faces: null };
-const SMOOTHING = { weights: null, faces: null, nan: 'propagate', ...ROWS };
+const DISCS = { ...NEAREST, weights: 'area' };
+const SMOOTHING = { weights: null, nan: 'propagate', ...ROWS };
 const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ...SMOOTHING, scales: null };
-const CURVATURE = { ...SCALED_ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true };
+const CURVATURE = { ...SCALED_ROWS, normals: null, like: null, fit: 'quadric', filter: true };
 const SURFACE_ROWS = { vertices: null, faces: null, ...MASKS, unit: 'mesh' };
 const INVARIANTS = { ...SURFACE_ROWS, scales: null };
 const PATCH = { face: null, faces: null, walls: null, unit: 'mesh' };
-const FEATURES = { ...SCALED_ROWS, faces: null, kinds: 'crease', filter: true };
+const FEATURES = { ...SCALED_ROWS, kinds: 'crease', filter: true };
 const ON_FACES = { faces: null };
 const THICKNESS = { vertices: null, method: 'ray', ...ON_FACES };
 
@@ -232,16 +232,17 @@ export class MeshIndex extends Owner {
     return { ids: this.instance.takeIds(), radii: this.instance.takeReals() };
   }
 
-  nearest(point) {
+  nearest(point, options = {}) {
+    const masks = withDefaults(options, { walls: null });
     expectPoint(point, 'point');
-    const vertex = this.instance.call('nearest', ...point) >>> 0;
+    const vertex = withMasks(this.instance, masks, () => this.instance.call('nearest', ...point) >>> 0);
     return { vertex, distance: this.instance.takeReals()[0] };
   }
 
   closestPoint(point, options = {}) {
     const { faces } = withDefaults(options, ON_FACES);
     expectPoint(point, 'point');
-    this.#useFaces(faces);
+    useFaces(this.instance, faces);
     this.instance.call('closest_point', ...point);
     return this.#takeSurfacePoint();
   }
@@ -250,18 +251,10 @@ export class MeshIndex extends Owner {
     const { faces } = withDefaults(options, ON_FACES);
     expectPoint(origin, 'origin');
     expectPoint(direction, 'direction');
-    this.#useFaces(faces);
+    useFaces(this.instance, faces);
     this.instance.call('first_hit', ...origin, ...direction);
     const hit = this.#takeSurfacePoint();
     return hit.distance === Infinity ? null : hit;
-  }
-
-  #useFaces(faces) {
-    if (faces === null) {
-      throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which an index does not keep');
-    }
-    expectFaces(faces);
-    withFaces(this.instance, faces, (...six) => this.instance.call('use_faces', ...six));
   }
 
   #takeSurfacePoint() {
@@ -384,7 +377,7 @@ export class MeshIndex extends Owner {
   }
 
   #callOnSurface(name, r, given) {
-    this.#useFaces(given.faces);
+    useFaces(this.instance, given.faces);
     withRows(this.instance, r, given, this.#scale(given.unit), (...rows) => this.instance.call(name, ...rows));
   }
 
@@ -398,7 +391,7 @@ export class MeshIndex extends Owner {
       expectPoint(start, 'start');
       expectSize(face, 'face');
     }
-    this.#useFaces(faces);
+    useFaces(this.instance, faces);
     const radius = this.#scale(unit) * r;
     withMasks(this.instance, { walls }, () => (isVertex(start)
       ? this.instance.call('patch_of_vertex', start, radius)
@@ -462,7 +455,7 @@ export class MeshIndex extends Owner {
     const { faces, kinds, filter, unit } = given;
     const names = typeof kinds === 'string' ? [kinds] : kinds;
     const places = Uint8Array.from(names, (name) => choose(KINDS, name, 'kinds'));
-    this.#useFaces(faces);
+    useFaces(this.instance, faces);
     const areas = names.some((name) => KINDS_OF_AREAS.includes(name)) ? this.#weights('area', faces) : null;
     withRows(this.instance, r, given, this.#scale(unit), (...rows) =>
       this.instance.with([places, areas], (list, areaList) => this.instance.call(
@@ -476,7 +469,7 @@ export class MeshIndex extends Owner {
     const { vertices, method, faces } = withDefaults(options, THICKNESS);
     const place = choose(THICKNESSES, method, 'method');
     expectVertices(vertices, 'vertices');
-    this.#useFaces(faces);
+    useFaces(this.instance, faces);
     this.instance.with([vertices], (ids) => this.instance.call('thickness', ids, vertices?.length ?? 0, place));
     const found = this.instance.takeReals();
     this.instance.releaseAnswer();
@@ -488,7 +481,7 @@ export class MeshIndex extends Owner {
       throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, or normals, and not both');
     }
     if (faces !== null) {
-      this.#useFaces(faces);
+      useFaces(this.instance, faces);
     } else {
       const vectors = toReals(normals, 'normals');
       this.instance.with([vectors], (list) => this.instance.call('use_normals', list, vectors.length));

@@ -95,6 +95,11 @@ export interface Mesh {
   /** See `Faces`. */
   corners: Uint32Array;
   offsets: Uint32Array | null;
+  /**
+   * #V, or null: 1 for each vertex that is NaN in the file and in no face, as scanners mark holes, to be passed as
+   * `walls`. `positions` has it where another vertex is.
+   */
+  walls: Uint8Array | null;
   /** Deviations from the format that were accepted, and whether float is coarse for the mesh; one sentence each. */
   warnings: string[];
 }
@@ -163,14 +168,24 @@ export type Unit = 'mesh' | 'edge';
 
 /**
  * Of a radius and of distances. `straight`: in a straight line. `path`: lengths of the shortest paths along edges; the
- * vertices of one neighborhood then ascend by them. `rings`: numbers of edges. `space`: in a straight line, to every
- * vertex, connected or not; calls about what is connected refuse it. All but `straight` need method `exact`.
+ * vertices of one neighborhood then ascend by them. `surface`: the same for paths that also run straight over two
+ * triangles that share a side, nearer to geodesics (docs/queries.md); it needs `faces`. `rings`: numbers of edges.
+ * `space`: in a straight line, to every vertex, connected or not; calls about what is connected refuse it. All but
+ * `straight` need method `exact`.
  */
-export type Metric = 'straight' | 'path' | 'rings' | 'space';
+export type Metric = 'straight' | 'path' | 'surface' | 'rings' | 'space';
 
-export interface QueryOptions {
-  method?: Method;
+export interface MetricOptions {
   metric?: Metric;
+  /**
+   * For metric `surface`: the faces that the index was built from. Their lines, about 150 bytes a vertex for each use
+   * with or without masks, are kept until other faces are given; each call copies and compares the faces.
+   */
+  faces?: Faces | null;
+}
+
+export interface QueryOptions extends MetricOptions {
+  method?: Method;
   unit?: Unit;
 }
 
@@ -193,7 +208,7 @@ export interface Scales {
 /**
  * Of the vertices of a neighborhood. `index`: ascending places of `permutation`. `id`: ascending ids. `distance`:
  * ascending distances, then ids. Null: as found. This is the order of the index by default and with metric `rings`,
- * that of the distances with `path`; another method has an order of its own, which is always the same.
+ * that of the distances with `path` and `surface`; another method has an order of its own, which is always the same.
  */
 export type Sort = 'index' | 'id' | 'distance' | null;
 
@@ -211,9 +226,11 @@ export interface Rows {
 /** A vertex, or a point in space, which is then the center of the ball. */
 export type Start = number | readonly [number, number, number] | Float32Array | Float64Array;
 
-/** Where a search starts, and what it may pass. The metrics `path` and `rings` need a vertex as start. */
-export interface StartOptions extends Masks {
-  metric?: Metric;
+/**
+ * Where a search starts, and what it may pass. The metric `rings` needs a vertex as start. By `path` and `surface`, a path
+ * from a point begins with the straight line to a seed.
+ */
+export interface StartOptions extends Masks, MetricOptions {
   /**
    * If the start is a point: the vertices from which the search spreads, for example the corners of the face on which
    * the point lies; by default the vertex nearest to the point. A seed outside the ball does not count. If all are
@@ -224,10 +241,9 @@ export interface StartOptions extends Masks {
 }
 
 /** Of calls on many vertices. */
-export interface RowOptions extends Masks {
+export interface RowOptions extends Masks, MetricOptions {
   /** The rows; null for all vertices. */
   vertices?: Uint32Array | null;
-  metric?: Metric;
   unit?: Unit;
 }
 
@@ -247,7 +263,6 @@ export interface AggregateOptions extends RowOptions, Scales {
    * `faces`. A vertex of weight 0 is left out.
    */
   weights?: Float64Array | Float32Array | 'area' | null;
-  faces?: Faces | null;
   /**
    * For `sum` and `mean`, how the weight falls with the distance d: not at all, as 1 - (d/r)^2, as (1 - (d/r)^2)^2, or
    * as 1000^-(d/r)^2, a Gaussian of the full width at half maximum r / 1.57843.
@@ -266,7 +281,7 @@ export interface AggregateOptions extends RowOptions, Scales {
 
 /**
  * The metric of an order. `straight`: by connecting radius, as for `nearestConnected`. `path`: by the length of the
- * shortest path along edges, `rings`: by the number of edges; each then by place in index order.
+ * shortest path along edges, and so `surface`, `rings`: by the number of edges; each then by place in index order.
  */
 export interface NearestOptions extends RowOptions {
   /** Only vertices up to this connecting radius, path length or number of edges. */
@@ -276,7 +291,6 @@ export interface NearestOptions extends RowOptions {
 export interface DiscOptions extends NearestOptions {
   /** #V numbers >= 0, whose sum is compared with the area; `area`, the default, needs `faces`. */
   weights?: Float64Array | Float32Array | 'area';
-  faces?: Faces | null;
 }
 
 /** Principal curvatures, one entry for each row; #scales by #rows if there are scales, here meant by #rows. */
@@ -459,7 +473,7 @@ export class MeshIndex {
    * start. A vertex is its own seed. A vertex at exactly r is inside. A wall has an empty neighborhood.
    *
    * An exact answer depends on the index, the arguments and the masks alone. Its ids are in index order: ascending
-   * places of `permutation`. Another method than `exact` and another metric than `straight` need a vertex as start.
+   * places of `permutation`. Another method than `exact` and the metric `rings` need a vertex as start.
    *
    * @param r the radius, >= 0 or Infinity
    * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption; TooLarge, which disposes the index. The calls
@@ -504,8 +518,8 @@ export class MeshIndex {
    */
   nearestConnected(start: Start, k: number, options?: StartOptions): { ids: Uint32Array; radii: Float64Array };
 
-  /** The vertex nearest to a point in space, connected or not; of several, the one with the smallest id. */
-  nearest(point: Exclude<Start, number>): { vertex: number; distance: number };
+  /** The vertex nearest to a point in space that is no wall, connected or not; of several, that with the smallest id. */
+  nearest(point: Exclude<Start, number>, options?: Pick<Masks, 'walls'>): { vertex: number; distance: number };
 
   /**
    * The point of the surface nearest to a point in space. Its triangle has the corners 0, i and i + 1 of the face, whose

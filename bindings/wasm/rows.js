@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: MIT
 // The words of every call on many vertices: which rows, their radii, and what the searches may pass.
-import { choose, expectType, expectVertices, toReals } from './arguments.js';
+import { choose, expectFaces, expectType, expectVertices, toReals, withFaces } from './arguments.js';
 import { MeshhoodError } from './instance.js';
 
 // Options with their defaults.
 export const MASKS = { walls: null, ignored: null };
-export const ROWS = { vertices: null, metric: 'straight', ...MASKS, unit: 'mesh' };
+export const METRIC = { metric: 'straight', faces: null };
+export const ROWS = { vertices: null, ...METRIC, ...MASKS, unit: 'mesh' };
 export const SCALED_ROWS = { ...ROWS, scales: null };
 
-// The places are those of meshhood::Metric.
-export const METRICS = ['straight', 'path', 'rings', 'space'];
+// The places are those of MetricName.
+export const METRICS = ['straight', 'path', 'rings', 'space', 'surface'];
+
+/** Makes the surface of these faces, unless it is that of the last call. */
+export function useFaces(instance, faces) {
+  if (faces === null) {
+    throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which an index does not keep');
+  }
+  expectFaces(faces);
+  withFaces(instance, faces, (...six) => instance.call('use_faces', ...six));
+}
 
 /** `r` is a radius, or one for each row; or null, with `scales` for all rows. `unit` is a factor. */
 function readRadius(r, scales, unit) {
@@ -22,7 +32,8 @@ function readRadius(r, scales, unit) {
 }
 
 /** Calls `use` when the module searches by the metric and with the masks. */
-export function withMasks(instance, { walls = null, ignored = null, metric = 'straight', unit = 'mesh' }, use) {
+export function withMasks(instance, given, use) {
+  const { walls = null, ignored = null, metric = 'straight', faces = null, unit = 'mesh' } = given;
   const place = choose(METRICS, metric, 'metric');
   if (metric === 'rings' && unit === 'edge') {
     throw new MeshhoodError('InvalidOption', "unit: 'edge', but with metric 'rings' the radius is a number of edges");
@@ -30,6 +41,7 @@ export function withMasks(instance, { walls = null, ignored = null, metric = 'st
   for (const [mask, name] of [[walls, 'walls'], [ignored, 'ignored']]) {
     if (mask !== null) expectType(mask, [Uint8Array], name);
   }
+  if (metric === 'surface') useFaces(instance, faces);
   return instance.with([walls, ignored], (wallMask, ignoredMask) => {
     instance.call('search_by', place, wallMask, walls?.length ?? 0, ignoredMask, ignored?.length ?? 0);
     return use();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // meshhood in a scene of three.js: a click colors the neighborhood of the vertex under the pointer, and a brush paints
-// the surface under it, but not the strands of the knot behind. `npm install && npm start`, after `make view`.
+// what is within a way along the surface, but not the strands of the knot behind. `npm install && npm start`, after
+// `make view`.
 import { MeshIndex, initialize } from 'meshhood';
 import wasm from 'meshhood/meshhood.wasm?url';
 import * as THREE from 'three';
@@ -72,9 +73,9 @@ function showNeighborhood({ point }) {
   document.getElementById('result').textContent = `Vertex ${vertex}: ${near.length} vertices.`;
 }
 
-/** One dab: the vertices that are connected with the triangle under the pointer, within the radius around the point. */
+/** One dab: the vertices within the radius along the surface; paths begin at the point in the triangle that was hit. */
 function brush({ point, vertices }) {
-  paint(index.neighborhood(point, BRUSH_RADIUS, { seeds: vertices }), PAINT);
+  paint(index.neighborhood(point, BRUSH_RADIUS, { seeds: vertices, metric: 'surface', faces }), PAINT);
 }
 
 let pressed = null;

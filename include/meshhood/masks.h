@@ -50,10 +50,10 @@ struct Masks {
   VertexMask ignored = {};
 };
 
-/// The same index with masks: every search of it, and every call that takes it, leaves out walls and ignored vertices,
-/// but `nearest` and `Start::nearest`, which look at all vertices; a wall as a seed leads nowhere. The masks are
-/// copied; the arrays of `index` are shared, all of which remain valid without the walls. Memory: some 50 bytes a leaf
-/// with walls, 4 with ignored vertices alone. A search takes about as long as without masks.
+/// The same index with masks: every search of it, and every call that takes it, leaves out walls and ignored vertices;
+/// `nearest` and `Start::nearest` find ignored ones. A wall as a seed leads nowhere. The masks are copied; the arrays
+/// of `index` are shared, all of which remain valid without the walls. Memory: some 50 bytes a leaf with walls, 4 with
+/// ignored vertices alone. A search takes about as long as without masks.
 ///
 /// An index with masks is not saved, checked, refitted or masked again. After `refit_in_place` of `index`,
 /// it refuses to answer, as a searcher does. Its mesh, as from `extract_graph`, is the whole one.

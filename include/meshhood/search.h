@@ -76,13 +76,14 @@ struct Dab {
 ///   path of edges. The length of an edge is the distance of its ends (see `distance`); that of a path is the sum of
 ///   those of its edges, added in double in the order of the path. The rounded sum never decreases if a summand grows,
 ///   so the search finds the least sum to the last bit, as does the algorithm of Dijkstra (1959). An index of
-///   `surface_paths` also has lines over pairs of triangles.
+///   `surface_paths` also has lines over pairs of triangles. From a point, a path begins with the straight line to a
+///   seed: with the corners of its face as seeds, such a line lies in the face.
 /// - `Metric::Rings`: the vertices that at most `radius` edges, rounded down, separate from the vertex.
 /// - `Metric::Space`: the vertices within the radius of the center, connected or not. Seeds do not count.
 ///
 /// Walls of a masked index are not in its mesh; ignored vertices are passed, but belong to no answer.
 ///
-/// start   a vertex in [0, #V); or, straight and in space, a point.
+/// start   a vertex in [0, #V); or a point, but not by rings.
 /// radius  >= 0 or infinite, in the unit of the positions, or a number of edges; a vertex at exactly `radius` is
 /// inside.
 ///
@@ -106,7 +107,7 @@ struct Dab {
 /// does not count. The query that makes it takes O(#V + #E).
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed, the coordinate or the dab; arguments
-/// are then unchanged. A point as a start by paths or rings is an InvalidOption, because a point has no edges; so is
+/// are then unchanged. A point as a start by rings is an InvalidOption, because a point has no edges; so is
 /// `nearest_connected` in space, where nothing is connected.
 class Searcher {
  public:

@@ -78,10 +78,11 @@ struct NearestVertex {
   double distance;
 };
 
-/// The vertex nearest to `point`, connected or not; of several at the same distance, the one with the smallest id.
+/// The vertex nearest to `point`, connected or not, ignored or not, but no wall; of several at the same distance, the
+/// one with the smallest id.
 ///
 /// Throws Error{InvalidOption} if a coordinate is not finite or beyond 2^500, and Error{VertexOutOfRange} if the mesh
-/// has no vertices. O(log #V) on most surfaces. Allocates nothing; any thread.
+/// has no such vertex. O(log #V) on most surfaces. Allocates nothing; any thread.
 [[nodiscard]] NearestVertex nearest(const Index& index, const SpacePoint& point);
 
 }  // namespace meshhood

@@ -178,7 +178,8 @@ class LengthRowSearch {
       }
       return count >= enough || area > enough_area * (1 + kAreaSlack);
     };
-    search_->run(index_->slot[v], radius_, std::cref(is_enough));
+    const Path start{0, index_->place(v)};
+    search_->run(std::span(&start, 1), radius_, std::cref(is_enough));
     for (const Path& path : search_->in_order()) {
       if (!take(index_->id(path.end), path.length)) return;
     }

@@ -101,7 +101,9 @@ class Plain:
             found = self._component(starts, inside) if metric == "straight" else self._in_space(starts, inside, point)
             found = {w: math.sqrt(squared[w]) for w in found}
         else:
-            found = self._along(starts[0], r, walls, metric)
+            squared = None if point is None else self.squared(np.array(point))
+            lengths = {s: 0.0 if point is None else math.sqrt(squared[s]) for s in starts}
+            found = self._along(lengths, r, walls, metric)
         return {w: d for w, d in sorted(found.items()) if not ignored[w]}
 
     def _in_space(self, starts, inside, point):
@@ -151,8 +153,10 @@ class Plain:
                 if not walls[list(side)].any():
                     yield w, step
 
-    def _along(self, start, r, walls, metric):
-        found, queue = {}, [] if walls[start] else [(0.0, start)]
+    def _along(self, starts, r, walls, metric):
+        """`starts`: the lengths with which the paths begin, by vertex."""
+        found, queue = {}, [(d, v) for v, d in starts.items() if d <= r and not walls[v]]
+        heapq.heapify(queue)
         while queue:
             d, v = heapq.heappop(queue)
             if v in found:

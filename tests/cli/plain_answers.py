@@ -40,7 +40,8 @@ class Question:
         self.point = tuple(self.files.point.tolist()) if "--point" in asked else None
         self.seeds = None
         if self.point:
-            self.seeds = (int(asked.get("--seed", np.argmin(self.mesh.squared(np.array(self.point))))),)
+            squared = np.where(self.mesh.mask(self.walls), np.inf, self.mesh.squared(np.array(self.point)))
+            self.seeds = (int(asked.get("--seed", np.argmin(squared))),)
         self.sort, self.json = asked.get("--sort", "id"), "--json" in asked
 
     @property

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,6 +40,7 @@ std::string outcome(Reader reader, std::string_view content, const io::ReaderOpt
     std::visit(add, mesh.positions);
     add(mesh.corners);
     add(mesh.offsets);
+    add(mesh.walls);
     for (const io::Warning& warning : mesh.warnings) {
       words += warning.what + ", " + std::to_string(warning.count) + " times, " + warning.first_place + '\n';
     }
@@ -63,11 +65,12 @@ std::string facet_with(const std::string& corner) {
          "\n endloop\nendfacet\n";
 }
 
-std::string binary_ply() {
+/// `x`: of a vertex in no face.
+std::string binary_ply(float x) {
   const std::string header =
-      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
-  const std::string vertices = little(0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F);
+  const std::string vertices = little(0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, x, 0.F, 0.F);
   const std::string triangle = little(std::uint8_t{3}, 0U, 1U, 2U);
   return header + vertices + triangle + little(std::uint8_t{2}, 2U, 1U) + little(std::uint8_t{0}) + triangle;
 }
@@ -92,6 +95,8 @@ std::vector<File> files() {
        kPlyHeader + "0 9 0 0 1 9\n0 0 1 9 1 1 0 9 0.5 1\n7 3 0 1 2 0\n7 4 0 1 2 3 nan\n7 2 3 1 0\n"},
       {"PLY in CR", io::read_ply,
        kPlyHeader + "0 9 0 0\n1 9 0 0\r1 9 1 1\r0 9 0.5 1\n7 3 0 1 2 0\r7 4 0 1 2 3 nan\r7 2 3 1 0\r"},
+      {"OFF with holes", io::read_off, "OFF\n4 1 0\nnan nan nan\n1 0 0\n1 1 0\n0 nan 0\n2 2 1\n"},
+      {"OBJ with holes", io::read_obj, "v nan nan nan\nf 2 3\nv 1 0 0\nv 1 1 0\nv 0 nan 0\nf 3 2\n"},
       {"OFF without edges", io::read_off, "NCOFF\n3 2\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n3 2 1 0\n"},
       {"STL", io::read_stl,
        "solid name\n" + facet_with("0 1 0") + facet_with("1 0 0") + facet_with("0 1 -0") +
@@ -103,7 +108,8 @@ std::vector<File> files() {
       {"OFF of more digits in a face", io::read_off, "OFF\n2 2 0\n0 0 0\n1 0 0\n1 0 0.123456789012\n1 1 5412345.2\n"},
       {"STL of more digits", io::read_stl,
        "solid\n" + facet_with("0 1 0") + facet_with("0 1 5412345.2") + "endsolid\n"},
-      {"binary PLY", io::read_ply, binary_ply()},
+      {"binary PLY", io::read_ply, binary_ply(0.F)},
+      {"binary PLY with holes", io::read_ply, binary_ply(std::numeric_limits<float>::quiet_NaN())},
   };
 }
 

@@ -59,7 +59,7 @@ TEST(FreeSurfer, WrongNumbersAreRefusedByPlace) {
                    "lh.white@" + std::to_string(corners + 8) + ": face 0, corner 2 = " + std::to_string(wrong) +
                        ", but there are 3 vertices");
   }
-  expect_refused("lh.white", kHead + big(1, 0, 0.F, std::numeric_limits<float>::quiet_NaN(), 0.F),
+  expect_refused("lh.white", kHead + big(1, 0, 0.F, std::numeric_limits<float>::infinity(), 0.F),
                  ErrorCode::MalformedFile, "vertex 0, y is not finite");
 }
 

@@ -109,7 +109,10 @@ TEST(Text, TokensThatAreNotNumbers) {
     expect_refused("a.obj", "v 0 0 0\nv 0 " + token + " 0\n", ErrorCode::MalformedFile,
                    "a.obj:2:5: vertex 2, y = ", "is not a number");
   }
-  const std::vector<std::string> infinite = {"nan", "NaN", "-nan", "+nan", "nan(1)", "inf", "-Inf", "INFINITY"};
+  for (const std::string token : {"nan", "NaN", "-nan", "+nan", "nan(1)"}) {
+    EXPECT_EQ(warned(read("a.obj", "v 0 0 " + token + "\n"), "without a position"), 1U) << token;
+  }
+  const std::vector<std::string> infinite = {"inf", "-Inf", "INFINITY"};
   for (const auto& token : infinite) {
     expect_refused("a.obj", "v 0 0 " + token + "\n", ErrorCode::MalformedFile, "a.obj:1:7: vertex 1, z = ", "' is ");
   }

@@ -121,8 +121,8 @@ TEST(Vtk, HugeCountsAreRefusedBeforeTheyAllocate) {
 }
 
 TEST(Vtk, WrongNumbersAreRefusedByPlace) {
-  expect_refused("a.vtk", kAscii + "POINTS 2 float\n0 0 0 1 nan 0\n", ErrorCode::MalformedFile,
-                 "a.vtk:6:9: point 1, y = 'nan' is not finite");
+  expect_refused("a.vtk", kAscii + "POINTS 2 float\n0 0 0 1 inf 0\n", ErrorCode::MalformedFile,
+                 "a.vtk:6:9: point 1, y = 'inf' is not finite");
   expect_refused("a.vtk", kAscii + kPoints + "POLYGONS 1 4\n3 0 1 4\n", ErrorCode::MalformedFile,
                  "a.vtk:9:7: face 0 names vertex 4, but there are 4 vertices");
   expect_refused("a.vtk", kAscii + kPoints + "POLYGONS 1 4\n4 0 1 2\n", ErrorCode::MalformedFile,

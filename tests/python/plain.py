@@ -54,11 +54,15 @@ class PlainMesh:
 
     ball = space
 
-    def path(self, v, r):
-        return self._by_key({v: 0.0}, r, lambda key, a, b: key + float(self.distances_of(a, b)))
+    def path(self, start, r):
+        """From a vertex, or from the ends of straight lines, given as their lengths by vertex."""
+        return self._by_key(self._starts(start, r), r, lambda key, a, b: key + float(self.distances_of(a, b)))
 
-    def surface(self, v, r):
-        return self._by_key({v: 0.0}, r, lambda key, a, b: key + self.lines[a][b], lambda a: self.lines[a])
+    def surface(self, start, r):
+        return self._by_key(self._starts(start, r), r, lambda key, a, b: key + self.lines[a][b], lambda a: self.lines[a])
+
+    def _starts(self, start, r):
+        return {v: length for v, length in start.items() if length <= r} if isinstance(start, dict) else {start: 0.0}
 
     @functools.cached_property
     def lines(self):

@@ -139,7 +139,7 @@ MASKED = np.ma.masked_greater(V, 3)
         (with_value(V.astype(int), (3, 1), -(2**63)), F, TypeError, "V: .*2.53"),
         (with_value(V.astype(np.uint64), (3, 1), 2**64 - 1), F, TypeError, "V: .*2.53"),
         (MASKED, F, TypeError, "V: .*mask"),
-        (with_value(V, (7, 1), np.nan), F, ValueError, "V: vertex 7: y is nan"),
+        (with_value(V, (7, 1), np.nan), F, ValueError, r"V: vertex 7 has no position \(NaN\), but face"),
         (with_value(V, (8, 2), np.inf), F, ValueError, "V: vertex 8: z is inf"),
         (V, F.astype(float), TypeError, "F: .*float64"),
         (V, F.astype(bool), TypeError, "F: .*bool"),

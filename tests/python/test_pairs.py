@@ -481,12 +481,19 @@ def region_by_hand(words, start, r):
     return plain, start, seeds
 
 
+def lengths_by_hand(plain, how, start, center, seeds, r):
+    """Ascending ids and their lengths, by a metric."""
+    if how in ("path", "surface") and np.ndim(start):
+        start = {int(v): float(plain.distances(center)[v]) for v in seeds}
+    return getattr(plain, how)(start, r)
+
+
 def check_region(words, start, answer):
     r = R * (INDEX.mean_edge_length if "unit" in words else 1)
     plain, center, seeds = region_by_hand(words, start, r)
     how = words.get("method", words.get("metric", "straight"))
     is_region = how in ("straight", "bfs")
-    ids, distances = plain.region(center, seeds, r) if is_region else getattr(plain, how)(start, r)
+    ids, distances = plain.region(center, seeds, r) if is_region else lengths_by_hand(plain, how, start, center, seeds, r)
     found = answer if isinstance(answer, tuple) else (answer,)
     if "sort" not in words and how == "bfs":  # an order of its own
         found = [column[np.argsort(PLACE[found[0]])] for column in found]
@@ -500,7 +507,8 @@ def check_region(words, start, answer):
 def check_count(words, start, answer):
     plain, center, seeds = region_by_hand(words, start, R)
     how, r = words.get("method", words.get("metric", "straight")), R * (INDEX.mean_edge_length if "unit" in words else 1)
-    wanted = plain.region(center, seeds, r) if how in ("straight", "bfs") else getattr(plain, how)(start, r)
+    is_region = how in ("straight", "bfs")
+    wanted = plain.region(center, seeds, r) if is_region else lengths_by_hand(plain, how, start, center, seeds, r)
     assert type(answer) is int and answer == len(wanted[0])
 
 
@@ -509,7 +517,11 @@ def check_nested(words, start, answer):
     for r, begin, end in zip((1.4, 2.3), (0, *counts), counts):
         r *= INDEX.mean_edge_length if "unit" in words else 1
         plain, center, seeds = region_by_hand(words, start, r)
-        by_metric = getattr(plain, words["metric"])(start, r) if "metric" in words else plain.region(center, seeds, r)
+        by_metric = (
+            lengths_by_hand(plain, words["metric"], start, center, seeds, r)
+            if "metric" in words
+            else plain.region(center, seeds, r)
+        )
         np.testing.assert_array_equal(np.sort(ids[:end]), by_metric[0])
         assert np.all(np.diff(PLACE[ids[begin:end]]) > 0)
     assert len(ids) == counts[-1]
@@ -519,7 +531,7 @@ def connecting_by_hand(words, start, r):
     """The keys that order vertices of one connecting radius, the vertices, and their radii, up to r."""
     plain, center, seeds = region_by_hand(words, start, r)
     if "metric" in words:
-        ids, lengths = getattr(plain, words["metric"])(start, r)
+        ids, lengths = lengths_by_hand(plain, words["metric"], start, center, seeds, r)
         return [PLACE[ids]], ids, lengths
     ids, radii = plain.connecting(center, seeds, r)
     return [ids, plain.distances(center)[ids]], ids, radii
@@ -604,13 +616,13 @@ def test_pairs_of_options_of_a_stroke():
 
     def ask(*given):
         words = {name: np.array([value(p) for p in POINTS]) if callable(value) else value for name, value in given}
-        return words, INDEX.stroke(STARTS["vertex"] if "metric" in words else POINTS, **{"r": R, **words})
+        return words, INDEX.stroke(STARTS["vertex"] if words.get("metric") == "rings" else POINTS, **{"r": R, **words})
 
     def check_stroke(words, answer):
         unit, found = INDEX.mean_edge_length if "unit" in words else 1, set()
         for i, r in enumerate(np.broadcast_to(words.get("r", R), len(POINTS))):
             of_point = {name: value[i] if name in ("seeds", "face") else value for name, value in words.items()}
-            start = STARTS["vertex"][i] if "metric" in words else POINTS[i]
+            start = STARTS["vertex"][i] if words.get("metric") == "rings" else POINTS[i].astype(float)
             found |= set(connecting_by_hand(of_point, start, r * unit)[1].tolist())
         ids = np.array(sorted(found))
         np.testing.assert_array_equal(answer, ids if "sort" in words else ids[np.argsort(PLACE[ids])])

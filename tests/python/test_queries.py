@@ -40,6 +40,27 @@ def test_nearest_is_that_of_a_scan(mesh):
     np.testing.assert_array_equal(vertices, np.arange(50))
 
 
+@pytest.mark.parametrize("metric", ("path", "surface"))
+def test_paths_from_a_picked_point_begin_with_the_line_to_a_corner(mesh, metric):
+    V, F, index = mesh
+    face, weights, point, _ = index.first_hit(V[F[5]].mean(axis=0) + [0.01, 0.02, 3], [0, 0, -1])
+    assert face >= 0 and weights.min() > 0
+    whole = [
+        d + index.neighborhood(v, np.inf, metric=metric, return_distance=True, sort="id")[1]
+        for v, d in zip(F[face], distances(V[F[face]], point))
+    ]
+    of_sheet = index.neighborhood(F[face][0], np.inf, metric=metric, sort="id")
+    expected = np.full(len(V), np.inf)
+    expected[of_sheet] = np.min(whole, axis=0)
+    r = 2.5 * index.mean_edge_length
+    ids, lengths = index.neighborhood(point, r, face=face, metric=metric, return_distance=True)
+    assert len(ids) > 5 and (np.diff(lengths) >= 0).all()
+    np.testing.assert_allclose(lengths, expected[ids], rtol=1e-14)
+    np.testing.assert_array_equal(np.sort(ids), np.flatnonzero(expected <= r))
+    np.testing.assert_array_equal(index.stroke([point], r, face=[face], metric=metric, sort="id"), np.sort(ids))
+    assert index.count(point, r, face=face, metric=metric) == len(ids)
+
+
 def test_cut_edges_are_not_crossed():
     V, quads = grid(6)
     cut = [(12 + i, 18 + i) for i in range(6)]
@@ -89,7 +110,7 @@ def test_rim_of_polygons_on_a_sheet_is_one_loop():
         (lambda i: i.neighborhood([0.0, 0.0, 0.0], 1, seeds=[0, 36]), r"seeds: row 1: vertex 36"),
         (lambda i: i.neighborhood(0, -1), r"r: radius -1"),
         (lambda i: i.neighborhood(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
-        (lambda i: i.neighborhood([0.0, 0.0, 0.0], 1, metric="path"), r"start: expected a vertex with metric='path'"),
+        (lambda i: i.neighborhood([0.0, 0.0, 0.0], 1, metric="rings"), r"start: expected a vertex with metric='rings'"),
         (lambda i: i.neighborhood(0, 1, walls=np.zeros(36)), r"walls: expected integers, not float64"),
         (lambda i: i.neighborhood(0, 1, ignored=np.zeros(35, bool)), r"ignored: a bool mask of shape \(35,\)"),
         (lambda i: i.stroke([[0, 0, 0]], 1, seeds=[[0], [1]]), r"seeds: expected \(1,\) or \(1, k\)"),

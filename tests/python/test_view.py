@@ -39,6 +39,14 @@ def test_the_page_holds_the_mesh(tmp_path, real):
     assert np.array_equal(faces, F)
 
 
+def test_a_scan_with_holes_is_shown(tmp_path):
+    V, F = meshes.two_plates(3)
+    V = np.vstack([V.astype(float), [(np.nan, 0, 0)]])
+    with pytest.warns(UserWarning, match="1 vertices without a position"):
+        page = meshhood.view(V, F)
+    np.testing.assert_array_equal(mesh_of(page, tmp_path)[0][-1], V[0])
+
+
 def test_polygons_keep_their_corners(tmp_path):
     V = np.random.default_rng(1).random((9, 3))
     offsets, corners = np.array([0, 3, 7, 12]), np.array([0, 1, 2, 2, 3, 4, 5, 4, 5, 6, 7, 8])

@@ -56,7 +56,7 @@ const refused = {
   'one_facet.stl': binaryStl(WRAPPING + 1, 1),
   'infinite.obj': lines('v 0 0 1e999'),
   'huge.ply': lines(...TEXT, 'element vertex 1', ...XYZ.map((x) => x.replace('float', 'double')), 'end_header', '1e151 0 0'),
-  'nan.off': lines('OFF', '1 0 0', '0 nan 0'),
+  'nan.off': lines('OFF', '1 1 0', '0 nan 0', '1 0'),
   'markup.ply': lines(...TEXT, '<script>alert(1)</script>'),
   'escape.ply': lines(...TEXT, 'element \x1b[2J\x07 \x00'),
   '<img src=x onerror=alert(1)>.obj': lines('v 0'),

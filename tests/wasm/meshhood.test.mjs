@@ -151,6 +151,20 @@ test('the same file gives the same index and the same answers as the command lin
   assert.match(meshhood('check', 'page.mhi', '--mesh', 'roll.ply'), /\S/);
 });
 
+test('a vertex of NaN in no face is a wall that calls may take', () => {
+  const scan = readMesh(Buffer.from('OFF\n4 1 0\nnan nan nan\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3\n'), 'scan.off');
+  const { walls } = scan;
+  assert.deepEqual([...walls], [1, 0, 0, 0]);
+  assert.deepEqual([...scan.positions.subarray(0, 3)], [0, 0, 0]);
+  assert.deepEqual(scan.warnings, ['line 3: vertices without a position (NaN), the first of which is 0, are walls']);
+  const scanned = new MeshIndex(scan.positions, scan.corners);
+  assert.equal(scanned.nearest([0, 0, 0]).vertex, 0);
+  assert.equal(scanned.nearest([0, 0, 0], { walls }).vertex, 1);
+  assert.deepEqual([...scanned.neighborhood([0, 0, 0], 2, { walls, sort: 'id' })], [1, 2, 3]);
+  assert.deepEqual([...scanned.neighborhood(1, Infinity, { walls, metric: 'space', sort: 'id' })], [1, 2, 3]);
+  assert.equal(readMesh(toPly(polygons(50, 20)), 'p.ply').walls, null);
+});
+
 test('polygons, precision and warnings of a file', () => {
   const mesh = polygons(50, 20);
   const read = readMesh(toPly(mesh), 'p.ply');

@@ -24,6 +24,7 @@ const CALLS = {
   neighborhood: [(options) => index.neighborhood(5, 3, options), 'unit'],
   neighborhoods: [(options) => index.neighborhoods(3, options), 'distances'],
   nearestUnconnected: [(options) => index.nearestUnconnected(3, options), 'walls'],
+  nearest: [(options) => index.nearest([0, 0, 0], options), 'walls'],
   kNearest: [(options) => index.kNearest(3, options), 'metric'],
   discs: [(options) => index.discs(3, { faces: mesh, ...options }), 'weights'],
   closestPoint: [(options) => index.closestPoint([0, 0, 0], { ...options, faces: mesh }), 'faces'],
@@ -59,7 +60,7 @@ for (const [name, [call, known]] of Object.entries(CALLS)) {
 
 test('options in other letters are named, too', () => {
   assert.throws(() => index.neighborhood(5, 3, { Sort: true }), { message: "unknown option 'Sort', did you mean 'sort'?" });
-  assert.throws(() => index.count(5, 3, { sort: true }), { message: "unknown option 'sort', expected one of method, metric, unit, seeds, walls, ignored" });
+  assert.throws(() => index.count(5, 3, { sort: true }), { message: "unknown option 'sort', expected one of method, metric, faces, unit, seeds, walls, ignored" });
 });
 
 test('options that are no object are refused', () => {

@@ -110,7 +110,7 @@ for (const metric of ['path', 'rings']) {
       if (near.radii[i] > 0) assert.ok(!index.contains(333, w, 0.999 * near.radii[i], words));
     });
     assert.deepEqual(near.ids, index.kNearest(20, { ...words, vertices: Uint32Array.of(333) }).ids);
-    assert.throws(() => index.nested([0, 0, 0], radii, { metric }), { code: 'InvalidOption', message: /^start: / });
+    if (metric === 'rings') assert.throws(() => index.nested([0, 0, 0], radii, { metric }), { code: 'InvalidOption', message: /^start: / });
   });
 }
 
@@ -310,7 +310,7 @@ test('wrong arguments of searches from starts give the errors of C++ and leave t
     refuse(() => index.neighborhood(start, 1), { name: 'TypeError', message: 'start: expected a vertex or three numbers' });
   }
   refuse(() => index.neighborhood([0, 0, 0], 1, { method: 'bfs' }), { code: 'InvalidOption', message: /^start: / });
-  refuse(() => index.count([0, 0, 0], 1, { metric: 'path' }), { code: 'InvalidOption', message: /^start: / });
+  refuse(() => index.count([0, 0, 0], 1, { metric: 'rings' }), { code: 'InvalidOption', message: /^start: / });
   refuse(() => index.count(1, 1, { seeds: Uint32Array.of(1) }), { code: 'InvalidOption', message: /^seeds/ });
   refuse(() => index.contains(1, vertices, 1), { code: 'VertexOutOfRange' });
   refuse(() => new MeshIndex(new Float32Array(), new Uint32Array()).nearest([0, 0, 0]), { code: 'VertexOutOfRange' });
@@ -326,7 +326,9 @@ test('a point farther from the mesh than the radius causes one warning for each 
   const { positions, corners } = grid(5, 5, (row, column) => [row, column, 0]);
   const near = new MeshIndex(positions, corners);
   assert.equal(near.neighborhood([2, 2, 3], 3).length, 1);
-  assert.equal(near.neighborhood([2, 2, 3], 3, { walls: new Uint8Array(25).fill(1) }).length, 0);
+  const walls = new Uint8Array(25).fill(1);
+  assert.equal(near.neighborhood([2, 2, 3], 3, { walls, seeds: Uint32Array.of(12) }).length, 0);
+  assert.throws(() => near.neighborhood([2, 2, 3], 3, { walls }), { code: 'VertexOutOfRange', message: /all vertices .* are walls/ });
   assert.equal(warn.mock.callCount(), 0);
   assert.equal(near.neighborhood([2, 2, 3], 2.9).length, 0);
   assert.equal(near.nested([2, 2, 3], Float64Array.of(1, 2.9)).ids.length, 0);

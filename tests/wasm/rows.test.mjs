@@ -30,16 +30,18 @@ const ofCommandLine = (...words) => {
   return readArrays('out.npz');
 };
 const numbers = (array) => Array.from(array, Number);
+const METRICS = ['straight', 'path', 'surface', 'rings', 'space'];
 
-for (const metric of ['straight', 'path', 'rings', 'space']) {
+for (const metric of METRICS) {
+  const by = { metric, faces: mesh };
   for (const sort of ['id', 'index', 'distance']) {
     test(`rows by ${metric}, sorted by ${sort}, are those of the command line`, () => {
       const expected = ofCommandLine('batch', 'hills.ply', '-r', '4', '--metric', metric, '--sort', sort, '--distances', ...ROWS);
-      const found = index.neighborhoods(4, { vertices, metric, sort, walls, ignored, distances: true });
+      const found = index.neighborhoods(4, { vertices, ...by, sort, walls, ignored, distances: true });
       assert.deepEqual(numbers(found.offsets), numbers(expected.indptr));
       assert.deepEqual(numbers(found.ids), numbers(expected.indices));
       assert.deepEqual(found.distances, expected.data);
-      assert.deepEqual(index.neighborhoods(4, { vertices, metric, sort, walls, ignored }).ids, found.ids);
+      assert.deepEqual(index.neighborhoods(4, { vertices, ...by, sort, walls, ignored }).ids, found.ids);
       assert.equal(found.offsets[3] - found.offsets[2], 0); // 387 is a wall
       assert.ok(found.ids.length > 50);
     });
@@ -48,10 +50,10 @@ for (const metric of ['straight', 'path', 'rings', 'space']) {
   test(`counts by ${metric} at several scales are those of the command line`, () => {
     const scales = Float64Array.of(3, 0, 5);
     const expected = ofCommandLine('batch', 'hills.ply', '-r', '3,0,5', '--metric', metric, '--count', ...ROWS);
-    const found = index.counts(null, { vertices, metric, scales, walls, ignored });
+    const found = index.counts(null, { vertices, ...by, scales, walls, ignored });
     assert.deepEqual(numbers(found), numbers(expected.count));
-    assert.equal(index.count(400, 5, { metric, walls, ignored }), found[10]);
-    assert.deepEqual(index.counts(Float64Array.of(5, 5, 5, 5, 3), { vertices, metric, walls, ignored }),
+    assert.equal(index.count(400, 5, { ...by, walls, ignored }), found[10]);
+    assert.deepEqual(index.counts(Float64Array.of(5, 5, 5, 5, 3), { vertices, ...by, walls, ignored }),
       Uint32Array.of(...found.subarray(10, 14), found[4]));
   });
 }
@@ -66,9 +68,9 @@ test('aggregates with masks, paths, scales and a radius for each row are those o
   const values = Float64Array.from({ length: count }, (_, v) => mesh.positions[3 * v + 2]);
   write('values.txt', `${values.join('\n')}\n`);
   const common = ['aggregate', 'hills.ply', '--values', 'values.txt', ...ROWS];
-  for (const metric of ['straight', 'path', 'rings', 'space']) {
+  for (const metric of METRICS) {
     const expected = ofCommandLine(...common, '-r', '2,5', '--metric', metric, '--kernel', 'biweight').values;
-    const options = { vertices, metric, walls, ignored, kernel: 'biweight' };
+    const options = { vertices, metric, faces: mesh, walls, ignored, kernel: 'biweight' };
     assert.deepEqual(index.aggregate(values, null, { ...options, scales: Float64Array.of(2, 5) }), expected, metric);
     const each = index.aggregate(values, Float64Array.of(2, 5, 2, 5, 5), options);
     assert.deepEqual(each, Float64Array.of(expected[0], expected[6], expected[2], expected[8], expected[9]), metric);
@@ -76,18 +78,45 @@ test('aggregates with masks, paths, scales and a radius for each row are those o
   }
   const smooth = index.smooth(values, 3, { vertices, metric: 'path', walls });
   assert.ok(Math.abs(smooth[0] - values[400]) < 1 && smooth[0] !== index.smooth(values, 3, { vertices, walls })[0]);
-  assert.throws(() => index.aggregate(values, 2, { metric: 'ring' }), { message: /^metric: 'ring', expected one of 'straight', 'path', 'rings'/ });
+  assert.throws(() => index.aggregate(values, 2, { metric: 'ring' }), { message: /^metric: 'ring', expected one of 'straight', 'path', 'rings', 'space', 'surface'/ });
   assert.throws(() => index.aggregate(values, 2, { metric: 'rings', unit: 'edge' }), { message: /^unit: 'edge'/ });
 });
 
 test('curvatures with masks, metrics and scales are those of the command line', () => {
-  for (const metric of ['straight', 'path', 'rings', 'space']) {
+  for (const metric of METRICS) {
     const expected = ofCommandLine('curvature', 'hills.ply', '-r', '3,5', '--metric', metric, ...ROWS);
     const found = index.curvature(null, { faces: mesh, vertices, metric, walls, ignored, scales: Float64Array.of(3, 5) });
     for (const part of ['k1', 'k2', 'd1', 'd2']) assert.deepEqual(found[part], expected[part], `${metric}: ${part}`);
     assert.deepEqual(numbers(found.state), numbers(expected.state));
     assert.equal(found.state[2], 2);
   }
+});
+
+test('paths along the surface follow the faces, the masks and the positions', () => {
+  const sheet = grid(8, 8, (row, column) => [row, column, 0]);
+  const along = { metric: 'surface', faces: sheet };
+  const flat = build(sheet);
+  const diagonal = () => [1, 8].flatMap((v) => [...flat.kNearest(64, { ...along, vertices: Uint32Array.of(v) }).distances]);
+  const lengths = diagonal();
+  const isDiagonal = (length) => Math.abs(length - Math.SQRT2) < 1e-15;
+  for (const [v, w] of [[1, 8], [0, 9]]) assert.ok(isDiagonal(flat.connectingRadius(v, w, along))); // a side, or a line over it
+  assert.equal([[1, 8], [0, 9]].filter(([v, w]) => flat.connectingRadius(v, w, { metric: 'path' }) === 2).length, 1);
+  assert.ok(flat.count(0, 9.5, along) > flat.count(0, 9.5, { metric: 'path' }));
+  const walled = { ...along, walls: Uint8Array.from({ length: 64 }, (_, v) => (v === 0 ? 1 : 0)) };
+  assert.equal(flat.count(1, 99, walled), 63);
+  assert.deepEqual(diagonal(), lengths);
+  const half = { corners: sheet.corners.slice(0, 3 * Math.floor(sheet.corners.length / 6)), offsets: null };
+  assert.throws(() => flat.count(0, 1, { metric: 'surface' }), { code: 'InvalidOption', message: /^faces: expected/ });
+  const hit = flat.firstHit([0.25, 0.25, 1], [0, 0, -1], { faces: sheet });
+  const brush = flat.neighborhood(hit.point, 1.25, { ...along, seeds: hit.vertices, sort: 'id', distances: true });
+  assert.deepEqual([...brush.ids.subarray(0, 2)], [0, 1]);
+  assert.equal(brush.distances[0], Math.hypot(0.25, 0.25)); // a straight line in the face
+  assert.throws(() => flat.curvature(3, { metric: 'surface', normals: sheet.positions }), { code: 'InvalidOption' });
+  flat.firstHit([0.2, 0.2, 1], [0, 0, -1], { faces: half }); // other faces replace what is kept
+  assert.deepEqual(diagonal(), lengths);
+  flat.refitInPlace(sheet.positions.map((x) => 2 * x));
+  assert.deepEqual(diagonal(), lengths.map((length) => 2 * length));
+  flat.dispose();
 });
 
 test('masks whose content changes are other masks, and calls without have none', () => {

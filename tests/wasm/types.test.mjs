@@ -34,6 +34,8 @@ const USE = `
   const curvature: Curvature = index.curvature(null, { faces, scales, walls });
   const counts: Uint32Array = index.counts(null, { scales, metric: 'rings' });
   const far: Rows & { distances: Float64Array } = index.neighborhoods(2, { vertices: near, sort: 'distance', walls, distances: true });
+  const holes: Uint8Array | null = mesh.walls;
+  const besides: number = index.nearest([0, 0, 1], { walls: holes }).vertex + index.count(42, 2, { metric: 'surface', faces });
   const other: { vertices: Uint32Array; distances: Float64Array } = index.nearestUnconnected(scales, { vertices: near, walls });
   const lengths: Float64Array = index.kNearest(9, { vertices: near, metric: 'path', walls }).distances;
   const discs: Rows = index.discs(2, { faces });
@@ -47,11 +49,11 @@ const USE = `
   const across: Float64Array = index.thickness({ faces, vertices, method: 'sphere' });
   const around: number = index.count(point, 2, { seeds: vertices, walls });
   const lists: Uint32Array[] = [index.viewNeighborhood(42, 2), index.nested(42, scales, { metric: 'rings' }).counts];
-  index.smooth(index.aggregate(between, scales, { metric: 'path' }), 3, { metric: 'path', walls });
+  index.smooth(index.aggregate(between, scales, { metric: 'surface', faces }), 3, { metric: 'path', walls });
   index.refitInPlace(mesh.positions, { changed: near });
   const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
   const codes: string[] = [new MeshhoodError().code];
-  export const used = [hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, other.vertices, rows.offsets, curvature.mean, part.vertices, codes, volume, between, patch];
+  export const used = [besides, hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, other.vertices, rows.offsets, curvature.mean, part.vertices, codes, volume, between, patch];
 `;
 
 for (const [name, options] of Object.entries({

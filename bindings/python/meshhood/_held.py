@@ -37,6 +37,7 @@ class Held:
     _queries: Any
     _count: int
     _whole: Optional[Held]
+    _no_position: Any  # the mask of the vertices without a position, or None
     _last_masked: Any  # walls, ignored, and the index of these masks
     _along_surface: Optional[Held]  # the index of metric="surface"
 
@@ -46,6 +47,7 @@ class Held:
         self._faces = faces
         self._checked = b""
         self._whole = whole
+        self._no_position = None
         self._last_masked = (None, None)
         self._along_surface = None
         self._methods = Methods(exact, None if whole is None else whole._methods)
@@ -96,6 +98,8 @@ class Held:
         """The index of these masks, the last of which is kept: a loop of calls with the same masks makes it once."""
         if walls is None and ignored is None:
             return self
+        if self._no_position is not None:
+            return self._whole._with_masks(self._all_walls(_convert.mask(walls, "walls", self._count)), ignored)
         if self._whole is not None:
             raise ValueError("walls, ignored: expected None, because this index has masks")
         masks = [_convert.mask(walls, "walls", self._count), _convert.mask(ignored, "ignored", self._count)]
@@ -106,7 +110,19 @@ class Held:
             self._last_masked = (masks, index)  # replaced as a whole: no lock, which a fork could copy while it is held
         return index
 
+    def _hold_without(self, no_position: Any) -> None:
+        """Makes the vertices without a position walls of all calls."""
+        whole = self._derived(self._exact, None)
+        self._hold(self._exact.masked(no_position.view(np.uint8), None), self._faces, whole)
+        self._no_position = no_position
+
+    def _all_walls(self, walls: Any) -> Any:
+        """`walls`, bytes or None, and the vertices without a position, as a bool mask."""
+        return self._no_position if walls is None else walls.view(np.bool_) | self._no_position
+
     def _masked(self: Self, walls: Any, ignored: Any, whole: Any) -> Self:
+        if self._no_position is not None:
+            return self._whole._masked(self._all_walls(walls).view(np.uint8), ignored, self._whole)
         return self._derived(self._exact.masked(walls, ignored), whole)
 
     def _derived(self: Self, exact: Any, whole: Any) -> Self:

@@ -17,7 +17,15 @@ from . import _convert, _core
 from ._aggregate import Aggregates
 from ._held import Held
 from ._instance import NeedsInstance
-from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_coarse, warn_if_no_faces, warn_if_unwelded
+from ._mesh import (
+    kept_faces,
+    mesh_arrays,
+    moved_positions,
+    placed,
+    warn_if_coarse,
+    warn_if_no_faces,
+    warn_if_unwelded,
+)
 from ._methods import Method
 from ._optional import optional
 from ._patches import Patches
@@ -82,6 +90,8 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
 
     V : (#V, 3) float32 or float64, the positions, in any unit. Or a mesh without F: of
         trimesh, PyVista, VTK (vtkPolyData), vedo, meshio, Open3D, nilearn, or a GIFTI surface of nibabel.
+        A vertex with a NaN, as scanners and depth cameras mark holes, is a wall of all calls if no face has it, with a
+        warning. `positions` has it where another vertex is, and the index is not saved, pickled or refitted.
     F : the faces, of any integer type; one of
         (#F, 3) triangles, (#F, 4) quads, (#F, k);
         a tuple (offsets, corners): polygon i has the corners corners[offsets[i]:offsets[i + 1]];
@@ -148,11 +158,14 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         progress: Progress = None,
     ) -> None:
         positions, corners, offsets = mesh_arrays(V, F)
+        positions, no_position = placed(positions, corners, offsets, stacklevel=3)
         options = {"cut": _convert.edges(cut, "cut"), "threads": _convert.threads(workers)}
         with reporter(progress, "MeshIndex") as report:
             exact = _core.exact(positions, corners, offsets=offsets, **options, progress=report)
         has_faces = keep_faces and not hasattr(F, "tocoo")
         self._hold(exact, kept_faces(corners, offsets) if has_faces else None)
+        if no_position is not None:
+            self._hold_without(no_position)
         if not hasattr(F, "tocoo"):
             warn_if_no_faces(positions, corners, stacklevel=3)
         warn_if_unwelded(positions, corners, offsets, stacklevel=3)
@@ -481,7 +494,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
     def masked(self, *, walls: Mask = None, ignored: Mask = None) -> MeshIndex:
         """The same index with masks: every call of it leaves out walls and ignored vertices (see `MeshIndex`), and takes
         no such arguments. For loops of calls: the masks are read once, O(#V). Shares the memory of this index; an index
-        with masks is not saved, refitted, pickled or masked again. `nearest` and `closest_point` are those of the whole mesh.
+        with masks is not saved, refitted, pickled or masked again. `closest_point` is that of the whole mesh.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> lower = index.masked(walls=V[:, 2] > 0)

@@ -348,6 +348,21 @@ def _meshio_block(block):
     return data
 
 
+def placed(positions, corners, offsets, stacklevel):
+    """The positions with those of vertices without one (NaN), in no face, at another vertex; and the mask of these, or
+    None. Warns about them."""
+    found = _core.place(positions, corners, offsets=offsets)
+    if found is None:
+        return positions, None
+    positions, walls = found
+    warnings.warn(
+        f"V: {np.count_nonzero(walls)} vertices without a position (NaN), the first of which is {walls.argmax()}, are "
+        "walls",
+        stacklevel=stacklevel,
+    )
+    return positions, walls
+
+
 def warn_if_no_faces(positions, corners, stacklevel):
     """Warns if there is nothing that connects the vertices."""
     if len(positions) > 1 and len(corners) == 0:

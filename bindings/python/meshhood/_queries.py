@@ -98,7 +98,8 @@ class Queries(Held):
             ascending, and by id where equal. Without it they are not sorted: those of "exact" and "ball" are in index
             order, those of metric="path" and "surface" ascend by length, and those of "paper" and "bfs" have an order
             of their own, which is always the same.
-        metric, walls, ignored, unit : see `MeshIndex`. All but "straight" and "space" need a vertex as start.
+        metric, walls, ignored, unit : see `MeshIndex`. By "path" and "surface", a path from a point begins with the
+            straight line to a seed. "rings" need a vertex as start.
         method : "exact", the exact neighborhood, by the index;
                  "paper", the approximate neighborhood of the paper, a superset of "exact" and a subset of "ball", or
                  `Paper` with other parameters;
@@ -401,7 +402,7 @@ class Queries(Held):
 
 
 def _check_vertex(center: Any, metric: str, method: Any, wanted: str = "start: expected a vertex") -> None:
-    if center is not None and metric not in ("straight", "space"):
+    if center is not None and metric == "rings":
         raise ValueError(f"{wanted} with metric={metric!r}, because a point has no edges")
     if center is not None and method != "exact":
         raise ValueError(f"method: {method!r}, expected 'exact' around a point")

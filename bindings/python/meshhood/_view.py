@@ -15,7 +15,7 @@ import numpy as np
 
 from . import _convert
 from ._atomic_file import atomic_file
-from ._mesh import mesh_arrays
+from ._mesh import mesh_arrays, placed
 from ._types import Number, Unit, Vertex, Vertices
 
 _PLACE = "<!-- meshhood:page -->"  # replaced by the mesh
@@ -120,7 +120,8 @@ def _built_page() -> str:
 def _surface(V: Any, F: Any) -> Any:
     if hasattr(F, "tocoo"):
         raise TypeError("F: expected faces, not a graph")
-    return mesh_arrays(V, F)
+    positions, corners, offsets = mesh_arrays(V, F)
+    return placed(positions, corners, offsets, stacklevel=4)[0], corners, offsets
 
 
 def _settings(count: int, v: Any, r: Any, unit: Any, ids: Any, values: Any, name: Any) -> dict[str, Any]:

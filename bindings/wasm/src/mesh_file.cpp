@@ -49,6 +49,11 @@ extern "C" {
 
 [[clang::export_name("mesh_offset_count")]] std::size_t mesh_offset_count() { return workspace.mesh().offsets.size(); }
 
+/// Null if there are none.
+[[clang::export_name("mesh_walls")]] const std::uint8_t* mesh_walls() { return workspace.mesh().walls.data(); }
+
+[[clang::export_name("mesh_wall_count")]] std::size_t mesh_wall_count() { return workspace.mesh().walls.size(); }
+
 /// One line for each warning, and their length.
 [[clang::export_name("mesh_warnings")]] const char* mesh_warnings() {
   warnings.clear();

@@ -35,18 +35,21 @@ extern "C" {
                                                              std::size_t seed_count) {
   const SpacePoint center{x, y, z};
   if (seeds == nullptr) {
-    closest = meshhood::nearest(workspace.index(), center).vertex;
+    closest = meshhood::nearest(workspace.searched(), center).vertex;
     origin = Start(center, std::span(&closest, 1));
   } else {
     origin = Start(center, std::span(seeds, seed_count));
   }
 }
 
-/// The metric of the rows and the masks of all searches that follow; no masks if both are empty.
-[[clang::export_name("search_by")]] void search_by(Metric metric, const std::uint8_t* walls, std::size_t wall_count,
+/// The metric of the rows and the masks of all searches that follow; no masks if both are empty. Along the surface,
+/// `use_faces` comes before.
+[[clang::export_name("search_by")]] void search_by(MetricName metric, const std::uint8_t* walls, std::size_t wall_count,
                                                    const std::uint8_t* ignored, std::size_t ignored_count) {
-  row_metric = metric;
+  const bool is_along_surface = metric == MetricName::Surface;
+  row_metric = is_along_surface ? Metric::Path : static_cast<Metric>(metric);
   workspace.set_masks({walls, wall_count}, {ignored, ignored_count});
+  workspace.search_along_surface(is_along_surface);
 }
 
 /// By a method; the exact one searches by the metric, the others from a vertex. Returns whether a seed lies in the
@@ -93,9 +96,9 @@ extern "C" {
   workspace.searcher(row_metric).nearest_connected(origin, most, answer.ids, answer.reals);
 }
 
-/// Returns the vertex; the first real of the answer is its distance.
+/// Returns the vertex, which is no wall; the first real of the answer is its distance.
 [[clang::export_name("nearest")]] VertexId nearest(double x, double y, double z) {
-  const NearestVertex found = meshhood::nearest(workspace.index(), {x, y, z});
+  const NearestVertex found = meshhood::nearest(workspace.searched(), {x, y, z});
   answer.reals = {found.distance};
   return found.vertex;
 }

@@ -47,8 +47,7 @@ void Workspace::forget_derived() {
   surface_.reset();
   searches_ = {};
   has_masks_ = false;
-  masked_searches_ = {};
-  masked_index_.reset();
+  is_along_surface_ = false;
   paper_index_.reset();
   mean_edge_.reset();
   graph_.reset();
@@ -56,23 +55,34 @@ void Workspace::forget_derived() {
 
 void Workspace::forget_surfaces() {
   faces_.reset();
-  for (Searches* const of : {&searches_, &masked_searches_}) {
-    of->patches.reset();
-    of->surface.reset();
+  is_along_surface_ = false;
+  for (Searches& along_edges : searches_[0]) {
+    along_edges.patches.reset();
+    along_edges.surface.reset();
   }
+  searches_[1] = {};
 }
 
 void Workspace::set_masks(std::span<const std::uint8_t> walls, std::span<const std::uint8_t> ignored) {
-  has_masks_ = false;  // if this throws
+  has_masks_ = is_along_surface_ = false;  // if this throws
   if (walls.empty() && ignored.empty()) return;
-  if (!masked_index_ || !std::ranges::equal(walls_, walls) || !std::ranges::equal(ignored_, ignored)) {
-    masked_searches_ = {};
-    masked_index_.reset();
+  Searches& kept = searches_[0][1];
+  if (!kept.index || !std::ranges::equal(walls_, walls) || !std::ranges::equal(ignored_, ignored)) {
+    kept = {};
+    searches_[1][1] = {};
     walls_.assign(walls.begin(), walls.end());
     ignored_.assign(ignored.begin(), ignored.end());
-    masked_index_ = masked(*index_, {.walls = walls_, .ignored = ignored_});
+    kept.index = masked(*index_, {.walls = walls_, .ignored = ignored_});
   }
   has_masks_ = true;
+}
+
+void Workspace::search_along_surface(bool is_along_surface) {
+  is_along_surface_ = false;
+  if (!is_along_surface) return;
+  std::optional<Index>& along_surface = searches_[1][has_masks_ ? 1 : 0].index;
+  if (!along_surface) along_surface = surface_paths(surface());
+  is_along_surface_ = true;
 }
 
 const GraphData& Workspace::graph() {

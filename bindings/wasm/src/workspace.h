@@ -21,6 +21,9 @@ enum class MethodName : std::uint8_t { Exact, Paper, Bfs, Ball };
 inline constexpr std::size_t kMethodCount = 4;
 inline constexpr std::size_t kMetricCount = static_cast<std::size_t>(Metric::Space) + 1;
 
+/// Of calls; the first are those of `Metric`. Along the surface: by the paths of another index (see `surface_paths`).
+enum class MetricName : std::uint8_t { Straight, Path, Rings, Space, Surface };
+
 /// A method, and a searcher for single queries, made when it is first used; those of the exact method are `by_metric`.
 struct Method {
   SearchMethod search;
@@ -29,6 +32,7 @@ struct Method {
 
 /// The searches of an index, each made when it is first used.
 struct Searches {
+  std::optional<Index> index;  // with masks, or along the surface; none: that of the workspace
   std::array<std::optional<Method>, kMethodCount> methods;  // by their names
   std::array<std::optional<Searcher>, kMetricCount> by_metric;
   std::optional<Surface> surface;
@@ -58,11 +62,14 @@ class Workspace {
   /// Sets the masks of the searches that follow; none if both are empty. The index of the last masks is kept.
   void set_masks(std::span<const std::uint8_t> walls, std::span<const std::uint8_t> ignored);
 
+  /// Sets whether the paths of the searches that follow are those along the surface. There must be faces.
+  void search_along_surface(bool is_along_surface);
+
   /// There must be an index, as for all functions below.
   [[nodiscard]] const Index& index() const { return *index_; }
 
-  /// The same with the masks.
-  [[nodiscard]] const Index& searched() const { return has_masks_ ? *masked_index_ : *index_; }
+  /// The same with the masks, along the surface if these are the paths.
+  [[nodiscard]] const Index& searched() { return searches().index ? *searches().index : *index_; }
 
   /// The graph and the positions, in the numbering of the mesh.
   [[nodiscard]] const GraphData& graph();
@@ -70,7 +77,7 @@ class Workspace {
   /// In the unit of the positions.
   [[nodiscard]] double mean_edge();
 
-  // With the masks:
+  // Of the index that is searched:
 
   [[nodiscard]] const SearchMethod& method(MethodName name);
   [[nodiscard]] AnySearcher& searcher(MethodName name);
@@ -83,7 +90,7 @@ class Workspace {
   /// Throws as `Surface::of_normals`.
   void use_normals(std::span<const double> normals);
 
-  /// Of the last `use_...`, with the masks.
+  /// Of the last `use_...`, on the index that is searched.
   [[nodiscard]] const Surface& surface();
   [[nodiscard]] PatchSearcher& patch_searcher();
 
@@ -94,19 +101,18 @@ class Workspace {
   [[nodiscard]] const paper::Index& paper_index();
   [[nodiscard]] SearchMethod make_method(MethodName name);
   [[nodiscard]] Method& kept_method(MethodName name);
-  [[nodiscard]] Searches& searches() { return has_masks_ ? masked_searches_ : searches_; }
+  [[nodiscard]] Searches& searches() { return searches_[is_along_surface_ ? 1 : 0][has_masks_ ? 1 : 0]; }
 
   io::Mesh mesh_;
   std::optional<Index> index_;
   std::optional<GraphData> graph_;
   std::optional<double> mean_edge_;
   std::optional<paper::Index> paper_index_;
-  Searches searches_;
+  std::array<std::array<Searches, 2>, 2> searches_;  // along edges and along the surface, without and with masks
   bool has_masks_ = false;
-  std::vector<std::uint8_t> walls_;  // of `masked_index_`
+  bool is_along_surface_ = false;
+  std::vector<std::uint8_t> walls_;  // of the searches with masks
   std::vector<std::uint8_t> ignored_;
-  std::optional<Index> masked_index_;
-  Searches masked_searches_;
   std::optional<Surface> surface_;
   std::optional<Fingerprint> faces_;  // those of `surface_`, if it was made from faces
 };

@@ -49,15 +49,17 @@ PathPacket::PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const 
 bool PathPacket::run(std::span<const PathQuery> queries) {
   begin(queries);
   is_single_ = false;
-  std::array<std::uint32_t, kPacketCapacity> starts{};
+  std::array<std::uint32_t, kPacketCapacity> vertices{};
   double most = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    starts[i] = queries[i].vertex;
+    vertices[i] = queries[i].vertex;
     most = std::max(most, queries[i].radius);
   }
-  sort_along_longest_axis(std::span(starts).first(queries.size()), index_->positions);
+  sort_along_longest_axis(std::span(vertices).first(queries.size()), index_->positions);
+  std::array<Path, kPacketCapacity> starts{};
+  std::ranges::transform(vertices, starts.begin(), [](std::uint32_t vertex) { return Path{0, vertex}; });
   const auto are_too_many = [this](std::span<const Path>) { return search_.found().size() > limits_.vertices; };
-  search_.run(std::span(starts).first(queries.size()), most, are_too_many);
+  search_.run(std::span<const Path>(starts).first(queries.size()), most, are_too_many);
   if (are_too_many({})) return false;
   list_edges();
   if (!pass_on_lengths()) return false;

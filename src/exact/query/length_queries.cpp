@@ -2,6 +2,7 @@
 // The answers of the metrics that sum lengths along edges. A neighborhood has the vertices whose length is at most the
 // radius, so all calls are cuts of one list.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -84,8 +85,15 @@ struct LengthQueries final : SingleQueries {
 
   LengthSearch& run(const Start& start, double radius, const LengthSearch::IsEnough& is_enough = {}) {
     if (!search_) search_ = make_length_search(*index, *graph, metric, *kernels);
-    search_->run(index->slot[start.vertex()], radius, is_enough);
+    starts_.clear();
+    for (const VertexId seed : start.seeds()) starts_.push_back({length_to_seed(start, seed), index->place(seed)});
+    search_->run(starts_, radius, is_enough);
     return *search_;
+  }
+
+  /// Of the straight line with which a path begins.
+  double length_to_seed(const Start& start, VertexId seed) {
+    return start.center() ? std::sqrt(squared_distance(center_of(start), position_of(*index, seed))) : 0;
   }
 
   LengthSearch& run_checked(const Start& start, double radius) {
@@ -117,8 +125,9 @@ struct LengthQueries final : SingleQueries {
   }
 
   std::unique_ptr<LengthSearch> search_;  // made by the first query: for paths it needs the lengths of all edges
-  std::vector<LeafSubset> subsets_;       // scratch
-  std::vector<Path> sorted_;              // scratch
+  std::vector<Path> starts_;              // scratch, as the next two
+  std::vector<LeafSubset> subsets_;
+  std::vector<Path> sorted_;
 };
 
 }  // namespace

@@ -19,8 +19,8 @@ class PathLengthSearch final : public LengthSearch {
  public:
   PathLengthSearch(const IndexView& index, KeptGraph& graph) : LengthSearch(index), paths_(index, graph) {}
 
-  void run(std::uint32_t slot, double radius, const IsEnough& is_enough) override {
-    paths_.run(index_->place_at(slot), radius,
+  void run(std::span<const Path> starts, double radius, const IsEnough& is_enough) override {
+    paths_.run(starts, radius,
                [&](std::span<const Path> found) { return is_enough && is_enough(without_ignored(found)); });
   }
 
@@ -48,7 +48,8 @@ class RingLengthSearch final : public LengthSearch {
     if (is_unlike_a_surface(index)) by_vertex_.emplace(index, graph);
   }
 
-  void run(std::uint32_t slot, double radius, const IsEnough& is_enough) override {
+  void run(std::span<const Path> starts, double radius, const IsEnough& is_enough) override {
+    const std::uint32_t slot = index_->slot_at(starts.front().end);
     found_.clear();
     subsets_.clear();
     by_vertex_ ? run_by_vertex(slot, radius, is_enough) : run_by_leaf(slot, radius, is_enough);

@@ -17,7 +17,7 @@
 
 namespace meshhood {
 
-/// The vertices around one vertex by path distance or by number of edges: for each the length, and its place in index
+/// The vertices around a start by path distance or by number of edges: for each the length, and its place in index
 /// order. A length is the least radius whose neighborhood has the vertex. Walls are not passed, ignored vertices are
 /// passed and left out. One object a thread.
 class LengthSearch {
@@ -31,8 +31,9 @@ class LengthSearch {
   LengthSearch& operator=(const LengthSearch&) = delete;
   virtual ~LengthSearch() = default;
 
-  /// Finds the vertices whose length from the vertex at `slot` is at most `radius`, or `is_enough` of them.
-  virtual void run(std::uint32_t slot, double radius, const IsEnough& is_enough) = 0;
+  /// Finds the vertices whose length by a path that continues one of `starts` is at most `radius`, or `is_enough` of
+  /// them. By the number of edges there is one start, of length 0.
+  virtual void run(std::span<const Path> starts, double radius, const IsEnough& is_enough) = 0;
 
   // Of the last run, valid until the next:
 

@@ -33,6 +33,7 @@ class NearestSearch {
 
   void visit_leaf(LeafId leaf) {
     for (std::size_t v = index_->leaf_begin[leaf]; v < index_->leaf_begin[leaf + 1]; ++v) {
+      if (index_->is_wall_at(v)) continue;
       const Point p = std::visit([&](auto xyz) { return point(xyz, v); }, index_->positions);
       const double distance = std::sqrt(squared_distance(center_.exact, p));  // different squares may have one root
       if (distance > distance_) continue;
@@ -55,7 +56,11 @@ class NearestSearch {
 NearestVertex nearest(const Index& index, const SpacePoint& p) {
   check_point(p, "point: ");
   if (index.vertex_count() == 0) raise(ErrorCode::VertexOutOfRange, "nearest: the mesh has no vertices");
-  return NearestSearch(IndexAccess::view(index), {p[0], p[1], p[2]}).run();
+  const NearestVertex found = NearestSearch(IndexAccess::view(index), {p[0], p[1], p[2]}).run();
+  if (found.vertex >= index.vertex_count()) {
+    raise(ErrorCode::VertexOutOfRange, "nearest: all vertices of the mesh are walls");
+  }
+  return found;
 }
 
 Start Start::nearest(const Index& index, const SpacePoint& center) {

@@ -12,8 +12,6 @@ namespace {
 // So that the number of intervals in a unit of length is finite.
 constexpr double kShortestRange = 0x1p-900;
 
-bool is_before(const Path& a, const Path& b) { return a.length != b.length ? a.length < b.length : a.end < b.end; }
-
 // Intervals with more paths are sorted one by one.
 constexpr std::uint32_t kFewPaths = 16;
 
@@ -22,7 +20,7 @@ void sort_by_insertion(std::span<Path> paths) {
   for (std::size_t i = 1; i < paths.size(); ++i) {
     const Path path = paths[i];
     std::size_t k = i;
-    for (; k > 0 && is_before(path, paths[k - 1]); --k) paths[k] = paths[k - 1];
+    for (; k > 0 && comes_before(path, paths[k - 1]); --k) paths[k] = paths[k - 1];
     paths[k] = path;
   }
 }
@@ -48,15 +46,15 @@ std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path>
   for (const Path& path : paths) result[ends_[interval(path)]++] = path;
   if (most <= kFewPaths) {
     sort_by_insertion(result);
-    assert(std::is_sorted(result.begin(), result.end(), is_before));
+    assert(std::is_sorted(result.begin(), result.end(), comes_before));
     return sorted_;
   }
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     const std::size_t from = i == 0 ? 0 : ends_[i - 1];
     std::sort(result.begin() + static_cast<std::ptrdiff_t>(from),
-              result.begin() + static_cast<std::ptrdiff_t>(ends_[i]), is_before);
+              result.begin() + static_cast<std::ptrdiff_t>(ends_[i]), comes_before);
   }
-  assert(std::is_sorted(result.begin(), result.end(), is_before));
+  assert(std::is_sorted(result.begin(), result.end(), comes_before));
   return sorted_;
 }
 

@@ -9,6 +9,10 @@
 
 namespace meshhood {
 
+[[nodiscard]] inline bool comes_before(const Path& a, const Path& b) {
+  return a.length != b.length ? a.length < b.length : a.end < b.end;
+}
+
 /// Sorts paths by length, then by their ends: by counting those of equal intervals of length, of which there are as
 /// many as paths. Takes linear time if the lengths are spread about evenly, as those of shortest paths are, and O(n log
 /// n) otherwise.

@@ -37,17 +37,18 @@ PathSearch::PathSearch(const IndexView& index, KeptGraph& graph)
       lengths_(index.vertex_count(), kUnreached),
       is_met_(index.vertex_count() / kVerticesOfBlock + 1) {}
 
-void PathSearch::begin(std::span<const std::uint32_t> starts, double radius) {
+void PathSearch::begin(std::span<const Path> starts, double radius) {
   forget();
   is_complete_ = false;
   radius_ = radius;
-  const double mean_length = mean_length_near(starts.front());
+  has_one_start_ = starts.size() == 1;
+  const double mean_length = starts.empty() ? 0 : mean_length_near(starts.front().end);
   queue_.clear(mean_length / kBucketsPerEdge);
   is_small_ = radius < kSmall * mean_length;
-  for (const std::uint32_t start : starts) {
-    if (index_->is_wall_at(start) || lengths_[start] == 0) continue;
-    lengths_[start] = 0;
-    queue_.push({0, start});
+  for (const Path& start : starts) {
+    if (index_->is_wall_at(start.end) || !(start.length <= radius) || lengths_[start.end] <= start.length) continue;
+    lengths_[start.end] = start.length;
+    queue_.push(start);
   }
 }
 
@@ -206,6 +207,7 @@ void PathSearch::meet(std::uint32_t vertex) {
 
 std::span<const Path> PathSearch::found_in_order() {
   if (found_.empty()) return {};
+  if (!has_one_start_) std::iter_swap(found_.begin(), std::ranges::min_element(found_, comes_before));
   return order_.sorted(found_.front(), std::span(found_).subspan(1));
 }
 

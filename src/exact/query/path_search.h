@@ -13,8 +13,8 @@
 
 namespace meshhood {
 
-/// The shortest paths along the edges from a vertex, up to a radius, by label correction in buckets (delta-stepping:
-/// Meyer and Sanders 2003).
+/// The shortest paths along the edges from one or more vertices, up to a radius, by label correction in buckets
+/// (delta-stepping: Meyer and Sanders 2003).
 ///
 /// The paths of a bucket are followed in any order. A vertex whose path becomes shorter in the bucket is followed again
 /// in the next *round*. This finds the same lengths as the algorithm of Dijkstra, to the last bit. When nothing is left
@@ -41,13 +41,14 @@ class PathSearch {
   /// the last call. All paths that are shorter than one of these have then been found.
   template <class IsEnough>
   void run(std::uint32_t start, double radius, IsEnough&& is_enough) {
-    run(std::span(&start, 1), radius, is_enough);
+    const Path path{0, start};
+    run(std::span(&path, 1), radius, is_enough);
   }
 
-  /// The same from several vertices, of which one may be named more than once: the path to a vertex is then the
-  /// shortest of those from any of them.
+  /// The same from the ends of some paths, of which one may be named more than once: the path to a vertex is then the
+  /// shortest of those that continue one of them.
   template <class IsEnough>
-  void run(std::span<const std::uint32_t> starts, double radius, IsEnough&& is_enough) {
+  void run(std::span<const Path> starts, double radius, IsEnough&& is_enough) {
     begin(starts, radius);
     while (queue_.open()) {
       const std::size_t before = found_.size();
@@ -63,14 +64,14 @@ class PathSearch {
   /// one after another that is longer by an eighth of an edge.
   [[nodiscard]] std::span<const Path> found() const { return found_; }
 
-  /// The same, ascending by length, then by vertex in index order, after that to the first vertex.
+  /// The same, ascending by length, then by vertex in index order; from one vertex, after that to it.
   [[nodiscard]] std::span<const Path> found_in_order();
 
   /// How many times the last run followed the edges of a vertex.
   [[nodiscard]] std::size_t steps() const { return steps_; }
 
  private:
-  void begin(std::span<const std::uint32_t> starts, double radius);
+  void begin(std::span<const Path> starts, double radius);
   void abandon();
   void forget();
   [[nodiscard]] double mean_length_near(std::uint32_t vertex) const;
@@ -88,6 +89,7 @@ class PathSearch {
   const WeightedGraph* graph_;
   const Adjacency* edges_;  // of the graph
   double radius_ = 0;
+  bool has_one_start_ = true;
   bool is_small_ = false;
   std::vector<double> lengths_;       // by vertex: of the shortest path so far, also beyond the radius
   std::vector<std::uint32_t> left_;   // vertices with such a length that are not found: beyond the radius, or walls

@@ -30,9 +30,9 @@ std::unique_ptr<SingleQueries> make_queries(BoundIndex index, std::shared_ptr<Ke
 void SingleQueries::check(const Start& start, std::string_view where) const {
   index.check_current();
   check_start(start, index->vertex_count(), where);
-  if (!is_along_edges(metric) || !start.center()) return;
+  if (metric != Metric::Rings || !start.center()) return;
   raise(ErrorCode::InvalidOption,
-        std::string(where) + "start: expected a vertex by path or rings, because a point has no edges");
+        std::string(where) + "start: expected a vertex by rings, because a point has no edges");
 }
 
 void SingleQueries::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) {

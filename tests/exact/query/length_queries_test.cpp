@@ -29,13 +29,15 @@ namespace {
 
 using testing::ElementsAre;
 
-/// The least length of a path to each vertex, by the algorithm of Bellman and Ford. `length(v, w)` is that of an edge.
-template <class Length>
-std::vector<double> path_distances(const Oracle& graph, std::uint32_t v, const std::vector<std::uint8_t>& walls,
-                                   Length&& length) {
+/// The least length of a path to each vertex, by the algorithm of Bellman and Ford. `first(v)` is that of a path to a
+/// seed, `length(v, w)` that of an edge.
+template <class First, class Length>
+std::vector<double> path_distances(const Oracle& graph, const PlainStart& start, First&& first, Length&& length) {
+  const std::vector<std::uint8_t>& walls = start.walls;
   std::vector<double> least(graph.size(), kInfinity);
-  if (walls[v] != 0) return least;
-  least[v] = 0;
+  for (const std::uint32_t seed : start.seeds) {
+    if (walls[seed] == 0) least[seed] = std::min(least[seed], first(seed));
+  }
   for (bool has_changed = true; has_changed;) {
     has_changed = false;
     for (std::uint32_t a = 0; a < graph.size(); ++a) {
@@ -51,21 +53,21 @@ std::vector<double> path_distances(const Oracle& graph, std::uint32_t v, const s
   return least;
 }
 
-/// One vertex, its masks, and the length from it to each vertex.
+/// A start, its masks, and the length from it to each vertex.
 struct Case {
-  const Oracle& graph;
   Searcher& searcher;
   Metric metric;
-  VertexId v;
-  std::vector<std::uint8_t> walls;
-  std::vector<std::uint8_t> ignored;
+  DrawnStart drawn;
   std::vector<double> least;
+
+  [[nodiscard]] Start start() const { return drawn.start(); }
+  [[nodiscard]] bool is_ignored(VertexId w) const { return drawn.plain.ignored[w] != 0; }
 
   /// The vertices of the neighborhood, ascending.
   [[nodiscard]] std::vector<VertexId> within(double radius) const {
     std::vector<VertexId> ids;
     for (VertexId w = 0; w < least.size(); ++w) {
-      if (least[w] <= radius && least[w] < kInfinity && ignored[w] == 0) ids.push_back(w);
+      if (least[w] <= radius && least[w] < kInfinity && !is_ignored(w)) ids.push_back(w);
     }
     return ids;
   }
@@ -81,23 +83,22 @@ class AlongEdges : public testing::TestWithParam<Family> {
       if (mesh.size() == 0) continue;
       SCOPED_TRACE(mesh.name);
       const Index index = build(mesh.view());
-      const Oracle graph(mesh);
+      const RegionOracle oracle(mesh);
+      const Oracle& graph = oracle.graph();
       std::array searchers{Searcher(index, Metric::Path), Searcher(index, Metric::Rings)};
       Random random(vertices);
       for (std::size_t i = 0; i < scaled(2 * cases, 4) && !HasFailure(); ++i, ++count) {
         const Metric metric = i % 2 == 0 ? Metric::Path : Metric::Rings;
-        const bool has_masks = random.below(2) == 0;
-        Case one{graph,
-                 searchers[i % 2],
-                 metric,
-                 static_cast<VertexId>(random.below(mesh.size())),
-                 draw_mask(random, mesh.size(), has_masks ? 6 : 0),
-                 draw_mask(random, mesh.size(), has_masks ? 3 : 0),
-                 {}};
-        one.least = path_distances(graph, one.v, one.walls, [&](std::size_t a, std::size_t b) {
-          return metric == Metric::Path ? graph.distance(a, b) : 1;
-        });
-        const Index searched = masked(index, has_masks ? Masks{.walls = one.walls, .ignored = one.ignored} : Masks{});
+        Case one{searchers[i % 2], metric, draw_start(random, mesh), {}};
+        if (metric == Metric::Rings) {
+          one.drawn.is_vertex = true;
+          one.drawn.plain.seeds.resize(1);
+        }
+        one.least = path_distances(
+            graph, one.drawn.plain,
+            [&](VertexId seed) { return one.drawn.is_vertex ? 0.0 : oracle.distance(one.drawn.plain, seed); },
+            [&](std::size_t a, std::size_t b) { return metric == Metric::Path ? graph.distance(a, b) : 1; });
+        const Index searched = one.drawn.on(index);
         one.searcher.rebind(searched);
         f(one, random);
       }
@@ -122,7 +123,7 @@ TEST_P(AlongEdges, LengthsAreTheLeast) {
       const std::vector<VertexId> expected = one.within(radius);
       std::vector<VertexId> ids;
       std::vector<double> distances;
-      one.searcher.neighborhood(one.v, radius, ids, distances);
+      one.searcher.neighborhood(one.start(), radius, ids, distances);
       ASSERT_EQ(distances.size(), ids.size());
       if (one.metric == Metric::Path) {
         ASSERT_TRUE(std::ranges::is_sorted(distances));
@@ -130,19 +131,19 @@ TEST_P(AlongEdges, LengthsAreTheLeast) {
       for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(distances[i], one.least[ids[i]]) << "vertex " << ids[i];
       ASSERT_EQ(sorted(ids), expected) << "radius " << radius;
       std::vector<VertexId> alone;
-      one.searcher.neighborhood(one.v, radius, alone);
+      one.searcher.neighborhood(one.start(), radius, alone);
       ASSERT_EQ(alone, ids) << "radius " << radius;
-      ASSERT_EQ(one.searcher.count(one.v, radius), expected.size());
-      ASSERT_TRUE(one.searcher.has_seed(one.v, radius));
+      ASSERT_EQ(one.searcher.count(one.start(), radius), expected.size());
+      ASSERT_TRUE(!one.drawn.is_vertex || one.searcher.has_seed(one.start(), radius));
       std::vector<VertexId> in_ranges;
-      for (const VertexRange& range : one.searcher.ranges(one.v, radius)) {
+      for (const VertexRange& range : one.searcher.ranges(one.start(), radius)) {
         for (VertexId i = range.begin; i < range.end; ++i) in_ranges.push_back(one.searcher.permutation()[i]);
       }
       if (one.metric == Metric::Rings) {
         ASSERT_EQ(in_ranges, ids) << "in index order";
       }
       ASSERT_EQ(sorted(in_ranges), expected);
-      const Dab dab{one.v, radius};
+      const Dab dab{one.start(), radius};
       one.searcher.stroke({&dab, 1}, ids);
       ASSERT_EQ(ids, in_ranges);
     }
@@ -154,7 +155,7 @@ TEST_P(AlongEdges, NestedRadiiAreThoseOfOneRadiusEach) {
     const std::vector<double> radii = radii_of(one, random);
     std::vector<VertexId> ids;
     std::vector<std::size_t> counts;
-    one.searcher.nested(one.v, radii, ids, counts);
+    one.searcher.nested(one.start(), radii, ids, counts);
     ASSERT_EQ(counts.size(), radii.size());
     ASSERT_EQ(counts.back(), ids.size());
     for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -168,22 +169,22 @@ TEST_P(AlongEdges, NestedRadiiAreThoseOfOneRadiusEach) {
 TEST_P(AlongEdges, ConnectingRadiiAreLengths) {
   for_each_case(8, [](Case& one, Random& random) {
     const auto w = static_cast<VertexId>(random.below(one.least.size()));
-    const double length = one.ignored[w] != 0 ? kInfinity : one.least[w];
-    ASSERT_EQ(one.searcher.connecting_radius(one.v, w), length);
-    ASSERT_EQ(one.searcher.contains(one.v, w, length), length < kInfinity);
-    ASSERT_EQ(one.searcher.contains(one.v, w, kInfinity), length < kInfinity);
+    const double length = one.is_ignored(w) ? kInfinity : one.least[w];
+    ASSERT_EQ(one.searcher.connecting_radius(one.start(), w), length);
+    ASSERT_EQ(one.searcher.contains(one.start(), w, length), length < kInfinity);
+    ASSERT_EQ(one.searcher.contains(one.start(), w, kInfinity), length < kInfinity);
     if (length > 0) {
-      ASSERT_FALSE(one.searcher.contains(one.v, w, std::nextafter(length, 0)));
+      ASSERT_FALSE(one.searcher.contains(one.start(), w, std::nextafter(length, 0)));
     }
     std::vector<VertexId> all;
     std::vector<double> lengths;
-    one.searcher.nearest_connected(one.v, one.least.size() + 1, all, lengths);
+    one.searcher.nearest_connected(one.start(), one.least.size() + 1, all, lengths);
     ASSERT_EQ(sorted(all), one.within(kInfinity));
     ASSERT_TRUE(std::ranges::is_sorted(lengths));
     for (std::size_t i = 0; i < all.size(); ++i) ASSERT_EQ(lengths[i], one.least[all[i]]);
     const std::size_t k = random.below(all.size() + 1);
     std::vector<VertexId> some;
-    one.searcher.nearest_connected(one.v, k, some, lengths);
+    one.searcher.nearest_connected(one.start(), k, some, lengths);
     ASSERT_EQ(some, std::vector(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k)));
   });
 }
@@ -199,6 +200,24 @@ TEST(EdgeSearch, MeasuresThePathAroundACorner) {
   searcher.neighborhood(0, 2, ids, distances);
   EXPECT_THAT(sorted(ids), ElementsAre(0, 1, 2, 4, 5, 8));
   EXPECT_EQ(distances.back(), 2);
+}
+
+TEST(EdgeSearch, BeginsAtAPointWithTheStraightLineToASeed) {
+  const TestMesh mesh = make_grid(4, 4, true);
+  const Index index = build(mesh.view());
+  Searcher searcher(index, Metric::Path);
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  const std::array<VertexId, 3> corners{0, 1, 4};
+  const Start inside({0.25, 0.25, 0}, corners);
+  searcher.neighborhood(inside, 1.5, ids, distances);
+  ASSERT_FALSE(ids.empty());
+  EXPECT_EQ(ids[0], 0U);
+  EXPECT_EQ(distances[0], std::sqrt(0.125));
+  EXPECT_THAT(sorted(ids), ElementsAre(0, 1, 4));
+  EXPECT_EQ(searcher.connecting_radius(inside, 5), std::sqrt(0.625) + 1);
+  EXPECT_THAT(searcher.neighborhood({{0.25, 0.25, 0}, {}}, 9), testing::IsEmpty());
+  EXPECT_THAT(searcher.neighborhood(Start::nearest(index, {0, 0, 2}), 1), testing::IsEmpty());
 }
 
 TEST(EdgeSearch, PassesFromRingToRing) {
@@ -221,10 +240,12 @@ TEST(EdgeSearch, RefusesInvalidArguments) {
     expect_refused(ErrorCode::InvalidRadius, "radius nan",
                    [&] { searcher.neighborhood(0, std::numeric_limits<double>::quiet_NaN(), ids); });
     expect_refused(ErrorCode::VertexOutOfRange, "vertex 9", [&] { searcher.nested(9, std::array{1.0}, ids, counts); });
-    expect_refused(ErrorCode::InvalidOption, "a point has no edges",
-                   [&] { searcher.neighborhood({{0, 0, 0}, {}}, 1, ids); });
-    expect_refused(ErrorCode::InvalidOption, "dab 1: start: expected a vertex",
-                   [&] { searcher.stroke(std::array{Dab{0, 1}, Dab{{{0, 0, 0}, {}}, 1}}, ids); });
+    if (metric == Metric::Rings) {
+      expect_refused(ErrorCode::InvalidOption, "a point has no edges",
+                     [&] { searcher.neighborhood({{0, 0, 0}, {}}, 1, ids); });
+      expect_refused(ErrorCode::InvalidOption, "dab 1: start: expected a vertex",
+                     [&] { searcher.stroke(std::array{Dab{0, 1}, Dab{{{0, 0, 0}, {}}, 1}}, ids); });
+    }
     EXPECT_THAT(ids, ElementsAre(7));
     EXPECT_THAT(counts, ElementsAre(7));
   }

@@ -2,14 +2,17 @@
 // The vertex nearest to a point, against a scan of all vertices.
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meshhood/index.h"
+#include "meshhood/masks.h"
 #include "meshhood/search.h"
 #include "meshhood/start.h"
 
@@ -76,6 +79,19 @@ TEST(Nearest, RefusesAPointThatIsNotFiniteAndAMeshWithoutVertices) {
                  [&] { static_cast<void>(nearest(index, {nan, 0, 0})); });
   const Index empty = build(TestMesh{}.finish(true).view());
   expect_refused(ErrorCode::VertexOutOfRange, "no vertices", [&] { static_cast<void>(nearest(empty, {0, 0, 0})); });
+}
+
+TEST(Nearest, IsNoWallButMayBeIgnored) {
+  const TestMesh mesh = make_grid(3, 3, false);
+  const Index index = build(mesh.view());
+  std::vector<std::uint8_t> some(9);
+  some[0] = some[3] = 1;
+  EXPECT_EQ(nearest(masked(index, {.walls = some}), {0, 0, 0}).vertex, 1U);
+  EXPECT_EQ(nearest(masked(index, {.ignored = some}), {0, 0, 0}).vertex, 0U);
+  const std::vector<std::uint8_t> all(9, 1);
+  const Index none = masked(index, {.walls = all});
+  expect_refused(ErrorCode::VertexOutOfRange, "all vertices of the mesh are walls",
+                 [&] { static_cast<void>(nearest(none, {0, 0, 0})); });
 }
 
 TEST(StartNearest, HasTheNearestVertexAsItsOnlySeed) {

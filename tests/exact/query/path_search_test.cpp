@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -179,16 +181,28 @@ TEST(PathSearch, FindsTheShortestPathsFromAnyOfSeveralVertices) {
   const Index built = graph.index();
   const IndexView& index = IndexAccess::view(built);
   PathSearch search(index, *IndexAccess::share_graph(built));
-  std::vector<std::uint32_t> starts;
-  for (const VertexId v : {1U, 8U, 1U}) {
-    starts.push_back(index.leaf_begin[leaf_of(index.slot[v])] + lane_of(index.slot[v]));
-  }
-  search.run(starts, 3, [](std::span<const Path>) { return false; });
+  const auto run = [&](std::vector<Path> starts) {  // of vertices
+    for (Path& start : starts) start.end = index.place(start.end);
+    search.run(std::span<const Path>(starts), 3, [](std::span<const Path>) { return false; });
+  };
+  run({{0, 1}, {0, 8}, {0, 1}});
   EXPECT_EQ(search.found().size(), 10U);
   for (const Path& path : search.found()) {
     const auto x = static_cast<int>(index.id(path.end));
     EXPECT_EQ(path.length, std::min(std::abs(x - 1), std::abs(x - 8)));
   }
+  run({{2.5, 1}, {1.5, 8}, {2, 1}, {3.5, 4}, {4, 8}});
+  std::vector<VertexId> ids;
+  for (const Path& path : search.found_in_order()) {
+    const auto x = static_cast<int>(index.id(path.end));
+    ids.push_back(index.id(path.end));
+    EXPECT_EQ(path.length, std::min(2.0 + std::abs(x - 1), 1.5 + std::abs(x - 8)));
+  }
+  EXPECT_EQ(ids.front(), 8U);
+  EXPECT_EQ(std::set(ids.begin(), ids.end()), (std::set<VertexId>{0, 1, 2, 7, 8, 9}));
+  EXPECT_EQ(ids.size(), 6U);
+  run({});
+  EXPECT_TRUE(search.found_in_order().empty());
 }
 
 }  // namespace
