@@ -70,7 +70,8 @@ class AggregateQuantity : public Quantity {
     add_max_bytes(command, max_bytes_);
   }
 
-  void check() const override {
+  void check(const RowOptions& rows) const override {
+    need_radii(rows);
     if ((fwhm_ || kernel_ != "box") && reduce_ != "mean" && reduce_ != "sum") {
       const std::string option = fwhm_ ? "--fwhm" : "--kernel " + kernel_;
       raise(ErrorCode::InvalidOption, option + ": expected --reduce mean or sum");

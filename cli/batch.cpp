@@ -277,6 +277,8 @@ std::vector<VertexId> all_in_index_order(const Index& index, const Welding& weld
 }
 
 void check_options(const BatchCommand& options) {
+  need_radii(options.rows);
+  if (options.output.name.empty()) raise(ErrorCode::InvalidOption, "expected --output or --csv");
   check_weld(options.reading.weld, options.search.method);
   check_method(options.search, !options.rows.masks.empty(), options.rows.radii.unit);
   check_sort(options.sort, options.search.method);
@@ -346,8 +348,7 @@ void add_batch(CLI::App& program) {
       ->excludes(count);
   add_max_bytes(*command, options->max_bytes);
   add_table_output(*command, ".npz", "file to write: arrays, or a table with a line for each vertex of each row",
-                   options->output)
-      ->required();
+                   options->output);
   add_json(*command, options->json);
   command->callback([options] { batch(*options); });
 }

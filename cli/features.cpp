@@ -87,6 +87,11 @@ class FeaturesQuantity : public Quantity {
                      "also fit vertices whose normal points away from that of the query vertex");
   }
 
+  void check(const RowOptions& rows) const override {
+    if (rows.has_radii() == largest_.empty()) return;
+    raise(ErrorCode::InvalidOption, "expected either --radius, --radii or --largest");
+  }
+
   RowTable compute(const RowTask& task) override {
     const bool has_rows = !task.options.row_radii.empty();
     RowTable table = task.table();
@@ -103,7 +108,6 @@ class FeaturesQuantity : public Quantity {
 
  private:
   void add_steps(CLI::App& command) {
-    command.get_option("--radius")->required(false);
     command
         .add_option("--largest", largest_,
                     "the largest of --count radii, in equal steps, or with --smallest in equal ratios")
@@ -122,11 +126,7 @@ class FeaturesQuantity : public Quantity {
   /// The radii of all rows, ascending. With --radii there is one scale, that of each row, which is 1.
   [[nodiscard]] std::vector<double> scales_of(const RowTask& task) const {
     const Radii& typed = task.options.radii;
-    const bool has_rows = !task.options.row_radii.empty();
-    if ((typed.values.empty() && !has_rows) == largest_.empty()) {
-      raise(ErrorCode::InvalidOption, "expected either --radius, --radii or --largest");
-    }
-    if (has_rows) return {1};
+    if (!task.options.row_radii.empty()) return {1};
     if (largest_.empty()) return task.rows.radii();
     if (count_ == 0) raise(ErrorCode::InvalidOption, "--count is 0, expected 1 to 1000");
     const auto in_mesh = [&](const std::string& radius) { return resolve(Radius{radius, typed.unit}, task.input); };

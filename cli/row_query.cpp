@@ -45,18 +45,20 @@ std::vector<double> radii_of(const RowOptions& options, std::size_t rows, Input&
 
 }  // namespace
 
-CLI::Option* add_rows(CLI::App& command, RowOptions& options) {
-  CLI::Option* const radius = add_radii(command, options.radii);
+void add_rows(CLI::App& command, RowOptions& options) {
+  CLI::Option* const radius = add_radii(command, options.radii)->required(false);
   add_file_option(command, "--radii",
                   "instead of --radius, one for each row: text with a number per line, or an array of NumPy (.npy)",
                   options.row_radii)
-      ->excludes(radius)
-      ->each([radius](const std::string&) { radius->required(false); });
+      ->excludes(radius);
   add_file_option(command, "--vertices", "text file with the query vertices, one per line (default: all)",
                   options.vertices);
   add_masks(command, options.masks);
   add_threads(command, options.threads);
-  return radius;
+}
+
+void need_radii(const RowOptions& options) {
+  if (!options.has_radii()) raise(ErrorCode::InvalidOption, "expected --radius or --radii");
 }
 
 RowQuery::RowQuery(const RowOptions& options, Input& input)

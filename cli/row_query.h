@@ -27,13 +27,17 @@ struct RowOptions {
   std::string metric = "straight";
   unsigned threads = kAllProcessors;
 
+  [[nodiscard]] bool has_radii() const { return !radii.values.empty() || !row_radii.empty(); }
+
   /// The length of the first axis of the result.
   [[nodiscard]] std::size_t scale_count() const { return row_radii.empty() ? radii.values.size() : 1; }
 };
 
-/// --radius, --radii, --unit, --vertices, --walls, --ignored and --threads. Returns the first, which is required
-/// without --radii unless made optional. See `add_metric` for the metric.
-CLI::Option* add_rows(CLI::App& command, RowOptions& options);
+/// --radius, --radii, --unit, --vertices, --walls, --ignored and --threads. See `add_metric` for the metric.
+void add_rows(CLI::App& command, RowOptions& options);
+
+/// Throws Error{InvalidOption} without radii.
+void need_radii(const RowOptions& options);
 
 /// What these options mean for an input.
 class RowQuery {
@@ -43,8 +47,7 @@ class RowQuery {
   RowQuery(const RowQuery&) = delete;  // `rows_` may borrow from `list_`
   RowQuery& operator=(const RowQuery&) = delete;
 
-  /// In the unit of the positions: those of all rows, or one for each row. Empty if --radius is optional and was not
-  /// given.
+  /// In the unit of the positions: those of all rows, or one for each row. Empty if none were given.
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
 
   /// The number of rows. A row of a vertex that was welded is that of the one that it has become.

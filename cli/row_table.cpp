@@ -147,7 +147,7 @@ void write_meshes(const ValueFiles& files, const RowTable& table, const MeshView
 }
 
 void run(const TableCommand& options, const QuantityName& name, Quantity& quantity) {
-  quantity.check();
+  quantity.check(options.rows);
   if (options.files.first().empty()) raise(ErrorCode::InvalidOption, "expected --output, --csv, --ply or --vtk");
   check_outputs();
   Input input(options.file, options.reading, options.rows.threads);

@@ -110,8 +110,8 @@ class Quantity {
   /// The options that only this one has.
   virtual void add_options(CLI::App& /*command*/) {}
 
-  /// Throws Error{InvalidOption} if they contradict each other. Before anything is read.
-  virtual void check() const {}
+  /// Throws Error{InvalidOption} if they contradict each other, or without radii. Before anything is read.
+  virtual void check(const RowOptions& rows) const { need_radii(rows); }
 
   [[nodiscard]] virtual RowTable compute(const RowTask& task) = 0;
 };

@@ -20,16 +20,14 @@ bool TableFile::is_csv() const {
   return is_printed || io::lower_case(std::filesystem::path(name).extension().string()) == ".csv";
 }
 
-CLI::Option* add_table_output(CLI::App& command, const std::string& extension, const std::string& description,
-                              TableFile& file) {
+void add_table_output(CLI::App& command, const std::string& extension, const std::string& description,
+                      TableFile& file) {
   CLI::Option* const output = add_output(command, extension + " or .csv", description, file.name);
-  const auto print = [&file, output] {
+  const auto print = [&file] {
     file = {std::string(io::kStandardOutput), true};
     name_output("--csv", file.name);
-    output->required(false);
   };
   command.add_flag_callback("--csv", print, "print the table that --output FILE.csv would have")->excludes(output);
-  return output;
 }
 
 std::vector<std::string> pair_names(bool distances) {

@@ -22,9 +22,8 @@ struct TableFile {
   [[nodiscard]] bool is_csv() const;
 };
 
-/// --output, of `extension` (".npz") or .csv, and --csv, which prints the table instead. Returns the former, which is
-/// required without --csv if made required.
-CLI::Option* add_table_output(CLI::App& command, const std::string& extension, const std::string& description,
+/// --output, of `extension` (".npz") or .csv, and --csv, which prints the table instead.
+void add_table_output(CLI::App& command, const std::string& extension, const std::string& description,
                               TableFile& file);
 
 /// The names of a table with a line for each vertex of an answer.
