@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshhood/patch.h"
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,10 +13,12 @@
 #include "batch/position_sort.h"
 #include "batch/rows.h"
 #include "exact/query/arguments.h"
+#include "patch/clip.h"
 #include "patch/gap.h"
 #include "patch/search.h"
 #include "patch/state.h"
 #include "shared/parallel.h"
+#include "shared/text.h"
 #include "surface/face_tree.h"
 #include "surface/surface.h"
 #include "surface/triangle_point.h"
@@ -106,7 +109,20 @@ PatchSearcher::PatchSearcher(const Surface& surface) : state_(std::make_unique<S
 
 std::vector<std::size_t> PatchSearcher::patch(const PatchStart& start, double radius) {
   state_->run(start, radius, false);
-  return state_->search.faces();
+  std::vector<std::size_t> faces;
+  for (const TriangleId t : state_->search.triangles()) faces.push_back(state_->surface->triangles.face[t]);
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+ClippedMesh PatchSearcher::clip(const PatchStart& start, double radius, double tolerance) {
+  if (!(tolerance >= 1e-12 && tolerance <= 1)) {
+    raise(ErrorCode::InvalidOption, "tolerance " + to_text(tolerance) + ", expected one from 1e-12 to 1");
+  }
+  state_->run(start, radius, true);
+  ClippedMesh mesh = clip_patch(*state_->surface, state_->search, radius, tolerance);
+  mesh.area = state_->search.area();
+  return mesh;
 }
 
 PatchMeasure PatchSearcher::measure(const PatchStart& start, double radius) {

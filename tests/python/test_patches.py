@@ -128,6 +128,64 @@ def test_polygons_and_other_faces():
     np.testing.assert_allclose(moved.invariants(1.6).area, 4 * meshhood.MeshIndex(V, F).invariants(0.8).area)
 
 
+def plane(n):
+    """A grid of n by n vertices, each square of two triangles."""
+    at = np.arange(n * n).reshape(n, n)
+    squares = np.stack([at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]], axis=-1).reshape(-1, 4)
+    V = np.stack([at % n, at // n, 0 * at], axis=-1).reshape(-1, 3).astype(float)
+    return V, np.concatenate([squares[:, :3], squares[:, [0, 2, 3]]])
+
+
+@pytest.mark.parametrize("size", (1e-150, 1.0, 1e149))
+def test_a_clip_is_the_disc_and_carries_values(size):
+    V, F = plane(9)
+    V *= size
+    index, r = meshhood.MeshIndex(V, F), 2.7 * size
+    ids, before = index.neighborhood(40, r), 0
+    for tolerance in (1e-2, 1e-4, 1e-6):
+        part = index.clip(40, r, tolerance=tolerance)
+        assert part.area == index.invariants(r, 40).area == pytest.approx(PI * r * r)
+        triangles = meshhood.vertex_areas(part.V, part.F).sum()
+        assert part.area - tolerance * r * 2 * PI * r <= triangles < part.area
+        assert triangles > before
+        before = triangles
+    np.testing.assert_array_equal(part.vertices, np.sort(ids))
+    count = len(part.vertices)
+    np.testing.assert_array_equal(part.V[:count], V[part.vertices])
+    np.testing.assert_allclose(np.linalg.norm(part.V[count:] / size - V[40] / size, axis=1), 2.7, rtol=1e-15)
+    assert part.corners.shape == part.weights.shape == (len(part.V) - count, 3)
+    np.testing.assert_allclose(part.weights.sum(axis=1), 1, rtol=1e-15)
+    on_side = part.weights[:, 2] == 0
+    np.testing.assert_array_equal(on_side, np.arange(len(on_side)) < on_side.sum())
+    assert not np.isin(part.corners[on_side, 0], ids).any()
+    np.testing.assert_allclose(part.carry(V), part.V, rtol=1e-14, atol=1e-15 * size)
+    assert part.carry((V / size).astype(np.float32)).dtype == np.float32
+    np.testing.assert_array_equal(np.unique(part.faces), index.patch(40, r))
+    whole = index.submesh(ids)
+    np.testing.assert_array_equal(whole.carry(np.arange(81)), whole.vertices)
+    assert len(whole.corners) == len(whole.weights) == 0
+    assert whole.area == pytest.approx(meshhood.vertex_areas(whole.V, whole.F).sum())
+    with pytest.raises(TypeError, match="values: expected floats for a clipped mesh, not int"):
+        part.carry(np.arange(81))
+    for wrong in (1.0, np.ones(40), np.ones(82)):
+        with pytest.raises(ValueError, match="values: of shape .* a row for each of the 81 vertices of the whole mesh"):
+            part.carry(wrong)
+
+
+def test_a_clip_around_a_point_of_a_face_that_has_no_vertex_in_the_ball():
+    index = meshhood.MeshIndex([[0, 0, 0], [9, 0, 0], [0, 9, 0.0]], [[0, 1, 2]])
+    part = index.clip([2, 2, 0.0], 1.5, face=0)
+    assert len(part.vertices) == 0
+    assert part.area == pytest.approx(PI * 1.5**2)
+    assert part.carry(np.array([0, 9, 0.0])) == pytest.approx(part.V[:, 0])
+    assert len(index.clip([2, 2, 0.0], 1.5, face=0, tolerance=1e-5).V) > len(part.V)
+    V, F = plane(9)
+    walls = meshhood.MeshIndex(V, F).clip(40, 2, walls=[41])
+    assert not (F[walls.faces] == 41).any()
+    np.testing.assert_array_equal(meshhood.MeshIndex(V, F).clip(40, 2, unit="edge").V,
+                                  meshhood.MeshIndex(V, F).clip(40, 2 * meshhood.MeshIndex(V, F).mean_edge_length).V)  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("call", "error", "cause"),
     [
@@ -138,6 +196,9 @@ def test_polygons_and_other_faces():
         (lambda index: index.patch(99, 1), ValueError, "start: vertex 99"),
         (lambda index: index.patch([0.0, 0.0, 0.0], 1, face=99), ValueError, "face 99"),
         (lambda index: index.patch(0, 1, face=0), TypeError, "start"),
+        (lambda index: index.clip(99, 1), ValueError, "start: vertex 99"),
+        (lambda index: index.clip(0, 1, tolerance=0), ValueError, "tolerance: 0.0, expected a finite number > 0"),
+        (lambda index: index.clip(0, 1, tolerance=2), ValueError, "tolerance 2, expected one from 1e-12 to 1"),
         (lambda index: index.gaps(1, F=[[0, 1, 99]]), ValueError, "F"),
         (lambda index: index.invariants(1, unit="m"), ValueError, "unit"),
     ],
