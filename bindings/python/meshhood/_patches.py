@@ -94,7 +94,7 @@ class Patches(Held):
     ) -> Invariants:
         """The area of the patch of each vertex, and the volume of the part of the ball behind it: the integral
         invariants of a surface (Manay et al. 2004; Pottmann et al. 2009). They are accurate to 1e-12 of pi r^2 and of
-        the ball, do not depend on how the surface is divided into triangles, and hardly on noise.
+        the ball, and do not depend on how the surface is divided into triangles.
 
         r : one radius, or one for each row. A point at exactly `r` counts.
         vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`. Ignored vertices have no effect.
