@@ -67,7 +67,7 @@ struct PatchMeasure {
 /// the border of this mesh is where the patch leaves the ball, and the border of the surface.
 struct ClippedMesh {
   std::vector<SpacePoint> points;
-  std::vector<std::array<VertexId, 3>> vertices;  ///< of each point, by their ids in the whole mesh: see below
+  std::vector<std::array<VertexId, 3>> vertices;  ///< of each point, by their ids in the whole mesh: see `clip`
   std::vector<std::array<double, 3>> weights;     ///< barycentric coordinates in these: >= 0, with the sum 1
   std::vector<std::size_t> faces;  ///< of each triangle: the number of the face it is a part of; ascending
   std::vector<std::array<VertexId, 3>> triangles;  ///< as positions in `points`

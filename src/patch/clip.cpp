@@ -89,7 +89,7 @@ class Clip {
 
   /// From any point of the circle, and around to it.
   void add_disc(const Circle& circle) {
-    const Point side = ball_.scale * (triangle_.corners[1] - triangle_.corners[0]);
+    const Point side = triangle_.corners[1] - triangle_.corners[0];
     const Point begin = circle.distance * circle.normal + (circle.radius() / length(side)) * side;
     add_inside(begin);
     divide(circle, 2 * std::numbers::pi, begin, begin);

@@ -227,6 +227,18 @@ TEST(Clip, OfAFaceThatIsCutTwiceIsAStrip) {
   EXPECT_EQ(characteristic(strip), 1);
 }
 
+/// The ends of their sides are up to 60 radii away.
+TEST(Clip, OfLargeFacesEndsAtTheSphere) {
+  Random random(23);
+  for (std::size_t i = 0; i < 50; ++i) {
+    const auto corner = [&](double x) { return Point{x, random.uniform(-1, 1), random.uniform(-1, 1)}; };
+    const std::array<Point, 3> corners{corner(-59), corner(59), corner(59)};
+    Whole whole(triangle_of(corners[0], corners[1], corners[2]));
+    const Point center = 0.5 * corners[0] + 0.25 * corners[1] + 0.25 * corners[2];
+    EXPECT_GT(whole.clip({0, {center.x, center.y, center.z}}, center, 1, 1e-3).triangles.size(), 1);
+  }
+}
+
 /// A pyramid on a plate, whose top is outside of the ball: the patch is a ring.
 TEST(Clip, OfASurfaceThatLeavesTheBallAndComesBackHasAHole) {
   TestMesh mesh = make_grid(21, 21, false);
@@ -240,12 +252,12 @@ TEST(Clip, OfASurfaceThatLeavesTheBallAndComesBackHasAHole) {
             0);
 }
 
-/// Corners at exactly the radius make no points beside them.
+/// Corners at exactly the radius, and sides that touch the sphere, have no two points side by side.
 TEST(Clip, AtACornerOnTheSphereHasOnePoint) {
   TestMesh mesh = make_grid(15, 15, false);
   Whole whole(mesh);
   const std::uint32_t middle = 7 * 15 + 7;
-  for (const double radius : {1.0, 2.0, std::sqrt(2.0), 5.0, std::sqrt(5.0), 6.0}) {
+  for (const double radius : {std::sqrt(0.5), 1.0, 2.0, std::sqrt(2.0), 5.0, std::sqrt(5.0), 6.0}) {
     const ClippedMesh disc = whole.clip(middle, radius, 1e-3);
     EXPECT_NEAR(disc.area, pi * radius * radius, 1e-11);
     EXPECT_EQ(characteristic(disc), 1);

@@ -183,6 +183,8 @@ def test_a_clip_around_a_point_of_a_face_that_has_no_vertex_in_the_ball():
     V, F = plane(9)
     index = meshhood.MeshIndex(V, F)
     assert not (F[index.clip(40, 2, walls=[41]).faces] == 41).any()
+    none = index.clip(41, 2, walls=[41])
+    assert (len(none.V), len(none.F), none.area) == (0, 0, 0)
     np.testing.assert_array_equal(index.clip(40, 2, unit="edge").V, index.clip(40, 2 * index.mean_edge_length).V)
 
 
