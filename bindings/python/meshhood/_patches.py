@@ -185,10 +185,10 @@ class Patches(Held):
         tolerance : the arcs along which faces leave the ball become chords that are at most `tolerance * r` off; from
             1e-12 to 1. All chords have their ends on the sphere.
 
-        The first rows of V are the vertices in the ball, all others new points on the sphere: first those on sides, with
-        their ends and one again as `corners`, then those on arcs, with the corners of their triangle. `faces` are
-        the rows of F of which the triangles are parts. `area` is that of the patch, as `invariants` returns it; that of
-        the triangles is less by at most `tolerance * r` times the length of the arcs.
+        The first rows of V are the vertices in the ball, all others new points on the sphere: first those on sides, of
+        which `corners` has the end beyond the ball, and the other end twice; then those on arcs. `faces` are the rows
+        of F of which the triangles are parts. `area` is that of the patch, as `invariants` returns it; that of the
+        triangles is less by at most `tolerance * r` times the length of the arcs.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> part = index.clip(42, 0.5)
