@@ -32,6 +32,14 @@ namespace {
 
 /// The surface of an index, with searchers for single starts.
 class Patches {
+  /// Calls `f(searcher, start)` for a vertex, or a point of a face.
+  template <class F>
+  auto ask(VertexId vertex, std::optional<std::size_t> face, const SpacePoint& point, F&& f) {
+    const PatchStart start = face ? PatchStart(*face, point) : PatchStart(vertex);
+    return searchers_.with([&] { return PatchSearcher(surface_); },
+                           [&](PatchSearcher& searcher) { return f(searcher, start); });
+  }
+
  public:
   explicit Patches(Surface surface) : surface_(std::move(surface)) {}
 
@@ -69,11 +77,24 @@ class Patches {
   }
 
   auto faces(VertexId vertex, std::optional<std::size_t> face, const SpacePoint& point, double radius) {
-    const PatchStart start = face ? PatchStart(*face, point) : PatchStart(vertex);
     const std::vector<std::size_t> found =
-        searchers_.with([&] { return PatchSearcher(surface_); },
-                        [&](PatchSearcher& searcher) { return searcher.patch(start, radius); });
+        ask(vertex, face, point,
+            [&](PatchSearcher& searcher, const PatchStart& start) { return searcher.patch(start, radius); });
     return owned<std::int64_t>(std::vector<std::int64_t>(found.begin(), found.end()));
+  }
+
+  /// Points, the three vertices and weights of each, faces, triangles and the area.
+  auto clip(VertexId vertex, std::optional<std::size_t> face, const SpacePoint& point, double radius,
+            double tolerance) {
+    ClippedMesh part = ask(vertex, face, point, [&](PatchSearcher& searcher, const PatchStart& start) {
+      return searcher.clip(start, radius, tolerance);
+    });
+    const std::size_t points = part.points.size();
+    const std::size_t triangles = part.triangles.size();
+    return std::tuple(owned<double>(std::move(part.points), {points, 3}),
+                      owned<std::int32_t>(std::move(part.vertices), {points, 3}),
+                      owned<double>(std::move(part.weights), {points, 3}), owned<std::int64_t>(std::move(part.faces)),
+                      owned<std::int32_t>(std::move(part.triangles), {triangles, 3}), part.area);
   }
 
  private:
@@ -91,7 +112,9 @@ void bind_patches(nb::module_& module) {
   nb::class_<Patches>(module, "Patches")
       .def("invariants", &Patches::measure, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("gaps", &Patches::find_gaps, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
-      .def("faces", &Patches::faces, nb::arg("vertex"), nb::arg("face").none(), nb::arg("point"), nb::arg("radius"));
+      .def("faces", &Patches::faces, nb::arg("vertex"), nb::arg("face").none(), nb::arg("point"), nb::arg("radius"))
+      .def("clip", &Patches::clip, nb::arg("vertex"), nb::arg("face").none(), nb::arg("point"), nb::arg("radius"),
+           nb::arg("tolerance"));
   module.def("patches", &make_patches);
 }
 

@@ -117,14 +117,6 @@ auto submesh(const Surface& surface, const IdList& ids, bool all) {
                     owned<std::int64_t>(std::move(part.offsets)), owned<std::int32_t>(std::move(part.corners)));
 }
 
-auto clip(const Surface& surface, const IdList& ids, const SpacePoint& center, double radius) {
-  ClippedMesh part = surface.clip(id_span(ids), center, radius);
-  const std::size_t points = part.points.size();
-  return std::tuple(owned<double>(std::move(part.points), {points, 3}),
-                    owned<std::int32_t>(std::move(part.edges), {points, 2}), owned<std::int64_t>(std::move(part.faces)),
-                    owned<std::int64_t>(std::move(part.offsets)), owned<std::int32_t>(std::move(part.corners)));
-}
-
 auto rim(const Surface& surface, const IdList& ids, const SpacePoint& center, double radius) {
   Rim rim = surface.rim(id_span(ids), center, radius);
   const std::size_t size = rim.points.size();
@@ -151,7 +143,6 @@ nb::class_<Surface> bind_surface(nb::module_& module) {
            nb::arg("progress").none())
       .def("faces", &faces)
       .def("submesh", &submesh)
-      .def("clip", &clip)
       .def("rim", &rim);
   return surface;
 }

@@ -3,7 +3,7 @@
 ==============================================
 
 ``closest_point`` finds the point of the surface nearest to a pick, and its face; ``neighborhood`` the patch around it;
-``submesh`` cuts the patch at the ball (green), and ``rim`` is its outline (orange). The ball (blue) has another strand.
+``clip`` cuts the surface at the ball (green), and ``rim`` is its outline (orange). The ball (blue) has another strand.
 """
 
 import subprocess
@@ -17,7 +17,7 @@ V, F = meshhood.read_mesh("knot.ply")
 index, radius = meshhood.MeshIndex(V, F), 14.0
 face, barycentric, point = index.closest_point(V[F[16495]].mean(axis=0) + (0.3, -0.2, 0.5))
 ids = index.neighborhood(point, radius, face=face)
-patch = index.submesh(ids, clip=(point, radius))
+patch = index.clip(point, radius, face=face)
 
 plotter, toward = pyvista.Plotter(), np.array([0.06, -0.06, 0.11])  # nearer to the camera, so that colors cover gray
 plotter.add_mesh(pyvista.PolyData.from_regular_faces(V, F), color="lightgray")

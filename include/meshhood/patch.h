@@ -23,6 +23,7 @@
 ///     const meshhood::Surface surface(index, faces);
 ///     const auto [area, volume] = meshhood::invariants(surface, {.radius = 1.5});
 ///     const std::vector<meshhood::SurfacePoint> gaps = meshhood::gaps(surface, {.radius = 1.5});
+///     const meshhood::ClippedMesh disc = meshhood::PatchSearcher(surface).clip(42, 1.5);
 ///
 /// Faces are oriented counterclockwise, seen from outside. Polygons are the triangles of `Surface`; diagonals join them
 /// as sides do. A face with a wall (see masks.h), or with fewer than three corners, is not there. Vertices at the same
@@ -61,6 +62,22 @@ struct PatchMeasure {
   double volume;
 };
 
+/// A patch as a mesh of its own, of triangles, whose points in space are new ones: vertices, where sides enter the
+/// ball, and what divides the arcs along which a face leaves it. Sides that faces share are cut at the same points, so
+/// the border of this mesh is where the patch leaves the ball, and the border of the surface.
+struct ClippedMesh {
+  std::vector<SpacePoint> points;
+  std::vector<std::array<VertexId, 3>> vertices;  ///< of each point, by their ids in the whole mesh: see `clip`
+  std::vector<std::array<double, 3>> weights;     ///< barycentric coordinates in these: >= 0, with the sum 1
+  std::vector<std::size_t> faces;  ///< of each triangle: the number of the face it is a part of; ascending
+  std::vector<std::array<VertexId, 3>> triangles;  ///< as positions in `points`
+  double area = 0;  ///< of the patch, as `PatchSearcher::measure` says; that of the triangles is a little less
+
+  /// Borrows from this object. A view of a temporary does not compile.
+  [[nodiscard]] MeshView view() const& { return {points, FacesView::triangles(triangles)}; }
+  [[nodiscard]] MeshView view() const&& = delete;
+};
+
 /// Answers one start at a time; one for each thread. Owns 8 bytes for each vertex and triangle.
 ///
 /// radius  >= 0 or infinite. A point at exactly `radius` counts.
@@ -72,6 +89,20 @@ class PatchSearcher {
 
   /// The numbers of the faces, ascending. None for a vertex without faces.
   [[nodiscard]] std::vector<std::size_t> patch(const PatchStart& start, double radius);
+
+  /// The patch as a mesh. Vertices of the ball are points of it; all others have the distance `radius` from the start,
+  /// up to the rounding of their coordinates. Chords replace the arcs along which faces leave the ball. A side touches
+  /// the sphere in one point where what it has in the ball is within 2^-46 radii of the sphere.
+  ///
+  /// Points come in this order, and those of a kind by their `vertices`:
+  /// - vertices, three times the same;
+  /// - (b, a, a), where the way from b to a enters the ball. Then b is outside, and a may be;
+  /// - the corners of a triangle, of a point on an arc, in the order of the faces.
+  ///
+  /// tolerance  in [1e-12, 1]: no chord is farther from its arc than `tolerance` times `radius`. So the area of the
+  ///            triangles is less than `area` by at most that times the length of all arcs.
+  /// O(k log k) for k triangles and points. Throws also Error{InvalidOption} for the tolerance.
+  [[nodiscard]] ClippedMesh clip(const PatchStart& start, double radius, double tolerance = 1e-3);
 
   /// Area and volume, each accurate to 1e-12 of pi r^2 and of the volume of the ball. They do not depend on how the
   /// surface is divided into triangles.

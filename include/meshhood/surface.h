@@ -51,21 +51,6 @@ struct Submesh {
   std::vector<VertexId> corners;  ///< as positions in `vertices`; in the order of the whole mesh
 };
 
-/// The part of a surface inside a ball, as a mesh of its own. Its points in space are new ones.
-struct ClippedMesh {
-  std::vector<SpacePoint> points;
-  std::vector<std::array<VertexId, 2>>
-      edges;                           ///< of each point: twice the same vertex, or the ends of its edge as for `Rim`
-  std::vector<std::size_t> faces;      ///< of each polygon: the number of the face it is a part of; ascending
-  std::vector<std::uint64_t> offsets;  ///< #polygons + 1: polygon `i` has the corners from `offsets[i]` on
-  std::vector<VertexId> corners;       ///< as positions in `points`
-  double area = 0;                     ///< of all polygons, as `vertex_areas` measures it
-
-  /// Borrows from this object. A view of a temporary does not compile.
-  [[nodiscard]] MeshView view() const& { return {points, FacesView::polygons(offsets, corners)}; }
-  [[nodiscard]] MeshView view() const&& = delete;
-};
-
 /// The lines along which a surface leaves a ball.
 struct Rim {
   std::vector<SpacePoint> points;              ///< of all polylines, one after the other
@@ -184,20 +169,8 @@ class Surface {
   [[nodiscard]] std::vector<std::size_t> faces(std::span<const VertexId> ids, Corners corners = Corners::All) const;
 
   /// These faces as a mesh. Its positions are those of `vertices`. With `Corners::All`, faces that the surface of the
-  /// ball cuts are left out, and so is their area: see `clip`. Throws as `faces`.
+  /// ball cuts are left out, and so is their area: see `PatchSearcher::clip`. Throws as `faces`.
   [[nodiscard]] Submesh submesh(std::span<const VertexId> ids, Corners corners = Corners::All) const;
-
-  /// The part of the surface inside a ball: `ids` is the region of `center` and `radius` (see `Searcher`).
-  ///
-  /// Faces with all corners in `ids` are whole. A face with only some is cut on its sides: where one leads from a
-  /// vertex of `ids` to another one, it ends at the point of the rim (see `rim`). Two such points of a face are joined
-  /// by a straight chord, not along the sphere, so that the area is a little too small. Corners of a polygon in `ids`
-  /// with others between them make a polygon for each run of corners. What of a face lies in the ball without a corner
-  /// in `ids` is left out.
-  ///
-  /// Points: the vertices, ascending, then those on edges by `edges`. A face with fewer than three corners adds
-  /// nothing. Throws as `rim`.
-  [[nodiscard]] ClippedMesh clip(std::span<const VertexId> ids, const SpacePoint& center, double radius) const;
 
   /// Where the surface leaves a region: `ids` is the region of `center` and `radius` (see `Searcher`).
   ///

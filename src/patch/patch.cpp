@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshhood/patch.h"
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,10 +13,13 @@
 #include "batch/position_sort.h"
 #include "batch/rows.h"
 #include "exact/query/arguments.h"
+#include "patch/clip.h"
 #include "patch/gap.h"
+#include "patch/row_patches.h"
 #include "patch/search.h"
 #include "patch/state.h"
 #include "shared/parallel.h"
+#include "shared/text.h"
 #include "surface/face_tree.h"
 #include "surface/surface.h"
 #include "surface/triangle_point.h"
@@ -33,9 +37,15 @@ bool run_at(const PatchState& state, PatchSearch& search, VertexId v, double rad
   return !fan.empty();
 }
 
-/// Calls `f(search, row)` after a search for each row, on any thread.
-template <class F>
-void for_each_row(const PatchState& state, const Rows& rows, TaskContext& task, bool measures, F&& f) {
+void check_metric(const BatchQuery& query) {
+  if (query.metric == Metric::Straight) return;
+  raise(ErrorCode::InvalidOption, "a patch by another metric, expected the straight one");
+}
+
+}  // namespace
+
+void for_each_patch(const PatchState& state, const Rows& rows, TaskContext& task, bool measures,
+                    const std::function<void(const RowPatch&)>& visit) {
   const std::vector<std::size_t> in_order =
       rows_by_position(rows.size(), [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; });
   std::vector<std::unique_ptr<PatchSearch>> searches(task.threads());
@@ -44,18 +54,11 @@ void for_each_row(const PatchState& state, const Rows& rows, TaskContext& task, 
     for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
       const std::size_t row = in_order[i];
       const bool exists = run_at(state, *searches[thread], rows.vertex(row), rows.radius(row), measures);
-      f(*searches[thread], row, exists);
+      visit({row, rows.radius(row), state, *searches[thread], exists});
       task.advance(thread, 1);
     }
   });
 }
-
-void check_metric(const BatchQuery& query) {
-  if (query.metric == Metric::Straight) return;
-  raise(ErrorCode::InvalidOption, "a patch by another metric, expected the straight one");
-}
-
-}  // namespace
 
 struct PatchSearcher::State {
   explicit State(const Surface& given)
@@ -106,7 +109,20 @@ PatchSearcher::PatchSearcher(const Surface& surface) : state_(std::make_unique<S
 
 std::vector<std::size_t> PatchSearcher::patch(const PatchStart& start, double radius) {
   state_->run(start, radius, false);
-  return state_->search.faces();
+  std::vector<std::size_t> faces;
+  for (const TriangleId t : state_->search.triangles()) faces.push_back(state_->surface->triangles.face[t]);
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+ClippedMesh PatchSearcher::clip(const PatchStart& start, double radius, double tolerance) {
+  if (!(tolerance >= 1e-12 && tolerance <= 1)) {
+    raise(ErrorCode::InvalidOption, "tolerance " + to_text(tolerance) + ", expected one from 1e-12 to 1");
+  }
+  state_->run(start, radius, true);
+  ClippedMesh mesh = clip_patch(*state_->surface, state_->search, radius, tolerance);
+  mesh.area = state_->search.area();
+  return mesh;
 }
 
 PatchMeasure PatchSearcher::measure(const PatchStart& start, double radius) {
@@ -127,9 +143,9 @@ Invariants invariants(const Surface& surface, const BatchQuery& query, const Run
   Invariants result{std::vector<double>(passes.size() * rows.size()), std::vector<double>(passes.size() * rows.size())};
   for (std::size_t pass = 0; pass < passes.size(); ++pass) {
     if (query.radius.scales()) rows.set_radius(passes[pass].common());
-    for_each_row(state, rows, task, true, [&](PatchSearch& search, std::size_t row, bool) {
-      result.area[pass * rows.size() + row] = search.area();
-      result.volume[pass * rows.size() + row] = search.volume();
+    for_each_patch(state, rows, task, true, [&](const RowPatch& patch) {
+      result.area[pass * rows.size() + patch.row] = patch.search.area();
+      result.volume[pass * rows.size() + patch.row] = patch.search.volume();
     });
   }
   task.finish();
@@ -142,9 +158,7 @@ std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, 
   const Rows rows(query, state.index->vertex_count());
   TaskContext task(run.threads, run.progress, rows.size());
   std::vector<SurfacePoint> result(rows.size());
-  for_each_row(state, rows, task, false, [&](PatchSearch& search, std::size_t row, bool exists) {
-    if (exists) result[row] = find_gap(state, search, rows.radius(row));
-  });
+  for_each_patch(state, rows, task, false, [&](const RowPatch& patch) { result[patch.row] = patch.gap(); });
   task.finish();
   return result;
 }

@@ -37,6 +37,15 @@ Complex half_area(const Point& n, const Point& u, const Point& w) {
 
 }  // namespace
 
+Point Circle::middle(double theta, const Point& u, const Point& w) const {
+  const Point foot = distance * normal;
+  const Point chord = w - u;
+  const bool is_nearly_whole = theta > 1.5 * std::numbers::pi;
+  const Point toward = is_nearly_whole ? 2.0 * foot - (u + w) : cross(chord, normal);
+  const double size = length(toward);
+  return size > 0 ? foot + (radius() / size) * toward : foot;
+}
+
 void RimArcs::clear() {
   ends_.clear();
   product_ = 1;
@@ -44,26 +53,20 @@ void RimArcs::clear() {
   count_ = 0;
 }
 
-void RimArcs::add(const Point& n, double h, double theta, const Point& u, const Point& w) {
+void RimArcs::add(const Circle& circle, double theta, const Point& u, const Point& w) {
+  const double h = circle.distance;
   const double sign = h < 0 ? -1 : 1;
+  const Point n = sign * circle.normal;
   sum_ += sign * theta * (1 - sign * h);
   ++count_;
-  if (theta < kLong) return add_part(sign * n, u, w);
-  const Point foot = h * n;
-  const double size = std::sqrt((1 - h) * (1 + h));
-  const auto middle = [&](const Point& toward) {
-    const double norm = length(toward);
-    return norm > 0 ? foot + (size / norm) * toward : foot;
-  };
-  const Point chord = w - u;
-  const bool is_nearly_whole = theta > 1.5 * std::numbers::pi;
-  const Point half = middle(is_nearly_whole ? 2.0 * foot - (u + w) : cross(chord, n));
-  const Point first = middle(cross(half - u, n));
-  const Point last = middle(cross(w - half, n));
-  add_part(sign * n, u, first);
-  add_part(sign * n, first, half);
-  add_part(sign * n, half, last);
-  add_part(sign * n, last, w);
+  if (theta < kLong) return add_part(n, u, w);
+  const Point half = circle.middle(theta, u, w);
+  const Point first = circle.middle(theta / 2, u, half);
+  const Point last = circle.middle(theta / 2, half, w);
+  add_part(n, u, first);
+  add_part(n, first, half);
+  add_part(n, half, last);
+  add_part(n, last, w);
 }
 
 void RimArcs::add_part(const Point& n, const Point& u, const Point& w) {

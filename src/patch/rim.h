@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -9,6 +10,18 @@
 #include "shared/distance.h"
 
 namespace meshhood {
+
+/// The circle in which a plane meets the unit sphere.
+struct Circle {
+  Point normal;     // a unit vector; 0 if the plane is that of a triangle without an area
+  double distance;  // of the plane, along the normal
+
+  [[nodiscard]] bool exists() const { return normal.x != 0 || normal.y != 0 || normal.z != 0; }
+  [[nodiscard]] double radius() const { return std::sqrt((1 - distance) * (1 + distance)); }
+
+  /// The middle of the arc of the angle `theta` counterclockwise about the normal, from `u` to `w`.
+  [[nodiscard]] Point middle(double theta, const Point& u, const Point& w) const;
+};
 
 /// The arcs of the unit sphere along which a patch leaves it, which bound the part of the sphere behind the patch.
 ///
@@ -24,8 +37,8 @@ class RimArcs {
  public:
   void clear();
 
-  /// An arc counterclockwise about `n`, from `u` to `w`. O(1).
-  void add(const Point& n, double h, double theta, const Point& u, const Point& w);
+  /// An arc of the angle `theta` counterclockwise about the normal, from `u` to `w`. O(1).
+  void add(const Circle& circle, double theta, const Point& u, const Point& w);
 
   /// A whole circle.
   void add_circle(double h);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include "base/vector.h"
@@ -30,18 +31,16 @@ double PatchSearch::volume() const {
   return (moment_ + cone) / 3 / ball_.scale / ball_.scale / ball_.scale;
 }
 
-std::vector<std::size_t> PatchSearch::faces() const {
+std::vector<TriangleId> PatchSearch::triangles() const {
   const Triangles& all = state_->triangles;
-  std::vector<std::size_t> faces;
-  for (const TriangleId t : std::span(triangles_).first(seen_count_)) faces.push_back(all.face[t]);
+  const auto seen = std::span(triangles_).first(seen_count_);
+  std::vector<TriangleId> result(seen.begin(), seen.end());
   for (const ClusterId c : clusters_) {
-    for (TriangleId t = all.first_of_cluster[c]; t < all.first_of_cluster[c + std::size_t{1}]; ++t) {
-      faces.push_back(all.face[t]);
-    }
+    for (TriangleId t = all.first_of_cluster[c]; t < all.first_of_cluster[c + std::size_t{1}]; ++t) result.push_back(t);
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return faces;
+  std::ranges::sort(result, {}, [&](TriangleId t) { return std::pair(all.face[t], t); });
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
 }
 
 /// Whole if the bounding sphere of a cluster lies in the ball, or its box.

@@ -37,8 +37,8 @@ class PatchSearch {
   [[nodiscard]] bool has_seen(TriangleId t) const { return seen_[t] == epoch_; }
   [[nodiscard]] bool has_taken(ClusterId c) const { return kinds_.is_known(c) && kinds_[c] == Kind::Taken; }
 
-  /// The numbers of the faces, ascending.
-  [[nodiscard]] std::vector<std::size_t> faces() const;
+  /// By the numbers of their faces.
+  [[nodiscard]] std::vector<TriangleId> triangles() const;
 
  private:
   /// Whole: inside the ball, not reached yet.

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/vector.h"
-
 namespace meshhood {
 namespace {
 
@@ -96,7 +94,7 @@ void Section::find_chord(std::size_t i) {
 Complex Section::turn_at(std::size_t corner) const {
   const Point& before = sides_[after(after(corner))].along;
   const Point& behind = sides_[corner].along;
-  return {dot(before, behind), dot(normal_, cross(before, behind))};
+  return {dot(before, behind), dot(plane_.circle.normal, cross(before, behind))};
 }
 
 /// The angle of the arc from where side `from` leaves the ball to where the one `steps` sides later enters it.
@@ -126,7 +124,7 @@ double Section::distance_of_plane() const {
     if (!side.is_cut) continue;
     if (longest == nullptr || side.to - side.from > longest->to - longest->from) longest = &side;
   }
-  return std::clamp(dot(normal_, longest->nearest), -1.0, 1.0);
+  return std::clamp(dot(plane_.circle.normal, longest->nearest), -1.0, 1.0);
 }
 
 /// The vector area of the triangle and whether the foot of the center on its plane lies in it, in the frame.
@@ -144,48 +142,59 @@ Section::Plane Section::find_plane() const {
     const RealVector<Real> over = cross(corners[i], corners[after(i)] - corners[i]);
     has_foot = has_foot && static_cast<double>(dot(area, over)) > 0;
   }
-  return {(1 / size) * rounded, static_cast<double>(dot(area, corners[0])) / size / ball_->radius, has_foot};
+  const double distance = static_cast<double>(dot(area, corners[0])) / size / ball_->radius;
+  return {{(1 / size) * rounded, distance}, has_foot};
 }
 
-/// No side is cut: the plane meets the ball in a disc within the triangle, or beside it.
-Section::Measure Section::measure_disc(const Plane& plane, RimArcs& rim) {
-  if (!plane.has_foot || !(std::abs(plane.distance) < 1)) return {0, 0};
-  rim.add_circle(plane.distance);
-  return {kPi * (1 - plane.distance) * (1 + plane.distance), plane.distance};
-}
-
-Section::Measure Section::measure(RimArcs& rim) {
-  const bool is_cut = sides_[0].is_cut || sides_[1].is_cut || sides_[2].is_cut;
+void Section::find_outline() {
   for (std::size_t i = 0; i < 3; ++i) {
     if (sides_[i].is_cut) find_chord(i);
   }
-  if (is_far_ || !is_cut) {
-    const Plane plane = is_far_ ? find_plane<Twofold>() : find_plane<double>();
-    if (!is_cut) return measure_disc(plane, rim);
-    normal_ = plane.normal;
+  if (is_far_ || !is_cut()) {
+    plane_ = is_far_ ? find_plane<Twofold>() : find_plane<double>();
+    if (!is_cut()) return;
   } else {
-    normal_ = cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
-    const double size = length(normal_);
-    normal_ = size > 0 ? (1 / size) * normal_ : Point{0, 0, 0};
+    const Point area = cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
+    const double size = length(area);
+    plane_.circle.normal = size > 0 ? (1 / size) * area : Point{0, 0, 0};
   }
-  if (normal_.x == 0 && normal_.y == 0 && normal_.z == 0) return {0, 0};  // no area
-  const double distance = distance_of_plane();
+  plane_.circle.distance = distance_of_plane();
+  for (Side& side : sides_) {
+    if (side.is_cut) side.offset = dot(side.nearest, cross(side.along, plane_.circle.normal));
+  }
+}
+
+bool Section::touches(std::size_t i) const {
+  constexpr double kDepth = 0x1p-45;  // twice that of the deepest point
+  const Side& side = sides_[i];
+  const double deepest = std::clamp(0.0, side.from, std::max(side.from, side.to));
+  return (side.half - deepest) * (side.half + deepest) <= kDepth;
+}
+
+Section::Arc Section::arc_from(std::size_t i) const {
+  std::size_t steps = 1;
+  while (!sides_[(i + steps) % 3].is_cut) ++steps;
+  return {(i + steps) % 3, plane_.circle.exists() ? angle_of_arc(i, steps) : 0};
+}
+
+Section::Measure Section::measure(RimArcs& rim) {
+  find_outline();
+  const auto& [normal, distance] = plane_.circle;
+  if (has_disc()) {
+    rim.add_circle(distance);
+    return {kPi * (1 - distance) * (1 + distance), distance};
+  }
+  if (!is_cut() || !plane_.circle.exists()) return {0, 0};
   const double disc = (1 - distance) * (1 + distance);  // the square of its radius
   double doubled = 0;
-  for (Side& side : sides_) {
-    if (!side.is_cut) continue;
-    side.offset = dot(side.nearest, cross(side.along, normal_));
-    doubled += side.offset * (side.to - side.from);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (meets(i)) doubled += sides_[i].offset * (sides_[i].to - sides_[i].from);
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!sides_[i].is_cut || triangle_->inside[after(i)]) continue;
-    std::size_t steps = 1;
-    while (!sides_[(i + steps) % 3].is_cut) ++steps;
-    const Side& next = sides_[(i + steps) % 3];
-    const double angle = angle_of_arc(i, steps);
+    if (!has_arc(i)) continue;
+    const auto [to, angle] = arc_from(i);
     doubled += disc * angle;
-    rim.add(normal_, distance, angle, sides_[i].nearest + sides_[i].half * sides_[i].along,
-            next.nearest - next.half * next.along);
+    rim.add(plane_.circle, angle, exit(i), entry(to));
   }
   return {doubled / 2, distance};
 }

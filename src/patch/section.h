@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "base/vector.h"
 #include "patch/angle.h"
 #include "patch/rim.h"
 #include "patch/twofold.h"
@@ -57,6 +59,31 @@ class Section {
   /// Adds the arcs to `rim`.
   [[nodiscard]] Measure measure(RimArcs& rim);
 
+  /// Finds what follows.
+  void find_outline();
+
+  [[nodiscard]] bool is_cut() const { return sides_[0].is_cut || sides_[1].is_cut || sides_[2].is_cut; }
+  /// Whether no side is cut, and the disc in which the plane meets the ball lies in the triangle.
+  [[nodiscard]] bool has_disc() const { return !is_cut() && plane_.has_foot && std::abs(plane_.circle.distance) < 1; }
+  /// Without an area, the normal is 0.
+  [[nodiscard]] const Circle& circle() const { return plane_.circle; }
+
+  /// Where side `i` enters the ball, and where it leaves it, unless a corner is inside.
+  [[nodiscard]] Point entry(std::size_t i) const { return sides_[i].nearest - sides_[i].half * sides_[i].along; }
+  [[nodiscard]] Point exit(std::size_t i) const { return sides_[i].nearest + sides_[i].half * sides_[i].along; }
+  /// Whether no point of side `i` in the ball is away from the sphere, but for rounding.
+  [[nodiscard]] bool touches(std::size_t i) const;
+
+  /// Whether the boundary leaves side `i` where this leaves the ball.
+  [[nodiscard]] bool has_arc(std::size_t i) const { return meets(i) && !triangle_->inside[(i + 1) % 3]; }
+
+  struct Arc {
+    std::size_t to;  // the side that it leads to
+    double angle;
+  };
+
+  [[nodiscard]] Arc arc_from(std::size_t i) const;
+
  private:
   /// All but the flags is set only where the side is cut.
   struct Side {
@@ -72,8 +99,7 @@ class Section {
   };
 
   struct Plane {
-    Point normal{0, 0, 0};
-    double distance = 0;
+    Circle circle{{0, 0, 0}, 0};
     bool has_foot = false;  // of the perpendicular from the center, within the triangle
   };
 
@@ -84,7 +110,6 @@ class Section {
   void find_chord(std::size_t i);
   template <class Real>
   [[nodiscard]] Plane find_plane() const;
-  [[nodiscard]] static Measure measure_disc(const Plane& plane, RimArcs& rim);
   [[nodiscard]] bool may_dip(std::size_t i) const;
   [[nodiscard]] Complex turn_at(std::size_t corner) const;
   [[nodiscard]] double angle_of_arc(std::size_t from, std::size_t steps) const;
@@ -95,7 +120,7 @@ class Section {
   std::array<Point, 3> corners_;  // from the center
   std::array<Side, 3> sides_;
   bool is_far_;
-  Point normal_{0, 0, 0};  // a unit vector
+  Plane plane_;
 };
 
 }  // namespace meshhood

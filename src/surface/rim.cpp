@@ -22,6 +22,22 @@
 namespace meshhood {
 namespace {
 
+/// An edge that leaves a region: its end inside, and its end outside.
+using RimEdge = std::array<VertexId, 2>;
+
+/// Calls `f(begin, count)` for each run of `count` corners inside the region, the first of which is corner `begin`;
+/// corners are numbered around the face. None if all are inside.
+template <class IsInside, class F>
+void for_each_run(std::span<const VertexId> corners, IsInside&& is_inside, F&& f) {
+  const std::size_t size = corners.size();
+  for (std::size_t begin = 0; begin < size; ++begin) {
+    if (is_inside(corners[(begin + size - 1) % size]) || !is_inside(corners[begin])) continue;
+    std::size_t count = 1;
+    while (is_inside(corners[(begin + count) % size])) ++count;
+    f(begin, count);
+  }
+}
+
 /// A directed segment between two points, given by their numbers.
 struct Segment {
   std::uint32_t from;
@@ -128,6 +144,23 @@ std::vector<Segment> segments_of(std::span<const ExitPair> pairs, const std::vec
   return segments;
 }
 
+/// The point of the rim on each of `edges`.
+std::vector<SpacePoint> rim_points(const IndexView& index, std::span<const RimEdge> edges, const SpacePoint& center,
+                                   double radius) {
+  const Point middle{center[0], center[1], center[2]};
+  std::vector<SpacePoint> points;
+  for (const auto& [inner, outer] : edges) {
+    const auto at = [&](VertexId v) { return position_of(index, v); };
+    if (!(squared_distance(at(inner), middle) <= squared_radius(radius))) {
+      raise(ErrorCode::InvalidOption, "ids: vertex " + std::to_string(inner) + " is not within the radius " +
+                                          to_text(radius) + " of the center, expected a region of this ball");
+    }
+    const Point p = exit_point(at(inner), at(outer), middle, radius);
+    points.push_back({p.x, p.y, p.z});
+  }
+  return points;
+}
+
 }  // namespace
 
 // The point inside + t d, with d = outside - inside and e = inside - center, has the distance r from the center where
@@ -150,22 +183,6 @@ Point exit_point(const Point& inside, const Point& outside, const Point& center,
   const double root = std::sqrt(b * b - a * c);
   const double t = b > 0 ? -c / (b + root) : (root - b) / a;
   return inside + std::clamp(t, 0.0, 1.0) * d;
-}
-
-std::vector<SpacePoint> rim_points(const IndexView& index, std::span<const RimEdge> edges, const SpacePoint& center,
-                                   double radius) {
-  const Point middle{center[0], center[1], center[2]};
-  std::vector<SpacePoint> points;
-  for (const auto& [inner, outer] : edges) {
-    const auto at = [&](VertexId v) { return position_of(index, v); };
-    if (!(squared_distance(at(inner), middle) <= squared_radius(radius))) {
-      raise(ErrorCode::InvalidOption, "ids: vertex " + std::to_string(inner) + " is not within the radius " +
-                                          to_text(radius) + " of the center, expected a region of this ball");
-    }
-    const Point p = exit_point(at(inner), at(outer), middle, radius);
-    points.push_back({p.x, p.y, p.z});
-  }
-  return points;
 }
 
 Rim Surface::rim(std::span<const VertexId> ids, const SpacePoint& center, double radius) const {

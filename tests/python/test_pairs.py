@@ -647,7 +647,6 @@ OPTIONS_ELSE = {
     "cut": {"walls": F[WALLS[F].any(axis=1)][:, :2]},
     "changed": {"all": np.arange(COUNT), "mask": np.ones(COUNT, bool)},
     "corners": {"any": "any"},
-    "clip": {"ball": (4711, 3.0)},
     "faces": {"yes": True},
     "mmap": {"yes": True},
     "trusted": {"yes": True},
@@ -721,7 +720,7 @@ CALLS_ELSE = {
 # Calls without options, and those of which other tests ask for all that they have.
 WITHOUT_PAIRS = {
     "nearest", "quality", "stroke", "rim", "geometric_radii", "open_parts", "persistence", "show_config",
-    "smoothing_radius", "plot_neighborhood", "view", "open", "ids", "masked", "patch", "padded",
+    "smoothing_radius", "plot_neighborhood", "view", "open", "ids", "masked", "patch", "clip", "padded",
 }  # fmt: skip
 
 
@@ -787,7 +786,7 @@ def test_options_of_how_do_not_change_an_answer(method, tmp_path):
             assert words["progress"].last == words["progress"].total
         return 0
 
-    check_pairs(method.__qualname__, options, ask, check_same, {"trusted": ["mmap"], "parts": [], "clip": [], "colors": []})
+    check_pairs(method.__qualname__, options, ask, check_same, {"trusted": ["mmap"], "parts": [], "colors": []})
 
 
 def test_every_call_has_its_pairs():

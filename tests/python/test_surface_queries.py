@@ -261,68 +261,20 @@ def test_a_subclass_is_made_from_points_and_of_faces():
     assert type(Mine.of_faces(V, quads)) is Mine
 
 
-def test_a_clipped_submesh_has_the_area_of_the_disc():
-    V, quads = grid(41)
-    F = triangles(quads)
-    index, patches = meshhood.MeshIndex(V, F), meshhood.RegionMesh(V, F)
-    p, r = [20.2, 19.7, 0.0], 13.3
-    ids = index.neighborhood(p, r)
-    whole, clipped = patches.submesh(ids), patches.submesh(ids, clip=(p, r))
-    disc = np.pi * r * r
-    assert whole.area < 0.95 * disc
-    assert 0.99 * disc < clipped.area < disc
-    assert clipped.V.dtype == np.float64
-    count = len(clipped.vertices)
-    np.testing.assert_array_equal(clipped.V[:count], V[clipped.vertices])
-    np.testing.assert_allclose(np.linalg.norm(clipped.V[count:] - p, axis=1), r)
-    assert np.isin(clipped.edges[:, 0], ids).all() and not np.isin(clipped.edges[:, 1], ids).any()
-    assert set(whole.faces) <= set(clipped.faces)
-    np.testing.assert_array_equal(patches.submesh(ids, clip=(int(ids[0]), 1e9)).faces, patches.faces(ids, "any"))
-
-
-@pytest.mark.parametrize("size", (1e-150, 1.0, 1e149))
-def test_values_are_carried_to_the_points_of_a_clip(size):
-    V, quads = grid(9)
-    index = meshhood.MeshIndex(V * size, quads)
-    ids = index.neighborhood(40, 2.7 * size)
-    whole, clipped = index.submesh(ids), index.submesh(ids, clip=(40, 2.7 * size))
-    assert clipped.edges.shape == clipped.weights.shape == (len(clipped.V) - len(clipped.vertices), 2)
-    np.testing.assert_allclose(clipped.weights.sum(axis=1), 1, rtol=1e-15)
-    np.testing.assert_allclose(clipped.carry(V * size), clipped.V, rtol=1e-14)
-    np.testing.assert_allclose(clipped.carry(V[:, 0]) * size, clipped.V[:, 0], rtol=1e-14)
-    assert clipped.carry(V.astype(np.float32)).dtype == np.float32
-    np.testing.assert_array_equal(whole.carry(np.arange(81)), whole.vertices)
-    assert len(whole.edges) == len(whole.weights) == 0
-    with pytest.raises(TypeError, match="values: expected floats for a clipped mesh, not int"):
-        clipped.carry(np.arange(81))
-    for wrong in (1.0, np.ones(40), np.ones(82)):
-        with pytest.raises(ValueError, match="values: of shape .* a row for each of the 81 vertices of the whole mesh"):
-            clipped.carry(wrong)
-
-
-def test_an_edge_without_a_length_has_its_point_at_the_begin():
-    V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0.0]])
-    index = meshhood.MeshIndex(V, [[0, 1, 2], [0, 3, 1]])
-    part = index.submesh(index.neighborhood(0, 2.0, walls=[3]), clip=(0, 2.0))
-    assert part.edges.tolist() == [[0, 3], [1, 3]]
-    np.testing.assert_array_equal(part.carry(V), part.V)
-    assert part.weights[0].tolist() == [1, 0]
-
-
 def test_a_submesh_is_handed_to_pyvista_and_trimesh():
     pyvista, trimesh = pytest.importorskip("pyvista"), pytest.importorskip("trimesh")
     V, quads = grid(9)
     for F in (quads, triangles(quads)):
         index = meshhood.MeshIndex(V, F)
         ids = index.neighborhood(40, 2.7)
-        for part in (index.submesh(ids), index.submesh(ids, clip=(40, 2.7))):
+        for part in (index.submesh(ids), index.clip(40, 2.7)):
             drawn, made = part.to_pyvista(), part.to_trimesh()
             assert isinstance(drawn, pyvista.PolyData) and isinstance(made, trimesh.Trimesh)
             np.testing.assert_array_equal(drawn.cell_data["faces"], part.faces)
             for found in (drawn.points, made.vertices):
                 np.testing.assert_array_equal(found, part.V)
             for area in (drawn.area, made.area):
-                np.testing.assert_allclose(area, part.area, rtol=1e-6)
+                np.testing.assert_allclose(area, meshhood.vertex_areas(part.V, part.F).sum(), rtol=1e-6)
             sides = np.diff(part.F[0]) if isinstance(part.F, tuple) else np.full(len(part.F), 3)
             np.testing.assert_array_equal(made.face_attributes["faces"], np.repeat(part.faces, sides - 2))
 
@@ -332,15 +284,4 @@ def test_a_submesh_is_described_in_a_line():
     index = meshhood.MeshIndex(V, quads)
     ids = index.neighborhood(40, 1.0)
     assert repr(index.submesh(ids, "any")) == "<meshhood.Submesh: 12 faces, 21 vertices>"
-    assert repr(index.submesh(ids, clip=(40, 1.2))).endswith("of them where faces are clipped>")
-
-
-def test_a_clip_is_refused_unless_the_ids_are_a_region_of_the_ball():
-    V, quads = grid(5)
-    patches = meshhood.RegionMesh(V, quads)
-    with pytest.raises(ValueError, match="vertex 24 is not within the radius 1"):
-        patches.submesh([24], clip=(0, 1.0))
-    with pytest.raises(ValueError, match="corners: 'any', expected 'all' with clip"):
-        patches.submesh([0], "any", clip=(0, 1.0))
-    with pytest.raises(ValueError, match=r"clip: expected a tuple \(start, r\)"):
-        patches.submesh([0], clip=1.0)
+    assert repr(index.clip(40, 1.2)).endswith("of them where faces are clipped>")

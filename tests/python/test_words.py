@@ -206,6 +206,7 @@ WITH_FACES = {
     "invariants": lambda index, F: index.invariants(2.0, F=F),
     "gaps": lambda index, F: index.gaps(2.0, F=F),
     "patch": lambda index, F: index.patch(40, 2.0, F=F),
+    "clip": lambda index, F: index.clip(40, 2.0, F=F),
     "closest_point": lambda index, F: index.closest_point(V[:20] + 0.1, F=F),
     "first_hit": lambda index, F: index.first_hit(V[:20] + [0, 0, 3], np.tile([0.01, 0, -1], (20, 1)), F=F),
     "thickness": lambda index, F: index.thickness(F=F),

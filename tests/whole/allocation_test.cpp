@@ -22,6 +22,7 @@
 #include "meshhood/k_nearest.h"
 #include "meshhood/link_points.h"
 #include "meshhood/paper.h"
+#include "meshhood/patch.h"
 #include "meshhood/reference.h"
 #include "meshhood/refit.h"
 #include "meshhood/reorder.h"
@@ -443,10 +444,9 @@ TEST_P(Allocation, FailsInACallForTheNearest) {
       return finite;
     });
     calls.emplace_back([&] {
-      const std::vector<VertexId> ids = Searcher(index).neighborhood(0, radius);
-      return Surface(index, mesh.view())
-          .clip(ids, point_on_face(index, std::array<VertexId, 1>{0}, std::array{1.0}), 2 * radius)
-          .corners;
+      const Surface surface(index, mesh.view().faces);
+      const ClippedMesh part = PatchSearcher(surface).clip(0, 2 * radius);
+      return std::vector<VertexId>{static_cast<VertexId>(part.triangles.size()), part.triangles.back()[0]};
     });
   }
   for (const auto& call : calls) {

@@ -116,9 +116,6 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
   all["Surface: closest_point"] = [=] { return Answer{faces->closest_point({3.2, 4.1, 7}).distance}; };
   const auto surface = kept(Surface(index, mesh.view()));
   all["Surface: curvatures"] = [=] { return numbers(curvatures(*surface, {.radius = kRadius}).k1); };
-  const auto region = kept(Searcher(index).neighborhood(v, kRadius));
-  const SpacePoint at{mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
-  all["Surface: clip"] = [=] { return Answer{surface->clip(*region, at, 1e3).area}; };
   all["Surface: vertex_areas"] = [=] {
     const auto areas = surface->vertex_areas();
     return Answer(areas.begin(), areas.end());
@@ -142,6 +139,7 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
   all["Surface: gaps"] = [=] { return Answer{gaps(*surface, {.radius = kRadius})[v].distance}; };
   const auto patches = kept(PatchSearcher(*surface));
   all["PatchSearcher: measure"] = [=] { return Answer{patches->measure(v, kRadius).area}; };
+  all["PatchSearcher: clip"] = [=] { return Answer{patches->clip(v, kRadius).points.back()[0]}; };
   all["PatchSearcher: patch"] = [=] { return numbers(patches->patch(v, kRadius)); };
   all["Surface: features"] = [=] { return numbers(features(*surface, {.radius = BatchRadius::scales({kRadius})})); };
   return all;

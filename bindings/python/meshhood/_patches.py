@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._held import Held
 from ._progress import Progress
+from ._region_mesh import Submesh
 from ._repr import shown_in_a_line
 from ._rows import read_rows
 from ._types import AnyVertices, Ids, Mask, Radii, Reals, Scales, Unit
@@ -93,7 +94,7 @@ class Patches(Held):
     ) -> Invariants:
         """The area of the patch of each vertex, and the volume of the part of the ball behind it: the integral
         invariants of a surface (Manay et al. 2004; Pottmann et al. 2009). They are accurate to 1e-12 of pi r^2 and of
-        the ball, do not depend on how the surface is divided into triangles, and hardly on noise.
+        the ball, and do not depend on how the surface is divided into triangles.
 
         r : one radius, or one for each row. A point at exactly `r` counts.
         vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`. Ignored vertices have no effect.
@@ -163,11 +164,53 @@ class Patches(Held):
         >>> face in index.patch(point, 0.3, face=face)
         True
         """
+        patches, words = self._one_patch(start, r, face, F, walls, unit)
+        return patches.faces(**words)
+
+    def clip(
+        self,
+        start: Union[int, "np.integer[Any]", ArrayLike],
+        r: float,
+        *,
+        face: Optional[int] = None,
+        tolerance: float = 1e-3,
+        F: Any = None,
+        walls: Mask = None,
+        unit: Unit = "mesh",
+    ) -> Submesh:
+        """The patch of `start` and the radius `r` as a mesh of triangles that end at the sphere. Its border is where the
+        surface leaves the ball, and the border of the surface.
+
+        start, face, F, walls, unit : as for `patch`.
+        tolerance : the arcs along which faces leave the ball become chords that are at most `tolerance * r` off; from
+            1e-12 to 1. All chords have their ends on the sphere.
+
+        The first rows of V are the vertices in the ball, all others new points on the sphere: first those on sides, of
+        which `corners` has the end beyond the ball, and the other end twice; then those on arcs. `faces` are the rows
+        of F of which the triangles are parts. `area` is that of the patch, as `invariants` returns it; that of the
+        triangles is less by at most `tolerance * r` times the length of the arcs.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> part = index.clip(42, 0.5)
+        >>> bool(part.area == index.invariants(0.5, 42).area)
+        True
+        >>> np.allclose(np.linalg.norm(part.V[len(part.vertices):] - V[42], axis=1), 0.5)
+        True
+        """
+        patches, words = self._one_patch(start, r, face, F, walls, unit)
+        limit = _convert.finite(tolerance, "tolerance", or_zero=False)
+        points, corners, weights, faces, triangles, area = patches.clip(**words, tolerance=limit)
+        count = int(np.count_nonzero((corners == corners[:, :1]).all(axis=1)))  # of vertices, which come first
+        new = corners[count:], weights[count:]
+        return Submesh(points, triangles, corners[:count, 0].copy(), faces, area, *new, self._count)
+
+    def _one_patch(self, start: Any, r: Any, face: Any, F: Any, walls: Any, unit: Any) -> tuple[Any, dict[str, Any]]:
+        """What has the patches, and the start of one."""
         radius = self._scale(unit) * _convert.radius(r)
         patches = self._with_masks(walls, None)._patches(F)
         if face is None:
             vertex = _convert.vertex(start, self._count, "start")
-            return patches.faces(vertex=vertex, face=None, point=[0.0, 0.0, 0.0], radius=radius)
+            return patches, {"vertex": vertex, "face": None, "point": [0.0, 0.0, 0.0], "radius": radius}
         point = _convert.point(start, "start", "invariants, gaps")[0].tolist()
         number = _convert.integer(face, "face", 0, 2**63 - 1)
-        return patches.faces(vertex=0, face=number, point=point, radius=radius)
+        return patches, {"vertex": 0, "face": number, "point": point, "radius": radius}

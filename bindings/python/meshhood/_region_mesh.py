@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple, Optional, Union
+from typing import Any, Literal, NamedTuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,25 +33,21 @@ class Submesh(NamedTuple):
     F: Union[Ids, tuple[NDArray[np.int64], Ids]]  #: (#F, 3), or (offsets, corners) if the mesh has polygons; rows of V
     vertices: Ids  #: its first vertices by their ids in the whole mesh, ascending; all, unless faces are clipped
     faces: NDArray[np.int64]  #: its faces by their rows in the whole mesh, ascending
-    edges: Ids  #: (n, 2): of each further vertex, where a face is clipped, the ends of its edge in the whole mesh
-    weights: NDArray[np.float64]  #: (n, 2) of these ends, with the sum 1
+    area: float  #: of its faces, in the square of the unit of V; of a clip, that of the patch: see `MeshIndex.clip`
+    corners: Ids  #: (n, 3): of each further vertex, where a face is clipped, those of its triangle in the whole mesh
+    weights: NDArray[np.float64]  #: (n, 3) of these corners, with the sum 1; 0 of the third on a side
     whole: int  #: the number of vertices of the whole mesh
 
     def __repr__(self) -> str:
-        clipped = f", {len(self.edges)} of them where faces are clipped" if len(self.edges) else ""
+        clipped = f", {len(self.corners)} of them where faces are clipped" if len(self.corners) else ""
         return f"<meshhood.Submesh: {len(self.faces)} faces, {len(self.V)} vertices{clipped}>"
 
-    @property
-    def area(self) -> float:
-        """The sum of the areas of its faces, in the square of the unit of V."""
-        return float(vertex_areas(self.V, self.F).sum())
-
     def carry(self, values: ArrayLike) -> NDArray[Any]:
-        """Values of the vertices of the whole mesh, (#V, ...), at the vertices of this one; linear along the edges that
-        are clipped, for which they must be floats. Returns a new array of the same type.
+        """Values of the vertices of the whole mesh, (#V, ...), at the vertices of this one; linear on the triangles
+        that are clipped, for which they must be floats. Returns a new array of the same type.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> part = index.submesh(index.neighborhood(42, 0.5), clip=(42, 0.5))
+        >>> part = index.clip(42, 0.5)
         >>> np.allclose(part.carry(V), part.V)
         True
         """
@@ -59,12 +55,12 @@ class Submesh(NamedTuple):
         if whole.ndim == 0 or len(whole) != self.whole:
             rows = f"a row for each of the {self.whole} vertices of the whole mesh"
             raise ValueError(f"values: of shape {whole.shape}, expected {rows}")
-        if not len(self.edges):
+        if not len(self.corners):
             return whole[self.vertices]
         if whole.dtype.kind != "f":
             raise TypeError(f"values: expected floats for a clipped mesh, not {whole.dtype}; values.astype(float)")
         weights = self.weights.reshape(*self.weights.shape, *[1] * (whole.ndim - 1))
-        between = (weights * whole[self.edges]).sum(axis=1)
+        between = (weights * whole[self.corners]).sum(axis=1)
         return np.concatenate([whole[self.vertices], between.astype(whole.dtype)])
 
     def to_pyvista(self) -> Any:
@@ -154,29 +150,19 @@ class RegionMesh:
         """
         return self._surface.faces(self._ids(ids), self._all(corners))
 
-    def submesh(
-        self, ids: ArrayLike, corners: Corners = "all", *, clip: Optional[tuple[Any, Any]] = None
-    ) -> Submesh:
+    def submesh(self, ids: ArrayLike, corners: Corners = "all") -> Submesh:
         """These faces as a mesh. With corners="all", faces that the surface of the ball cuts are left out, and so is
-        their area.
-
-        clip : (start, r), if `ids` is the region of `start` and `r`, as for `rim`: the faces are clipped at the ball
-            instead, with exact points on the sides that leave the region: the last rows of V, with the ends of their
-            sides as `edges` and the `weights` of these, by which `Submesh.carry` takes values there. Two such points of
-            a face are joined by a straight chord, not along the sphere, so that `area` is a little too small. V is then
-            float64, F a tuple (offsets, corners), and a face of which the ball has several parts occurs several times.
-            What of a face lies in the ball without a corner in `ids` is left out.
+        their area: see `MeshIndex.clip`.
 
         >>> mesher, ids = meshhood.RegionMesh(V, F), meshhood.MeshIndex(V, F).neighborhood(42, 0.5)
-        >>> mesher.submesh(ids).area < mesher.submesh(ids, clip=(42, 0.5)).area < mesher.submesh(ids, "any").area
+        >>> mesher.submesh(ids).area < mesher.submesh(ids, "any").area
         True
         """
-        if clip is not None:
-            return self._clipped(self._ids(ids), self._all(corners), clip)
         vertices, faces, offsets, flat = self._surface.submesh(self._ids(ids), self._all(corners))
         triangles = flat.reshape(-1, 3) if self._triangles else (offsets, flat)
-        none = np.empty((0, 2), np.int32), np.empty((0, 2))
-        return Submesh(self._positions[vertices], triangles, vertices, faces, *none, len(self._positions))
+        points, none = self._positions[vertices], (np.empty((0, 3), np.int32), np.empty((0, 3)))
+        area = float(vertex_areas(points, triangles).sum())
+        return Submesh(points, triangles, vertices, faces, area, *none, len(self._positions))
 
     def rim(self, ids: ArrayLike, start: Any, r: Any) -> list[RimLine]:
         """Where the surface leaves a region: polylines whose points lie on edges, at the distance `r` from `start`.
@@ -196,17 +182,6 @@ class RegionMesh:
         parts = [slice(begin, end) for begin, end in zip(offsets[:-1], offsets[1:])]
         return [RimLine(points[part], edges[part], bool(is_closed)) for part, is_closed in zip(parts, closed)]
 
-    def _clipped(self, ids: Ids, is_all: bool, clip: Any) -> Submesh:
-        if not is_all:
-            raise ValueError("corners: 'any', expected 'all' with clip")
-        if not isinstance(clip, (tuple, list)) or len(clip) != 2:
-            raise ValueError("clip: expected a tuple (start, r)")
-        points, edges, faces, offsets, flat = self._surface.clip(ids, self._center(clip[0]), _convert.radius(clip[1]))
-        is_new = edges[:, 0] != edges[:, 1]  # the last ones
-        between = edges[is_new]
-        weights = _weights(points[is_new], *np.moveaxis(self._positions[between].astype(np.float64), 1, 0))
-        return Submesh(points, (offsets, flat), edges[~is_new, 0], faces, between, weights, len(self._positions))
-
     def _center(self, start: Any) -> tuple[float, float, float]:
         if np.ndim(start) == 0:
             center = self._positions[_convert.vertex(start, len(self._positions), "start")].astype(np.float64)
@@ -222,28 +197,14 @@ class RegionMesh:
         return _convert.choice(corners, "corners", ("all", "any")) == "all"
 
 
-def _weights(points: Any, begins: Any, ends: Any) -> Any:
-    """(n, 2): of the ends of edges, for points on them. An edge without a length has its point at the begin."""
-    edges = ends - begins
-    extent = np.abs(edges).max(axis=1, initial=0, keepdims=True)
-    extent[extent == 0] = 1
-    edges, along = edges / extent, (points - begins) / extent  # so that no square is 0 or inf
-    squares = (edges**2).sum(axis=1)
-    t = np.clip((edges * along).sum(axis=1) / np.where(squares > 0, squares, 1), 0, 1)
-    return np.stack([1 - t, t], axis=1)
-
-
 class Regions(Held):
     """The part of `MeshIndex` that makes meshes of regions."""
 
-    def submesh(
-        self, ids: ArrayLike, corners: Corners = "all", *, clip: Optional[tuple[Any, Any]] = None, F: Any = None
-    ) -> Submesh:
-        """The faces with all corners in `ids`, or with at least one, as a mesh: see `RegionMesh.submesh`.
+    def submesh(self, ids: ArrayLike, corners: Corners = "all", *, F: Any = None) -> Submesh:
+        """The faces with all corners in `ids`, or with at least one, as a mesh: see `RegionMesh.submesh`. Those that the
+        surface of a ball cuts are left out with "all", and whole with "any"; `clip` cuts them.
 
         ids : the vertices of a region, in any order, or a bool mask (#V,).
-        clip : (start, r), to cut the faces at the ball. Without it, those that the surface of the ball cuts are left
-            out with "all" and whole with "any": the area of a patch is off by a share of its rim.
         F : other faces than those that the index keeps.
 
         >>> index = meshhood.MeshIndex(V, F)
@@ -251,10 +212,8 @@ class Regions(Held):
         >>> part = index.submesh(ids)
         >>> len(part.V) == len(part.vertices)
         True
-        >>> index.submesh(ids, clip=(42, 0.5)).area > part.area
-        True
         """
-        return self._region_mesh(F).submesh(ids, corners, clip=clip)
+        return self._region_mesh(F).submesh(ids, corners)
 
     def rim(self, ids: ArrayLike, start: Any, r: Any, *, F: Any = None) -> list[RimLine]:
         """Where the surface leaves a region: see `RegionMesh.rim`.
