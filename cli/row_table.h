@@ -36,13 +36,14 @@ struct ValueFiles {
   [[nodiscard]] const std::string& first() const { return !table.name.empty() ? table.name : !ply.empty() ? ply : vtk; }
 };
 
-/// What is computed: an array, with `scales` and `channels` numbers of each row, scale after scale.
+/// What is computed: an array, with `scales` by `channels` by `kinds` numbers of each row, scale after scale.
 struct Column {
   std::string name;
   std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::int64_t>, std::vector<std::uint64_t>>
       numbers;
   std::size_t scales = 0;    ///< 0: the array has no axis of scales
   std::size_t channels = 0;  ///< 0: the array has no axis of channels
+  std::size_t kinds = 0;     ///< unless 0, how many kinds of numbers each channel has; they have an axis of their own
   bool is_array = true;      ///< of the .npz; otherwise only of text and meshes
 };
 
@@ -61,7 +62,7 @@ struct RowTable {
   std::size_t rows;
   std::size_t scales = 1;
   std::vector<double> radii = {};       ///< of the scales, or with --radii of the rows
-  std::vector<std::string> kinds = {};  ///< names of the channels, an array of their own; or empty
+  std::vector<std::string> kinds = {};  ///< names on the last axis, an array of their own; or empty
   std::vector<Column> columns = {};
   std::vector<Property> properties = {};
   std::string shown = {};                       ///< the property that a program shows at once, MeshLab as `quality`

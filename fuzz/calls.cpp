@@ -275,7 +275,7 @@ class Session {
     std::vector<double> values(index.vertex_count());
     std::iota(values.begin(), values.end(), 0.0);
     const auto of = [&](Reduce reduce, SmoothingKernel kernel = SmoothingKernel::Box) {
-      const AggregateQuery query{.vertices = vertices, .radius = radius, .reduce = reduce, .kernel = kernel};
+      const AggregateQuery query{.vertices = vertices, .radius = radius, .reduce = {reduce}, .kernel = kernel};
       return aggregate(index, {values}, query, {.threads = threads});
     };
     const std::vector<double> sums = of(Reduce::Sum);

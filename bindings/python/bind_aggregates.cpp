@@ -34,16 +34,16 @@ SignalView signal_of(const Values& values, const std::optional<Weights>& weights
   return signal;
 }
 
-/// A flat array, #radii by #rows by channels. Either `radii`, the scales, or `radius`.
+/// A flat array, #radii by #rows by channels by #reductions. Either `radii`, the scales, or `radius`.
 nb::object aggregates(const ExactMethod& method, const Values& values, const std::optional<Weights>& weights,
-                      const std::optional<Rows>& vertices, std::vector<double> radii, Reduce reduce,
+                      const std::optional<Rows>& vertices, std::vector<double> radii, std::vector<Reduce> reduce,
                       SmoothingKernel kernel, MissingValues missing, Nesting nesting, unsigned ddof, unsigned threads,
                       std::uint64_t max_bytes, nb::handle progress, const Radius& radius, Metric metric) {
   const SignalView signal = signal_of(values, weights);
   const AggregateQuery query{.vertices = vertices_of(vertices),
                              .radius = radius ? radius_of(radius) : BatchRadius::scales(std::move(radii)),
                              .metric = metric,
-                             .reduce = reduce,
+                             .reduce = std::move(reduce),
                              .kernel = kernel,
                              .missing = missing,
                              .nesting = nesting,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import {
-  choose, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectRadius, expectSize,
+  choose, chooseSome, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectRadius, expectSize,
   expectType, expectVertex, expectVertices, toReals, withDefaults, withFaces, withMesh,
 } from './arguments.js';
 import { Curvature } from './curvature.js';
@@ -413,15 +413,16 @@ export class MeshIndex extends Owner {
     const { reduce, weights, kernel, nan, nesting, ddof, faces, unit } = given;
     const signal = toReals(values, 'values');
     const channels = Math.max(1, Math.floor(signal.length / this.vertexCount) || 0);
+    const reductions = chooseSome(REDUCTIONS, reduce, 'reduce');
     const choices = [
-      choose(REDUCTIONS, reduce, 'reduce'), choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'),
-      choose(NESTINGS, nesting, 'nesting'),
+      choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'), choose(NESTINGS, nesting, 'nesting'),
     ];
     expectSize(ddof, 'ddof');
     const weighed = this.#weights(weights, faces);
     withRows(this.instance, r, given, this.#scale(unit), (...rows) =>
-      this.instance.with([signal, weighed], (numbers, weightList) => this.instance.call('aggregate', ...rows,
-        numbers, signal.length, channels, weightList, weighed?.length ?? 0, ...choices, ddof)));
+      this.instance.with([signal, weighed, reductions], (numbers, weightList, list) => this.instance.call('aggregate',
+        ...rows, numbers, signal.length, channels, weightList, weighed?.length ?? 0, list, reductions.length,
+        ...choices, ddof)));
     const aggregates = this.instance.takeReals();
     this.instance.releaseAnswer();
     return aggregates;
@@ -460,10 +461,9 @@ export class MeshIndex extends Owner {
   features(r, options = {}) {
     const given = withDefaults(options, FEATURES);
     const { faces, kinds, filter, unit } = given;
-    const names = typeof kinds === 'string' ? [kinds] : kinds;
-    const places = Uint8Array.from(names, (name) => choose(KINDS, name, 'kinds'));
+    const places = chooseSome(KINDS, kinds, 'kinds');
     this.#useFaces(faces);
-    const areas = names.some((name) => KINDS_OF_AREAS.includes(name)) ? this.#weights('area', faces) : null;
+    const areas = places.some((place) => KINDS_OF_AREAS.includes(KINDS[place])) ? this.#weights('area', faces) : null;
     withRows(this.instance, r, given, this.#scale(unit), (...rows) =>
       this.instance.with([places, areas], (list, areaList) => this.instance.call(
         'features', ...rows, list, places.length, areaList, areas?.length ?? 0, Boolean(filter))));

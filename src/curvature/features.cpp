@@ -2,6 +2,7 @@
 #include "meshhood/features.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,10 +12,10 @@
 
 #include "meshhood/error.h"
 #include "meshhood/moments.h"
-#include "meshhood/patch.h"
 
 #include "base/vector.h"
 #include "batch/rows.h"
+#include "patch/patches.h"
 #include "shared/distance.h"
 #include "shared/text.h"
 #include "surface/surface.h"
@@ -25,15 +26,16 @@ namespace {
 constexpr double kNoFeature = std::numeric_limits<double>::quiet_NaN();
 
 /// What a kind follows from.
-enum class Source : std::uint8_t { Curvatures, Moments, Invariants, Gaps };
+enum class Source : std::uint8_t { Curvatures, Moments, Patches };
+constexpr std::array kSources{Source::Curvatures, Source::Moments, Source::Patches};
 
 Source source_of(Feature kind) {
   switch (kind) {
     case Feature::Height:
     case Feature::Variation: return Source::Moments;
     case Feature::Area:
-    case Feature::Volume: return Source::Invariants;
-    case Feature::Gap: return Source::Gaps;
+    case Feature::Volume:
+    case Feature::Gap: return Source::Patches;
     default: return Source::Curvatures;
   }
 }
@@ -66,14 +68,15 @@ double moment_feature(Feature kind, const PrincipalComponents& found, std::size_
   return -4 * dot({center[0] / radius, center[1] / radius, center[2] / radius}, normal);
 }
 
-double invariant_feature(Feature kind, const PatchMeasure& patch, double radius) {
-  if (!(patch.area > 0)) return kNoFeature;
-  if (kind == Feature::Area) return patch.area / radius / radius / std::numbers::pi;
-  return patch.volume / radius / radius / radius / (4 * std::numbers::pi / 3);
-}
-
-double gap_feature(const SurfacePoint& gap, double radius) {
-  return gap.face == kNoFace ? kNoFeature : gap.distance / radius;
+double patch_feature(Feature kind, const FoundPatch& patch, double radius) {
+  if (kind == Feature::Gap) {
+    const SurfacePoint gap = patch.gap();
+    return gap.face == kNoFace ? kNoFeature : gap.distance / radius;
+  }
+  const double area = patch.search.area();
+  if (!(area > 0)) return kNoFeature;
+  if (kind == Feature::Area) return area / radius / radius / std::numbers::pi;
+  return patch.search.volume() / radius / radius / radius / (4 * std::numbers::pi / 3);
 }
 
 /// What one call of `features` computes, radius by radius.
@@ -107,8 +110,7 @@ class FeatureExtraction {
       const auto values = std::span(result).subspan(i * of_radius, of_radius);
       if (needs(Source::Curvatures)) write_curvatures(radii_[i], values);
       if (needs(Source::Moments)) write_moments(radii_[i], values);
-      if (needs(Source::Invariants)) write_invariants(radii_[i], values);
-      if (needs(Source::Gaps)) write_gaps(radii_[i], values);
+      if (needs(Source::Patches)) write_patches(radii_[i], values);
     }
     return result;
   }
@@ -144,7 +146,7 @@ class FeatureExtraction {
   }
 
   void check_patches() const {
-    if (!needs(Source::Invariants) && !needs(Source::Gaps)) return;
+    if (!needs(Source::Patches)) return;
     const std::string kinds = "area, volume and gap are of the surface in a ball: ";
     if (metric_ != Metric::Straight) raise(ErrorCode::InvalidOption, kinds + "expected the straight metric");
     if (!has_faces()) raise(ErrorCode::InvalidOption, kinds + "expected a surface with faces");
@@ -159,13 +161,19 @@ class FeatureExtraction {
   /// `value(kind, row, radius)` for the kinds of a source.
   template <class F>
   void write(Source source, const BatchRadius& radius_of_rows, std::span<double> values, const F& value) const {
-    const std::size_t kinds = options_.kinds.size();
     for (std::size_t row = 0; row < rows_; ++row) {
       const double radius = radius_at(radius_of_rows, row);
-      for (std::size_t i = 0; i < kinds; ++i) {
-        const Feature kind = options_.kinds[i];
-        if (source_of(kind) == source) values[row * kinds + i] = value(kind, row, radius);
-      }
+      write_row(source, row, values, [&](Feature kind) { return value(kind, row, radius); });
+    }
+  }
+
+  /// `value(kind)`.
+  template <class F>
+  void write_row(Source source, std::size_t row, std::span<double> values, const F& value) const {
+    const std::size_t kinds = options_.kinds.size();
+    for (std::size_t i = 0; i < kinds; ++i) {
+      const Feature kind = options_.kinds[i];
+      if (source_of(kind) == source) values[row * kinds + i] = value(kind);
     }
   }
 
@@ -185,24 +193,19 @@ class FeatureExtraction {
     });
   }
 
-  void write_invariants(const BatchRadius& radii, std::span<double> values) {
-    const Invariants found = invariants(surface_, query_of(radii), next_pass());
-    write(Source::Invariants, radii, values, [&](Feature kind, std::size_t row, double radius) {
-      return invariant_feature(kind, {found.area[row], found.volume[row]}, radius);
+  void write_patches(const BatchRadius& radii, std::span<double> values) {
+    const bool measures = std::ranges::any_of(
+        options_.kinds, [](Feature kind) { return kind == Feature::Area || kind == Feature::Volume; });
+    for_each_patch(surface_, query_of(radii), measures, next_pass(), [&](std::size_t row, const FoundPatch& patch) {
+      write_row(Source::Patches, row, values, [&](Feature kind) { return patch_feature(kind, patch, patch.radius); });
     });
-  }
-
-  void write_gaps(const BatchRadius& radii, std::span<double> values) {
-    const std::vector<SurfacePoint> found = gaps(surface_, query_of(radii), next_pass());
-    write(Source::Gaps, radii, values,
-          [&](Feature, std::size_t row, double radius) { return gap_feature(found[row], radius); });
   }
 
   Run next_pass() {
     Run pass{.threads = run_.threads};
     if (!run_.progress) return pass;
     std::size_t passes = 0;
-    for (const Source source : {Source::Curvatures, Source::Moments, Source::Invariants, Source::Gaps}) {
+    for (const Source source : kSources) {
       if (needs(source)) passes += radii_.size();
     }
     pass.progress = [this, passes, before = passes_begun_++ * rows_](std::size_t done, std::size_t /*total*/) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The boxes of the clusters, the nearest first, but those that the patch has as a whole.
-#include "patch/gap.h"
+#include "patch/patches.h"
 
 #include <algorithm>
 #include <array>

@@ -4,6 +4,7 @@ checks."""
 
 import operator
 import os
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -217,6 +218,18 @@ def choice(value, name, choices):
     if not isinstance(value, str) or value not in choices:
         raise ValueError(f"{name}: {value!r}, expected {' or '.join(map(repr, choices))}")
     return value
+
+
+def some_choices(values, name, choices):
+    """One name of `choices`, or several, as a tuple."""
+    if isinstance(values, str):
+        return (choice(values, name, choices),)
+    if not isinstance(values, Iterable):
+        raise TypeError(f"{name}: expected a name or several, not {type(values).__name__}")
+    found = tuple(choice(value, name, choices) for value in values)
+    if not found:
+        raise ValueError(f"{name}: there are none, expected at least one")
+    return found
 
 
 def real_type(dtype):

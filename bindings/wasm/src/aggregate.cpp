@@ -18,7 +18,8 @@ extern "C" {
 [[clang::export_name("aggregate")]] void aggregate(const VertexId* vertices, std::size_t vertex_count, double radius,
                                                    const double* radii, std::size_t radius_count, bool are_scales,
                                                    const double* values, std::size_t value_count, std::size_t channels,
-                                                   const double* weights, std::size_t weight_count, Reduce reduce,
+                                                   const double* weights, std::size_t weight_count,
+                                                   const Reduce* reductions, std::size_t reduction_count,
                                                    SmoothingKernel kernel, MissingValues missing, Nesting nesting,
                                                    double ddof) {
   const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
@@ -29,7 +30,7 @@ extern "C" {
                                      {.vertices = query.vertices,
                                       .radius = query.radius,
                                       .metric = query.metric,
-                                      .reduce = reduce,
+                                      .reduce = {reductions, reductions + reduction_count},
                                       .kernel = kernel,
                                       .missing = missing,
                                       .nesting = nesting,
