@@ -28,13 +28,14 @@
 namespace meshhood::cli {
 namespace {
 
-constexpr Names<Reduce, 7> kReductions{{{"mean", Reduce::Mean},
+constexpr Names<Reduce, 8> kReductions{{{"mean", Reduce::Mean},
                                         {"sum", Reduce::Sum},
                                         {"min", Reduce::Minimum},
                                         {"max", Reduce::Maximum},
                                         {"var", Reduce::Variance},
                                         {"std", Reduce::StandardDeviation},
-                                        {"count", Reduce::Count}}};
+                                        {"count", Reduce::Count},
+                                        {"median", Reduce::Median}}};
 constexpr Names<SmoothingKernel, 4> kKernels{{{"box", SmoothingKernel::Box},
                                               {"epanechnikov", SmoothingKernel::Epanechnikov},
                                               {"biweight", SmoothingKernel::Biweight},

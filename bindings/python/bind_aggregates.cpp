@@ -83,7 +83,8 @@ void bind_aggregates(nb::module_& module) {
       .value("max", Reduce::Maximum)
       .value("var", Reduce::Variance)
       .value("std", Reduce::StandardDeviation)
-      .value("count", Reduce::Count);
+      .value("count", Reduce::Count)
+      .value("median", Reduce::Median);
   nb::enum_<SmoothingKernel>(module, "SmoothingKernel")
       .value("box", SmoothingKernel::Box)
       .value("epanechnikov", SmoothingKernel::Epanechnikov)

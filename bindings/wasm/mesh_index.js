@@ -10,7 +10,7 @@ import { MASKS, METRICS, ROWS, SCALED_ROWS, withMasks, withRows } from './rows.j
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
 const ORDERS = ['index', 'id', 'distance'];
 const UNITS = ['mesh', 'edge'];
-const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count'];
+const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count', 'median'];
 const KERNELS = ['box', 'epanechnikov', 'biweight', 'gaussian'];
 const MISSING = ['propagate', 'omit'];
 const NESTINGS = ['own', 'patch'];

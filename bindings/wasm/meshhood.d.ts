@@ -240,7 +240,7 @@ export interface Rings {
   ids: Uint32Array;
 }
 
-export type Reduction = 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count';
+export type Reduction = 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count' | 'median';
 
 export interface AggregateOptions extends RowOptions, Scales {
   /** One name, or several, which share one search. */

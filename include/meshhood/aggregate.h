@@ -33,6 +33,7 @@ enum class Reduce : std::uint8_t {
   Variance,           ///< of the population: sum of w (x - mean)^2 / sum of w; see `AggregateQuery::ddof`
   StandardDeviation,  ///< the square root of the variance
   Count,              ///< the number of values; ignores the weights
+  Median,             ///< the mean of the two middle ones of an even number of values; ignores the weights
 };
 
 /// How the weight of a vertex falls with its distance d from `v`, for `Reduce::Sum` and `Reduce::Mean`. Distances are

@@ -20,6 +20,7 @@
 #include "aggregate/length_sums.h"
 #include "aggregate/listed_sums.h"
 #include "aggregate/maximal_nodes.h"
+#include "aggregate/medians.h"
 #include "aggregate/minima.h"
 #include "aggregate/node_tree.h"
 #include "aggregate/patch.h"
@@ -116,9 +117,9 @@ class CheckedQuery {
 /// Some channels of the signal, as a reduction needs them.
 SignalBlock make_block(const IndexView& index, SignalView signal, std::size_t first, std::size_t count, Reduce reduce,
                        MissingValues missing) {
-  const bool compares = reduce == Reduce::Minimum || reduce == Reduce::Maximum;
+  const bool compares = reduce == Reduce::Minimum || reduce == Reduce::Maximum || reduce == Reduce::Median;
   if (compares || reduce == Reduce::Count) signal.weights = {};
-  // A minimum handles NaN itself: a 0 in place of a missing value would take part in the minimum.
+  // These handle NaN themselves: a 0 in place of a missing value would be compared with the others.
   return {index, signal, first, count, compares ? MissingValues::Propagate : missing, !compares};
 }
 
@@ -135,6 +136,7 @@ std::unique_ptr<Reduction> make_reduction(const IndexView& index, const NodeTree
       return std::make_unique<VarianceReduction>(
           tree, kernels, std::move(block),
           VarianceOptions{.root = reduce == Reduce::StandardDeviation, .ddof = query.ddof});
+    case Reduce::Median: return std::make_unique<MedianReduction>(tree, std::move(block), query.missing);
     case Reduce::Sum:
     case Reduce::Mean:
     case Reduce::Count: break;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <string>
 #include <thread>
@@ -38,7 +39,7 @@ using testing::IsNan;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array kReductions{Reduce::Sum,     Reduce::Mean,     Reduce::Minimum,
                                  Reduce::Maximum, Reduce::Variance, Reduce::StandardDeviation,
-                                 Reduce::Count};
+                                 Reduce::Count,   Reduce::Median};
 constexpr std::array kKernels{SmoothingKernel::Box, SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight,
                               SmoothingKernel::Gaussian};
 
@@ -76,6 +77,11 @@ long double kernel_weight(SmoothingKernel kernel, long double distance, double r
   return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
 }
 
+double median_of(std::vector<Item> items) {
+  std::ranges::sort(items, {}, &Item::value);
+  return std::midpoint(items[(items.size() - 1) / 2].value, items[items.size() / 2].value);
+}
+
 /// The definitions, in long double.
 Expected reduce_items(std::vector<Item> items, const AggregateQuery& query, double radius) {
   if (query.missing == MissingValues::Omit) {
@@ -104,6 +110,7 @@ Expected reduce_items(std::vector<Item> items, const AggregateQuery& query, doub
     case Reduce::Count: return {static_cast<double>(items.size()), 0};
     case Reduce::Minimum: return {has_nan ? kNan : least, 0};
     case Reduce::Maximum: return {has_nan ? kNan : most, 0};
+    case Reduce::Median: return {has_nan ? kNan : median_of(items), 0};
     case Reduce::Sum: return {as_double(sum), as_double(1e-13L * size)};
     case Reduce::Mean:
       // Weights that nearly vanish come from vertices at the rim alone, and are rounding.
@@ -445,7 +452,7 @@ TEST(AggregateOfATinyCluster, EqualsTheDefinition) {
 }
 
 TEST_F(Aggregate, OfAPatchWithOneRadiusIsThatOfTheNeighborhood) {
-  for (const Reduce reduce : {Reduce::Minimum, Reduce::Maximum, Reduce::Count}) {
+  for (const Reduce reduce : {Reduce::Minimum, Reduce::Maximum, Reduce::Count, Reduce::Median}) {
     AggregateQuery query{.radius = 7, .reduce = {reduce}};
     const auto own = bits_of(run(query));
     query.nesting = Nesting::Patch;
@@ -485,6 +492,7 @@ TEST_F(Aggregate, OfInfiniteValuesFollowsIeee) {
   EXPECT_EQ(of(Reduce::Sum), kInfinity);
   EXPECT_EQ(of(Reduce::Mean), kInfinity);
   EXPECT_EQ(of(Reduce::Minimum), 1);
+  EXPECT_EQ(of(Reduce::Median), 1);
   EXPECT_EQ(of(Reduce::Maximum), kInfinity);
   EXPECT_THAT(of(Reduce::Variance), IsNan());
   values[1] = -kInfinity;

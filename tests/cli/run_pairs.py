@@ -115,7 +115,7 @@ VALUES = {
     ("features", "--count"): ["3"],
     "--threshold": ["0.25"],
     "--kinds": ["mean,crease"],
-    "--reduce": ["sum", "min", "max", "var", "std", "mean,count"],
+    "--reduce": ["sum", "min", "max", "var", "std", "median", "mean,count"],
     "--threads": ["2"],
     "--halo": ["4"],
     "--parts": ["5"],

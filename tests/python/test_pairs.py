@@ -85,7 +85,7 @@ OPTIONS = {
     "mode": {"distance": "distance"},
     "chunk": {"odd": 4999},
     "order": {"index": "index"},
-    "reduce": {name: name for name in ("sum", "min", "max", "var", "std", "count")},
+    "reduce": {name: name for name in ("sum", "min", "max", "var", "std", "count", "median")},
     "kernel": {name: name for name in ("epanechnikov", "biweight", "gaussian")},
     "nan": {"omit": "omit"},
     "nesting": {"patch": "patch"},
@@ -267,7 +267,7 @@ def reduced(words, ids, distances, radius):
         mean = np.sum(w * x) / np.sum(w)
         square = np.sum(w * (x - mean) ** 2) / (np.sum(w) * (1 - words.get("ddof", 0) / len(x)) or np.nan)
         result.append({"sum": np.sum(w * x), "mean": mean, "min": np.min(x), "max": np.max(x), "var": square,
-                       "std": np.sqrt(square), "count": len(x)}[reduce])  # fmt: skip
+                       "std": np.sqrt(square), "count": len(x), "median": np.median(x)}[reduce])  # fmt: skip
     return np.array(result)
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import DTypeLike
     from scipy.sparse import csr_array
 
-Reduce = Literal["sum", "mean", "min", "max", "var", "std", "count"]
+Reduce = Literal["sum", "mean", "min", "max", "var", "std", "count", "median"]
 Reductions = Union[Reduce, Sequence[Reduce]]
 Missing = Literal["propagate", "omit"]
 Nesting = Literal["own", "patch"]
@@ -100,7 +100,7 @@ class Aggregates(Held):
         values : (#V,) or (#V, ...), numbers or bools; each channel by itself. Copied. Or a SurfaceImage of nilearn with
             one part.
         r, scales, vertices, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
-        reduce : "sum", "mean", "min", "max", "var", "std" or "count"; or several of them, which share one search.
+        reduce : "sum", "mean", "min", "max", "var", "std", "count" or "median"; or several, which share one search.
         weights : (#V,) finite and >= 0, for sum, mean, var and std, which leave out a vertex of weight 0; "area" for
             `vertex_areas`. The others ignore them.
         kernel : for sum and mean, how the weight falls with the distance d. None: not at all; "epanechnikov":
