@@ -28,14 +28,15 @@
 namespace meshhood::cli {
 namespace {
 
-constexpr Names<Reduce, 8> kReductions{{{"mean", Reduce::Mean},
+constexpr Names<Reduce, 9> kReductions{{{"mean", Reduce::Mean},
                                         {"sum", Reduce::Sum},
                                         {"min", Reduce::Minimum},
                                         {"max", Reduce::Maximum},
                                         {"var", Reduce::Variance},
                                         {"std", Reduce::StandardDeviation},
                                         {"count", Reduce::Count},
-                                        {"median", Reduce::Median}}};
+                                        {"median", Reduce::Median},
+                                        {"quantile", Reduce::Quantile}}};
 constexpr Names<SmoothingKernel, 4> kKernels{{{"box", SmoothingKernel::Box},
                                               {"epanechnikov", SmoothingKernel::Epanechnikov},
                                               {"biweight", SmoothingKernel::Biweight},
@@ -50,6 +51,10 @@ class AggregateQuantity : public Quantity {
                     values_)
         ->required();
     add_choices(command, "--reduce", "what to compute", names_of(kReductions), reduce_);
+    command
+        .add_option("--quantile", quantile_, "of --reduce quantile, 0 to 1; between two values by linear interpolation")
+        ->type_name("NUMBER")
+        ->capture_default_str();
     CLI::Option* const kernel = add_choice(
         command, "--kernel",
         "how the weight falls with the distance, for sum and mean: box (not at all), epanechnikov, biweight or "
@@ -101,7 +106,8 @@ class AggregateQuantity : public Quantity {
             .reduce = std::move(reductions),
             .kernel = fwhm_ ? SmoothingKernel::Gaussian : value_of(kKernels, kernel_),
             .missing = value_of(kMissing, missing_),
-            .nesting = value_of(kNestings, nesting_)};
+            .nesting = value_of(kNestings, nesting_),
+            .quantile = quantile_};
   }
 
   [[nodiscard]] std::vector<double> weights_of(Input& input) const {
@@ -147,6 +153,7 @@ class AggregateQuantity : public Quantity {
 
   std::string values_;
   std::vector<std::string> reduce_{"mean"};
+  double quantile_ = 0.5;
   std::string kernel_ = "box";
   bool fwhm_ = false;
   std::string weights_;  ///< "area", a file, or empty

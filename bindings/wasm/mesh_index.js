@@ -10,7 +10,7 @@ import { MASKS, METRICS, ROWS, SCALED_ROWS, withMasks, withRows } from './rows.j
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
 const ORDERS = ['index', 'id', 'distance'];
 const UNITS = ['mesh', 'edge'];
-const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count', 'median'];
+const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count', 'median', 'quantile'];
 const KERNELS = ['box', 'epanechnikov', 'biweight', 'gaussian'];
 const MISSING = ['propagate', 'omit'];
 const NESTINGS = ['own', 'patch'];
@@ -35,7 +35,7 @@ const LISTS = { ...QUERY, ...ROWS, ...ANSWER };
 const NEAREST = { r: Infinity, ...ROWS };
 const DISCS = { ...NEAREST, weights: 'area', faces: null };
 const SMOOTHING = { weights: null, faces: null, nan: 'propagate', ...ROWS };
-const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ...SMOOTHING, scales: null };
+const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, q: 0.5, ...SMOOTHING, scales: null };
 const CURVATURE = { ...SCALED_ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true };
 const SURFACE_ROWS = { vertices: null, faces: null, ...MASKS, unit: 'mesh' };
 const INVARIANTS = { ...SURFACE_ROWS, scales: null };
@@ -410,7 +410,7 @@ export class MeshIndex extends Owner {
 
   aggregate(values, r, options = {}) {
     const given = withDefaults(options, AGGREGATION);
-    const { reduce, weights, kernel, nan, nesting, ddof, faces, unit } = given;
+    const { reduce, weights, kernel, nan, nesting, ddof, q, faces, unit } = given;
     const signal = toReals(values, 'values');
     const channels = Math.max(1, Math.floor(signal.length / this.vertexCount) || 0);
     const reductions = chooseSome(REDUCTIONS, reduce, 'reduce');
@@ -418,11 +418,12 @@ export class MeshIndex extends Owner {
       choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'), choose(NESTINGS, nesting, 'nesting'),
     ];
     expectSize(ddof, 'ddof');
+    expectNumber(q, 'q');
     const weighed = this.#weights(weights, faces);
     withRows(this.instance, r, given, this.#scale(unit), (...rows) =>
       this.instance.with([signal, weighed, reductions], (numbers, weightList, list) => this.instance.call('aggregate',
         ...rows, numbers, signal.length, channels, weightList, weighed?.length ?? 0, list, reductions.length,
-        ...choices, ddof)));
+        ...choices, ddof, q)));
     const aggregates = this.instance.takeReals();
     this.instance.releaseAnswer();
     return aggregates;

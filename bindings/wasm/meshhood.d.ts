@@ -240,7 +240,7 @@ export interface Rings {
   ids: Uint32Array;
 }
 
-export type Reduction = 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count' | 'median';
+export type Reduction = 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count' | 'median' | 'quantile';
 
 export interface AggregateOptions extends RowOptions, Scales {
   /** One name, or several, which share one search. */
@@ -265,6 +265,8 @@ export interface AggregateOptions extends RowOptions, Scales {
   nesting?: 'own' | 'patch';
   /** `var` and `std` divide by the number of values minus this, 0 or 1. */
   ddof?: 0 | 1;
+  /** For `quantile`, 0 to 1, with linear interpolation. */
+  q?: number;
 }
 
 /**

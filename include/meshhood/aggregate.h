@@ -33,7 +33,8 @@ enum class Reduce : std::uint8_t {
   Variance,           ///< of the population: sum of w (x - mean)^2 / sum of w; see `AggregateQuery::ddof`
   StandardDeviation,  ///< the square root of the variance
   Count,              ///< the number of values; ignores the weights
-  Median,             ///< the mean of the two middle ones of an even number of values; ignores the weights
+  Median,             ///< the quantile 0.5: of an even number of values, the mean of the two in the middle
+  Quantile,           ///< ignores the weights, as the median; see `AggregateQuery::quantile`
 };
 
 /// How the weight of a vertex falls with its distance d from `v`, for `Reduce::Sum` and `Reduce::Mean`. Distances are
@@ -114,6 +115,10 @@ struct AggregateQuery {
   /// The variance divides by the number of values minus `ddof`: 0, or 1 if there are no weights. With 1, the variance
   /// of a single value is NaN.
   unsigned ddof = 0;
+
+  /// For `Reduce::Quantile`, 0 to 1: of n values in ascending order, that number `quantile (n - 1)` from 0, or between
+  /// two by linear interpolation.
+  double quantile = 0.5;
 };
 
 /// The size of the result: #radii by #rows by channels by #reductions, radius after radius, and row after row; one

@@ -20,10 +20,10 @@
 #include "aggregate/length_sums.h"
 #include "aggregate/listed_sums.h"
 #include "aggregate/maximal_nodes.h"
-#include "aggregate/medians.h"
 #include "aggregate/minima.h"
 #include "aggregate/node_tree.h"
 #include "aggregate/patch.h"
+#include "aggregate/quantiles.h"
 #include "aggregate/signal_block.h"
 #include "aggregate/sums.h"
 #include "aggregate/variances.h"
@@ -67,6 +67,9 @@ void check_reduction(const SignalView& signal, const AggregateQuery& query) {
   const auto has_kernels = [](Reduce reduce) { return reduce == Reduce::Sum || reduce == Reduce::Mean; };
   if (query.kernel != SmoothingKernel::Box && !std::ranges::all_of(query.reduce, has_kernels)) {
     raise(ErrorCode::InvalidOption, "a smoothing kernel is for sum and mean only");
+  }
+  if (!(query.quantile >= 0 && query.quantile <= 1)) {
+    raise(ErrorCode::InvalidOption, "quantile is " + to_text(query.quantile) + ", expected 0 to 1");
   }
   if (query.ddof > 1) raise(ErrorCode::InvalidOption, "ddof is " + std::to_string(query.ddof) + ", expected 0 or 1");
   if (query.ddof == 1 && !signal.weights.empty()) {
@@ -117,7 +120,8 @@ class CheckedQuery {
 /// Some channels of the signal, as a reduction needs them.
 SignalBlock make_block(const IndexView& index, SignalView signal, std::size_t first, std::size_t count, Reduce reduce,
                        MissingValues missing) {
-  const bool compares = reduce == Reduce::Minimum || reduce == Reduce::Maximum || reduce == Reduce::Median;
+  const bool compares =
+      reduce == Reduce::Minimum || reduce == Reduce::Maximum || reduce == Reduce::Median || reduce == Reduce::Quantile;
   if (compares || reduce == Reduce::Count) signal.weights = {};
   // These handle NaN themselves: a 0 in place of a missing value would be compared with the others.
   return {index, signal, first, count, compares ? MissingValues::Propagate : missing, !compares};
@@ -136,7 +140,9 @@ std::unique_ptr<Reduction> make_reduction(const IndexView& index, const NodeTree
       return std::make_unique<VarianceReduction>(
           tree, kernels, std::move(block),
           VarianceOptions{.root = reduce == Reduce::StandardDeviation, .ddof = query.ddof});
-    case Reduce::Median: return std::make_unique<MedianReduction>(tree, std::move(block), query.missing);
+    case Reduce::Median: return std::make_unique<QuantileReduction>(tree, std::move(block), 0.5, query.missing);
+    case Reduce::Quantile:
+      return std::make_unique<QuantileReduction>(tree, std::move(block), query.quantile, query.missing);
     case Reduce::Sum:
     case Reduce::Mean:
     case Reduce::Count: break;

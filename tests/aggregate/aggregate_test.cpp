@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <string>
 #include <thread>
@@ -39,7 +38,7 @@ using testing::IsNan;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array kReductions{Reduce::Sum,     Reduce::Mean,     Reduce::Minimum,
                                  Reduce::Maximum, Reduce::Variance, Reduce::StandardDeviation,
-                                 Reduce::Count,   Reduce::Median};
+                                 Reduce::Count,   Reduce::Median,   Reduce::Quantile};
 constexpr std::array kKernels{SmoothingKernel::Box, SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight,
                               SmoothingKernel::Gaussian};
 
@@ -77,9 +76,13 @@ long double kernel_weight(SmoothingKernel kernel, long double distance, double r
   return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
 }
 
-double median_of(std::vector<Item> items) {
+double quantile_of(std::vector<Item> items, double quantile) {
   std::ranges::sort(items, {}, &Item::value);
-  return std::midpoint(items[(items.size() - 1) / 2].value, items[items.size() / 2].value);
+  const double place = quantile * static_cast<double>(items.size() - 1);
+  const long double lower = items[static_cast<std::size_t>(std::floor(place))].value;
+  const long double upper = items[static_cast<std::size_t>(std::ceil(place))].value;
+  if (lower == upper) return static_cast<double>(lower);
+  return static_cast<double>(lower + (place - std::floor(place)) * (upper - lower));
 }
 
 /// The definitions, in long double.
@@ -110,7 +113,9 @@ Expected reduce_items(std::vector<Item> items, const AggregateQuery& query, doub
     case Reduce::Count: return {static_cast<double>(items.size()), 0};
     case Reduce::Minimum: return {has_nan ? kNan : least, 0};
     case Reduce::Maximum: return {has_nan ? kNan : most, 0};
-    case Reduce::Median: return {has_nan ? kNan : median_of(items), 0};
+    case Reduce::Median: return {has_nan ? kNan : quantile_of(items, 0.5), 0};
+    case Reduce::Quantile:
+      return {has_nan ? kNan : quantile_of(items, query.quantile), 1e-15 * std::max(std::abs(least), std::abs(most))};
     case Reduce::Sum: return {as_double(sum), as_double(1e-13L * size)};
     case Reduce::Mean:
       // Weights that nearly vanish come from vertices at the rim alone, and are rounding.
@@ -289,6 +294,7 @@ TEST_P(AggregateOfFamily, EqualsTheDefinition) {
       for (const Reduce reduce : kReductions) {
         AggregateQuery query;
         query.reduce = {reduce};
+        query.quantile = random.uniform(0, 1);
         query.kernel = may_have_kernel(reduce) ? kKernels[random.below(kKernels.size())] : SmoothingKernel::Box;
         query.missing = random.below(2) == 0 ? MissingValues::Omit : MissingValues::Propagate;
         query.nesting = random.below(2) == 0 ? Nesting::Patch : Nesting::Own;
@@ -349,7 +355,8 @@ TEST_F(Aggregate, OfLargeNeighborhoodsEqualsTheDefinition) {
                                    .reduce = {reduce},
                                    .kernel = kernel,
                                    .missing = MissingValues::Omit,
-                                   .nesting = nesting};
+                                   .nesting = nesting,
+                                   .quantile = 0.9};
         scene.compare(gappy.view(reduce != Reduce::Count), query);
       }
     }
@@ -670,6 +677,9 @@ TEST_F(Aggregate, RefusesWrongArguments) {
   refuse(ErrorCode::InvalidOption, "smoothing kernel", {values},
          {.radius = 1, .reduce = {Reduce::Minimum}, .kernel = SmoothingKernel::Biweight});
   refuse(ErrorCode::InvalidOption, "no reductions", {values}, {.radius = 1, .reduce = {}});
+  for (const double bad : {-0.1, 1.5, kNan}) {
+    refuse(ErrorCode::InvalidOption, "quantile is ", {values}, {.radius = 1, .quantile = bad});
+  }
   refuse(ErrorCode::InvalidOption, "ddof is 2", {values}, {.radius = 1, .reduce = {Reduce::Variance}, .ddof = 2});
   std::vector<double> weights(scene.size(), 1.0);
   refuse(ErrorCode::InvalidOption, "ddof is 1 and there are weights", {values, 1, weights},

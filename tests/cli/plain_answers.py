@@ -429,7 +429,7 @@ def aggregate(run, wrong):
     if "--weights" in asked:
         weights = files.weights if asked["--weights"] == "weights" else areas(question.mesh)
     kernel = "gaussian" if "--fwhm" in asked else asked.get("--kernel", "box")
-    how = (kernel, weights, asked.get("--nan", "propagate"))
+    how = (kernel, weights, asked.get("--nan", "propagate"), float(asked.get("--quantile", 0.5)))
     for row in sample(len(rows)):
         v, radii = int(question.mesh.kept[rows[row]]), question.radii_of(row)
         for scale, r in enumerate(radii):

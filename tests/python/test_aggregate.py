@@ -75,6 +75,7 @@ def test_errors_name_the_argument(plates):
         ("kernel: 'biweight', expected None with reduce='max'", ValueError, lambda: index.aggregate(values, 1, "max", kernel="biweight")),
         ("nan: 'ignore'", ValueError, lambda: index.aggregate(values, 1, nan="ignore")),
         ("nesting: 'both'", ValueError, lambda: index.aggregate(values, 1, nesting="both")),
+        ("q: 1.5, expected 0 to 1", ValueError, lambda: index.aggregate(values, 1, "quantile", q=1.5)),
         ("ddof: 2", ValueError, lambda: index.aggregate(values, 1, "var", ddof=2)),
         ("weights: expected an array of shape", ValueError, lambda: index.aggregate(values, 1, weights=[1, 2])),
         ("weights: vertex 0: -1.0, expected a finite number >= 0", ValueError, lambda: index.aggregate(values, 1, weights=np.full(n, -1.0))),

@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::array kReductions{Reduce::Sum,     Reduce::Mean,     Reduce::Minimum,
                                  Reduce::Maximum, Reduce::Variance, Reduce::StandardDeviation,
-                                 Reduce::Count,   Reduce::Median};
+                                 Reduce::Count,   Reduce::Median,   Reduce::Quantile};
 constexpr std::array kKernels{SmoothingKernel::Box, SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight,
                               SmoothingKernel::Gaussian};
 

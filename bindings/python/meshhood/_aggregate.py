@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import DTypeLike
     from scipy.sparse import csr_array
 
-Reduce = Literal["sum", "mean", "min", "max", "var", "std", "count", "median"]
+Reduce = Literal["sum", "mean", "min", "max", "var", "std", "count", "median", "quantile"]
 Reductions = Union[Reduce, Sequence[Reduce]]
 Missing = Literal["propagate", "omit"]
 Nesting = Literal["own", "patch"]
@@ -58,7 +58,7 @@ class Aggregates(Held):
     def aggregate(
         self, values: ArrayLike, r: Optional[Radii] = None, reduce: Reductions = "mean", *, vertices: Vertices = None,
         scales: Optional[Scales] = None, weights: Weights = None, kernel: Optional[Kernel] = None,
-        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, F: Any = None, metric: Metric = "straight",
+        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, q: Number = 0.5, F: Any = None, metric: Metric = "straight",
         walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh", dtype: Optional[DTypeLike] = None,
         max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
     ) -> Floats: ...  # fmt: skip
@@ -67,7 +67,7 @@ class Aggregates(Held):
     def aggregate(
         self, values: ArrayLike, r: Optional[Radii] = None, reduce: Reductions = "mean", *, vertices: Vertex,
         scales: Optional[Scales] = None, weights: Weights = None, kernel: Optional[Kernel] = None,
-        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, F: Any = None, metric: Metric = "straight",
+        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, q: Number = 0.5, F: Any = None, metric: Metric = "straight",
         walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh", dtype: Optional[DTypeLike] = None,
         max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
     ) -> Union[float, Floats]: ...  # fmt: skip
@@ -85,6 +85,7 @@ class Aggregates(Held):
         nan: Missing = "propagate",
         nesting: Nesting = "own",
         ddof: int = 0,
+        q: Number = 0.5,
         F: Any = None,
         metric: Metric = "straight",
         walls: Mask = None,
@@ -100,7 +101,8 @@ class Aggregates(Held):
         values : (#V,) or (#V, ...), numbers or bools; each channel by itself. Copied. Or a SurfaceImage of nilearn with
             one part.
         r, scales, vertices, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
-        reduce : "sum", "mean", "min", "max", "var", "std", "count" or "median"; or several, which share one search.
+        reduce : "sum", "mean", "min", "max", "var", "std", "count", "median" or "quantile"; or several, which share one
+            search.
         weights : (#V,) finite and >= 0, for sum, mean, var and std, which leave out a vertex of weight 0; "area" for
             `vertex_areas`. The others ignore them.
         kernel : for sum and mean, how the weight falls with the distance d. None: not at all; "epanechnikov":
@@ -111,6 +113,7 @@ class Aggregates(Held):
         nesting : what scales mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the largest,
             and of them the vertices within each smaller radius. With metric="path" or "rings" both are the same.
         ddof : "var" and "std" divide by the number of values minus this, 0 or 1.
+        q : for "quantile", 0 to 1, with linear interpolation as in numpy.quantile.
         F : other faces than those that the index keeps, for weights="area".
         dtype : of the result, float32 or float64. Without it, that of `values` if float32, else float64. All sums are
             computed in float64.
@@ -143,6 +146,7 @@ class Aggregates(Held):
             "missing": getattr(_core.MissingValues, _convert.choice(nan, "nan", ("propagate", "omit"))),
             "nesting": getattr(_core.Nesting, _convert.choice(nesting, "nesting", ("own", "patch"))),
             "ddof": _convert.integer(ddof, "ddof", 0, 1),
+            "quantile": _convert.share(q, "q"),
         }
         if kernel is not None and not {"sum", "mean"}.issuperset(names):
             raise ValueError(f"kernel: {kernel!r}, expected None with reduce={reduce!r}")

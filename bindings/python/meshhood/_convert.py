@@ -257,6 +257,14 @@ def finite(value, name, *, or_zero):
     return value
 
 
+def share(value, name):
+    """`value` as a float from 0 to 1."""
+    value = _number(value, name)
+    if not 0 <= value <= 1:
+        raise ValueError(f"{name}: {value}, expected 0 to 1")
+    return value
+
+
 def positive(value, name):
     value = _integer(value, name)
     if value < 1:

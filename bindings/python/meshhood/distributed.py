@@ -124,6 +124,7 @@ class Parts:
         kernel: Optional[Kernel] = None,
         nan: Literal["propagate", "omit"] = "propagate",
         ddof: int = 0,
+        q: float = 0.5,
         unit: Unit = "mesh",
         order: Literal["mesh", "parts"] = "mesh",
     ) -> da.Array:
@@ -145,7 +146,7 @@ class Parts:
         if weights is not None and not is_area(weights):
             weights = self._per_vertex(weights, "weights")
         names, axis = read_reductions(reduce)
-        options = {"reduce": names if axis else names[0], "kernel": kernel, "nan": nan, "ddof": ddof}
+        options = {"reduce": names if axis else names[0], "kernel": kernel, "nan": nan, "ddof": ddof, "q": q}
         function = functools.partial(aggregate_values, radius, values, weights, options)
         return self.map(function, r, unit=unit, shape=shape_of(values)[1:] + axis, order=order)
 

@@ -21,7 +21,7 @@ extern "C" {
                                                    const double* weights, std::size_t weight_count,
                                                    const Reduce* reductions, std::size_t reduction_count,
                                                    SmoothingKernel kernel, MissingValues missing, Nesting nesting,
-                                                   double ddof) {
+                                                   double ddof, double quantile) {
   const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
   const BatchQuery query = rows.query();
   const SignalView signal{
@@ -34,7 +34,8 @@ extern "C" {
                                       .kernel = kernel,
                                       .missing = missing,
                                       .nesting = nesting,
-                                      .ddof = to_size(ddof)});
+                                      .ddof = to_size(ddof),
+                                      .quantile = quantile});
 }
 
 [[clang::export_name("smoothing_radius")]] double smoothing_radius(double fwhm) {

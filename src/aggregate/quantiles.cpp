@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "aggregate/medians.h"
+#include "aggregate/quantiles.h"
 
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ class OrderedRows {
     words_.push_back(word);
   }
 
-  /// The number of vertices of a row, which `median` needs.
+  /// The number of vertices of a row. Before `place_of`.
   std::size_t count(std::size_t row) {
     words_.resize((ranks_.size() + kBlock - 1) / kBlock * kBlock);
     counts_.clear();
@@ -65,11 +65,11 @@ class OrderedRows {
   std::vector<std::uint32_t> counts_;
 };
 
-class MedianReducer final : public PacketReducer {
+class QuantileReducer final : public PacketReducer {
  public:
-  explicit MedianReducer(const MedianReduction& reduction)
+  explicit QuantileReducer(const QuantileReduction& reduction)
       : reduction_(&reduction),
-        medians_(reduction.channels().size()),
+        results_(reduction.channels().size()),
         words_of_rank_(reduction.channels().front().ranks.size()),
         ranks_(words_of_rank_.size()) {}
 
@@ -94,10 +94,10 @@ class MedianReducer final : public PacketReducer {
 
   void write(std::size_t row, std::span<double> channels) override {
     if (!are_found_) {
-      for (std::size_t i = 0; i < channels.size(); ++i) find(reduction_->channels()[i], medians_[i]);
+      for (std::size_t i = 0; i < channels.size(); ++i) find(reduction_->channels()[i], results_[i]);
       are_found_ = true;
     }
-    for (std::size_t i = 0; i < channels.size(); ++i) channels[i] = medians_[i][row];
+    for (std::size_t i = 0; i < channels.size(); ++i) channels[i] = results_[i][row];
   }
 
  private:
@@ -108,7 +108,7 @@ class MedianReducer final : public PacketReducer {
     std::size_t first;  // of `words_`
   };
 
-  void find(const MedianReduction::Channel& channel, PerLane<double>& medians) {
+  void find(const QuantileReduction::Channel& channel, PerLane<double>& results) {
     for (const Part& part : parts_) {
       for (std::size_t k = 0; k < part.vertices.size(); ++k) {
         const QueryWord word = part.word != 0 ? part.word : words_[part.first + k];
@@ -127,24 +127,29 @@ class MedianReducer final : public PacketReducer {
     });
     for (std::size_t row = 0; row < rows_; ++row) {
       const bool is_nan = reduction_->propagates() && (with_nan >> row & 1U) != 0;
-      medians[row] = is_nan ? kNan : median(channel, row);
+      results[row] = is_nan ? kNan : result(channel, row);
     }
   }
 
-  double median(const MedianReduction::Channel& channel, std::size_t row) {
+  /// Between two values by linear interpolation, as in NumPy.
+  double result(const QuantileReduction::Channel& channel, std::size_t row) {
     const std::size_t count = ordered_.count(row);
     if (count == 0) return kNan;
-    const std::size_t lower = ordered_.place_of(row, (count - 1) / 2);
-    const std::size_t upper = count % 2 == 1 ? lower : ordered_.next(row, lower, 1);
-    return std::midpoint(channel.values[ordered_.rank(lower)], channel.values[ordered_.rank(upper)]);
+    const double place = reduction_->quantile() * static_cast<double>(count - 1);
+    const double share = place - std::floor(place);
+    const std::size_t at = ordered_.place_of(row, static_cast<std::size_t>(place));
+    const double lower = channel.values[ordered_.rank(at)];
+    if (share == 0) return lower;
+    const double upper = channel.values[ordered_.rank(ordered_.next(row, at, 1))];
+    return lower == upper ? lower : (1 - share) * lower + share * upper;
   }
 
-  const MedianReduction* reduction_;
+  const QuantileReduction* reduction_;
   std::size_t rows_ = 0;
   std::vector<Part> parts_;
   std::vector<QueryWord> words_;
   bool are_found_ = false;
-  std::vector<PerLane<double>> medians_;  // by channel
+  std::vector<PerLane<double>> results_;  // by channel
   std::vector<QueryWord> words_of_rank_;
   NumberSet ranks_;  // those of the packet
   OrderedRows ordered_;
@@ -152,8 +157,8 @@ class MedianReducer final : public PacketReducer {
 
 }  // namespace
 
-MedianReduction::MedianReduction(const NodeTree& tree, SignalBlock block, MissingValues missing)
-    : tree_(&tree), missing_(missing) {
+QuantileReduction::QuantileReduction(const NodeTree& tree, SignalBlock block, double quantile, MissingValues missing)
+    : tree_(&tree), quantile_(quantile), missing_(missing) {
   for (const Column& values : block.values()) {
     std::vector<std::uint32_t> places(values.size() - kLeafCapacity);
     std::iota(places.begin(), places.end(), 0U);
@@ -169,6 +174,8 @@ MedianReduction::MedianReduction(const NodeTree& tree, SignalBlock block, Missin
   }
 }
 
-std::unique_ptr<PacketReducer> MedianReduction::make_reducer() const { return std::make_unique<MedianReducer>(*this); }
+std::unique_ptr<PacketReducer> QuantileReduction::make_reducer() const {
+  return std::make_unique<QuantileReducer>(*this);
+}
 
 }  // namespace meshhood

@@ -12,12 +12,12 @@
 
 namespace meshhood {
 
-/// The median. A vertex has a rank by its value, so that the vertices of a packet are read in order without sorting
-/// them: once for all of its rows.
-class MedianReduction final : public Reduction {
+/// A quantile. A vertex has a rank by its value, so that the vertices of a packet are read in order without sorting
+/// them, once for all of its rows.
+class QuantileReduction final : public Reduction {
  public:
   /// The block is not scaled, and its values were not omitted.
-  MedianReduction(const NodeTree& tree, SignalBlock block, MissingValues missing);
+  QuantileReduction(const NodeTree& tree, SignalBlock block, double quantile, MissingValues missing);
 
   [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer() const override;
 
@@ -28,10 +28,12 @@ class MedianReduction final : public Reduction {
 
   [[nodiscard]] const NodeTree& tree() const { return *tree_; }
   [[nodiscard]] std::span<const Channel> channels() const { return channels_; }
+  [[nodiscard]] double quantile() const { return quantile_; }
   [[nodiscard]] bool propagates() const { return missing_ == MissingValues::Propagate; }
 
  private:
   const NodeTree* tree_;
+  double quantile_;
   MissingValues missing_;
   std::vector<Channel> channels_;
 };
