@@ -133,7 +133,7 @@ class AggregateQuantity : public Quantity {
   /// Of several channels, the names of the properties end in the number of the channel.
   void fill(RowTable& table, std::vector<double> found, std::size_t channels) const {
     const std::size_t kinds = reduce_.size();
-    table.columns = {{"values", std::move(found), table.scales, channels, kinds == 1 ? 0 : kinds}};
+    table.columns = {{"values", std::move(found), table.scales, channels, true, kinds == 1 ? 0 : kinds}};
     for (std::size_t i = 0; i < table.scales; ++i) {
       for (std::size_t number = 0; number < channels * kinds; ++number) {
         const std::string end = channels == 1 ? "" : fmt::format("_{}", number / kinds);

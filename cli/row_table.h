@@ -43,8 +43,8 @@ struct Column {
       numbers;
   std::size_t scales = 0;    ///< 0: the array has no axis of scales
   std::size_t channels = 0;  ///< 0: the array has no axis of channels
-  std::size_t kinds = 0;     ///< unless 0, how many kinds of numbers each channel has; they have an axis of their own
   bool is_array = true;      ///< of the .npz; otherwise only of text and meshes
+  std::size_t kinds = 0;     ///< of the numbers of each channel; 0: the array has no axis of kinds
 };
 
 /// One number of each row, or a vector of three: of a table of text, and unless its numbers have 64 bits, which float
