@@ -113,20 +113,20 @@ def together(name, index, workers):
         def each(call, names):
             return [call(name) for name in names]
 
-        contests = [
-            ("mean, std, max", lambda: reduce(THREE), "each", lambda: each(reduce, THREE)),
-            ("median", lambda: reduce("median"), "mean", lambda: reduce("mean")),
-            ("area, volume, gap", lambda: features(PATCHES), "each", lambda: each(features, PATCHES)),
-        ]
-        if len(scales) > 1:
-            both = "mean, std, max; ten kinds"
-            contests = [(both, lambda: [reduce(THREE), features(KINDS)], "each", lambda: each(reduce, THREE) + each(features, KINDS))]
+        if len(scales) == 1:
+            contests = [
+                ("mean, std, max", lambda: reduce(THREE), "each", lambda: each(reduce, THREE)),
+                ("median", lambda: reduce("median"), "mean", lambda: reduce("mean")),
+                ("area, volume, gap", lambda: features(PATCHES), "each", lambda: each(features, PATCHES)),
+            ]
+        else:
+            contests = [("mean, std, max; ten kinds of features", lambda: (reduce(THREE), features(KINDS)),
+                         "each", lambda: (each(reduce, THREE), each(features, KINDS)))]  # fmt: skip
         for what, call, beside, others in contests:
             took = [[seconds(work, workers)[0] for work in (call, others)] for _ in range(ROUNDS)]
             ours, theirs = 1e6 * np.median(took, axis=0) / len(words["vertices"])
             peaks = [peak_of(work) / len(index) for work in (call, others)]
-            shown = edges if len(scales) == 1 else "1 to 16"
-            print(f"| {name} | {shown} | {what} | {beside} | {ours:.2f} | {theirs:.2f} | {ours / theirs:.2f} "
+            print(f"| {name} | {edges if len(scales) == 1 else '1 to 16'} | {what} | {beside} | {ours:.2f} | {theirs:.2f} | {ours / theirs:.2f} "
                   f"| {peaks[0]:.0f} | {peaks[1]:.0f} |", flush=True)  # fmt: skip
 
 

@@ -244,7 +244,7 @@ export type Reduction = 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count'
 
 export interface AggregateOptions extends RowOptions, Scales {
   /** One name, or several, which share one search. */
-  reduce?: Reduction | Reduction[];
+  reduce?: Reduction | readonly Reduction[];
   /**
    * #V numbers >= 0, for `sum`, `mean`, `var` and `std`; `area` is the area that each vertex represents, which needs
    * `faces`. A vertex of weight 0 is left out.
@@ -592,8 +592,8 @@ export class MeshIndex {
    *
    * @param values #V numbers, or #V by channels, vertex after vertex; each channel by itself
    * @param r the radius, or one for each row; null with `scales`
-   * @returns #rows by channels by #reductions, with scales #scales by that. NaN where a neighborhood has no values, as that
-   * of a wall; 0 for their sum.
+   * @returns #rows by channels by #reductions, with scales #scales by that. NaN where a neighborhood has no values, as
+   * that of a wall; 0 for their sum.
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh; TooLarge, which disposes the
    * index
    */

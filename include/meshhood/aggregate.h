@@ -144,9 +144,10 @@ struct AggregateQuery {
 /// leaf are found together, and vertices that they have in common are read once for all of them, most of them as
 /// precomputed sums, but one by one for a Gaussian. Memory: for up to 16 channels at a time 9 bytes for each vertex and
 /// channel, and as much for the weights; with a kernel 14 bytes instead; with a Gaussian 8, for up to 32 channels at a
-/// time; twice as much for a channel with values above 2^300; each for every reduction. Added are the time of `counts`,
-/// 8 to 16 bytes a row of at most 2^22 rows at a time, and for each thread a searcher, 4 bytes for each leaf of the
-/// mesh and 1 kB for each entry of a group (docs/joint.md).
+/// time; twice as much for a channel with values above 2^300; for a quantile 12 more, and 4 a vertex for each thread;
+/// each for every reduction. Added are the time of `counts`, 8 to 16 bytes a row of at most 2^22 rows at a time, and
+/// for each thread a searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md). A
+/// quantile sorts the values of the mesh, once a call.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming row, radius or vertex. The
 /// contents of `result` are then unspecified.

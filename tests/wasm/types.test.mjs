@@ -47,7 +47,7 @@ const USE = `
   const across: Float64Array = index.thickness({ faces, vertices, method: 'sphere' });
   const around: number = index.count(point, 2, { seeds: vertices, walls });
   const lists: Uint32Array[] = [index.viewNeighborhood(42, 2), index.nested(42, scales, { metric: 'rings' }).counts];
-  index.smooth(index.aggregate(gaps, scales, { metric: 'path' }), 3, { metric: 'path', walls });
+  index.smooth(index.aggregate(gaps, scales, { metric: 'path', reduce: ['mean'] }), 3, { metric: 'path', walls });
   index.refitInPlace(mesh.positions, { changed: near });
   const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
   const codes: string[] = [new MeshhoodError().code];

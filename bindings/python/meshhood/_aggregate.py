@@ -58,18 +58,18 @@ class Aggregates(Held):
     def aggregate(
         self, values: ArrayLike, r: Optional[Radii] = None, reduce: Reductions = "mean", *, vertices: Vertices = None,
         scales: Optional[Scales] = None, weights: Weights = None, kernel: Optional[Kernel] = None,
-        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, q: Number = 0.5, F: Any = None, metric: Metric = "straight",
-        walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh", dtype: Optional[DTypeLike] = None,
-        max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
+        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, q: Number = 0.5, F: Any = None,
+        metric: Metric = "straight", walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh",
+        dtype: Optional[DTypeLike] = None, max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
     ) -> Floats: ...  # fmt: skip
 
     @overload
     def aggregate(
         self, values: ArrayLike, r: Optional[Radii] = None, reduce: Reductions = "mean", *, vertices: Vertex,
         scales: Optional[Scales] = None, weights: Weights = None, kernel: Optional[Kernel] = None,
-        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, q: Number = 0.5, F: Any = None, metric: Metric = "straight",
-        walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh", dtype: Optional[DTypeLike] = None,
-        max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
+        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, q: Number = 0.5, F: Any = None,
+        metric: Metric = "straight", walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh",
+        dtype: Optional[DTypeLike] = None, max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
     ) -> Union[float, Floats]: ...  # fmt: skip
 
     def aggregate(
@@ -120,7 +120,8 @@ class Aggregates(Held):
         max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
 
         Returns an axis of scales if there are any, one of vertices unless `vertices` is a single one, the axes of `values`
-        but the first, and one of reductions unless `reduce` is one name. NaN where a neighborhood has no values; 0 for their sum and their count.
+        but the first, and one of reductions unless `reduce` is one name. NaN where a neighborhood has no values; 0 for
+        their sum and their count.
 
         No ids are listed. The cost is that of `counts` and a little for each channel. Sums
         are exact to 1e-14 of the sum of the absolute terms, with a kernel to 1e-13 of the sum without it. A result does
