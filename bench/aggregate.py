@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """The mean of one channel over all neighborhoods, beside a sparse matrix of ours that SciPy multiplies. With --smooth,
-smoothing by a Gaussian beside the biweight nearest to it in L2 and that of the same radius.
+smoothing by a Gaussian beside the biweight nearest to it in L2 and that of the same radius. With --together, one call
+for several quantities beside a call for each, and the median beside the mean, with the memory that they hold.
 
-    PYTHONPATH=build/release/python bench/aggregate.py [--workers N] [--smooth] MESH...
+    PYTHONPATH=build/release/python bench/aggregate.py [--workers N] [--smooth | --together] MESH...
 
 MESH is a file; radii are in mean edge lengths. Both have the same rows, consecutive in index order: all vertices, or
 the first ones, so that the matrix has at most 100 million entries. The matrix is made by `neighborhoods` without sorting,
@@ -20,11 +21,16 @@ import meshhood
 import numpy as np
 from scipy.sparse import csr_array
 
+from memory import peak_of
+
 RADII = (3, 5, 10, 20, 65)
 MOST_ENTRIES = 100_000_000
 ENTRIES_OF_A_PIECE = 20_000_000
 ROUNDS = 3
 WIDTHS = (3, 4, 6, 10)  # in mean edge lengths
+THREE = ("mean", "std", "max")
+PATCHES = ("area", "volume", "gap")
+KINDS = ("mean", "gaussian", "k1", "k2", "curvedness", "shape_index", *PATCHES, "height")
 BIWEIGHT = 1.06165  # its radius by the width of the Gaussian nearest to it, whose standard deviation is 0.4 of it
 
 
@@ -92,22 +98,59 @@ def smooth(name, index, workers):
                 print(f"| {row} | {ours:.2f} | {near:.2f} | {ours / near:.2f} | {ours / same:.2f} |", flush=True)
 
 
+def together(name, index, workers):
+    values = np.random.default_rng(1).normal(size=len(index))
+    for edges in (3, 5, 10, 20, np.arange(1, 17)):
+        scales = np.atleast_1d(edges) * index.mean_edge_length
+        words = {"scales": scales, "vertices": index.permutation[: len(index) // len(scales)], "workers": workers}
+
+        def reduce(names):
+            return index.aggregate(values, reduce=names, **words)  # noqa: B023
+
+        def features(kinds):
+            return index.features(kinds=kinds, **words)  # noqa: B023
+
+        def each(call, names):
+            return [call(name) for name in names]
+
+        if len(scales) == 1:
+            contests = [
+                ("mean, std, max", lambda: reduce(THREE), "each", lambda: each(reduce, THREE)),
+                ("median", lambda: reduce("median"), "mean", lambda: reduce("mean")),
+                ("area, volume, gap", lambda: features(PATCHES), "each", lambda: each(features, PATCHES)),
+            ]
+        else:
+            contests = [("mean, std, max; ten kinds of features", lambda: (reduce(THREE), features(KINDS)),
+                         "each", lambda: (each(reduce, THREE), each(features, KINDS)))]  # fmt: skip
+        for what, call, beside, others in contests:
+            took = [[seconds(work, workers)[0] for work in (call, others)] for _ in range(ROUNDS)]
+            ours, theirs = 1e6 * np.median(took, axis=0) / len(words["vertices"])
+            peaks = [peak_of(work) / len(index) for work in (call, others)]
+            print(f"| {name} | {edges if len(scales) == 1 else '1 to 16'} | {what} | {beside} | {ours:.2f} | {theirs:.2f} | {ours / theirs:.2f} "
+                  f"| {peaks[0]:.0f} | {peaks[1]:.0f} |", flush=True)  # fmt: skip
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--workers", type=int, default=1)
-    parser.add_argument("--smooth", action="store_true")
+    table = parser.add_mutually_exclusive_group()
+    table.add_argument("--smooth", action="store_true")
+    table.add_argument("--together", action="store_true")
     parser.add_argument("meshes", nargs="+", metavar="MESH")
     options = parser.parse_args()
     if options.smooth:
         print("| mesh | channels | metric | width in edges | vertices, Gaussian | biweight "
               "| Gaussian, µs a row | biweight | ratio | ratio at the same radius |")  # fmt: skip
         print("|--|--|--|--|--|--|--|--|--|--|")
+    elif options.together:
+        print("| mesh | radii in edges | one call | beside calls of | µs a row | beside | ratio | bytes a vertex | beside |")
+        print("|--|--|--|--|--|--|--|--|--|")
     else:
         print("| mesh | radius in edges | vertices in it | rows | aggregate, µs a row | matrix, µs a row | ratio |")
         print("|--|--|--|--|--|--|--|")
     for name in options.meshes:
         index = meshhood.MeshIndex(*meshhood.read_mesh(name))
-        (smooth if options.smooth else measure)(Path(name).stem, index, options.workers)
+        (smooth if options.smooth else together if options.together else measure)(Path(name).stem, index, options.workers)
 
 
 if __name__ == "__main__":

@@ -73,7 +73,7 @@ class KernelTargets {
     const BatchQuery batch{.vertices = rows_, .radius = radius};
     const auto aggregated = [this, radius](Reduce reduce, SmoothingKernel kernel) {
       static_cast<void>(aggregate(mesh_.index, {.values = values_},
-                                  {.vertices = rows_, .radius = radius, .reduce = reduce, .kernel = kernel},
+                                  {.vertices = rows_, .radius = radius, .reduce = {reduce}, .kernel = kernel},
                                   {.threads = 1}));
     };
     return {

@@ -13,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "meshhood/error.h"
 
@@ -27,13 +28,15 @@
 namespace meshhood::cli {
 namespace {
 
-constexpr Names<Reduce, 7> kReductions{{{"mean", Reduce::Mean},
+constexpr Names<Reduce, 9> kReductions{{{"mean", Reduce::Mean},
                                         {"sum", Reduce::Sum},
                                         {"min", Reduce::Minimum},
                                         {"max", Reduce::Maximum},
                                         {"var", Reduce::Variance},
                                         {"std", Reduce::StandardDeviation},
-                                        {"count", Reduce::Count}}};
+                                        {"count", Reduce::Count},
+                                        {"median", Reduce::Median},
+                                        {"quantile", Reduce::Quantile}}};
 constexpr Names<SmoothingKernel, 4> kKernels{{{"box", SmoothingKernel::Box},
                                               {"epanechnikov", SmoothingKernel::Epanechnikov},
                                               {"biweight", SmoothingKernel::Biweight},
@@ -47,8 +50,11 @@ class AggregateQuantity : public Quantity {
     add_file_option(command, "--values", "numbers by vertex: text with a line per vertex, or an array of NumPy (.npy)",
                     values_)
         ->required();
-    add_choice(command, "--reduce", "what to compute: mean, sum, min, max, var, std or count", names_of(kReductions),
-               reduce_);
+    add_choices(command, "--reduce", "what to compute", names_of(kReductions), reduce_);
+    command
+        .add_option("--quantile", quantile_, "of --reduce quantile, 0 to 1; between two values by linear interpolation")
+        ->type_name("NUMBER")
+        ->capture_default_str();
     CLI::Option* const kernel = add_choice(
         command, "--kernel",
         "how the weight falls with the distance, for sum and mean: box (not at all), epanechnikov, biweight or "
@@ -72,7 +78,8 @@ class AggregateQuantity : public Quantity {
 
   void check(const RowOptions& rows) const override {
     need_radii(rows);
-    if ((fwhm_ || kernel_ != "box") && reduce_ != "mean" && reduce_ != "sum") {
+    const auto has_kernels = [](const std::string& name) { return name == "mean" || name == "sum"; };
+    if ((fwhm_ || kernel_ != "box") && !std::ranges::all_of(reduce_, has_kernels)) {
       const std::string option = fwhm_ ? "--fwhm" : "--kernel " + kernel_;
       raise(ErrorCode::InvalidOption, option + ": expected --reduce mean or sum");
     }
@@ -92,13 +99,16 @@ class AggregateQuantity : public Quantity {
   /// Borrows `radii` if they are of the rows.
   [[nodiscard]] AggregateQuery query_of(const RowTask& task, const std::vector<double>& radii) const {
     const BatchQuery batch = task.rows.query();
+    std::vector<Reduce> reductions;
+    for (const std::string& name : reduce_) reductions.push_back(value_of(kReductions, name));
     return {.vertices = batch.vertices,
             .radius = batch.radius.scales() ? BatchRadius::scales(radii) : BatchRadius(radii),
             .metric = batch.metric,
-            .reduce = value_of(kReductions, reduce_),
+            .reduce = std::move(reductions),
             .kernel = fwhm_ ? SmoothingKernel::Gaussian : value_of(kKernels, kernel_),
             .missing = value_of(kMissing, missing_),
-            .nesting = value_of(kNestings, nesting_)};
+            .nesting = value_of(kNestings, nesting_),
+            .quantile = quantile_};
   }
 
   [[nodiscard]] std::vector<double> weights_of(Input& input) const {
@@ -123,21 +133,28 @@ class AggregateQuantity : public Quantity {
 
   /// Of several channels, the names of the properties end in the number of the channel.
   void fill(RowTable& table, std::vector<double> found, std::size_t channels) const {
-    table.columns = {{"values", std::move(found), table.scales, channels}};
+    const std::size_t kinds = reduce_.size();
+    table.columns = {{"values", std::move(found), table.scales, channels, true, kinds == 1 ? 0 : kinds}};
     for (std::size_t i = 0; i < table.scales; ++i) {
-      for (std::size_t channel = 0; channel < channels; ++channel) {
-        const std::string end = channels == 1 ? "" : fmt::format("_{}", channel);
-        table.add_property(fmt::format("{}_{}{}", reduce_, i, end), "values", i, channel);
+      for (std::size_t number = 0; number < channels * kinds; ++number) {
+        const std::string end = channels == 1 ? "" : fmt::format("_{}", number / kinds);
+        table.add_property(fmt::format("{}_{}{}", reduce_[number % kinds], i, end), "values", i, number);
       }
     }
-    table.shown = table.properties[(table.scales - 1) * channels].name;
+    table.shown = table.properties[(table.scales - 1) * channels * kinds].name;
     table.summary = {{"reduce", reduce_}, {"channels", channels}};
-    table.text = fmt::format("{}, channels: {}", reduce_, channels);
+    if (kinds == 1) {
+      table.summary["reduce"] = reduce_.front();
+    } else {
+      table.kinds = reduce_;
+    }
+    table.text = fmt::format("{}, channels: {}", fmt::join(reduce_, ", "), channels);
     table.max_bytes = max_bytes_;
   }
 
   std::string values_;
-  std::string reduce_ = "mean";
+  std::vector<std::string> reduce_{"mean"};
+  double quantile_ = 0.5;
   std::string kernel_ = "box";
   bool fwhm_ = false;
   std::string weights_;  ///< "area", a file, or empty
@@ -152,7 +169,7 @@ void add_aggregate(CLI::App& program) {
   add_quantity(program,
                {.name = "aggregate",
                 .description = "Write the mean or another aggregate of values over each neighborhood",
-                .shown = "the first channel at the last radius",
+                .shown = "the first of --reduce for the first channel, at the last radius",
                 .needs_faces = false},
                std::make_shared<AggregateQuantity>());
 }

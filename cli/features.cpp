@@ -14,7 +14,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "meshhood/aggregate.h"
 #include "meshhood/error.h"
@@ -73,13 +72,7 @@ class FeaturesQuantity : public Quantity {
  public:
   void add_options(CLI::App& command) override {
     add_steps(command);
-    command
-        .add_option("--kinds", kinds_,
-                    fmt::format("what to compute, separated by commas: {}", fmt::join(names_of(kKinds), ", ")))
-        ->delimiter(',')
-        ->check(one_of(names_of(kKinds)))
-        ->type_name("NAMES")
-        ->capture_default_str();
+    add_choices(command, "--kinds", "what to compute", names_of(kKinds), kinds_);
     command.add_option("--threshold", threshold_, "the least strength of a feature that persists")
         ->type_name("NUMBER")
         ->capture_default_str();

@@ -191,6 +191,17 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::s
       ->capture_default_str();
 }
 
+CLI::Option* add_choices(CLI::App& command, const std::string& name, const std::string& description,
+                         std::vector<std::string> values, std::vector<std::string>& chosen) {
+  return command
+      .add_option(name, chosen, fmt::format("{}, separated by commas: {}", description, fmt::join(values, ", ")))
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(one_of(std::move(values)))
+      ->type_name("NAMES")
+      ->capture_default_str();
+}
+
 std::array<CLI::Option*, 2> add_reading(CLI::App& command, Reading& reading) {
   CLI::Option* weld = add_weld(command, reading.weld);
   return {weld, add_choice(command, "--precision",

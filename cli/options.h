@@ -48,6 +48,10 @@ CLI::Option* add_vertices(CLI::App& command, const std::string& name, const std:
 CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::string& description,
                         std::vector<std::string> values, std::string& value);
 
+/// The same for one or several, separated by commas.
+CLI::Option* add_choices(CLI::App& command, const std::string& name, const std::string& description,
+                         std::vector<std::string> values, std::vector<std::string>& chosen);
+
 /// An option whose value is the name of a file to read. `-` is standard input, for one argument at most.
 CLI::Option* add_file_option(CLI::App& command, const std::string& name, const std::string& description,
                              std::string& file);

@@ -52,6 +52,7 @@ void write_column(io::NpzWriter& npz, const Column& column, std::size_t rows) {
   if (column.scales > 0) shape.push_back(column.scales);
   shape.push_back(rows);
   if (column.channels > 0) shape.push_back(column.channels);
+  if (column.kinds > 0) shape.push_back(column.kinds);
   const auto write = [&]<class T>(const std::vector<T>& numbers) {
     npz.begin<T>(column.name, shape);
     npz.append<T>(numbers);
@@ -200,7 +201,7 @@ void write_rows(const TableFile& file, RowTable table, const BatchVertices& list
 void RowTable::add_property(std::string name, std::string_view column, std::size_t scale, std::size_t channel,
                             std::size_t width) {
   const auto found = std::ranges::find(columns, column, &Column::name);
-  const std::size_t stride = std::max<std::size_t>(1, found->channels);
+  const std::size_t stride = std::max<std::size_t>(1, found->channels) * std::max<std::size_t>(1, found->kinds);
   properties.push_back({std::move(name), static_cast<std::size_t>(found - columns.begin()),
                         scale * rows * stride + channel, stride, width});
 }

@@ -36,7 +36,7 @@ struct ValueFiles {
   [[nodiscard]] const std::string& first() const { return !table.name.empty() ? table.name : !ply.empty() ? ply : vtk; }
 };
 
-/// What is computed: an array, with `scales` and `channels` numbers of each row, scale after scale.
+/// What is computed: an array, with `scales` by `channels` by `kinds` numbers of each row, scale after scale.
 struct Column {
   std::string name;
   std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::int64_t>, std::vector<std::uint64_t>>
@@ -44,6 +44,7 @@ struct Column {
   std::size_t scales = 0;    ///< 0: the array has no axis of scales
   std::size_t channels = 0;  ///< 0: the array has no axis of channels
   bool is_array = true;      ///< of the .npz; otherwise only of text and meshes
+  std::size_t kinds = 0;     ///< of the numbers of each channel; 0: the array has no axis of kinds
 };
 
 /// One number of each row, or a vector of three: of a table of text, and unless its numbers have 64 bits, which float
@@ -61,7 +62,7 @@ struct RowTable {
   std::size_t rows;
   std::size_t scales = 1;
   std::vector<double> radii = {};       ///< of the scales, or with --radii of the rows
-  std::vector<std::string> kinds = {};  ///< names of the channels, an array of their own; or empty
+  std::vector<std::string> kinds = {};  ///< names on the last axis, an array of their own; or empty
   std::vector<Column> columns = {};
   std::vector<Property> properties = {};
   std::string shown = {};                       ///< the property that a program shows at once, MeshLab as `quality`

@@ -32,7 +32,7 @@ int main() {
   std::vector<double> signal;  // here the column of each vertex
   for (std::size_t v = 0; v < index.vertex_count(); ++v) signal.push_back(static_cast<double>(v % kSide));
   const std::vector<double> means =
-      meshhood::aggregate(index, {.values = signal}, {.radius = 10.0, .reduce = meshhood::Reduce::Mean});
+      meshhood::aggregate(index, {.values = signal}, {.radius = 10.0, .reduce = {meshhood::Reduce::Mean}});
 
   const meshhood::VertexId center = kSide * kSide / 2 + kSide / 2;
   std::printf("means around vertices 0 and %u: %g and %g\n", static_cast<unsigned>(center), means[0], means[center]);

@@ -34,20 +34,22 @@ SignalView signal_of(const Values& values, const std::optional<Weights>& weights
   return signal;
 }
 
-/// A flat array, #radii by #rows by channels. Either `radii`, the scales, or `radius`.
+/// A flat array, #radii by #rows by channels by #reductions. Either `radii`, the scales, or `radius`.
 nb::object aggregates(const ExactMethod& method, const Values& values, const std::optional<Weights>& weights,
-                      const std::optional<Rows>& vertices, std::vector<double> radii, Reduce reduce,
-                      SmoothingKernel kernel, MissingValues missing, Nesting nesting, unsigned ddof, unsigned threads,
-                      std::uint64_t max_bytes, nb::handle progress, const Radius& radius, Metric metric) {
+                      const std::optional<Rows>& vertices, std::vector<double> radii, std::vector<Reduce> reduce,
+                      SmoothingKernel kernel, MissingValues missing, Nesting nesting, unsigned ddof, double quantile,
+                      unsigned threads, std::uint64_t max_bytes, nb::handle progress, const Radius& radius,
+                      Metric metric) {
   const SignalView signal = signal_of(values, weights);
   const AggregateQuery query{.vertices = vertices_of(vertices),
                              .radius = radius ? radius_of(radius) : BatchRadius::scales(std::move(radii)),
                              .metric = metric,
-                             .reduce = reduce,
+                             .reduce = std::move(reduce),
                              .kernel = kernel,
                              .missing = missing,
                              .nesting = nesting,
-                             .ddof = ddof};
+                             .ddof = ddof,
+                             .quantile = quantile};
   const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
   nb::object result = unset(aggregate_size(method.index(), signal, query, run), "float64");
   const std::span<double> numbers = values_of<double>(result);
@@ -83,7 +85,9 @@ void bind_aggregates(nb::module_& module) {
       .value("max", Reduce::Maximum)
       .value("var", Reduce::Variance)
       .value("std", Reduce::StandardDeviation)
-      .value("count", Reduce::Count);
+      .value("count", Reduce::Count)
+      .value("median", Reduce::Median)
+      .value("quantile", Reduce::Quantile);
   nb::enum_<SmoothingKernel>(module, "SmoothingKernel")
       .value("box", SmoothingKernel::Box)
       .value("epanechnikov", SmoothingKernel::Epanechnikov)
@@ -100,8 +104,8 @@ void bind_aggregates(nb::module_& module) {
   nb::enum_<Nesting>(module, "Nesting").value("own", Nesting::Own).value("patch", Nesting::Patch);
   module.def("aggregate", &aggregates, nb::arg(), nb::arg("values"), nb::arg("weights").none(),
              nb::arg("vertices").none(), nb::arg("radii"), nb::arg("reduce"), nb::arg("kernel"), nb::arg("missing"),
-             nb::arg("nesting"), nb::arg("ddof"), nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none(),
-             nb::arg("radius") = nb::none(), nb::arg("metric") = Metric::Straight);
+             nb::arg("nesting"), nb::arg("ddof"), nb::arg("quantile"), nb::arg("threads"), nb::arg("max_bytes"),
+             nb::arg("progress").none(), nb::arg("radius") = nb::none(), nb::arg("metric") = Metric::Straight);
   module.def("vertex_areas", &areas, nb::arg("V"), nb::arg("F"), nb::arg("offsets").none());
   module.def("smoothing_radius", &smoothing_radius, nb::arg());
   module.def("smoothing_weights", &smoothing_weights, nb::arg("kernel"), nb::arg("distances"), nb::arg("radii"));

@@ -29,6 +29,11 @@ export function choose(choices, value, name) {
   throw new MeshhoodError('InvalidOption', `${name}: '${value}', expected one of ${expected}`);
 }
 
+/** The places of one name, or of several. */
+export function chooseSome(choices, values, name) {
+  return Uint8Array.from(typeof values === 'string' ? [values] : values, (value) => choose(choices, value, name));
+}
+
 export function expectType(value, types, name) {
   if (types.some((type) => value instanceof type)) return;
   const found = value === null || typeof value !== 'object' ? String(value) : value.constructor?.name;

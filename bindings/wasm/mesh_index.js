@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import {
-  choose, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectRadius, expectSize,
+  choose, chooseSome, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectRadius, expectSize,
   expectType, expectVertex, expectVertices, toReals, withDefaults, withFaces, withMesh,
 } from './arguments.js';
 import { Curvature } from './curvature.js';
@@ -10,7 +10,7 @@ import { MASKS, METRIC, METRICS, ROWS, SCALED_ROWS, useFaces, withMasks, withRow
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
 const ORDERS = ['index', 'id', 'distance'];
 const UNITS = ['mesh', 'edge'];
-const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count'];
+const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count', 'median', 'quantile'];
 const KERNELS = ['box', 'epanechnikov', 'biweight', 'gaussian'];
 const MISSING = ['propagate', 'omit'];
 const NESTINGS = ['own', 'patch'];
@@ -35,7 +35,7 @@ const LISTS = { ...QUERY, ...ROWS, ...ANSWER };
 const NEAREST = { r: Infinity, ...ROWS };
 const DISCS = { ...NEAREST, weights: 'area' };
 const SMOOTHING = { weights: null, nan: 'propagate', ...ROWS };
-const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ...SMOOTHING, scales: null };
+const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, q: 0.5, ...SMOOTHING, scales: null };
 const CURVATURE = { ...SCALED_ROWS, normals: null, like: null, fit: 'quadric', filter: true };
 const SURFACE_ROWS = { vertices: null, faces: null, ...MASKS, unit: 'mesh' };
 const INVARIANTS = { ...SURFACE_ROWS, scales: null };
@@ -403,18 +403,20 @@ export class MeshIndex extends Owner {
 
   aggregate(values, r, options = {}) {
     const given = withDefaults(options, AGGREGATION);
-    const { reduce, weights, kernel, nan, nesting, ddof, faces, unit } = given;
+    const { reduce, weights, kernel, nan, nesting, ddof, q, faces, unit } = given;
     const signal = toReals(values, 'values');
     const channels = Math.max(1, Math.floor(signal.length / this.vertexCount) || 0);
+    const reductions = chooseSome(REDUCTIONS, reduce, 'reduce');
     const choices = [
-      choose(REDUCTIONS, reduce, 'reduce'), choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'),
-      choose(NESTINGS, nesting, 'nesting'),
+      choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'), choose(NESTINGS, nesting, 'nesting'),
     ];
     expectSize(ddof, 'ddof');
+    expectNumber(q, 'q');
     const weighed = this.#weights(weights, faces);
     withRows(this.instance, r, given, this.#scale(unit), (...rows) =>
-      this.instance.with([signal, weighed], (numbers, weightList) => this.instance.call('aggregate', ...rows,
-        numbers, signal.length, channels, weightList, weighed?.length ?? 0, ...choices, ddof)));
+      this.instance.with([signal, weighed, reductions], (numbers, weightList, list) => this.instance.call('aggregate',
+        ...rows, numbers, signal.length, channels, weightList, weighed?.length ?? 0, list, reductions.length,
+        ...choices, ddof, q)));
     const aggregates = this.instance.takeReals();
     this.instance.releaseAnswer();
     return aggregates;
@@ -453,10 +455,9 @@ export class MeshIndex extends Owner {
   features(r, options = {}) {
     const given = withDefaults(options, FEATURES);
     const { faces, kinds, filter, unit } = given;
-    const names = typeof kinds === 'string' ? [kinds] : kinds;
-    const places = Uint8Array.from(names, (name) => choose(KINDS, name, 'kinds'));
+    const places = chooseSome(KINDS, kinds, 'kinds');
     useFaces(this.instance, faces);
-    const areas = names.some((name) => KINDS_OF_AREAS.includes(name)) ? this.#weights('area', faces) : null;
+    const areas = places.some((place) => KINDS_OF_AREAS.includes(KINDS[place])) ? this.#weights('area', faces) : null;
     withRows(this.instance, r, given, this.#scale(unit), (...rows) =>
       this.instance.with([places, areas], (list, areaList) => this.instance.call(
         'features', ...rows, list, places.length, areaList, areas?.length ?? 0, Boolean(filter))));

@@ -256,8 +256,11 @@ export interface Rings {
   ids: Uint32Array;
 }
 
+export type Reduction = 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count' | 'median' | 'quantile';
+
 export interface AggregateOptions extends RowOptions, Scales {
-  reduce?: 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count';
+  /** One name, or several, which share one search. */
+  reduce?: Reduction | readonly Reduction[];
   /**
    * #V numbers >= 0, for `sum`, `mean`, `var` and `std`; `area` is the area that each vertex represents, which needs
    * `faces`. A vertex of weight 0 is left out.
@@ -277,6 +280,8 @@ export interface AggregateOptions extends RowOptions, Scales {
   nesting?: 'own' | 'patch';
   /** `var` and `std` divide by the number of values minus this, 0 or 1. */
   ddof?: 0 | 1;
+  /** For `quantile`, 0 to 1, with linear interpolation. */
+  q?: number;
 }
 
 /**
@@ -601,8 +606,8 @@ export class MeshIndex {
    *
    * @param values #V numbers, or #V by channels, vertex after vertex; each channel by itself
    * @param r the radius, or one for each row; null with `scales`
-   * @returns #rows by channels, with scales #scales by #rows by channels. NaN where a neighborhood has no values, as that
-   * of a wall; 0 for their sum.
+   * @returns #rows by channels by #reductions, with scales #scales by that. NaN where a neighborhood has no values, as
+   * that of a wall; 0 for their sum.
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh; TooLarge, which disposes the
    * index
    */

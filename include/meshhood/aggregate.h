@@ -33,6 +33,8 @@ enum class Reduce : std::uint8_t {
   Variance,           ///< of the population: sum of w (x - mean)^2 / sum of w; see `AggregateQuery::ddof`
   StandardDeviation,  ///< the square root of the variance
   Count,              ///< the number of values; ignores the weights
+  Median,             ///< the quantile 0.5: of an even number of values, the mean of the two in the middle
+  Quantile,           ///< ignores the weights, as the median; see `AggregateQuery::quantile`
 };
 
 /// How the weight of a vertex falls with its distance d from `v`, for `Reduce::Sum` and `Reduce::Mean`. Distances are
@@ -105,7 +107,7 @@ struct AggregateQuery {
   BatchRadius radius = {};
 
   Metric metric = Metric::Straight;
-  Reduce reduce = Reduce::Mean;
+  std::vector<Reduce> reduce = {Reduce::Mean};  ///< at least one. All share one search
   SmoothingKernel kernel = SmoothingKernel::Box;
   MissingValues missing = MissingValues::Propagate;
   Nesting nesting = Nesting::Own;
@@ -113,11 +115,15 @@ struct AggregateQuery {
   /// The variance divides by the number of values minus `ddof`: 0, or 1 if there are no weights. With 1, the variance
   /// of a single value is NaN.
   unsigned ddof = 0;
+
+  /// For `Reduce::Quantile`, 0 to 1: of n values in ascending order, that number `quantile (n - 1)` from 0, or between
+  /// two by linear interpolation.
+  double quantile = 0.5;
 };
 
-/// The size of the result: #radii by #rows by channels, radius after radius, and row after row; one radius unless there
-/// are scales. Throws Error{TooLarge} if it exceeds the address space or `run.max_bytes`, and Error{InvalidOption}
-/// if there are no channels.
+/// The size of the result: #radii by #rows by channels by #reductions, radius after radius, and row after row; one
+/// radius unless there are scales. Throws Error{TooLarge} if it exceeds the address space or `run.max_bytes`, and
+/// Error{InvalidOption} if there are no channels or no reductions.
 [[nodiscard]] std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query,
                                          const Run& run = {});
 
@@ -126,20 +132,22 @@ struct AggregateQuery {
 ///
 /// Sums are exact to 1e-14 of the sum of the absolute terms, whatever the size of the neighborhood; with a smoothing
 /// kernel to 1e-13 of the sum of |w x|, where w is the weight of the vertex itself (docs/aggregate.md). Each result
-/// depends on index, values, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls,
-/// the number of threads or the processor. Minimum, maximum and count are exact. Values are scaled by a power of two
-/// before they are squared or added, so that only a result too large for a double overflows; large values elsewhere
-/// have no effect. Infinite values give what IEEE arithmetic gives. With a smoothing kernel, a call of more than 16
-/// channels may sum in another way than one of fewer, or one with values above 2^300, so that the last bits differ.
+/// depends on index, values, vertex and radius alone, bit for bit: not on the other rows and reductions of the call,
+/// earlier calls, the number of threads or the processor. Minimum, maximum and count are exact. Values are scaled by a
+/// power of two before they are squared or added, so that only a result too large for a double overflows; large values
+/// elsewhere have no effect. Infinite values give what IEEE arithmetic gives. With a smoothing kernel, a call of more
+/// than 16 channels may sum in another way than one of fewer, or one with values above 2^300, so that the last bits
+/// differ.
 ///
 /// With `Metric::Path`, each row takes the time of a search of a `Searcher` at the largest radius, and the first call
 /// for an index computes the lengths of its edges. In space, each row is searched alone. Else the neighborhoods of one
 /// leaf are found together, and vertices that they have in common are read once for all of them, most of them as
 /// precomputed sums, but one by one for a Gaussian. Memory: for up to 16 channels at a time 9 bytes for each vertex and
 /// channel, and as much for the weights; with a kernel 14 bytes instead; with a Gaussian 8, for up to 32 channels at a
-/// time; twice as much for a channel with values above 2^300. Added are the time of `counts`, 8 to 16 bytes a row of at
-/// most 2^22 rows at a time, and for each thread a searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry
-/// of a group (docs/joint.md).
+/// time; twice as much for a channel with values above 2^300; for a quantile 12 more, and 4 a vertex for each thread;
+/// each for every reduction. Added are the time of `counts`, 8 to 16 bytes a row of at most 2^22 rows at a time, and
+/// for each thread a searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md). A
+/// quantile sorts the values of the mesh, once a call.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming row, radius or vertex. The
 /// contents of `result` are then unspecified.

@@ -135,7 +135,8 @@ struct Invariants {
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run = {});
 
-/// `PatchSearcher::gap` of many vertices, one for each row. Throws as `invariants`, and InvalidRadius for scales.
+/// `PatchSearcher::gap` of many vertices, one for each row; #radii by #rows if the query has scales. Throws as
+/// `invariants`.
 [[nodiscard]] std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, const Run& run = {});
 
 }  // namespace meshhood

@@ -2,6 +2,7 @@
 #include "meshhood/aggregate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -22,6 +23,7 @@
 #include "aggregate/minima.h"
 #include "aggregate/node_tree.h"
 #include "aggregate/patch.h"
+#include "aggregate/quantiles.h"
 #include "aggregate/signal_block.h"
 #include "aggregate/sums.h"
 #include "aggregate/variances.h"
@@ -62,8 +64,12 @@ void check_signal(const SignalView& signal, std::size_t vertices) {
 }
 
 void check_reduction(const SignalView& signal, const AggregateQuery& query) {
-  if (query.kernel != SmoothingKernel::Box && query.reduce != Reduce::Sum && query.reduce != Reduce::Mean) {
+  const auto has_kernels = [](Reduce reduce) { return reduce == Reduce::Sum || reduce == Reduce::Mean; };
+  if (query.kernel != SmoothingKernel::Box && !std::ranges::all_of(query.reduce, has_kernels)) {
     raise(ErrorCode::InvalidOption, "a smoothing kernel is for sum and mean only");
+  }
+  if (!(query.quantile >= 0 && query.quantile <= 1)) {
+    raise(ErrorCode::InvalidOption, "quantile is " + to_text(query.quantile) + ", expected 0 to 1");
   }
   if (query.ddof > 1) raise(ErrorCode::InvalidOption, "ddof is " + std::to_string(query.ddof) + ", expected 0 or 1");
   if (query.ddof == 1 && !signal.weights.empty()) {
@@ -111,33 +117,37 @@ class CheckedQuery {
   std::size_t rows_;
 };
 
-/// Some channels of the signal, as the reduction needs them.
-SignalBlock make_block(const IndexView& index, SignalView signal, std::size_t first, std::size_t count,
-                       const AggregateQuery& query) {
-  const bool compares = query.reduce == Reduce::Minimum || query.reduce == Reduce::Maximum;
-  if (compares || query.reduce == Reduce::Count) signal.weights = {};
-  // A minimum handles NaN itself: a 0 in place of a missing value would take part in the minimum.
-  return {index, signal, first, count, compares ? MissingValues::Propagate : query.missing, !compares};
+/// Some channels of the signal, as a reduction needs them.
+SignalBlock make_block(const IndexView& index, SignalView signal, std::size_t first, std::size_t count, Reduce reduce,
+                       MissingValues missing) {
+  const bool compares =
+      reduce == Reduce::Minimum || reduce == Reduce::Maximum || reduce == Reduce::Median || reduce == Reduce::Quantile;
+  if (compares || reduce == Reduce::Count) signal.weights = {};
+  // These handle NaN themselves: a 0 in place of a missing value would be compared with the others.
+  return {index, signal, first, count, compares ? MissingValues::Propagate : missing, !compares};
 }
 
 std::unique_ptr<Reduction> make_reduction(const IndexView& index, const NodeTree& tree, SignalBlock block,
-                                          const AggregateQuery& query) {
+                                          Reduce reduce, const AggregateQuery& query) {
   const AggregateKernels& kernels = aggregate_kernels(best_isa());
-  switch (query.reduce) {
+  switch (reduce) {
     case Reduce::Minimum:
     case Reduce::Maximum:
-      return std::make_unique<MinimumReduction>(tree, kernels, std::move(block), query.reduce == Reduce::Maximum,
+      return std::make_unique<MinimumReduction>(tree, kernels, std::move(block), reduce == Reduce::Maximum,
                                                 query.missing);
     case Reduce::Variance:
     case Reduce::StandardDeviation:
       return std::make_unique<VarianceReduction>(
           tree, kernels, std::move(block),
-          VarianceOptions{.root = query.reduce == Reduce::StandardDeviation, .ddof = query.ddof});
+          VarianceOptions{.root = reduce == Reduce::StandardDeviation, .ddof = query.ddof});
+    case Reduce::Median: return std::make_unique<QuantileReduction>(tree, std::move(block), 0.5, query.missing);
+    case Reduce::Quantile:
+      return std::make_unique<QuantileReduction>(tree, std::move(block), query.quantile, query.missing);
     case Reduce::Sum:
     case Reduce::Mean:
     case Reduce::Count: break;
   }
-  SumColumns columns(std::move(block), query.reduce);
+  SumColumns columns(std::move(block), reduce);
   if (is_along_edges(query.metric) && query.kernel != SmoothingKernel::Box) {
     return std::make_unique<LengthReduction>(index, kernels, std::move(columns), query.kernel);
   }
@@ -151,11 +161,58 @@ std::unique_ptr<Reduction> make_reduction(const IndexView& index, const NodeTree
                                               query.kernel == SmoothingKernel::Biweight);
 }
 
+/// Several reductions of the same packets: the numbers of a channel side by side.
+class Reductions final : public Reduction {
+ public:
+  explicit Reductions(std::vector<std::unique_ptr<Reduction>> all) : all_(std::move(all)) {}
+
+  [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer() const override {
+    std::vector<std::unique_ptr<PacketReducer>> reducers;
+    for (const auto& reduction : all_) reducers.push_back(reduction->make_reducer());
+    return std::make_unique<Reducers>(std::move(reducers));
+  }
+
+ private:
+  class Reducers final : public PacketReducer {
+   public:
+    explicit Reducers(std::vector<std::unique_ptr<PacketReducer>> all) : all_(std::move(all)) {}
+
+    void begin(const PacketAnswer& packet) override {
+      for (const auto& reducer : all_) reducer->begin(packet);
+    }
+
+    /// The same for all: it follows from metric and kernel.
+    [[nodiscard]] bool takes_nodes() const override { return all_.front()->takes_nodes(); }
+
+    void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) override {
+      for (const auto& reducer : all_) reducer->add_nodes(nodes, queries);
+    }
+
+    void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
+      for (const auto& reducer : all_) reducer->add_leaf(vertices, queries);
+    }
+
+    void write(std::size_t row, std::span<double> numbers) override {
+      std::array<double, kChannelsOfAGaussian> channels;
+      const std::size_t count = numbers.size() / all_.size();
+      for (std::size_t k = 0; k < all_.size(); ++k) {
+        all_[k]->write(row, std::span(channels).first(count));
+        for (std::size_t i = 0; i < count; ++i) numbers[i * all_.size() + k] = channels[i];
+      }
+    }
+
+   private:
+    std::vector<std::unique_ptr<PacketReducer>> all_;
+  };
+
+  std::vector<std::unique_ptr<Reduction>> all_;
+};
+
 /// The destination of the results of one radius and some channels.
 struct Destination {
   double* first;       // of the radius and the first of the channels
-  std::size_t stride;  // from row to row: all channels
-  std::size_t count;   // of channels
+  std::size_t stride;  // from row to row: all channels and reductions
+  std::size_t count;   // of the numbers of a row
 
   void write(const PacketAnswer& packet, PacketReducer& reducer) const {
     for (std::size_t i = 0; i < packet.rows.size(); ++i) {
@@ -187,6 +244,7 @@ class Aggregation {
         radii_(checked.passes()),
         has_patches_(checked.has_patches()),
         rows_(checked.rows()),
+        numbers_(signal.channels * query_.reduce.size()),
         result_(result),
         run_(run),
         together_(query_.kernel == SmoothingKernel::Gaussian ? kChannelsOfAGaussian : kChannelsTogether),
@@ -199,24 +257,32 @@ class Aggregation {
     if (passes_.empty()) return;
     for (std::size_t first = 0; first < signal_.channels; first += together_) {
       const std::size_t count = std::min(together_, signal_.channels - first);
-      const std::unique_ptr<Reduction> reduction =
-          make_reduction(view_, tree_, make_block(view_, signal_, first, count, query_), query_);
+      const Reductions reductions = make_reductions(first, count);
       if (shares_search()) {
-        reduce_scales(*reduction, first, count);
+        reduce_scales(reductions, first, count);
       } else {
-        for (const std::size_t i : passes_) reduce_radius(*reduction, i, first, count);
+        for (const std::size_t i : passes_) reduce_radius(reductions, i, first, count);
       }
     }
   }
 
  private:
+  [[nodiscard]] Reductions make_reductions(std::size_t first, std::size_t count) const {
+    std::vector<std::unique_ptr<Reduction>> all;
+    for (const Reduce reduce : query_.reduce) {
+      SignalBlock block = make_block(view_, signal_, first, count, reduce, query_.missing);
+      all.push_back(make_reduction(view_, tree_, std::move(block), reduce, query_));
+    }
+    return Reductions(std::move(all));
+  }
+
   [[nodiscard]] bool is_listed(const BatchRadius& radius) const {
     return !has_patches_ && !radius.list() && is_better_listed(index_, signal_, query_, radius.common());
   }
 
   /// All channels of one radius.
   void reduce_listed(std::size_t radius) {
-    const std::size_t size = rows_ * signal_.channels;
+    const std::size_t size = rows_ * numbers_;
     sum_listed(index_, signal_, query_, radii_[radius].common(), result_.subspan(radius * size, size),
                next_pass(blocks_));
   }
@@ -272,7 +338,8 @@ class Aggregation {
   }
 
   [[nodiscard]] Destination destination(std::size_t radius, std::size_t first, std::size_t count) const {
-    return {result_.data() + radius * rows_ * signal_.channels + first, signal_.channels, count};
+    const std::size_t reductions = query_.reduce.size();
+    return {result_.data() + radius * rows_ * numbers_ + first * reductions, numbers_, count * reductions};
   }
 
   /// For weights, and to cut scales.
@@ -302,6 +369,7 @@ class Aggregation {
   std::vector<std::size_t> passes_;     // those whose rows are not listed
   bool has_patches_;
   std::size_t rows_;
+  std::size_t numbers_;  // of a row
   std::span<double> result_;
   const Run& run_;
   std::size_t together_;
@@ -340,25 +408,28 @@ class UnchangedSignal {
 };
 
 /// The product, if its doubles fit into memory of `max_bytes`.
-std::size_t checked_size(std::size_t radii, std::size_t rows, std::size_t channels, std::uint64_t max_bytes) {
+std::size_t checked_size(std::size_t radii, std::size_t rows, std::size_t channels, std::size_t reductions,
+                         std::uint64_t max_bytes) {
   const std::uint64_t most =
       std::min<std::uint64_t>(max_bytes, std::numeric_limits<std::ptrdiff_t>::max()) / sizeof(double);
-  const bool fits = rows == 0 || (channels <= most / rows && radii <= most / rows / channels);
+  const bool fits = rows == 0 || (channels <= most / rows && reductions <= most / rows / channels &&
+                                  radii <= most / rows / channels / reductions);
   if (!fits) {
     raise(ErrorCode::TooLarge, std::to_string(radii) + " radii of " + std::to_string(rows) + " rows of " +
-                                   std::to_string(channels) + " channels are more than the limit of " +
-                                   std::to_string(most) + " numbers");
+                                   std::to_string(channels) + " channels by " + std::to_string(reductions) +
+                                   " reductions are more than the limit of " + std::to_string(most) + " numbers");
   }
-  return radii * rows * channels;
+  return radii * rows * channels * reductions;
 }
 
 }  // namespace
 
 std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query, const Run& run) {
   if (signal.channels == 0) raise(ErrorCode::InvalidOption, "channels is 0, expected at least 1");
+  if (query.reduce.empty()) raise(ErrorCode::InvalidOption, "there are no reductions, expected at least one");
   const auto& scales = query.radius.scales();
   return checked_size(scales ? scales->size() : 1, query.vertices.count(index.vertex_count()), signal.channels,
-                      run.max_bytes);
+                      query.reduce.size(), run.max_bytes);
 }
 
 void aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query, std::span<double> result,

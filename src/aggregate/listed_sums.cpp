@@ -107,7 +107,7 @@ class ListedRows {
     }
   }
 
-  /// Writes the channels of a row.
+  /// Writes the reductions of the channels of a row.
   void write(std::size_t row, double* out) const {
     const std::size_t begin = rows_.offsets[row];
     const std::span<const VertexId> ids = std::span(rows_.ids).subspan(begin, rows_.offsets[row + 1] - begin);
@@ -123,14 +123,16 @@ class ListedRows {
               : add<false>(ids, weights, start, signal_.channels, count, sums);
       });
       for (std::size_t c = 0; c < count; ++c) {
-        out[first + c] = result(sums.values[c], omits ? sums.weights[c] : all_weights);
+        for (const Reduce reduce : query_.reduce) {
+          *out++ = result(reduce, sums.values[c], omits ? sums.weights[c] : all_weights);
+        }
       }
     }
   }
 
  private:
-  [[nodiscard]] double result(double sum, double weights) const {
-    if (query_.reduce == Reduce::Mean) sum = weights > 0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
+  [[nodiscard]] static double result(Reduce reduce, double sum, double weights) {
+    if (reduce == Reduce::Mean) sum = weights > 0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
     return std::isnan(sum) ? std::numeric_limits<double>::quiet_NaN() : sum;  // its sign and payload vary
   }
 
@@ -162,6 +164,7 @@ void sum_listed(const Index& index, const SignalView& signal, const AggregateQue
   });
   TaskContext task(run.threads, run.progress, rows.size());
   ListedRows listed(signal, query, radius);
+  const std::size_t numbers = signal.channels * query.reduce.size();
   std::vector<VertexId> vertices;
   for (std::size_t begin = 0; begin < rows.size(); begin += kRowsTogether) {
     const std::span<const std::size_t> some =
@@ -176,7 +179,7 @@ void sum_listed(const Index& index, const SignalView& signal, const AggregateQue
                              {.distances = true}, {.threads = run.threads, .progress = still_wanted}));
     constexpr std::size_t kGrain = 16;
     task.parallel_for(some.size(), kGrain, [&](unsigned thread, std::size_t first, std::size_t end) {
-      for (std::size_t i = first; i < end; ++i) listed.write(i, result.data() + some[i] * signal.channels);
+      for (std::size_t i = first; i < end; ++i) listed.write(i, &result[some[i] * numbers]);
       task.advance(thread, end - first);
     });
   }

@@ -20,7 +20,7 @@ namespace meshhood {
 [[nodiscard]] bool is_better_listed(const Index& index, const SignalView& signal, const AggregateQuery& query,
                                     double radius);
 
-/// Writes `result`, #rows by channels. The query has been checked, and has a smoothing kernel.
+/// Writes `result`, #rows by channels by #reductions. The query has been checked, and has a smoothing kernel.
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
                 std::span<double> result, const Run& run);
 

@@ -31,7 +31,8 @@ class PacketReducer {
   /// Adds each vertex of a leaf, of which rows may have all, to the rows of its word.
   virtual void add_leaf(const VertexRange& vertices, const QueryWord* queries) = 0;
 
-  /// Writes the result of a row, a number for each channel. Called after everything has been added.
+  /// Writes the result of a row, a number for each channel, or for each of its reductions. Called after everything has
+  /// been added.
   virtual void write(std::size_t row, std::span<double> channels) = 0;
 };
 

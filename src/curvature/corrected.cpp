@@ -173,7 +173,7 @@ CorrectedCurvatures corrected_curvatures(const Surface& surface, const BatchQuer
   constexpr std::size_t kChannels = CorrectedCurvatures::kMeasures;
   const std::vector<double> held = measures_by_vertex(state, SurfaceAccess::state(surface).faces().view());
   std::vector<VertexId> listed;
-  AggregateQuery sum{.vertices = {}, .radius = query.radius, .metric = query.metric, .reduce = Reduce::Sum};
+  AggregateQuery sum{.vertices = {}, .radius = query.radius, .metric = query.metric, .reduce = {Reduce::Sum}};
   if (query.vertices.list()) {
     listed.assign(query.vertices.list()->begin(), query.vertices.list()->end());
     sum.vertices = listed;

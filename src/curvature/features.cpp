@@ -2,6 +2,7 @@
 #include "meshhood/features.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,9 +15,8 @@
 
 #include "base/vector.h"
 #include "batch/rows.h"
-#include "patch/row_patches.h"
+#include "patch/patches.h"
 #include "shared/distance.h"
-#include "shared/parallel.h"
 #include "shared/text.h"
 #include "surface/surface.h"
 
@@ -27,6 +27,7 @@ constexpr double kNoFeature = std::numeric_limits<double>::quiet_NaN();
 
 /// What a kind follows from.
 enum class Source : std::uint8_t { Curvatures, Moments, Patches };
+constexpr std::array kSources{Source::Curvatures, Source::Moments, Source::Patches};
 
 Source source_of(Feature kind) {
   switch (kind) {
@@ -67,16 +68,15 @@ double moment_feature(Feature kind, const PrincipalComponents& found, std::size_
   return -4 * dot({center[0] / radius, center[1] / radius, center[2] / radius}, normal);
 }
 
-double patch_feature(Feature kind, const RowPatch& patch) {
-  const double r = patch.radius;
+double patch_feature(Feature kind, const FoundPatch& patch, double radius) {
   if (kind == Feature::Gap) {
     const SurfacePoint gap = patch.gap();
-    return gap.face == kNoFace ? kNoFeature : gap.distance / r;
+    return gap.face == kNoFace ? kNoFeature : gap.distance / radius;
   }
   const double area = patch.search.area();
   if (!(area > 0)) return kNoFeature;
-  if (kind == Feature::Area) return area / r / r / std::numbers::pi;
-  return patch.search.volume() / r / r / r / (4 * std::numbers::pi / 3);
+  if (kind == Feature::Area) return area / radius / radius / std::numbers::pi;
+  return patch.search.volume() / radius / radius / radius / (4 * std::numbers::pi / 3);
 }
 
 /// What one call of `features` computes, radius by radius.
@@ -161,13 +161,19 @@ class FeatureExtraction {
   /// `value(kind, row, radius)` for the kinds of a source.
   template <class F>
   void write(Source source, const BatchRadius& radius_of_rows, std::span<double> values, const F& value) const {
-    const std::size_t kinds = options_.kinds.size();
     for (std::size_t row = 0; row < rows_; ++row) {
       const double radius = radius_at(radius_of_rows, row);
-      for (std::size_t i = 0; i < kinds; ++i) {
-        const Feature kind = options_.kinds[i];
-        if (source_of(kind) == source) values[row * kinds + i] = value(kind, row, radius);
-      }
+      write_row(source, row, values, [&](Feature kind) { return value(kind, row, radius); });
+    }
+  }
+
+  /// `value(kind)`.
+  template <class F>
+  void write_row(Source source, std::size_t row, std::span<double> values, const F& value) const {
+    const std::size_t kinds = options_.kinds.size();
+    for (std::size_t i = 0; i < kinds; ++i) {
+      const Feature kind = options_.kinds[i];
+      if (source_of(kind) == source) values[row * kinds + i] = value(kind);
     }
   }
 
@@ -188,26 +194,18 @@ class FeatureExtraction {
   }
 
   void write_patches(const BatchRadius& radii, std::span<double> values) {
-    const PatchState& state = SurfaceAccess::state(surface_).patches();
-    const Rows rows(query_of(radii), state.index->vertex_count());
-    const Run pass = next_pass();
-    TaskContext task(pass.threads, pass.progress, rows.size());
-    const std::vector<Feature>& kinds = options_.kinds;
-    const bool measures = std::ranges::count(kinds, Feature::Area) + std::ranges::count(kinds, Feature::Volume) > 0;
-    for_each_patch(state, rows, task, measures, [&](const RowPatch& patch) {
-      for (std::size_t i = 0; i < kinds.size(); ++i) {
-        if (source_of(kinds[i]) != Source::Patches) continue;
-        values[patch.row * kinds.size() + i] = patch_feature(kinds[i], patch);
-      }
+    const bool measures = std::ranges::any_of(
+        options_.kinds, [](Feature kind) { return kind == Feature::Area || kind == Feature::Volume; });
+    for_each_patch(surface_, query_of(radii), measures, next_pass(), [&](std::size_t row, const FoundPatch& patch) {
+      write_row(Source::Patches, row, values, [&](Feature kind) { return patch_feature(kind, patch, patch.radius); });
     });
-    task.finish();
   }
 
   Run next_pass() {
     Run pass{.threads = run_.threads};
     if (!run_.progress) return pass;
     std::size_t passes = 0;
-    for (const Source source : {Source::Curvatures, Source::Moments, Source::Patches}) {
+    for (const Source source : kSources) {
       if (needs(source)) passes += radii_.size();
     }
     pass.progress = [this, passes, before = passes_begun_++ * rows_](std::size_t done, std::size_t /*total*/) {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The boxes of the clusters, the nearest first, but those that the patch has as a whole.
-#include "patch/gap.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <variant>
 
 #include "base/vector.h"
+#include "patch/patches.h"
 #include "patch/section.h"
 #include "patch/twofold.h"
 #include "surface/face_tree.h"

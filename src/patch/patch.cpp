@@ -14,8 +14,7 @@
 #include "batch/rows.h"
 #include "exact/query/arguments.h"
 #include "patch/clip.h"
-#include "patch/gap.h"
-#include "patch/row_patches.h"
+#include "patch/patches.h"
 #include "patch/search.h"
 #include "patch/state.h"
 #include "shared/parallel.h"
@@ -42,23 +41,13 @@ void check_metric(const BatchQuery& query) {
   raise(ErrorCode::InvalidOption, "a patch by another metric, expected the straight one");
 }
 
-}  // namespace
-
-void for_each_patch(const PatchState& state, const Rows& rows, TaskContext& task, bool measures,
-                    const std::function<void(const RowPatch&)>& visit) {
-  const std::vector<std::size_t> in_order =
-      rows_by_position(rows.size(), [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; });
-  std::vector<std::unique_ptr<PatchSearch>> searches(task.threads());
-  task.parallel_for(rows.size(), kPatchesAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    if (!searches[thread]) searches[thread] = std::make_unique<PatchSearch>(state);
-    for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
-      const std::size_t row = in_order[i];
-      const bool exists = run_at(state, *searches[thread], rows.vertex(row), rows.radius(row), measures);
-      visit({row, rows.radius(row), state, *searches[thread], exists});
-      task.advance(thread, 1);
-    }
-  });
+/// Of an array #radii by #rows.
+std::size_t result_size(const Surface& surface, const BatchQuery& query) {
+  const auto& scales = query.radius.scales();
+  return (scales ? scales->size() : 1) * query.vertices.count(surface.vertex_count());
 }
+
+}  // namespace
 
 struct PatchSearcher::State {
   explicit State(const Surface& given)
@@ -134,32 +123,46 @@ SurfacePoint PatchSearcher::gap(const PatchStart& start, double radius) {
   return state_->run(start, radius, false) ? find_gap(*state_->surface, state_->search, radius) : SurfacePoint{};
 }
 
-Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run) {
+void for_each_patch(const Surface& surface, const BatchQuery& query, bool measures, const Run& run,
+                    const std::function<void(std::size_t place, const FoundPatch& patch)>& visit) {
   const PatchState& state = SurfaceAccess::state(surface).patches();
   check_metric(query);
   const std::vector<BatchRadius> passes = radius_of_passes(query.radius);
   Rows rows({.vertices = query.vertices, .radius = passes.front()}, state.index->vertex_count());
+  const std::vector<std::size_t> in_order =
+      rows_by_position(rows.size(), [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; });
   TaskContext task(run.threads, run.progress, passes.size() * rows.size());
-  Invariants result{std::vector<double>(passes.size() * rows.size()), std::vector<double>(passes.size() * rows.size())};
+  std::vector<std::unique_ptr<PatchSearch>> searches(task.threads());
   for (std::size_t pass = 0; pass < passes.size(); ++pass) {
     if (query.radius.scales()) rows.set_radius(passes[pass].common());
-    for_each_patch(state, rows, task, true, [&](const RowPatch& patch) {
-      result.area[pass * rows.size() + patch.row] = patch.search.area();
-      result.volume[pass * rows.size() + patch.row] = patch.search.volume();
+    task.parallel_for(rows.size(), kPatchesAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
+      if (!searches[thread]) searches[thread] = std::make_unique<PatchSearch>(state);
+      for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
+        const std::size_t row = in_order[i];
+        const double radius = rows.radius(row);
+        const bool exists = run_at(state, *searches[thread], rows.vertex(row), radius, measures);
+        visit(pass * rows.size() + row, {state, *searches[thread], radius, exists});
+        task.advance(thread, 1);
+      }
     });
   }
   task.finish();
+}
+
+Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run) {
+  const std::size_t size = result_size(surface, query);
+  Invariants result{std::vector<double>(size), std::vector<double>(size)};
+  for_each_patch(surface, query, true, run, [&](std::size_t place, const FoundPatch& patch) {
+    result.area[place] = patch.search.area();
+    result.volume[place] = patch.search.volume();
+  });
   return result;
 }
 
 std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, const Run& run) {
-  const PatchState& state = SurfaceAccess::state(surface).patches();
-  check_metric(query);
-  const Rows rows(query, state.index->vertex_count());
-  TaskContext task(run.threads, run.progress, rows.size());
-  std::vector<SurfacePoint> result(rows.size());
-  for_each_patch(state, rows, task, false, [&](const RowPatch& patch) { result[patch.row] = patch.gap(); });
-  task.finish();
+  std::vector<SurfacePoint> result(result_size(surface, query));
+  for_each_patch(surface, query, false, run,
+                 [&](std::size_t place, const FoundPatch& patch) { result[place] = patch.gap(); });
   return result;
 }
 

@@ -38,7 +38,7 @@ using testing::IsNan;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array kReductions{Reduce::Sum,     Reduce::Mean,     Reduce::Minimum,
                                  Reduce::Maximum, Reduce::Variance, Reduce::StandardDeviation,
-                                 Reduce::Count};
+                                 Reduce::Count,   Reduce::Median,   Reduce::Quantile};
 constexpr std::array kKernels{SmoothingKernel::Box, SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight,
                               SmoothingKernel::Gaussian};
 
@@ -76,12 +76,21 @@ long double kernel_weight(SmoothingKernel kernel, long double distance, double r
   return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
 }
 
+double quantile_of(std::vector<Item> items, double quantile) {
+  std::ranges::sort(items, {}, &Item::value);
+  const double place = quantile * static_cast<double>(items.size() - 1);
+  const long double lower = items[static_cast<std::size_t>(std::floor(place))].value;
+  const long double upper = items[static_cast<std::size_t>(std::ceil(place))].value;
+  if (lower == upper) return static_cast<double>(lower);
+  return static_cast<double>(lower + (place - std::floor(place)) * (upper - lower));
+}
+
 /// The definitions, in long double.
 Expected reduce_items(std::vector<Item> items, const AggregateQuery& query, double radius) {
   if (query.missing == MissingValues::Omit) {
     std::erase_if(items, [](const Item& item) { return std::isnan(item.value); });
   }
-  if (uses_weights(query.reduce)) std::erase_if(items, [](const Item& item) { return item.weight == 0; });
+  if (uses_weights(query.reduce.front())) std::erase_if(items, [](const Item& item) { return item.weight == 0; });
   long double weights = 0;
   long double plain_weights = 0;
   long double sum = 0;
@@ -100,10 +109,13 @@ Expected reduce_items(std::vector<Item> items, const AggregateQuery& query, doub
     has_nan = has_nan || std::isnan(item.value);
   }
   const auto as_double = [](long double value) { return static_cast<double>(value); };
-  switch (query.reduce) {
+  switch (query.reduce.front()) {
     case Reduce::Count: return {static_cast<double>(items.size()), 0};
     case Reduce::Minimum: return {has_nan ? kNan : least, 0};
     case Reduce::Maximum: return {has_nan ? kNan : most, 0};
+    case Reduce::Median: return {has_nan ? kNan : quantile_of(items, 0.5), 0};
+    case Reduce::Quantile:
+      return {has_nan ? kNan : quantile_of(items, query.quantile), 1e-15 * std::max(std::abs(least), std::abs(most))};
     case Reduce::Sum: return {as_double(sum), as_double(1e-13L * size)};
     case Reduce::Mean:
       // Weights that nearly vanish come from vertices at the rim alone, and are rounding.
@@ -122,7 +134,7 @@ Expected reduce_items(std::vector<Item> items, const AggregateQuery& query, doub
   const long double variance = squares / divisor;
   const long double size_of_mean = size / weights;
   const long double tolerance = 1e-10L * variance + 1e-29L * size_of_mean * size_of_mean;
-  if (query.reduce == Reduce::Variance) return {as_double(variance), as_double(tolerance)};
+  if (query.reduce.front() == Reduce::Variance) return {as_double(variance), as_double(tolerance)};
   return {as_double(std::sqrt(variance)), as_double(std::sqrt(variance + tolerance) - std::sqrt(variance))};
 }
 
@@ -199,7 +211,7 @@ class AggregateCase {
       const bool right = std::isnan(expected.value) ? std::isnan(result[i]) || std::isinf(expected.tolerance)
                                                     : std::abs(result[i] - expected.value) <= expected.tolerance;
       EXPECT_TRUE(right) << "vertex " << v << ", radius " << radius << ", channel " << i % signal.channels
-                         << ", reduction " << static_cast<int>(query.reduce) << ", kernel "
+                         << ", reduction " << static_cast<int>(query.reduce.front()) << ", kernel "
                          << static_cast<int>(query.kernel) << ": " << result[i] << " instead of " << expected.value
                          << " +- " << expected.tolerance;
       if (!right) return;
@@ -281,7 +293,8 @@ TEST_P(AggregateOfFamily, EqualsTheDefinition) {
       const TestSignal signal = make_signal(scene.size(), gaps, random);
       for (const Reduce reduce : kReductions) {
         AggregateQuery query;
-        query.reduce = reduce;
+        query.reduce = {reduce};
+        query.quantile = random.uniform(0, 1);
         query.kernel = may_have_kernel(reduce) ? kKernels[random.below(kKernels.size())] : SmoothingKernel::Box;
         query.missing = random.below(2) == 0 ? MissingValues::Omit : MissingValues::Propagate;
         query.nesting = random.below(2) == 0 ? Nesting::Patch : Nesting::Own;
@@ -339,10 +352,11 @@ TEST_F(Aggregate, OfLargeNeighborhoodsEqualsTheDefinition) {
         if (kernel != SmoothingKernel::Box && !may_have_kernel(reduce)) continue;
         const AggregateQuery query{.vertices = leaves,
                                    .radius = BatchRadius::scales({25, 9.5, 3, 60}),
-                                   .reduce = reduce,
+                                   .reduce = {reduce},
                                    .kernel = kernel,
                                    .missing = MissingValues::Omit,
-                                   .nesting = nesting};
+                                   .nesting = nesting,
+                                   .quantile = 0.9};
         scene.compare(gappy.view(reduce != Reduce::Count), query);
       }
     }
@@ -352,12 +366,39 @@ TEST_F(Aggregate, OfLargeNeighborhoodsEqualsTheDefinition) {
 
 TEST_F(Aggregate, OfSeveralRadiiEqualsThatOfEachRadius) {
   for (const Reduce reduce : kReductions) {
-    const std::vector<double> both = run({.radius = BatchRadius::scales({6, 2}), .reduce = reduce});
-    std::vector<double> one_by_one = run({.radius = 6, .reduce = reduce});
-    const std::vector<double> second = run({.radius = 2, .reduce = reduce});
+    const std::vector<double> both = run({.radius = BatchRadius::scales({6, 2}), .reduce = {reduce}});
+    std::vector<double> one_by_one = run({.radius = 6, .reduce = {reduce}});
+    const std::vector<double> second = run({.radius = 2, .reduce = {reduce}});
     one_by_one.insert(one_by_one.end(), second.begin(), second.end());
     EXPECT_EQ(bits_of(both), bits_of(one_by_one));
   }
+}
+
+TEST_F(Aggregate, OfSeveralReductionsHasTheBitsOfEach) {
+  const std::vector<Reduce> sums{Reduce::Mean, Reduce::Sum};
+  const std::vector<Reduce> all(kReductions.begin(), kReductions.end());
+  const auto compare = [&](const SignalView& view, AggregateQuery query, const std::vector<Reduce>& reductions) {
+    query.reduce = reductions;
+    const std::vector<std::uint64_t> together = bits_of(aggregate(scene.index(), view, query, {.threads = 2}));
+    for (std::size_t k = 0; k < reductions.size(); ++k) {
+      query.reduce = {reductions[k]};
+      const std::vector<std::uint64_t> alone = bits_of(aggregate(scene.index(), view, query));
+      ASSERT_EQ(together.size(), reductions.size() * alone.size());
+      for (std::size_t i = 0; i < alone.size(); ++i) ASSERT_EQ(together[i * reductions.size() + k], alone[i]);
+    }
+  };
+  const BatchRadius radii = BatchRadius::scales({5, 2});
+  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
+    for (const Nesting nesting : {Nesting::Own, Nesting::Patch}) {
+      for (const SmoothingKernel kernel : kKernels) {
+        const AggregateQuery query{.radius = radii, .metric = metric, .kernel = kernel, .nesting = nesting};
+        compare(gappy.view(true), query, kernel == SmoothingKernel::Box ? all : sums);
+      }
+    }
+  }
+  const std::vector<double> many(50 * scene.size(), 0.5);  // blocks of channels, and listed rows
+  compare({many, 50}, {.radius = radii, .kernel = SmoothingKernel::Gaussian}, sums);
+  compare({many, 50}, {.radius = 3}, all);
 }
 
 TEST_F(Aggregate, WithARadiusForEachRowEqualsThatOfEachRadiusToTheBit) {
@@ -368,7 +409,7 @@ TEST_F(Aggregate, WithARadiusForEachRowEqualsThatOfEachRadiusToTheBit) {
     for (const Reduce reduce : {Reduce::Mean, Reduce::Maximum, Reduce::StandardDeviation}) {
       for (const SmoothingKernel kernel : kKernels) {
         if (kernel != SmoothingKernel::Box && !may_have_kernel(reduce)) continue;
-        AggregateQuery query{.radius = radii, .metric = metric, .reduce = reduce, .kernel = kernel};
+        AggregateQuery query{.radius = radii, .metric = metric, .reduce = {reduce}, .kernel = kernel};
         const std::vector<std::uint64_t> found = bits_of(run(query, 2));
         query.radius = BatchRadius::scales(choices);
         const std::vector<std::uint64_t> each = bits_of(run(query));
@@ -413,13 +454,13 @@ TEST(AggregateOfATinyCluster, EqualsTheDefinition) {
   Random random(7);
   const TestSignal signal = make_signal(mesh.size(), false, random);
   for (const SmoothingKernel kernel : kKernels) {
-    scene.compare(signal.view(false), {.radius = 7 * step, .reduce = Reduce::Mean, .kernel = kernel});
+    scene.compare(signal.view(false), {.radius = 7 * step, .reduce = {Reduce::Mean}, .kernel = kernel});
   }
 }
 
 TEST_F(Aggregate, OfAPatchWithOneRadiusIsThatOfTheNeighborhood) {
-  for (const Reduce reduce : {Reduce::Minimum, Reduce::Maximum, Reduce::Count}) {
-    AggregateQuery query{.radius = 7, .reduce = reduce};
+  for (const Reduce reduce : {Reduce::Minimum, Reduce::Maximum, Reduce::Count, Reduce::Median}) {
+    AggregateQuery query{.radius = 7, .reduce = {reduce}};
     const auto own = bits_of(run(query));
     query.nesting = Nesting::Patch;
     EXPECT_EQ(bits_of(run(query)), own);
@@ -428,7 +469,7 @@ TEST_F(Aggregate, OfAPatchWithOneRadiusIsThatOfTheNeighborhood) {
 
 TEST_F(Aggregate, ScalesWithPowersOfTwoToTheBit) {
   for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::StandardDeviation, Reduce::Maximum}) {
-    const AggregateQuery query{.radius = 6, .reduce = reduce};
+    const AggregateQuery query{.radius = 6, .reduce = {reduce}};
     const std::vector<double> plain = aggregate(scene.index(), signal.view(false), query);
     for (const int exponent : {-900, -500, 500, 900}) {
       TestSignal scaled_signal = signal;
@@ -443,7 +484,7 @@ TEST_F(Aggregate, ScalesWithPowersOfTwoToTheBit) {
 
 TEST_F(Aggregate, OfTheLargestDoublesOverflowsOnlyWhereTheResultDoes) {
   const std::vector<double> values(scene.size(), 0x1p1023);
-  const auto of = [&](Reduce reduce) { return aggregate(scene.index(), {values}, {.radius = 3, .reduce = reduce}); };
+  const auto of = [&](Reduce reduce) { return aggregate(scene.index(), {values}, {.radius = 3, .reduce = {reduce}}); };
   EXPECT_THAT(of(Reduce::Mean), Each(0x1p1023));
   EXPECT_THAT(of(Reduce::StandardDeviation), Each(0));
   EXPECT_THAT(of(Reduce::Sum), Each(kInfinity));
@@ -453,11 +494,12 @@ TEST_F(Aggregate, OfInfiniteValuesFollowsIeee) {
   std::vector<double> values(scene.size(), 1.0);
   values[0] = kInfinity;
   const auto of = [&](Reduce reduce) {
-    return aggregate(scene.index(), {values}, {.radius = kInfinity, .reduce = reduce}).front();
+    return aggregate(scene.index(), {values}, {.radius = kInfinity, .reduce = {reduce}}).front();
   };
   EXPECT_EQ(of(Reduce::Sum), kInfinity);
   EXPECT_EQ(of(Reduce::Mean), kInfinity);
   EXPECT_EQ(of(Reduce::Minimum), 1);
+  EXPECT_EQ(of(Reduce::Median), 1);
   EXPECT_EQ(of(Reduce::Maximum), kInfinity);
   EXPECT_THAT(of(Reduce::Variance), IsNan());
   values[1] = -kInfinity;
@@ -467,7 +509,7 @@ TEST_F(Aggregate, OfInfiniteValuesFollowsIeee) {
 TEST_F(Aggregate, OfMissingValuesOnlyIsNaNExceptForSumAndCount) {
   const std::vector<double> values(scene.size(), kNan);
   const auto of = [&](Reduce reduce, MissingValues missing) {
-    return aggregate(scene.index(), {values}, {.radius = 3, .reduce = reduce, .missing = missing}).front();
+    return aggregate(scene.index(), {values}, {.radius = 3, .reduce = {reduce}, .missing = missing}).front();
   };
   for (const Reduce reduce : {Reduce::Mean, Reduce::Minimum, Reduce::Maximum, Reduce::Variance}) {
     EXPECT_THAT(of(reduce, MissingValues::Omit), IsNan());
@@ -483,7 +525,7 @@ TEST_F(Aggregate, OfAWholeLeafWithOneMissingValueIsNaN) {
   std::vector<double> values(scene.size(), 1.0);
   values[scene.size() / 2] = kNan;
   const auto of = [&](Reduce reduce, MissingValues missing) {
-    return aggregate(scene.index(), {values}, {.radius = kInfinity, .reduce = reduce, .missing = missing}).front();
+    return aggregate(scene.index(), {values}, {.radius = kInfinity, .reduce = {reduce}, .missing = missing}).front();
   };
   for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::Minimum, Reduce::Maximum, Reduce::Variance}) {
     EXPECT_THAT(of(reduce, MissingValues::Propagate), IsNan());
@@ -496,9 +538,9 @@ TEST_F(Aggregate, IgnoresAHugeValueOutsideTheNeighborhood) {
   std::vector<double> values(scene.size(), 1.0);
   for (std::size_t v = 0; v < scene.size(); v += 2) values[v] = 3.0;
   values[1000] = 1e150;
-  scene.compare({values}, {.radius = 2.2, .reduce = Reduce::Variance});
-  scene.compare({values}, {.radius = 2.2, .reduce = Reduce::Sum});
-  scene.compare({values}, {.radius = 2.2, .reduce = Reduce::Sum, .kernel = SmoothingKernel::Biweight});
+  scene.compare({values}, {.radius = 2.2, .reduce = {Reduce::Variance}});
+  scene.compare({values}, {.radius = 2.2, .reduce = {Reduce::Sum}});
+  scene.compare({values}, {.radius = 2.2, .reduce = {Reduce::Sum}, .kernel = SmoothingKernel::Biweight});
 }
 
 TEST_F(Aggregate, OfSmallValuesDoesNotDependOnHugeOnesElsewhere) {
@@ -517,7 +559,7 @@ TEST_F(Aggregate, OfSmallValuesDoesNotDependOnHugeOnesElsewhere) {
       for (double& weight : scaled_weights) weight *= unit;
       scaled_weights[far] = 1;
       for (const Reduce reduce : kReductions) {
-        const AggregateQuery query{.radius = 4, .reduce = reduce};
+        const AggregateQuery query{.radius = 4, .reduce = {reduce}};
         const std::vector<double> found = aggregate(scene.index(), {values, 1, scaled_weights}, query);
         scaled_weights[far] = 0;  // the largest weight of the others decides their scale
         const std::vector<double> expected = aggregate(scene.index(), {usual, 1, scaled_weights}, query);
@@ -569,7 +611,7 @@ TEST(AggregateWithAKernel, GivesAVertexAtExactlyTheRadiusNoWeight) {
           size += weight * std::abs(values[v]);
         }
         const double found = aggregate(
-            index, {values}, {.vertices = rows, .radius = radius, .reduce = Reduce::Sum, .kernel = kernel})[0];
+            index, {values}, {.vertices = rows, .radius = radius, .reduce = {Reduce::Sum}, .kernel = kernel})[0];
         EXPECT_NEAR(found, static_cast<double>(sum), 1e-13 * static_cast<double>(size))
             << "vertex " << rows[0] << ", radius " << radius << ", biweight " << biweight;
       }
@@ -587,11 +629,11 @@ TEST(AggregateOfIsolatedVertices, IsTheirOwnValue) {
   std::vector<double> values;
   for (int i = 0; i < 50; ++i) values.push_back(i);
   for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::Minimum, Reduce::Maximum}) {
-    EXPECT_EQ(aggregate(index, {values}, {.radius = 1, .reduce = reduce}), values);
+    EXPECT_EQ(aggregate(index, {values}, {.radius = 1, .reduce = {reduce}}), values);
   }
-  EXPECT_THAT(aggregate(index, {values}, {.radius = 1, .reduce = Reduce::Count}), Each(1));
-  EXPECT_THAT(aggregate(index, {values}, {.radius = 1, .reduce = Reduce::Variance}), Each(0));
-  EXPECT_THAT(aggregate(index, {values}, {.radius = 1, .reduce = Reduce::Variance, .ddof = 1}), Each(IsNan()));
+  EXPECT_THAT(aggregate(index, {values}, {.radius = 1, .reduce = {Reduce::Count}}), Each(1));
+  EXPECT_THAT(aggregate(index, {values}, {.radius = 1, .reduce = {Reduce::Variance}}), Each(0));
+  EXPECT_THAT(aggregate(index, {values}, {.radius = 1, .reduce = {Reduce::Variance}, .ddof = 1}), Each(IsNan()));
 }
 
 TEST(AggregateOfFloats, IsThatOfTheSameNumbersAsDoubles) {
@@ -603,7 +645,7 @@ TEST(AggregateOfFloats, IsThatOfTheSameNumbersAsDoubles) {
   floats[77] = std::numeric_limits<float>::quiet_NaN();
   const std::vector<double> doubles(floats.begin(), floats.end());
   for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::Minimum, Reduce::Variance, Reduce::Count}) {
-    const AggregateQuery query{.radius = 2.5, .reduce = reduce, .missing = MissingValues::Omit};
+    const AggregateQuery query{.radius = 2.5, .reduce = {reduce}, .missing = MissingValues::Omit};
     const std::span<const float> values = floats;
     EXPECT_EQ(aggregate(index, {.values = values, .channels = 2}, query),
               aggregate(index, {.values = doubles, .channels = 2}, query));
@@ -633,11 +675,15 @@ TEST_F(Aggregate, RefusesWrongArguments) {
   const std::vector<double> short_list(3, 1.0);
   refuse(ErrorCode::InvalidRadius, "3 radii for 3600 rows", {values}, {.radius = short_list});
   refuse(ErrorCode::InvalidOption, "smoothing kernel", {values},
-         {.radius = 1, .reduce = Reduce::Minimum, .kernel = SmoothingKernel::Biweight});
-  refuse(ErrorCode::InvalidOption, "ddof is 2", {values}, {.radius = 1, .reduce = Reduce::Variance, .ddof = 2});
+         {.radius = 1, .reduce = {Reduce::Minimum}, .kernel = SmoothingKernel::Biweight});
+  refuse(ErrorCode::InvalidOption, "no reductions", {values}, {.radius = 1, .reduce = {}});
+  for (const double bad : {-0.1, 1.5, kNan}) {
+    refuse(ErrorCode::InvalidOption, "quantile is ", {values}, {.radius = 1, .quantile = bad});
+  }
+  refuse(ErrorCode::InvalidOption, "ddof is 2", {values}, {.radius = 1, .reduce = {Reduce::Variance}, .ddof = 2});
   std::vector<double> weights(scene.size(), 1.0);
   refuse(ErrorCode::InvalidOption, "ddof is 1 and there are weights", {values, 1, weights},
-         {.radius = 1, .reduce = Reduce::Variance, .ddof = 1});
+         {.radius = 1, .reduce = {Reduce::Variance}, .ddof = 1});
   for (const double bad : {-1.0, kNan, kInfinity}) {
     weights[0] = bad;
     refuse(ErrorCode::InvalidOption, "vertex 0: the weight is ", {values, 1, weights}, query);

@@ -62,7 +62,7 @@ TEST_P(ListedSumsOf, ManyChannelsAreThoseOfEachByItself) {
       for (const SmoothingKernel kernel :
            {SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight, SmoothingKernel::Gaussian}) {
         const AggregateQuery query{.radius = radius,
-                                   .reduce = reduce,
+                                   .reduce = {reduce},
                                    .kernel = kernel,
                                    .missing = gaps ? MissingValues::Omit : MissingValues::Propagate};
         listed += is_better_listed(index, drawn.view(), query, radius) ? 1 : 0;

@@ -160,7 +160,7 @@ TEST(AggregateWithAGaussian, HasAVertexAtExactlyTheRadius) {
     const AggregateQuery query{.vertices = row,
                                .radius = radius,
                                .metric = metric,
-                               .reduce = Reduce::Sum,
+                               .reduce = {Reduce::Sum},
                                .kernel = SmoothingKernel::Gaussian};
     EXPECT_NEAR(aggregate(build(mesh.view()), {.values = values}, query)[0], 1e-3, 1e-17);
   }

@@ -239,11 +239,11 @@ class Plain:
         return best
 
 
-def aggregate(ids, distances, values, reduce, kernel="box", weights=None, missing="propagate", radius=1.0):
+def aggregate(ids, distances, values, reduce, kernel="box", weights=None, missing="propagate", quantile=0.5, radius=1.0):
     """Of one channel over one neighborhood, as include/meshhood/aggregate.h says."""
     x, w = values[ids], np.ones(len(ids)) if weights is None else weights[ids]
     share = 1 - (np.asarray(distances) / radius) ** 2 if len(ids) else np.zeros(0)
-    kept = (w != 0) if weights is not None and reduce not in ("min", "max", "count") else np.ones(len(ids), bool)
+    kept = (w != 0) if weights is not None and reduce not in ("min", "max", "count", "median", "quantile") else np.ones(len(ids), bool)
     if missing == "omit":
         kept &= ~np.isnan(x)
     x, w, share = x[kept], w[kept], share[kept]
@@ -257,8 +257,8 @@ def aggregate(ids, distances, values, reduce, kernel="box", weights=None, missin
             return float(np.sum(w * x))
         if len(x) == 0 or np.isnan(x).any():
             return math.nan
-        if reduce in ("min", "max"):
-            return float(x.min() if reduce == "min" else x.max())
+        if reduce in ("min", "max", "median", "quantile"):
+            return float(np.quantile(x, {"min": 0, "max": 1, "median": 0.5, "quantile": quantile}[reduce]))
         mean = np.sum(w * x) / np.sum(w)
         variance = np.sum(w * (x - mean) ** 2) / np.sum(w)
         return float({"mean": mean, "var": variance, "std": math.sqrt(variance)}[reduce])

@@ -126,8 +126,11 @@ def table_of_rows(run):
     if "--radii" in run.asked:
         arrays["radii"] = columns.pop("radius")[None]
     if run.command == "aggregate":
-        shape = (-1, run.files.values.shape[1], len(arrays["vertices"]))
-        arrays["values"] = np.stack(list(columns.values())).reshape(shape).swapaxes(1, 2)
+        names = reductions(run)
+        shape = (-1, run.files.values.shape[1], len(names), len(arrays["vertices"]))
+        arrays["values"] = np.moveaxis(np.stack(list(columns.values())).reshape(shape), 3, 1)
+        if len(names) == 1:
+            arrays["values"] = arrays["values"][..., 0]
         return arrays
     if run.command == "features":
         kinds = run.asked.get("--kinds", "crease").split(",")
@@ -407,27 +410,36 @@ def check_mesh_files(run, wrong, quality):
         wrong.append("the file of --vtk lacks the values")
 
 
+def reductions(run):
+    return run.asked.get("--reduce", "mean").split(",")
+
+
 def aggregate(run, wrong):
     question = Question(run)
     check_limit(run, wrong)
     asked, arrays, files = run.asked, arrays_of(run), question.files
     rows, values = question.rows, files.values
-    expect(wrong, "shape", arrays["values"].shape, (len(question.radii_of(0)), len(rows), values.shape[1]))
+    names, results = reductions(run), arrays["values"]
+    axis = (len(names),) if len(names) > 1 else ()
+    expect(wrong, "shape", results.shape, (len(question.radii_of(0)), len(rows), values.shape[1], *axis))
+    if axis:
+        expect(wrong, "kinds", arrays.get("kinds", np.array(names)).tolist(), names)
+    results = results.reshape(*results.shape[:3], len(names))
     check_radii(question, arrays, wrong)
     weights = None
     if "--weights" in asked:
         weights = files.weights if asked["--weights"] == "weights" else areas(question.mesh)
     kernel = "gaussian" if "--fwhm" in asked else asked.get("--kernel", "box")
-    how = (asked.get("--reduce", "mean"), kernel, weights, asked.get("--nan", "propagate"))
+    how = (kernel, weights, asked.get("--nan", "propagate"), float(asked.get("--quantile", 0.5)))
     for row in sample(len(rows)):
         v, radii = int(question.mesh.kept[rows[row]]), question.radii_of(row)
         for scale, r in enumerate(radii):
             found = question.neighborhood(v, max(radii) if asked.get("--nesting") == "patch" else r)
             found = {w: d for w, d in found.items() if d <= r}
             ids, distances = list(found), list(found.values())
-            expected = [plain.aggregate(ids, distances, values[:, c], *how, r) for c in range(values.shape[1])]
-            expect(wrong, f"row {row}, vertex {v}, radius {r}", arrays["values"][scale, row], np.array(expected))
-    check_mesh_files(run, wrong, arrays["values"][-1, :, 0])
+            expected = [[plain.aggregate(ids, distances, x, name, *how, r) for name in names] for x in values.T]
+            expect(wrong, f"row {row}, vertex {v}, radius {r}", results[scale, row], np.array(expected))
+    check_mesh_files(run, wrong, results[-1, :, 0, 0])
     return len(sample(len(rows)))
 
 

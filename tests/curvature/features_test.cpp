@@ -67,6 +67,22 @@ TEST(Features, OfMomentsAreThoseOfPrincipalComponents) {
   }
 }
 
+TEST(Features, OfSeveralKindsHaveTheBitsOfEach) {
+  const Bumps bumps;
+  std::vector<Feature> kinds;
+  for (int kind = 0; kind <= static_cast<int>(Feature::Variation); ++kind) kinds.push_back(static_cast<Feature>(kind));
+  const BatchQuery query{.radius = BatchRadius::scales(bumps.radii)};
+  const std::vector<double> together = features(bumps.surface, query, {.kinds = kinds}, {.threads = 2});
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const std::vector<double> alone = features(bumps.surface, query, {.kinds = {kinds[k]}});
+    ASSERT_EQ(together.size(), kinds.size() * alone.size());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      const double found = together[i * kinds.size() + k];
+      ASSERT_TRUE(found == alone[i] || (std::isnan(found) && std::isnan(alone[i]))) << "kind " << k << ", number " << i;
+    }
+  }
+}
+
 /// The corner of a cube, cut off, and its mirror image 0.2 above.
 TestMesh two_corners() {
   TestMesh mesh;
@@ -107,7 +123,7 @@ TEST(Features, OfPatchesAreInvariantsAndGapsWithoutUnit) {
   EXPECT_TRUE(std::isnan(by_row[4]));
   EXPECT_EQ(by_row[2], found[10]);
   EXPECT_EQ(by_row[7], found[7]);
-  EXPECT_THAT(totals, testing::Each(4U)) << "curvatures, and one search for the others";
+  EXPECT_THAT(totals, testing::Each(4U)) << "curvatures, and patches";
 }
 
 TEST(Features, OfPatchesHaveNoVolumeAtABorderAndNoFacesBehindWalls) {

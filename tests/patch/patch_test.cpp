@@ -491,12 +491,15 @@ TEST(PatchBatch, HasTheSameBitsForAnyThreadsAndRows) {
   const std::vector<double> radii{0.4, 0.1, 1, 0.4};
   const Invariants listed = invariants(test.surface, {.vertices = some, .radius = radii}, {.threads = 2});
   const std::vector<SurfacePoint> nearest = gaps(test.surface, {.vertices = some, .radius = radii}, {.threads = 2});
+  const std::vector<SurfacePoint> of_scales =
+      gaps(test.surface, {.vertices = some, .radius = BatchRadius::scales(scales)}, {.threads = 2});
   for (std::size_t i = 0; i < some.size(); ++i) {
     const auto scale = static_cast<std::size_t>(std::ranges::find(scales, radii[i]) - scales.begin());
     EXPECT_EQ(listed.area[i], one.area[scale * rows + some[i]]);
     EXPECT_EQ(listed.volume[i], one.volume[scale * rows + some[i]]);
     EXPECT_EQ(listed.area[i], test.searcher.measure(some[i], radii[i]).area);
     EXPECT_EQ(nearest[i].distance, test.searcher.gap(some[i], radii[i]).distance);
+    EXPECT_EQ(nearest[i].distance, of_scales[scale * some.size() + i].distance);
   }
 }
 

@@ -25,6 +25,13 @@ def test_shapes(plates):
     assert index.aggregate(values, 1, vertices=[]).shape == (0, 2, 3)
     assert index.aggregate(values[:, :0], 1).shape == (n, 0, 3)
     assert isinstance(index.aggregate(values[:, 0, 0], 1, vertices=5), float)
+    assert index.aggregate(values[:, 0, 0], 1, ["sum"], vertices=5).shape == (1,)
+    three = ("mean", "std", "max")
+    both = index.aggregate(values, scales=[1, 2.5], reduce=three, vertices=[3, 3, 4])
+    assert both.shape == (2, 3, 2, 3, 3)
+    for k, name in enumerate(three):
+        each = index.aggregate(values, scales=[1, 2.5], reduce=name, vertices=[3, 3, 4])
+        np.testing.assert_array_equal(both[..., k], each)
     np.testing.assert_array_equal(index.aggregate(values, 1, vertices=5), index.aggregate(values, 1, vertices=[5])[0])
     mask = np.zeros(n, bool)
     mask[[4, 9]] = True
@@ -59,11 +66,16 @@ def test_errors_name_the_argument(plates):
         ("r: missing, expected a number", TypeError, lambda: index.aggregate(values)),
         ("r: given, but so are scales", TypeError, lambda: index.aggregate(values, 1, scales=[1])),
         ("unexpected keyword argument .sort.", TypeError, lambda: index.aggregate(values, 1, sort="id")),
-        ("reduce: 'median'", ValueError, lambda: index.aggregate(values, 1, "median")),
+        ("reduce: 'medium'", ValueError, lambda: index.aggregate(values, 1, "medium")),
+        ("reduce: 'medium', expected 'sum' or 'mean'", ValueError, lambda: index.aggregate(values, 1, ("mean", "medium"))),
+        ("reduce: there are none", ValueError, lambda: index.aggregate(values, 1, ())),
+        ("reduce: expected a name or several, not int", TypeError, lambda: index.aggregate(values, 1, 3)),
+        ("expected None with reduce=.'mean', 'std'.", ValueError, lambda: index.aggregate(values, 1, ("mean", "std"), kernel="biweight")),
         ("kernel: 'gauss'", ValueError, lambda: index.aggregate(values, 1, kernel="gauss")),
         ("kernel: 'biweight', expected None with reduce='max'", ValueError, lambda: index.aggregate(values, 1, "max", kernel="biweight")),
         ("nan: 'ignore'", ValueError, lambda: index.aggregate(values, 1, nan="ignore")),
         ("nesting: 'both'", ValueError, lambda: index.aggregate(values, 1, nesting="both")),
+        ("q: 1.5, expected 0 to 1", ValueError, lambda: index.aggregate(values, 1, "quantile", q=1.5)),
         ("ddof: 2", ValueError, lambda: index.aggregate(values, 1, "var", ddof=2)),
         ("weights: expected an array of shape", ValueError, lambda: index.aggregate(values, 1, weights=[1, 2])),
         ("weights: vertex 0: -1.0, expected a finite number >= 0", ValueError, lambda: index.aggregate(values, 1, weights=np.full(n, -1.0))),

@@ -110,7 +110,7 @@ ERRORS = (
     ("index.aggregate(V[:5], 1)", ValueError,
         "values: expected an array of shape (50,) or (50, ...), not (5, 3)"),
     ('index.aggregate(V, 1, "average")', ValueError,
-        "reduce: 'average', expected 'sum' or 'mean' or 'min' or 'max' or 'var' or 'std' or 'count'"),
+        "reduce: 'average', expected 'sum' or 'mean' or 'min' or 'max' or 'var' or 'std' or 'count' or 'median' or 'quantile'"),
     ('index.aggregate(V, 1, kernel="gauss")', ValueError,
         "kernel: 'gauss', expected 'epanechnikov' or 'biweight' or 'gaussian'"),
     ('index.aggregate(["a"] * N, 1)', TypeError,

@@ -85,11 +85,12 @@ OPTIONS = {
     "mode": {"distance": "distance"},
     "chunk": {"odd": 4999},
     "order": {"index": "index"},
-    "reduce": {name: name for name in ("sum", "min", "max", "var", "std", "count")},
+    "reduce": {name: name for name in ("sum", "min", "max", "var", "std", "count", "median", "quantile")},
     "kernel": {name: name for name in ("epanechnikov", "biweight", "gaussian")},
     "nan": {"omit": "omit"},
     "nesting": {"patch": "patch"},
     "ddof": {"1": 1},
+    "q": {"0.9": 0.9},
     "weights": {"area": "area", "numbers": AREAS + 0.25},
     "F": {"faces": F},
     "like": {"libigl": "libigl"},
@@ -105,6 +106,7 @@ OPTIONS = {
 # What else an option needs to have an effect.
 WITH = {
     "ddof": {"reduce": "var"},
+    "q": {"reduce": "quantile"},
     "nesting": {"scales": SCALES},
     "F": {"weights": "area"},
     "kernel": {},
@@ -267,7 +269,8 @@ def reduced(words, ids, distances, radius):
         mean = np.sum(w * x) / np.sum(w)
         square = np.sum(w * (x - mean) ** 2) / (np.sum(w) * (1 - words.get("ddof", 0) / len(x)) or np.nan)
         result.append({"sum": np.sum(w * x), "mean": mean, "min": np.min(x), "max": np.max(x), "var": square,
-                       "std": np.sqrt(square), "count": len(x)}[reduce])  # fmt: skip
+                       "std": np.sqrt(square), "count": len(x), "median": np.median(x),
+                       "quantile": np.quantile(x, words.get("q", 0.5))}[reduce])  # fmt: skip
     return np.array(result)
 
 
@@ -665,6 +668,7 @@ OPTIONS_ELSE = {
     "kernel": {"gaussian": "gaussian"},
     "nan": {"omit": "omit"},
     "ddof": {"1": 1},
+    "q": {"0.9": 0.9},
     "order": {"parts": "parts"},
     "like": {"libigl": "libigl"},
     "fit": {"jet": "jet"},

@@ -60,6 +60,7 @@ assert_type(index.nested(3, range(4), metric="rings").ids, Ids)
 assert_type(index.k_nearest(9).distances, Reals)
 assert_type(index.discs(2.0, metric="path").indptr, Offsets)
 assert_type(index.aggregate(np.ones(9), 2.0, "max"), Floats)
+assert_type(index.aggregate(np.ones(9), 2.0, ("mean", "std")), Floats)
 assert_type(index.aggregate(np.ones(9, np.float32), scales=[1.0, 2.0], vertices=[3, 4]), Floats)
 assert_type(index.aggregate([1.0, 2.0], 2.0, vertices=3), Union[float, Singles, Reals])
 assert_type(index.smooth(np.ones(9, np.float32), 2.0, metric="path", walls=walls), Floats)
@@ -110,6 +111,7 @@ REFUSED = (
     "index.count(1, 2.0, sort='id')",
     "index.iter_neighborhoods(vertices=1.0)",
     'index.features(2.0, kinds="sharp")',
+    'index.aggregate([1.0], 2.0, ("mean", "sharp"))',
     'index.neighborhoods(2.0, [1], sort="length")',
     'index.curvature(2.0, metric="miles")',
     'index.smooth([1.0], 2.0, kernel="biweight")',

@@ -44,8 +44,12 @@ for (const [name, mesh] of Object.entries(meshes)) {
       meshhood('aggregate', `${name}.ply`, '--values', 'values.txt', '-o', 'a.npz', ...options);
       return readArrays('a.npz').values;
     };
-    for (const reduce of ['sum', 'mean', 'min', 'max', 'var', 'std', 'count']) {
-      assert.deepEqual(index.aggregate(signal, 3, { reduce }), aggregate('-r', '3', '--reduce', reduce), reduce);
+    const all = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count', 'median', 'quantile'];
+    const together = index.aggregate(signal, 3, { reduce: all, q: 0.9 });
+    assert.deepEqual(together, aggregate('-r', '3', '--reduce', all.join(','), '--quantile', '0.9'));
+    for (const [place, reduce] of all.slice(0, -1).entries()) {
+      const each = index.aggregate(signal, 3, { reduce });
+      assert.deepEqual(each, together.filter((_, i) => i % all.length === place), reduce);
     }
     for (const kernel of ['epanechnikov', 'biweight', 'gaussian']) {
       const expected = aggregate('-r', '2,4', '--kernel', kernel, '--nesting', 'patch', '--weights', 'area');
@@ -156,7 +160,9 @@ test('wrong arguments give the errors of C++ and leave the index usable', () => 
   refuse(() => index.curvature(3, { faces: hills, vertices: [1] }), TypeError);
   const vertices = Uint32Array.of(1, 9999);
   refuse(() => index.curvature(3, { faces: hills, vertices }), { code: 'VertexOutOfRange', message: /row 1/ });
-  refuse(() => index.aggregate(signal, 3, { reduce: 'median' }), { code: 'InvalidOption', message: /^reduce/ });
+  refuse(() => index.aggregate(signal, 3, { reduce: 'medium' }), { code: 'InvalidOption', message: /^reduce/ });
+  refuse(() => index.aggregate(signal, 3, { reduce: [] }), { code: 'InvalidOption', message: /no reductions/ });
+  refuse(() => index.aggregate(signal, 3, { q: 2 }), { code: 'InvalidOption', message: /quantile is 2/ });
   refuse(() => index.aggregate(signal, 3, { reduce: 'max', kernel: 'biweight' }), { message: /kernel is for sum/ });
   refuse(() => index.aggregate(signal, 3, { weights: 'area' }), { code: 'InvalidOption', message: /faces/ });
   refuse(() => index.aggregate(signal, 3, { weights: signal }), { code: 'InvalidOption', message: /weight is -/ });

@@ -49,7 +49,7 @@ const USE = `
   const across: Float64Array = index.thickness({ faces, vertices, method: 'sphere' });
   const around: number = index.count(point, 2, { seeds: vertices, walls });
   const lists: Uint32Array[] = [index.viewNeighborhood(42, 2), index.nested(42, scales, { metric: 'rings' }).counts];
-  index.smooth(index.aggregate(between, scales, { metric: 'surface', faces }), 3, { metric: 'path', walls });
+  index.smooth(index.aggregate(between, scales, { metric: 'surface', faces, reduce: ['mean'] }), 3, { metric: 'path', walls });
   index.refitInPlace(mesh.positions, { changed: near });
   const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
   const codes: string[] = [new MeshhoodError().code];

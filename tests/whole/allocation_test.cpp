@@ -375,7 +375,7 @@ TEST_P(Allocation, FailsInAnAggregate) {
                                                                  {Reduce::Maximum, SmoothingKernel::Box},
                                                                  {Reduce::Variance, SmoothingKernel::Box}}) {
     const AggregateQuery query{.radius = BatchRadius::scales({radius, radius / 2}),
-                               .reduce = reduce,
+                               .reduce = {reduce},
                                .kernel = kernel,
                                .nesting = reduce == Reduce::Mean ? Nesting::Own : Nesting::Patch};
     const std::vector<double> expected = aggregate(index, {values}, query, kOneThread);

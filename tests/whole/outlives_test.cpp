@@ -349,7 +349,7 @@ TEST_F(Outlives, AnAggregateInPlace) {
     for (const SmoothingKernel kernel : {SmoothingKernel::Box, SmoothingKernel::Biweight}) {
       std::vector<double> values(mesh.size() * channels);
       for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i * 37 % 101);
-      const AggregateQuery query{.radius = kRadius, .reduce = Reduce::Mean, .kernel = kernel};
+      const AggregateQuery query{.radius = kRadius, .reduce = {Reduce::Mean}, .kernel = kernel};
       const std::vector<double> expected = aggregate(index, {.values = values, .channels = channels}, query);
       aggregate(index, {.values = values, .channels = channels}, query, values);
       EXPECT_EQ(values, expected) << channels << " channels";
@@ -358,7 +358,7 @@ TEST_F(Outlives, AnAggregateInPlace) {
   std::vector<double> weights(mesh.size(), 2);
   weights[7] = 1;
   const std::vector<double> values(mesh.size(), 3);
-  const AggregateQuery query{.radius = BatchRadius::scales({kRadius}), .reduce = Reduce::Sum};
+  const AggregateQuery query{.radius = BatchRadius::scales({kRadius}), .reduce = {Reduce::Sum}};
   const std::vector<double> expected = aggregate(index, {.values = values, .weights = weights}, query);
   aggregate(index, {.values = values, .weights = weights}, query, weights);
   EXPECT_EQ(weights, expected);

@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::array kReductions{Reduce::Sum,     Reduce::Mean,     Reduce::Minimum,
                                  Reduce::Maximum, Reduce::Variance, Reduce::StandardDeviation,
-                                 Reduce::Count};
+                                 Reduce::Count,   Reduce::Median,   Reduce::Quantile};
 constexpr std::array kKernels{SmoothingKernel::Box, SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight,
                               SmoothingKernel::Gaussian};
 
@@ -128,7 +128,7 @@ std::vector<Call> aggregates(const Scene& scene, double radius) {
                              std::to_string(static_cast<int>(nesting)),
                          [&scene, radius, reduce, kernel, nesting](const auto& rows, unsigned threads) {
                            AggregateQuery query{.vertices = rows, .radius = BatchRadius::scales({radius, radius / 2})};
-                           query.reduce = reduce;
+                           query.reduce = {reduce};
                            query.kernel = kernel;
                            query.nesting = nesting;
                            const std::vector<double> both =

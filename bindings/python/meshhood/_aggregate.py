@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union, get_args, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,13 +21,13 @@ if TYPE_CHECKING:
     from numpy.typing import DTypeLike
     from scipy.sparse import csr_array
 
-Reduce = Literal["sum", "mean", "min", "max", "var", "std", "count"]
+Reduce = Literal["sum", "mean", "min", "max", "var", "std", "count", "median", "quantile"]
+Reductions = Union[Reduce, Sequence[Reduce]]
 Missing = Literal["propagate", "omit"]
 Nesting = Literal["own", "patch"]
 Kernel = Literal["epanechnikov", "biweight", "gaussian"]
 
 _KERNELS = ("epanechnikov", "biweight", "gaussian")
-_REDUCTIONS = ("sum", "mean", "min", "max", "var", "std", "count")
 
 
 def smoothing_radius(fwhm: Number) -> float:
@@ -55,27 +56,27 @@ class Aggregates(Held):
 
     @overload
     def aggregate(
-        self, values: ArrayLike, r: Optional[Radii] = None, reduce: Reduce = "mean", *, vertices: Vertices = None,
+        self, values: ArrayLike, r: Optional[Radii] = None, reduce: Reductions = "mean", *, vertices: Vertices = None,
         scales: Optional[Scales] = None, weights: Weights = None, kernel: Optional[Kernel] = None,
-        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, F: Any = None, metric: Metric = "straight",
-        walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh", dtype: Optional[DTypeLike] = None,
-        max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
+        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, q: Number = 0.5, F: Any = None,
+        metric: Metric = "straight", walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh",
+        dtype: Optional[DTypeLike] = None, max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
     ) -> Floats: ...  # fmt: skip
 
     @overload
     def aggregate(
-        self, values: ArrayLike, r: Optional[Radii] = None, reduce: Reduce = "mean", *, vertices: Vertex,
+        self, values: ArrayLike, r: Optional[Radii] = None, reduce: Reductions = "mean", *, vertices: Vertex,
         scales: Optional[Scales] = None, weights: Weights = None, kernel: Optional[Kernel] = None,
-        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, F: Any = None, metric: Metric = "straight",
-        walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh", dtype: Optional[DTypeLike] = None,
-        max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
+        nan: Missing = "propagate", nesting: Nesting = "own", ddof: int = 0, q: Number = 0.5, F: Any = None,
+        metric: Metric = "straight", walls: Mask = None, ignored: Mask = None, unit: Unit = "mesh",
+        dtype: Optional[DTypeLike] = None, max_bytes: Optional[int] = None, workers: int = -1, progress: Progress = None,
     ) -> Union[float, Floats]: ...  # fmt: skip
 
     def aggregate(
         self,
         values: ArrayLike,
         r: Optional[Radii] = None,
-        reduce: Reduce = "mean",
+        reduce: Reductions = "mean",
         *,
         vertices: AnyVertices = None,
         scales: Optional[Scales] = None,
@@ -84,6 +85,7 @@ class Aggregates(Held):
         nan: Missing = "propagate",
         nesting: Nesting = "own",
         ddof: int = 0,
+        q: Number = 0.5,
         F: Any = None,
         metric: Metric = "straight",
         walls: Mask = None,
@@ -99,7 +101,8 @@ class Aggregates(Held):
         values : (#V,) or (#V, ...), numbers or bools; each channel by itself. Copied. Or a SurfaceImage of nilearn with
             one part.
         r, scales, vertices, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
-        reduce : "sum", "mean", "min", "max", "var", "std" or "count".
+        reduce : "sum", "mean", "min", "max", "var", "std", "count", "median" or "quantile"; or several, which share one
+            search.
         weights : (#V,) finite and >= 0, for sum, mean, var and std, which leave out a vertex of weight 0; "area" for
             `vertex_areas`. The others ignore them.
         kernel : for sum and mean, how the weight falls with the distance d. None: not at all; "epanechnikov":
@@ -110,13 +113,15 @@ class Aggregates(Held):
         nesting : what scales mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the largest,
             and of them the vertices within each smaller radius. With metric="path" or "rings" both are the same.
         ddof : "var" and "std" divide by the number of values minus this, 0 or 1.
+        q : for "quantile", 0 to 1, with linear interpolation as in numpy.quantile.
         F : other faces than those that the index keeps, for weights="area".
         dtype : of the result, float32 or float64. Without it, that of `values` if float32, else float64. All sums are
             computed in float64.
         max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
 
-        Returns an axis of scales if there are any, one of vertices unless `vertices` is a single one, then the axes of
-        `values` but the first. NaN where a neighborhood has no values; 0 for their sum and their count.
+        Returns an axis of scales if there are any, one of vertices unless `vertices` is a single one, the axes of `values`
+        but the first, and one of reductions unless `reduce` is one name. NaN where a neighborhood has no values; 0 for
+        their sum and their count.
 
         No ids are listed. The cost is that of `counts` and a little for each channel. Sums
         are exact to 1e-14 of the sum of the absolute terms, with a kernel to 1e-13 of the sum without it. A result does
@@ -128,20 +133,23 @@ class Aggregates(Held):
         (642, 3)
         >>> index.aggregate(V[:, 2], scales=[0.2, 0.4], vertices=[42, 43]).shape
         (2, 2)
+        >>> mean, std, most = index.aggregate(V[:, 2], 0.3, ("mean", "std", "max")).T
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         given = _values(values, self._count)
         dtype = result_dtype(dtype, np.float32 if given.dtype == np.float32 else np.float64)
-        shape = rows.shape + given.shape[1:]
+        names, axis = read_reductions(reduce)
+        shape = rows.shape + given.shape[1:] + axis
         check_size(shape, 8, max_bytes)
         options = {
-            "reduce": getattr(_core.Reduce, _convert.choice(reduce, "reduce", _REDUCTIONS)),
+            "reduce": [getattr(_core.Reduce, name) for name in names],
             "kernel": getattr(_core.SmoothingKernel, _kernel(kernel)),
             "missing": getattr(_core.MissingValues, _convert.choice(nan, "nan", ("propagate", "omit"))),
             "nesting": getattr(_core.Nesting, _convert.choice(nesting, "nesting", ("own", "patch"))),
             "ddof": _convert.integer(ddof, "ddof", 0, 1),
+            "quantile": _convert.share(q, "q"),
         }
-        if kernel is not None and reduce not in ("sum", "mean"):
+        if kernel is not None and not {"sum", "mean"}.issuperset(names):
             raise ValueError(f"kernel: {kernel!r}, expected None with reduce={reduce!r}")
         areas = area_weights(self, weights, F)
         if 0 in given.shape[1:]:
@@ -299,6 +307,12 @@ def _values(values, count):
     if array.ndim == 0 or array.shape[0] != count:
         raise ValueError(f"values: expected an array of shape ({count},) or ({count}, ...), not {array.shape}")
     return array
+
+
+def read_reductions(reduce: Any) -> tuple[tuple[str, ...], tuple[int, ...]]:
+    """The names, and the axis that they add to the result."""
+    names = _convert.some_choices(reduce, "reduce", get_args(Reduce))
+    return names, () if isinstance(reduce, str) else (len(names),)
 
 
 def area_weights(index: Held, weights: Any, F: Any) -> Any:

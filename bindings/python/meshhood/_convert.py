@@ -4,6 +4,7 @@ checks."""
 
 import operator
 import os
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -219,6 +220,18 @@ def choice(value, name, choices):
     return value
 
 
+def some_choices(values, name, choices):
+    """One name of `choices`, or several, as a tuple."""
+    if isinstance(values, str):
+        return (choice(values, name, choices),)
+    if not isinstance(values, Iterable):
+        raise TypeError(f"{name}: expected a name or several, not {type(values).__name__}")
+    found = tuple(choice(value, name, choices) for value in values)
+    if not found:
+        raise ValueError(f"{name}: there are none, expected at least one")
+    return found
+
+
 def real_type(dtype):
     try:
         found = np.dtype(dtype)
@@ -241,6 +254,14 @@ def finite(value, name, *, or_zero):
     value = _number(value, name)
     if not (0 < value < np.inf or (or_zero and value == 0)):
         raise ValueError(f"{name}: {value}, expected a finite number {'>=' if or_zero else '>'} 0")
+    return value
+
+
+def share(value, name):
+    """`value` as a float from 0 to 1."""
+    value = _number(value, name)
+    if not 0 <= value <= 1:
+        raise ValueError(f"{name}: {value}, expected 0 to 1")
     return value
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, Optional, Union, get_args
 
 import numpy as np
@@ -237,13 +237,8 @@ class Shape(Held):
         (3, 642, 2)
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        if not isinstance(kinds, Iterable):
-            raise TypeError(f"kinds: expected a name or several, not {type(kinds).__name__}")
-        names = (kinds,) if isinstance(kinds, str) else tuple(kinds)
-        if not names:
-            raise ValueError("kinds: there are none, expected at least one")
         options = {
-            "kinds": [getattr(_core.Feature, _convert.choice(name, "kinds", get_args(Kind))) for name in names],
+            "kinds": [getattr(_core.Feature, name) for name in _convert.some_choices(kinds, "kinds", get_args(Kind))],
             "areas": None,
             "filter": bool(filter),
             "threads": rows.threads,

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _convert, _core
-from ._aggregate import Kernel, Reduce
+from ._aggregate import Kernel, Reductions, read_reductions
 from ._curvature import Curvature
 from ._index import MeshIndex
 from ._open_part import OpenPart, PartName, PartSize
@@ -118,12 +118,13 @@ class Parts:
         self,
         values: Union[ArrayLike, Path],
         r: float,
-        reduce: Reduce = "mean",
+        reduce: Reductions = "mean",
         *,
         weights: Union[Literal["area"], ArrayLike, Path, None] = None,
         kernel: Optional[Kernel] = None,
         nan: Literal["propagate", "omit"] = "propagate",
         ddof: int = 0,
+        q: float = 0.5,
         unit: Unit = "mesh",
         order: Literal["mesh", "parts"] = "mesh",
     ) -> da.Array:
@@ -144,9 +145,10 @@ class Parts:
         values = self._per_vertex(values, "values")
         if weights is not None and not is_area(weights):
             weights = self._per_vertex(weights, "weights")
-        options = {"reduce": reduce, "kernel": kernel, "nan": nan, "ddof": ddof}
+        names, axis = read_reductions(reduce)
+        options = {"reduce": names if axis else names[0], "kernel": kernel, "nan": nan, "ddof": ddof, "q": q}
         function = functools.partial(aggregate_values, radius, values, weights, options)
-        return self.map(function, r, unit=unit, shape=shape_of(values)[1:], order=order)
+        return self.map(function, r, unit=unit, shape=shape_of(values)[1:] + axis, order=order)
 
     def curvature(
         self,

@@ -18,9 +18,10 @@ extern "C" {
 [[clang::export_name("aggregate")]] void aggregate(const VertexId* vertices, std::size_t vertex_count, double radius,
                                                    const double* radii, std::size_t radius_count, bool are_scales,
                                                    const double* values, std::size_t value_count, std::size_t channels,
-                                                   const double* weights, std::size_t weight_count, Reduce reduce,
+                                                   const double* weights, std::size_t weight_count,
+                                                   const Reduce* reductions, std::size_t reduction_count,
                                                    SmoothingKernel kernel, MissingValues missing, Nesting nesting,
-                                                   double ddof) {
+                                                   double ddof, double quantile) {
   const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
   const BatchQuery query = rows.query();
   const SignalView signal{
@@ -29,11 +30,12 @@ extern "C" {
                                      {.vertices = query.vertices,
                                       .radius = query.radius,
                                       .metric = query.metric,
-                                      .reduce = reduce,
+                                      .reduce = {reductions, reductions + reduction_count},
                                       .kernel = kernel,
                                       .missing = missing,
                                       .nesting = nesting,
-                                      .ddof = to_size(ddof)});
+                                      .ddof = to_size(ddof),
+                                      .quantile = quantile});
 }
 
 [[clang::export_name("smoothing_radius")]] double smoothing_radius(double fwhm) {
