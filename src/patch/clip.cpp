@@ -117,7 +117,7 @@ class Clip {
     const SpacePoint at = in_space(on_sphere);
     const TrianglePoint found =
         nearest_in_triangle({at[0], at[1], at[2]}, triangle_.corners, state_->index->frame.scale);
-    new_points_.push_back({name, name, vertices_, found.weights, at});
+    new_points_.push_back({name, name, vertices_, found.barycentric, at});
     outline_.push_back(name);
   }
 
