@@ -23,8 +23,7 @@ struct TableFile {
 };
 
 /// --output, of `extension` (".npz") or .csv, and --csv, which prints the table instead.
-void add_table_output(CLI::App& command, const std::string& extension, const std::string& description,
-                              TableFile& file);
+void add_table_output(CLI::App& command, const std::string& extension, const std::string& description, TableFile& file);
 
 /// The names of a table with a line for each vertex of an answer.
 [[nodiscard]] std::vector<std::string> pair_names(bool distances);
