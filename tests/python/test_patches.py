@@ -70,6 +70,9 @@ def test_a_row_depends_on_its_vertex_and_radius_alone():
         assert one.area.shape == ()
         assert (one.area, one.volume) == (whole.area[v], whole.volume[v])
         assert index.gaps(radii[v], [v]).distance[0] == gaps.distance[v]
+    scaled = index.gaps(vertices=[0, 7], scales=radii[[0, 7]])
+    assert scaled.point.shape == (2, 2, 3)
+    assert (scaled.distance[0, 0], scaled.face[1, 1]) == (gaps.distance[0], gaps.face[7])
     edge = index.mean_edge_length
     np.testing.assert_array_equal(index.invariants(2, unit="edge").area, index.invariants(2 * edge).area)
 

@@ -40,7 +40,7 @@ class Invariants(NamedTuple):
 
 @shown_in_a_line
 class Gaps(NamedTuple):
-    """The nearest point that is not of the patch (see `MeshIndex.gaps`).
+    """The nearest point that is not of the patch (see `MeshIndex.gaps`). With `scales` each array has a leading axis.
 
     distance : (#rows,) inf where there is none.
     face : (#rows,) int64, the row of F; -1 where there is none.
@@ -118,9 +118,10 @@ class Patches(Held):
 
     def gaps(
         self,
-        r: Radii,
+        r: Optional[Radii] = None,
         vertices: AnyVertices = None,
         *,
+        scales: Optional[Scales] = None,
         F: Any = None,
         walls: Mask = None,
         ignored: Mask = None,
@@ -138,10 +139,12 @@ class Patches(Held):
         >>> bool(np.isinf(index.gaps(0.3).distance).all())  # a sphere has no gap
         True
         """
-        rows = read_rows(self, vertices, r, None, "straight", walls, ignored, unit, workers, progress)
-        with rows.reporter("gaps") as report:
-            found = rows.index._patches(F).gaps(rows.vertices, rows.radii[0], threads=rows.threads, progress=report)
-        return Gaps(*(rows.shaped([array]) for array in found))
+        rows = read_rows(self, vertices, r, scales, "straight", walls, ignored, unit, workers, progress)
+        patches = rows.index._patches(F)
+        found = rows.for_each_scale(
+            "gaps", lambda radius, report: patches.gaps(rows.vertices, radius, threads=rows.threads, progress=report)
+        )
+        return Gaps(*(rows.shaped(list(arrays)) for arrays in zip(*found)))
 
     def patch(
         self,
