@@ -52,9 +52,7 @@ std::string wrapped(std::string_view text, std::size_t width) {
 
 }  // namespace
 
-HelpFormatter::HelpFormatter() : width_(terminal_width()) {
-  label("SUBCOMMANDS", "Subcommands");  // newer versions of CLI11 have the first
-}
+HelpFormatter::HelpFormatter() : width_(terminal_width()) {}
 
 std::string HelpFormatter::in_column(const std::string& text) const {
   return wrapped(text, width_ - get_column_width());

@@ -79,6 +79,7 @@ ExitCode fail(ExitCode code, std::string_view message) {
 void add_subcommands(CLI::App& program) {
   program.require_subcommand(0, 1);
   program.formatter(std::make_shared<HelpFormatter>());  // the commands inherit it
+  program.group("Subcommands");                          // and this; versions of CLI11 differ
   program.footer(kFooter);
   program.set_version_flag("--version", fmt::format("meshhood {}, kernels for {}", kVersion, kernel_target()));
   add_info(program);
