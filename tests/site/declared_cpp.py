@@ -16,8 +16,8 @@ namespace surface { class SurfaceMesh; template <typename T> class VertexData; }
 """
 IO_HEADERS = ("index_io", "mesh_io", "weld")
 DECLARED = {
-    "FunctionDecl", "FunctionTemplateDecl", "CXXMethodDecl", "CXXConstructorDecl", "FieldDecl", "VarDecl",
-    "TypeAliasDecl", "ConceptDecl",
+    "FunctionDecl", "FunctionTemplateDecl", "CXXMethodDecl", "CXXConstructorDecl", "CXXConversionDecl", "FieldDecl",
+    "VarDecl", "TypeAliasDecl", "ConceptDecl",
 }  # fmt: skip
 
 

@@ -22,7 +22,8 @@ from declared_cpp import declared_names
 
 DESCRIPTORS = (property, classmethod, staticmethod)
 PART = re.compile(r"(\d+)")
-OPERATORS = {"ix": "operator[]", "cl": "operator()", "eq": "operator==", "ne": "operator!=", "lt": "operator<"}
+OPERATORS = {"ix": "operator[]", "cl": "operator()", "eq": "operator==", "ne": "operator!=", "lt": "operator<",
+             "cv": "operator double"}
 
 
 class Entries(HTMLParser):

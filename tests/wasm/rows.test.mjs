@@ -287,13 +287,13 @@ test('the closest point of the surface is that of the command line', () => {
 
 test('the first hit of a ray is the point of the surface on it', () => {
   const hit = index.firstHit([3.3, 4.2, 9], [0, 0, -0.5], { faces: mesh });
-  const { face, weights, vertices: corners, point, distance: height } = hit;
+  const { face, barycentric, vertices: corners, point, distance: height } = hit;
   const { face: nearest, distance: off } = index.closestPoint(point, { faces: mesh });
   assert.equal(face, nearest);
   assert.ok(off < 1e-14);
   assert.deepEqual([...corners].sort(), [...mesh.corners.subarray(3 * face, 3 * face + 3)].sort());
   for (const [axis, expected] of [3.3, 4.2, 9 - height].entries()) {
-    const at = weights.reduce((sum, weight, i) => sum + weight * mesh.positions[3 * corners[i] + axis], 0);
+    const at = barycentric.reduce((sum, weight, i) => sum + weight * mesh.positions[3 * corners[i] + axis], 0);
     assert.ok(Math.abs(at - expected) < 1e-14);
     assert.ok(Math.abs(point[axis] - expected) < 1e-14);
   }
