@@ -34,7 +34,8 @@ constexpr bool is_vertex(PointName name) { return name >> 32 == 0; }
 /// A point that is no vertex.
 struct NewPoint {
   PointName name;
-  PointName same;  // of the point that stands for it, because they touch: its own, unless it is on a side
+  std::size_t number;  // in the order of the triangles
+  PointName same;      // of the point that stands for it, because they touch: its own, unless it is on a side
   std::array<VertexId, 3> vertices;
   std::array<double, 3> weights;
   SpacePoint point;
@@ -67,7 +68,7 @@ class Clip {
   }
 
   [[nodiscard]] ClippedMesh finish() {
-    std::ranges::stable_sort(new_points_, {}, &NewPoint::name);
+    std::ranges::sort(new_points_, {}, [](const NewPoint& p) { return std::pair(p.name, p.number); });
     for (PointName& name : outline_) name = resolved(name);
     return number(named_triangles());
   }
@@ -105,6 +106,7 @@ class Clip {
     const SpacePoint at = in_space(enters ? section.entry(i) : section.exit(i));
     const double share = share_of_side(from_point(at, beyond), from_point(at, other));
     new_points_.push_back({name,
+                           new_points_.size(),
                            section.touches(i) ? std::min(name, opposite) : name,
                            {vertices_[beyond], vertices_[other], vertices_[other]},
                            {1 - share, share, 0},
@@ -117,7 +119,7 @@ class Clip {
     const SpacePoint at = in_space(on_sphere);
     const TrianglePoint found =
         nearest_in_triangle({at[0], at[1], at[2]}, triangle_.corners, state_->index->frame.scale);
-    new_points_.push_back({name, name, vertices_, found.barycentric, at});
+    new_points_.push_back({name, new_points_.size(), name, vertices_, found.barycentric, at});
     outline_.push_back(name);
   }
 
