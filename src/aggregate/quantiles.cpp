@@ -162,8 +162,8 @@ QuantileReduction::QuantileReduction(const NodeTree& tree, SignalBlock block, do
   for (const Column& values : block.values()) {
     std::vector<std::uint32_t> places(values.size() - kLeafCapacity);
     std::iota(places.begin(), places.end(), 0U);
-    const auto numbers = std::stable_partition(places.begin(), places.end(),
-                                               [&](std::uint32_t place) { return !std::isnan(values[place]); });
+    const auto numbers =
+        std::partition(places.begin(), places.end(), [&](std::uint32_t place) { return !std::isnan(values[place]); });
     // Equal values by place, so that the sign of a zero depends on the row alone.
     std::sort(places.begin(), numbers,
               [&](std::uint32_t a, std::uint32_t b) { return std::pair(values[a], a) < std::pair(values[b], b); });
