@@ -28,8 +28,8 @@ inline constexpr std::string_view kVersion =
 
 namespace detail MESHHOOD_API {
 
-/// Defined by the library of this minor version alone, and named by each object that is compiled with its headers:
-/// where classes may differ, a program does not link instead of failing later.
+/// Each object that is compiled with these headers refers to it, and only the library of the same minor version defines
+/// it. So an object does not link to a library whose classes may differ.
 extern const char MESHHOOD_HEADERS;
 
 #if defined(__ELF__)

@@ -224,3 +224,14 @@ def test_what_a_format_has_not_is_refused(tmp_path):
     with pytest.raises(ValueError, match="colors: expected None for .gii"):
         meshhood.write_mesh(tmp_path / "a.gii", V, F, colors=np.zeros((len(V), 3), np.uint8))
     assert not list(tmp_path.iterdir())
+
+
+def test_files_of_float32_warn_where_digits_are_lost(tmp_path):
+    pytest.importorskip("nibabel")
+    far = np.array([[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0]]) + [5e5, 4.5e6, 0]
+    with pytest.warns(UserWarning, match="floats are 0.5 apart at 4.5e"):
+        meshhood.write_mesh(tmp_path / "far.surf.gii", far, np.array([[0, 1, 2]]))
+    with pytest.warns(UserWarning, match="floats are 0.5 apart at 4.5e"):
+        meshhood.read_mesh(tmp_path / "far.surf.gii")
+    with pytest.raises(ValueError, match=r"path: \.label\.gii, expected \.surf\.gii"):
+        meshhood.write_mesh(tmp_path / "near.label.gii", np.eye(3), np.array([[0, 1, 2]]))

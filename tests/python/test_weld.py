@@ -72,6 +72,7 @@ def test_a_soup_whose_corners_differ_by_rounding_warns_with_a_distance():
     with pytest.warns(UserWarning, match=r"nearly equal positions.*meshhood.weld\(V, F, eps=") as caught:
         meshhood.MeshIndex(apart, separate)
     eps = float(str(caught[0].message).rpartition("eps=")[2].rstrip(")"))
+    assert eps < 1e-5, "near the noise, so that no true vertices are joined"
     vertices, faces, _ = meshhood.weld(apart, separate, eps=eps)
     assert len(vertices) == len(V)
     meshhood.MeshIndex(vertices, faces)  # no warning
