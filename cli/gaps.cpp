@@ -13,6 +13,7 @@
 
 #include "commands.h"
 #include "row_table.h"
+#include "task.h"
 
 namespace meshhood::cli {
 namespace {
@@ -21,20 +22,22 @@ class GapsQuantity : public Quantity {
  public:
   RowTable compute(const RowTask& task) override {
     const Surface surface(task.input.exact_index(task.options.threads), task.input.surface());
+    RowTable table = task.table();
+    const std::vector<SurfacePoint> all = [&] {
+      Task shown("searching", {"rows", static_cast<double>(table.scales)});
+      return gaps(surface, task.rows.query(), {.threads = task.options.threads, .progress = shown.progress()});
+    }();
     std::vector<double> distances;
     std::vector<std::int64_t> faces;  // -1 where there is none
     std::vector<double> points;
     std::size_t found = 0;
-    task.for_each_scale("searching", [&](const BatchQuery& query, const Run& run) {
-      for (const SurfacePoint& one : gaps(surface, query, run)) {
-        distances.push_back(one.distance);
-        faces.push_back(one.face == kNoFace ? -1 : static_cast<std::int64_t>(one.face));
-        points.insert(points.end(), one.point.begin(), one.point.end());
-        found += one.face == kNoFace ? 0 : 1;
-      }
-    });
+    for (const SurfacePoint& one : all) {
+      distances.push_back(one.distance);
+      faces.push_back(one.face == kNoFace ? -1 : static_cast<std::int64_t>(one.face));
+      points.insert(points.end(), one.point.begin(), one.point.end());
+      found += one.face == kNoFace ? 0 : 1;
+    }
     const std::size_t none = faces.size() - found;
-    RowTable table = task.table();
     table.columns = {{"gap", std::move(distances), table.scales},
                      {"face", std::move(faces), table.scales},
                      {"point", std::move(points), table.scales, 3}};

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "meshhood/error.h"
+#include "meshhood/patch.h"
 #include "meshhood/surface.h"
 
 #include "commands.h"
@@ -32,17 +35,22 @@ struct RegionCommand {
   Radius radius;
   StartOptions start;
   std::string faces = "all";
+  std::optional<double> tolerance;
   std::string output;
   std::string arrays;
   bool json = false;
 };
 
-void write_mesh(const std::string& file, const PositionsView& whole, const Submesh& part) {
+void write_mesh(const std::string& file, const MeshView& mesh) {
   Task task("writing " + file);
+  io::write_ply(file, mesh, {.progress = task.progress()});
+}
+
+void write_mesh(const std::string& file, const PositionsView& whole, const Submesh& part) {
   whole.visit([&]<class Real>(const StridedPositions<Real>& all) {
     std::vector<Real> positions;
     for (const VertexId v : part.vertices) positions.insert(positions.end(), {all(v, 0), all(v, 1), all(v, 2)});
-    io::write_ply(file, {positions, FacesView::polygons(part.offsets, part.corners)}, {.progress = task.progress()});
+    write_mesh(file, {positions, FacesView::polygons(part.offsets, part.corners)});
   });
 }
 
@@ -78,16 +86,51 @@ void write_arrays(const std::string& file, const Submesh& part, const Rim& rim) 
   npz.commit();
 }
 
+/// Of a vertex, or of the point of the surface that is nearest to --point.
+PatchStart patch_start(const QueryStart& start, const Surface& surface) {
+  if (start.vertex()) return *start.vertex();
+  const SurfacePoint nearest = surface.closest_point(*start.view().center());
+  return {nearest.face, nearest.point};
+}
+
+void clip(const RegionCommand& options, const QueryStart& start, double radius, const Surface& surface) {
+  const ClippedMesh part =
+      PatchSearcher(surface).clip(patch_start(start, surface), radius, options.tolerance.value_or(1e-3));
+  write_mesh(options.output, part.view());
+  if (!options.arrays.empty()) {
+    io::NpzWriter npz(options.arrays);
+    add_rows<std::int64_t>(npz, "vertices", part.vertices);
+    add_rows<double>(npz, "weights", part.weights);
+    add_numbers_of(npz, "faces", part.faces);
+    npz.commit();
+  }
+  print_result(options.json,
+               {{"output", options.output},
+                {"vertices", part.points.size()},
+                {"faces", part.triangles.size()},
+                {"area", part.area}},
+               fmt::format("{}: {} vertices, {} triangles; area {:.6g}\n", printable_name(options.output),
+                           part.points.size(), part.triangles.size(), part.area));
+}
+
 void region(const RegionCommand& options) {
   check_start_options(options.start, false);
+  const bool clips = options.faces == "clip";
+  if (clips && !options.start.seeds.empty()) {
+    raise(ErrorCode::InvalidOption,
+          "--faces clip: starts at the point of the surface nearest to --point, expected no "
+          "--seed");
+  }
+  if (options.tolerance && !clips) raise(ErrorCode::InvalidOption, "--tolerance: expected --faces clip");
   check_outputs();
   Input input(options.file, options.reading);
   input.need_faces("region");
   const StartQuery query(options.start, "straight", input);
   const QueryStart& start = query.starts.front();
   const double radius = resolve(options.radius, input);
-  const std::vector<VertexId> ids = RegionSearch("straight", input).regions(start, std::span(&radius, 1)).vertices;
   const Surface surface(input.exact_index(), input.surface().faces);
+  if (clips) return clip(options, start, radius, surface);
+  const std::vector<VertexId> ids = RegionSearch("straight", input).regions(start, std::span(&radius, 1)).vertices;
   const Submesh part = surface.submesh(ids, options.faces == "all" ? Corners::All : Corners::Any);
   const Rim rim = surface.rim(ids, center_of(start.view(), input.positions()), radius);
   write_mesh(options.output, input.positions(), part);
@@ -112,12 +155,19 @@ void add_region(CLI::App& program) {
   add_reading(*command, options->reading);
   add_radius(*command, options->radius);
   add_start(*command, "query vertex, by its number in the file from 0", options->start);
-  add_choice(*command, "--faces", "all: the faces with all corners in the neighborhood; any: with at least one corner",
-             {"all", "any"}, options->faces);
+  add_choice(*command, "--faces",
+             "all: the faces with all corners in the neighborhood; any: with at least one corner; clip: the connected "
+             "surface in the ball, in triangles that end at the sphere",
+             {"all", "any", "clip"}, options->faces);
+  command
+      ->add_option("--tolerance", options->tolerance,
+                   "with --faces clip: how far chords may be from the arcs of the sphere, in radii, from 1e-12 to 1; "
+                   "by default 0.001")
+      ->type_name("SHARE");
   add_output(*command, ".ply", "mesh file to write", options->output)->required();
   add_output(*command, ".npz",
              "also write the number in MESH of each vertex and face of the output, and the rim: the lines where the "
-             "surface leaves the ball",
+             "surface leaves the ball; with --faces clip three vertices and weights for each vertex, and no rim",
              options->arrays, "--arrays");
   add_json(*command, options->json);
   command->callback([options] { region(*options); });

@@ -37,9 +37,9 @@ const DISCS = { ...NEAREST, weights: 'area' };
 const SMOOTHING = { weights: null, nan: 'propagate', ...ROWS };
 const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, q: 0.5, ...SMOOTHING, scales: null };
 const CURVATURE = { ...SCALED_ROWS, normals: null, like: null, fit: 'quadric', filter: true };
-const SURFACE_ROWS = { vertices: null, faces: null, ...MASKS, unit: 'mesh' };
-const INVARIANTS = { ...SURFACE_ROWS, scales: null };
+const PATCHES = { vertices: null, faces: null, ...MASKS, unit: 'mesh', scales: null };
 const PATCH = { face: null, faces: null, walls: null, unit: 'mesh' };
+const CLIP = { ...PATCH, tolerance: 1e-3 };
 const FEATURES = { ...SCALED_ROWS, kinds: 'crease', filter: true };
 const ON_FACES = { faces: null };
 const THICKNESS = { vertices: null, method: 'ray', ...ON_FACES };
@@ -359,14 +359,14 @@ export class MeshIndex extends Owner {
   // The surface in a ball.
 
   invariants(r, options = {}) {
-    this.#callOnSurface('invariants', r, withDefaults(options, INVARIANTS));
+    this.#callOnSurface('invariants', r, withDefaults(options, PATCHES));
     const numbers = this.instance.takeReals();
     this.instance.releaseAnswer();
     return { area: numbers.slice(0, numbers.length / 2), volume: numbers.slice(numbers.length / 2) };
   }
 
   gaps(r, options = {}) {
-    this.#callOnSurface('gaps', r, withDefaults(options, SURFACE_ROWS));
+    this.#callOnSurface('gaps', r, withDefaults(options, PATCHES));
     const numbers = this.instance.takeReals();
     const found = {
       face: this.instance.takeCounts(), vertices: this.instance.takeIds(), barycentric: columns(numbers, 0, 3),
@@ -382,7 +382,27 @@ export class MeshIndex extends Owner {
   }
 
   patch(start, r, options = {}) {
-    const { face, faces, walls, unit } = withDefaults(options, PATCH);
+    this.#callOnPatch('patch', start, r, withDefaults(options, PATCH));
+    return this.instance.takeCounts();
+  }
+
+  clip(start, r, options = {}) {
+    const given = withDefaults(options, CLIP);
+    expectNumber(given.tolerance, 'tolerance');
+    this.#callOnPatch('clip', start, r, given, given.tolerance);
+    const ids = this.instance.takeIds();
+    const numbers = this.instance.takeReals();
+    const faces = this.instance.takeCounts();
+    this.instance.releaseAnswer();
+    const values = (numbers.length - 1) / 2; // of the points, and of their weights
+    return {
+      positions: numbers.slice(0, values), corners: ids.slice(values), faces, vertices: ids.slice(0, values),
+      weights: numbers.slice(values, 2 * values), area: numbers[2 * values],
+    };
+  }
+
+  #callOnPatch(name, start, r, given, ...values) {
+    const { face, faces, walls, unit } = given;
     expectRadius(r);
     if (isVertex(start)) {
       expectVertex(start, this.vertexCount);
@@ -393,10 +413,11 @@ export class MeshIndex extends Owner {
     }
     useFaces(this.instance, faces);
     const radius = this.#scale(unit) * r;
-    withMasks(this.instance, { walls }, () => (isVertex(start)
-      ? this.instance.call('patch_of_vertex', start, radius)
-      : this.instance.call('patch_of_point', face, ...start, radius)));
-    return this.instance.takeCounts();
+    withMasks(this.instance, { walls }, () => {
+      if (isVertex(start)) this.instance.call('patch_at_vertex', start);
+      else this.instance.call('patch_at_point', face, ...start);
+      this.instance.call(name, radius, ...values);
+    });
   }
 
   // Values and shape.

@@ -363,7 +363,7 @@ export interface SurfaceOptions extends Omit<RowOptions, 'metric'> {
   faces: Faces;
 }
 
-/** The nearest points of the surface that are not of the patch, one for each row. */
+/** The nearest points of the surface that are not of the patch, one for each row; with scales, for each at each. */
 export interface Gaps {
   /** 2^32 - 1 where there is none. */
   face: Uint32Array;
@@ -374,6 +374,32 @@ export interface Gaps {
   point: Float64Array;
   /** Infinity where there is none. */
   distance: Float64Array;
+}
+
+export interface PatchOptions {
+  faces: Faces;
+  /** Of a point. */
+  face?: number | null;
+  walls?: Uint8Array | null;
+  unit?: Unit;
+}
+
+/**
+ * Points are the vertices in the ball, then new ones on the sphere: on sides, and on the arcs along which faces leave
+ * the ball. Chords replace arcs; each is at most `tolerance` r from its arc (by default 1e-3; from 1e-12 to 1).
+ */
+export interface ClippedMesh {
+  /** #points by 3. */
+  positions: Float64Array;
+  /** #triangles by 3, as rows of `positions`. */
+  corners: Uint32Array;
+  /** The face of which each triangle is a part, ascending. */
+  faces: Uint32Array;
+  /** #points by 3: three vertices of the mesh, thrice the same for one in the ball; and barycentric weights in them. */
+  vertices: Uint32Array;
+  weights: Float64Array;
+  /** Of the patch; that of the triangles is a little less. */
+  area: number;
 }
 
 export interface FeatureOptions extends RowOptions, Scales {
@@ -588,18 +614,17 @@ export class MeshIndex {
   invariants(r: Radii | null, options: SurfaceOptions & Scales): { area: Float64Array; volume: Float64Array };
 
   /** The gap of each vertex: the nearest point of the surface within r that is not of its patch. Throws likewise. */
-  gaps(r: Radii, options: SurfaceOptions): Gaps;
+  gaps(r: Radii | null, options: SurfaceOptions & Scales): Gaps;
 
   /**
    * The numbers of the faces of a patch, ascending. Throws likewise.
    *
    * @param start a vertex; or a point on the face `face`, as `closestPoint` returns them
    */
-  patch(
-    start: Start,
-    r: number,
-    options: { faces: Faces; face?: number | null; walls?: Uint8Array | null; unit?: Unit },
-  ): Uint32Array;
+  patch(start: Start, r: number, options: PatchOptions): Uint32Array;
+
+  /** A patch as a mesh of triangles that end at the sphere. Throws likewise. */
+  clip(start: Start, r: number, options: PatchOptions & { tolerance?: number }): ClippedMesh;
 
   /**
    * A sum, a mean or another aggregate of values over the neighborhood of each vertex. No ids are listed.

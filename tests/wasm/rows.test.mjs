@@ -179,9 +179,12 @@ const corners = {
   offsets: null,
 };
 
+function near(found, expected) {
+  assert.ok(Math.abs(found - expected) < 1e-14, `${found} for ${expected}`);
+}
+
 test('areas, volumes and gaps are those of the surface in the ball', () => {
   const two = build(corners);
-  const near = (found, expected) => assert.ok(Math.abs(found - expected) < 1e-14, `${found} for ${expected}`);
   const options = { faces: corners, vertices: Uint32Array.of(4, 0) };
   const scales = Float64Array.of(0.1, 0.4);
   const { area, volume } = two.invariants(null, { ...options, scales });
@@ -212,6 +215,37 @@ test('areas and volumes with masks and scales are those of the command line', ()
     assert.equal(a > 0 ? a / r / r / Math.PI : NaN, expected[2 * i]);
     assert.equal(a > 0 ? volume[i] / r / r / r / ((4 * Math.PI) / 3) : NaN, expected[2 * i + 1]);
   });
+});
+
+test('a clipped patch ends at the sphere, and its points lie on the faces', () => {
+  const two = build(corners);
+  const { area } = two.invariants(0.4, { faces: corners, vertices: Uint32Array.of(0) });
+  const disc = two.clip(0, 0.4, { faces: corners });
+  assert.equal(disc.area, area[0]);
+  assert.deepEqual([...new Set(disc.faces)], [...two.patch(0, 0.4, { faces: corners })]);
+  assert.equal(disc.corners.length, 3 * disc.faces.length);
+  assert.deepEqual([...disc.vertices.subarray(0, 3)], [0, 0, 0]);
+  disc.positions.forEach((x, i) => {
+    const [row, axis] = [Math.floor(i / 3), i % 3];
+    const parts = [0, 1, 2].map((k) =>
+      disc.weights[3 * row + k] * corners.positions[3 * disc.vertices[3 * row + k] + axis]);
+    near(parts[0] + parts[1] + parts[2], x);
+    if (row > 0 && axis === 0) near(Math.hypot(...disc.positions.subarray(i, i + 3)), 0.4);
+  });
+  const coarse = two.clip(0, 0.4, { faces: corners, tolerance: 0.1 });
+  assert.ok(coarse.faces.length < disc.faces.length);
+  assert.equal(two.clip([0.3, 0.3, 0.2], 0.01, { faces: corners, face: 4 }).faces[0], 4);
+  assert.throws(() => two.clip(0, 1, { faces: corners, tolerance: 0 }), { code: 'InvalidOption', message: /^tolerance/ });
+  assert.throws(() => two.clip(0, 1, { faces: corners, tolerance: '1' }), { name: 'TypeError', message: /^tolerance/ });
+  two.dispose();
+});
+
+test('gaps at scales are those of each', () => {
+  const two = build(corners);
+  const both = two.gaps(null, { faces: corners, scales: Float64Array.of(0.1, 0.4) });
+  const each = [0.1, 0.4].flatMap((r) => [...two.gaps(r, { faces: corners }).distance]);
+  assert.deepEqual([...both.distance], each);
+  two.dispose();
 });
 
 test('the patch of a vertex or of a point has faces', () => {

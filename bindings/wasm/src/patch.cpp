@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The surface in a ball. `use_faces` comes first, and `search_by` for the masks.
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -14,7 +15,15 @@
 namespace meshhood::wasm {
 namespace {
 
+PatchStart patch_start = VertexId{0};
+
 void answer_faces(const std::vector<std::size_t>& faces) { answer.counts.assign(faces.begin(), faces.end()); }
+
+/// Adds all elements of the rows of a matrix.
+template <class T, std::size_t N>
+void append_rows(std::vector<T>& out, const std::vector<std::array<T, N>>& rows) {
+  for (const auto& row : rows) out.insert(out.end(), row.begin(), row.end());
+}
 
 }  // namespace
 
@@ -38,13 +47,28 @@ extern "C" {
   for (const SurfacePoint& gap : meshhood::gaps(workspace.surface(), rows.query())) append_point(gap);
 }
 
-/// The counts are the faces of the patch.
-[[clang::export_name("patch_of_vertex")]] void patch_of_vertex(VertexId v, double radius) {
-  answer_faces(workspace.patch_searcher().patch(v, radius));
+/// Where the patches that follow start.
+[[clang::export_name("patch_at_vertex")]] void patch_at_vertex(VertexId v) { patch_start = v; }
+[[clang::export_name("patch_at_point")]] void patch_at_point(double face, double x, double y, double z) {
+  patch_start = {to_size(face), {x, y, z}};
 }
 
-[[clang::export_name("patch_of_point")]] void patch_of_point(double face, double x, double y, double z, double radius) {
-  answer_faces(workspace.patch_searcher().patch({to_size(face), {x, y, z}}, radius));
+/// The counts are the faces of the patch.
+[[clang::export_name("patch")]] void patch(double radius) {
+  answer_faces(workspace.patch_searcher().patch(patch_start, radius));
+}
+
+/// The counts are the faces of the triangles; the ids three vertices for each point, and then the triangles; the reals
+/// the points, their weights and the area.
+[[clang::export_name("clip")]] void clip(double radius, double tolerance) {
+  const ClippedMesh mesh = workspace.patch_searcher().clip(patch_start, radius, tolerance);
+  answer = {};
+  answer_faces(mesh.faces);
+  append_rows(answer.ids, mesh.vertices);
+  append_rows(answer.ids, mesh.triangles);
+  append_rows(answer.reals, mesh.points);
+  append_rows(answer.reals, mesh.weights);
+  answer.reals.push_back(mesh.area);
 }
 
 }  // extern "C"
