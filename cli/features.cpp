@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -66,6 +67,13 @@ std::array<std::uint8_t, 3> color_of(double value, double half) {
     color[i] = static_cast<std::uint8_t>(std::lround(kZero[i] + share * (end - kZero[i])));
   }
   return color;
+}
+
+/// What a color stands for, 0 on a plane. On a sphere, that of a volume is r times the mean curvature.
+double colored_value(std::string_view kind, double value) {
+  if (kind == "area") return value - 1;
+  if (kind == "volume") return 16.0 / 3 * (0.5 - value);
+  return value;
 }
 
 class FeaturesQuantity : public Quantity {
@@ -141,7 +149,8 @@ class FeaturesQuantity : public Quantity {
   void add_features(RowTable& table, std::vector<double> values, std::size_t scales) const {
     const std::size_t last = (scales - 1) * table.rows * kinds_.size();
     for (std::size_t row = 0; row < table.rows; ++row) {
-      const auto color = color_of(values[last + row * kinds_.size()], threshold_);
+      const double value = colored_value(kinds_.front(), values[last + row * kinds_.size()]);
+      const auto color = color_of(value, threshold_);
       table.colors.insert(table.colors.end(), color.begin(), color.end());
     }
     table.columns = {{"features", std::move(values), scales, kinds_.size()},
@@ -200,12 +209,12 @@ class FeaturesQuantity : public Quantity {
 }  // namespace
 
 void add_features(CLI::App& program) {
-  add_quantity(
-      program,
-      {.name = "features",
-       .description = "Write creases and other features at many scales",
-       .shown = "the first kind at the largest radius; the colors of PLY show it, too, blue below 0, red above"},
-      std::make_shared<FeaturesQuantity>());
+  add_quantity(program,
+               {.name = "features",
+                .description = "Write creases and other features at many scales",
+                .shown = "the first kind at the largest radius; the colors of PLY show it, too, blue below what it is "
+                         "on a plane, red above; of a volume, red on ridges"},
+               std::make_shared<FeaturesQuantity>());
 }
 
 }  // namespace meshhood::cli

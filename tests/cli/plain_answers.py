@@ -259,7 +259,35 @@ def read_ply(run, name):
     return plain.read_ply(file)
 
 
+def clip(run, wrong):
+    """The patch has the vertices of the region, and others where sides dip into the ball."""
+    question = Question(run)
+    mesh, arrays, start, r = question.mesh, arrays_of(run, "--arrays"), question.starts[0], question.radii[0]
+    vertices, weights = arrays["vertices"], arrays["weights"]
+    written, _, corners = read_ply(run, "--output")
+    written = np.stack([written[axis] for axis in "xyz"], axis=1)
+    expect(wrong, "points", written, np.einsum("ij,ijk->ik", weights, mesh.V[vertices].astype(np.float64)))
+    triangles = written[corners.reshape(-1, 3)]
+    crossed = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    expect(wrong, "triangles", len(crossed), len(arrays["faces"]))
+    if "--json" in run.asked:
+        area, chords = json.loads(run.done.stdout)["area"], np.linalg.norm(crossed, axis=1).sum() / 2
+        expect(wrong, "area of chords", bool(0.9 * area < chords < area * (1 + 1e-12)), True)
+    if start is None:
+        return 1
+    whole = (vertices == vertices[:, :1]).all(axis=1)
+    distances = np.linalg.norm(written - mesh.V[start], axis=1)
+    expect(wrong, "points on the sphere", distances[~whole], np.full((~whole).sum(), r))
+    expect(wrong, "vertices in the ball", bool((distances[whole] <= r * (1 + 1e-12)).all()), True)
+    if not question.walls:  # a face with a wall is not there, so that fewer vertices are connected
+        found = set(mesh.corners.tolist()).intersection(question.neighborhood(start, r))
+        expect(wrong, "missing vertices of the region", found - set(vertices[whole, 0].tolist()), set())
+    return 1
+
+
 def region(run, wrong):
+    if run.asked.get("--faces") == "clip":
+        return clip(run, wrong)
     question = Question(run)
     mesh, arrays = question.mesh, arrays_of(run, "--arrays")
     found = question.neighborhood(question.starts[0], question.radii[0])

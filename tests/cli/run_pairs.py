@@ -87,6 +87,7 @@ NEEDS = {
     ("batch", "--radius"): [("--count", None)],
     ("batch", "--method", "ball"): [("--vertices", "vertices")],
     ("view", "--unit"): [("--radius", "5.5")],
+    ("region", "--tolerance"): [("--faces", "clip")],
     ("aggregate", "--quantile"): [("--reduce", "quantile")],
     ("aggregate", "--nesting"): [("--radius", "2,3.5")],
 }
@@ -115,6 +116,7 @@ VALUES = {
     "--smallest": ["2"],
     ("features", "--count"): ["3"],
     "--threshold": ["0.25"],
+    "--tolerance": ["0.01"],
     "--quantile": ["0.9"],
     "--kinds": ["mean,crease"],
     "--reduce": ["sum", "min", "max", "var", "std", "median", "mean,count", "quantile"],
