@@ -15,9 +15,7 @@
 
 #include "meshhood/error.h"
 
-#include "aggregate/gaussian_sums.h"
 #include "aggregate/kernel_sums.h"
-#include "aggregate/length_sums.h"
 #include "aggregate/listed_sums.h"
 #include "aggregate/maximal_nodes.h"
 #include "aggregate/minima.h"
@@ -27,6 +25,7 @@
 #include "aggregate/signal_block.h"
 #include "aggregate/sums.h"
 #include "aggregate/variances.h"
+#include "aggregate/weighted_sums.h"
 #include "batch/packets.h"
 #include "batch/rows.h"
 #include "exact/index_access.h"
@@ -148,14 +147,12 @@ std::unique_ptr<Reduction> make_reduction(const IndexView& index, const NodeTree
     case Reduce::Count: break;
   }
   SumColumns columns(std::move(block), reduce);
-  if (is_along_edges(query.metric) && query.kernel != SmoothingKernel::Box) {
-    return std::make_unique<LengthReduction>(index, kernels, std::move(columns), query.kernel);
+  if (query.kernel == SmoothingKernel::Box) {
+    return std::make_unique<SumReduction>(tree, kernels, std::move(columns));
   }
-  switch (query.kernel) {
-    case SmoothingKernel::Box: return std::make_unique<SumReduction>(tree, kernels, std::move(columns));
-    case SmoothingKernel::Gaussian: return std::make_unique<GaussianReduction>(index, kernels, std::move(columns));
-    case SmoothingKernel::Epanechnikov:
-    case SmoothingKernel::Biweight: break;
+  const bool has_lengths = is_along_edges(query.metric);
+  if (has_lengths || query.kernel == SmoothingKernel::Gaussian) {
+    return std::make_unique<WeightedReduction>(index, kernels, std::move(columns), query.kernel, has_lengths);
   }
   return std::make_unique<KernelSumReduction>(index, tree, kernels, std::move(columns),
                                               query.kernel == SmoothingKernel::Biweight);

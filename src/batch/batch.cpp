@@ -5,6 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "meshhood/error.h"
+
+#include "batch/packets.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
 #include "simd/leaf.h"
@@ -102,6 +105,24 @@ void Batch::cut_into_chunks(std::span<const std::uint64_t> in_order) {
     end += static_cast<std::size_t>(std::lower_bound(rest.begin(), rest.end(), unit_end) - rest.begin());
     chunk_ends_.push_back(end);
   }
+}
+
+void for_each_packet(const Index& index, const BatchQuery& query, const PacketVisitorFactory& make_visitor,
+                     const PacketOptions& options, const Run& run) {
+  if (!make_visitor) raise(ErrorCode::InvalidOption, "make_visitor is empty, expected a function");
+  Batch batch(index, query, {}, run, 1);
+  std::vector<PacketVisitor> visitors(batch.task().threads());
+  batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
+    PacketVisitor& visitor = visitors[thread];
+    if (!visitor) visitor = make_visitor(thread);
+    if (!visitor) raise(ErrorCode::InvalidOption, "make_visitor returned an empty function");
+    batch.worker(thread).visit(chunk.items, options.lengths, [&](const PacketAnswer& answer) {
+      visitor(answer);
+      batch.task().advance(thread, answer.rows.size());
+      return batch.task().should_continue(thread);
+    });
+  });
+  batch.task().finish();
 }
 
 }  // namespace meshhood

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The graph of the mesh, from the leaves and the links between them.
-#include "exact/extract_graph.h"
 
 #include <algorithm>
 #include <cstddef>

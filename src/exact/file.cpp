@@ -10,7 +10,6 @@
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
 
-#include "exact/extract_graph.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
 #include "exact/stored_faces.h"

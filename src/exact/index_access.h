@@ -59,4 +59,8 @@ struct IndexAccess {
                                               TaskContext& task);
 };
 
+/// As without `task`, but polls `task` for cancellation. Reports no progress. Throws Error{Cancelled}.
+[[nodiscard]] GraphData extract_graph(const IndexView& index, TaskContext& task);
+[[nodiscard]] Fingerprint fingerprint(const Index& index, TaskContext& task);
+
 }  // namespace meshhood

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A patch as a mesh. The part of a triangle in the ball is convex: its outline runs along the chords of its sides, and
 // along arcs, which points divide. A point on a side has a name that all triangles at the side give it.
-#include "patch/clip.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +13,7 @@
 
 #include "base/vector.h"
 #include "exact/query/arguments.h"
+#include "patch/patches.h"
 #include "patch/section.h"
 #include "surface/face_tree.h"
 #include "surface/triangle_point.h"

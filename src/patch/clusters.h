@@ -9,6 +9,7 @@
 #include "base/frame.h"
 #include "base/vector.h"
 #include "exact/layout.h"
+#include "exact/stored_faces.h"
 #include "patch/triangles.h"
 #include "shared/distance.h"
 #include "surface/box_tree.h"
@@ -72,6 +73,20 @@ struct Clusters {
 
  private:
   void link(const Triangles& triangles, ClusterId cluster);
+};
+
+/// What all searches of the patches of a surface share. The walls of the index are left out.
+struct PatchState {
+  /// Borrows the index and the faces, of which `tree` is.
+  PatchState(const IndexView& given, const StoredFaces& all, const FaceTree& tree)
+      : index(&given), faces(&all), triangles(given, tree), clusters(given, triangles) {}
+
+  const IndexView* index;
+  const StoredFaces* faces;
+  Triangles triangles;
+  Clusters clusters;
+
+  [[nodiscard]] std::size_t bytes() const { return triangles.bytes() + clusters.bytes(); }
 };
 
 }  // namespace meshhood

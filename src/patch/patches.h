@@ -9,12 +9,15 @@
 #include "meshhood/run.h"
 
 #include "patch/search.h"
-#include "patch/state.h"
 
 namespace meshhood {
 
 /// The nearest point within `radius` of the center of the last run of `search` on a triangle that it has not reached.
 [[nodiscard]] SurfacePoint find_gap(const PatchState& state, const PatchSearch& search, double radius);
+
+/// The patch of the last run of `search`, which was given `radius`, as a mesh, without its area.
+[[nodiscard]] ClippedMesh clip_patch(const PatchState& state, const PatchSearch& search, double radius,
+                                     double tolerance);
 
 /// The patch of a row, as a search has found it.
 struct FoundPatch {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/epoch_array.h"
+#include "patch/clusters.h"
 #include "patch/rim.h"
 #include "patch/section.h"
-#include "patch/state.h"
 #include "shared/distance.h"
 
 namespace meshhood {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -30,5 +31,15 @@ class FaceLists {
   std::vector<std::uint64_t> begin_;
   std::vector<std::uint32_t> faces_;
 };
+
+inline FaceLists::FaceLists(const StoredFaces& faces, std::size_t vertices)
+    : begin_(vertices + 1), faces_(faces.corners.size()) {
+  for (const VertexId corner : faces.corners) ++begin_[corner];
+  // Each number stands at the end of its list and moves to the beginning as the list fills, from the last face on.
+  std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
+  for (std::size_t face = faces.size(); face-- > 0;) {
+    for (const VertexId corner : faces[face]) faces_[--begin_[corner]] = static_cast<std::uint32_t>(face);
+  }
+}
 
 }  // namespace meshhood

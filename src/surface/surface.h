@@ -14,7 +14,7 @@
 #include "exact/bound_index.h"
 #include "exact/layout.h"
 #include "exact/stored_faces.h"
-#include "patch/state.h"
+#include "patch/clusters.h"
 #include "shared/distance.h"
 #include "shared/kept.h"
 #include "shared/raw_vector.h"

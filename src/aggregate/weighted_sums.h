@@ -13,12 +13,15 @@
 
 namespace meshhood {
 
-/// Sum and mean with weights that fall with the length along the edges, of packets that have lengths.
-class LengthReduction final : public Reduction {
+/// Sum and mean with a weight for each vertex of a row, where no moments of few terms give the sum over a node: weights
+/// that fall with the distance as a Gaussian, or by any kernel with the length along the edges.
+class WeightedReduction final : public Reduction {
  public:
-  /// With a kernel that is not the box. Borrows the index.
-  LengthReduction(const IndexView& index, const AggregateKernels& kernels, SumColumns columns, SmoothingKernel kernel)
-      : index_(&index), kernels_(&kernels), columns_(std::move(columns)), kernel_(kernel) {}
+  /// `has_lengths`: of packets that have lengths. Otherwise the kernel is the Gaussian; it is never the box. Borrows
+  /// the index.
+  WeightedReduction(const IndexView& index, const AggregateKernels& kernels, SumColumns columns, SmoothingKernel kernel,
+                    bool has_lengths)
+      : index_(&index), kernels_(&kernels), columns_(std::move(columns)), kernel_(kernel), has_lengths_(has_lengths) {}
 
   [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer() const override;
 
@@ -32,6 +35,7 @@ class LengthReduction final : public Reduction {
   const AggregateKernels* kernels_;
   SumColumns columns_;
   SmoothingKernel kernel_;
+  bool has_lengths_;
 };
 
 }  // namespace meshhood

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "aggregate/weighted_sums.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <variant>
+#include <vector>
+
+namespace meshhood {
+namespace {
+
+class WeightedReducer : public PacketReducer {
+ public:
+  explicit WeightedReducer(const WeightedReduction& reduction)
+      : reduction_(&reduction), sums_(reduction.columns().size()) {}
+
+  [[nodiscard]] bool takes_nodes() const override { return false; }
+
+  void begin(const PacketAnswer& packet) override {
+    for (RowSums& sums : sums_) sums = {};
+    set_packet(packet);
+  }
+
+  void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
+    set_weights(vertices, queries, weights_);
+    reduction_->columns().add_weighted(reduction_->kernels(), vertices, queries, weights_, sums_);
+  }
+
+  void write(std::size_t row, std::span<double> channels) override {
+    reduction_->columns().write(sums_, row, channels);
+  }
+
+ protected:
+  [[nodiscard]] const WeightedReduction& reduction() const { return *reduction_; }
+
+ private:
+  virtual void set_packet(const PacketAnswer& packet) = 0;
+
+  /// Of the vertices of a leaf, in the rows of their words.
+  virtual void set_weights(const VertexRange& vertices, const QueryWord* queries, RowWeights& weights) = 0;
+
+  const WeightedReduction* reduction_;
+  RowWeights weights_{};
+  std::vector<RowSums> sums_;  // by column
+};
+
+class WeightedByDistance final : public WeightedReducer {
+ public:
+  using WeightedReducer::WeightedReducer;
+
+ private:
+  void set_packet(const PacketAnswer& packet) override {
+    const IndexView& index = reduction().index();
+    for (std::size_t row = 0; row < packet.vertices.size(); ++row) {
+      const std::uint32_t slot = index.slot[packet.vertices[row]];
+      centers_.set(row, index.position(leaf_of(slot), lane_of(slot)));
+      // Within a radius of 0 all weights are 1. The least radii have no finite inverse.
+      const double radius = packet.radii[row];
+      centers_.unit[row] = radius > 0 ? std::min(1 / radius, std::numeric_limits<double>::max()) : 0;
+    }
+  }
+
+  void set_weights(const VertexRange& vertices, const QueryWord* queries, RowWeights& weights) override {
+    std::visit(
+        [&](auto xyz) {
+          for (std::size_t k = 0; k < vertices.size(); ++k) points_[k] = point(xyz, vertices.begin + k);
+        },
+        reduction().index().positions);
+    reduction().kernels().set_gaussians(std::span(points_).first(vertices.size()), queries, centers_, weights);
+  }
+
+  PacketCenters centers_{};
+  std::array<Point, kLeafCapacity> points_{};
+};
+
+class WeightedByLength final : public WeightedReducer {
+ public:
+  using WeightedReducer::WeightedReducer;
+
+ private:
+  void set_packet(const PacketAnswer& packet) override {
+    lengths_ = packet.lengths;
+    divisors_.fill(1);
+    for (std::size_t i = 0; i < packet.radii.size(); ++i) {
+      // Within a radius of 0 all lengths are 0, and all weights 1.
+      divisors_[i] = packet.radii[i] > 0 ? packet.radii[i] : std::numeric_limits<double>::infinity();
+    }
+  }
+
+  void set_weights(const VertexRange& vertices, const QueryWord* queries, RowWeights& weights) override {
+    lengths_->select(leaf_of(reduction().index().slot_at(vertices.begin)));
+    for (unsigned lane = 0; lane < vertices.size(); ++lane) {
+      if (queries[lane] == 0) continue;
+      reduction().kernels().set_path_weights(lengths_->at(lane), divisors_, reduction().kernel(), weights[lane]);
+    }
+  }
+
+  PacketLengths* lengths_ = nullptr;  // of the packet
+  PathLengths divisors_{};
+};
+
+}  // namespace
+
+std::unique_ptr<PacketReducer> WeightedReduction::make_reducer() const {
+  if (has_lengths_) return std::make_unique<WeightedByLength>(*this);
+  return std::make_unique<WeightedByDistance>(*this);
+}
+
+}  // namespace meshhood
