@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "shared/distance.h"
+
 namespace meshhood {
 
 /// Sorts `items` by `position(item)`, a number of 32 bits. Items of equal positions keep their order. A radix sort,
@@ -46,6 +48,25 @@ template <class Position>
   std::vector<std::size_t> order(rows);
   for (std::size_t i = 0; i < rows; ++i) order[i] = by_position[i].second;
   return order;
+}
+
+/// The rows along a curve of Morton (1966), on which near points mostly follow each other. `at(row)`: its point in the
+/// frame.
+template <class At>
+[[nodiscard]] std::vector<std::size_t> rows_along_curve(std::size_t rows, const At& at) {
+  constexpr double kCells = 1U << 10U;  // an axis
+  const auto spread = [](double coordinate) {
+    const double cell = (coordinate + 1) * (kCells / 2);
+    std::uint32_t bits = cell > 0 ? static_cast<std::uint32_t>(std::min(cell, kCells - 1)) : 0;  // 0 if not a number
+    bits = (bits | bits << 16U) & 0x030000ffU;
+    bits = (bits | bits << 8U) & 0x0300f00fU;
+    bits = (bits | bits << 4U) & 0x030c30c3U;
+    return (bits | bits << 2U) & 0x09249249U;
+  };
+  return rows_by_position(rows, [&](std::size_t row) {
+    const Point p = at(row);
+    return spread(p.x) | spread(p.y) << 1U | spread(p.z) << 2U;
+  });
 }
 
 }  // namespace meshhood

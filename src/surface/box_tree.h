@@ -17,6 +17,13 @@
 
 namespace meshhood {
 
+/// How many times `direction`, whose largest component is 1 or -1, a ray goes to the height of the frame along its main
+/// axis; 0 if it begins there or beyond. All are in the frame.
+[[nodiscard]] inline double way_to_frame(const Point& origin, const Point& direction) {
+  const auto way = [](double from, double along) { return std::abs(along) == 1 ? -1 - from * along : 0; };
+  return std::max({way(origin.x, direction.x), way(origin.y, direction.y), way(origin.z, direction.z), 0.0});
+}
+
 /// Boxes around items, eight together, boxes around these, and so on up to eight: a tree whose nodes are numbered by
 /// their places alone. Items that follow each other should be near each other. 27 bytes an item.
 ///
@@ -220,8 +227,7 @@ class BoxTree::Line {
  public:
   Line(const Point& origin, const Point& direction, Reach& reach)
       : kernels_(&kernels(best_isa())),
-        begin_(std::max({way_to_frame(origin.x, direction.x), way_to_frame(origin.y, direction.y),
-                         way_to_frame(origin.z, direction.z), 0.0})),
+        begin_(way_to_frame(origin, direction)),
         start_(origin + begin_ * direction),
         slack_(0x1p-20 + 0x1p-48 * (std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)}) + begin_)),
         ray_{axis(start_.x, direction.x), axis(start_.y, direction.y), axis(start_.z, direction.z)},
@@ -243,11 +249,6 @@ class BoxTree::Line {
   void update() { limit_ = next_above((*reach_)() - begin_ + slack_); }
 
  private:
-  /// Along the main axis.
-  [[nodiscard]] static double way_to_frame(double origin, double direction) {
-    return std::abs(direction) == 1 ? -1 - origin * direction : 0;
-  }
-
   /// No inverse is so large that it gives an infinite way.
   [[nodiscard]] BoxRay::Axis axis(double from, double direction) const {
     const double slack = std::copysign(slack_, direction);

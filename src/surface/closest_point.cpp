@@ -12,6 +12,7 @@
 #include "meshhood/surface.h"
 
 #include "base/vector.h"
+#include "batch/position_sort.h"
 #include "exact/layout.h"
 #include "exact/query/arguments.h"
 #include "shared/parallel.h"
@@ -52,28 +53,6 @@ Point roughly_nearest(const std::array<Point, 3>& corners) {
   if (!(va >= 0 && vb >= 0 && vc >= 0)) return a;
   const double share = share_of(1, va + vb + vc);
   return a + (vb * share) * ab + (vc * share) * ac;
-}
-
-/// The numbers of the points along a curve of Morton (1966), on which near points mostly follow each other.
-std::vector<std::size_t> along_curve(std::span<const SpacePoint> points, const Frame& frame) {
-  constexpr double kCells = 1U << 10U;  // an axis
-  const auto spread = [](double coordinate) {
-    const double cell = std::clamp((coordinate + 1) * (kCells / 2), 0.0, kCells - 1);
-    std::uint32_t bits = static_cast<std::uint32_t>(cell);
-    bits = (bits | bits << 16U) & 0x030000ffU;
-    bits = (bits | bits << 8U) & 0x0300f00fU;
-    bits = (bits | bits << 4U) & 0x030c30c3U;
-    return (bits | bits << 2U) & 0x09249249U;
-  };
-  std::vector<std::pair<std::uint32_t, std::size_t>> codes(points.size());
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    const Point p = frame.to_frame({points[i][0], points[i][1], points[i][2]});
-    codes[i] = {spread(p.x) | spread(p.y) << 1U | spread(p.z) << 2U, i};
-  }
-  std::sort(codes.begin(), codes.end());
-  std::vector<std::size_t> order(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = codes[i].second;
-  return order;
 }
 
 /// A triangle is first compared roughly, which bounds its distance from both sides. Only those that no other one
@@ -170,7 +149,9 @@ std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> po
   const State& state = SurfaceAccess::state(*this);
   for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points: row " + std::to_string(i) + ": ");
   const FaceTree& tree = state.tree();
-  const std::vector<std::size_t> in_order = along_curve(points, state.index->frame);
+  const std::vector<std::size_t> in_order = rows_along_curve(points.size(), [&](std::size_t i) {
+    return state.index->frame.to_frame({points[i][0], points[i][1], points[i][2]});
+  });
   TaskContext task(run.threads, run.progress, points.size());
   std::vector<SurfacePoint> found(points.size());
   task.parallel_for(points.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {

@@ -13,6 +13,7 @@
 #include "meshhood/surface.h"
 
 #include "base/vector.h"
+#include "batch/position_sort.h"
 #include "exact/query/arguments.h"
 #include "patch/twofold.h"
 #include "shared/parallel.h"
@@ -70,9 +71,11 @@ void check_direction(const SpacePoint& d, std::string_view where) {
   if (d == SpacePoint{}) raise(ErrorCode::InvalidOption, std::string(where) + "it is 0, expected a direction");
 }
 
-SurfacePoint hit(const SurfaceState& state, const FaceTree& tree, const SpacePoint& origin,
-                 const SpacePoint& direction) {
-  const Ray ray({origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, state.index->frame);
+Ray make_ray(const SurfaceState& state, const SpacePoint& origin, const SpacePoint& direction) {
+  return {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, state.index->frame};
+}
+
+SurfacePoint hit(const SurfaceState& state, const FaceTree& tree, const Ray& ray) {
   const TriangleHit first = find_first_hit(*state.index, tree, ray, [](auto&&...) { return true; });
   if (first.at.distance == kInfinity) return {};
   const Triangle& triangle = tree.triangles()[first.triangle];
@@ -135,7 +138,7 @@ SurfacePoint Surface::first_hit(const SpacePoint& origin, const SpacePoint& dire
   const State& state = SurfaceAccess::state(*this);
   check_point(origin, "origin: ");
   check_direction(direction, "direction: ");
-  return hit(state, state.tree(), origin, direction);
+  return hit(state, state.tree(), make_ray(state, origin, direction));
 }
 
 std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origins,
@@ -150,10 +153,15 @@ std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origin
     check_direction(directions[i], "directions: row " + std::to_string(i) + ": ");
   }
   const FaceTree& tree = state.tree();
+  const auto ray_of = [&](std::size_t i) { return make_ray(state, origins[i], directions[i]); };
+  const std::vector<std::size_t> in_order = rows_along_curve(origins.size(), [&](std::size_t i) {
+    const Ray ray = ray_of(i);
+    return ray.origin() + way_to_frame(ray.origin(), ray.direction()) * ray.direction();
+  });
   TaskContext task(run.threads, run.progress, origins.size());
   std::vector<SurfacePoint> found(origins.size());
   task.parallel_for(origins.size(), kRaysOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) found[i] = hit(state, tree, origins[i], directions[i]);
+    for (std::size_t i = begin; i < end; ++i) found[in_order[i]] = hit(state, tree, ray_of(in_order[i]));
     task.advance(thread, end - begin);
   });
   task.finish();
