@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,7 +15,6 @@
 #include "meshhood/io/mesh_io.h"
 #include "meshhood/meshhood.h"
 
-#include "support/families.h"
 #include "support/index_bytes.h"
 #include "support/refusal.h"
 

@@ -156,19 +156,6 @@ TEST_P(KNearestIn, AllVerticesHaveTheRowsOfSingleQueries) {
 
 INSTANTIATE_TEST_SUITE_P(All, KNearestIn, testing::ValuesIn(families()), family_name);
 
-TEST(KNearest, OfAllVerticesAreTheRowsInTheirOrder) {
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
-  Searcher searcher(index);
-  const KNearest found = k_nearest(index, {}, 7, {}, {.threads = 3});
-  ASSERT_EQ(found.ids.size(), 7 * mesh.size());
-  NearestRow expected;
-  for (VertexId v = 0; v < mesh.size(); ++v) {
-    searcher.nearest_connected(v, 7, expected.ids, expected.distances);
-    ASSERT_EQ(k_of(found, v, 7).ids, expected.ids);
-  }
-}
-
 TEST(KNearest, DiscsOfAPlaneHaveTheirArea) {
   const TestMesh mesh = make_grid(60, 60, false);
   const Index index = build(mesh.view());

@@ -25,7 +25,6 @@
 #include "support/oracle.h"
 #include "support/random.h"
 #include "support/refusal.h"
-#include "support/scale.h"
 
 namespace meshhood::test {
 namespace {

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -375,20 +374,6 @@ TEST(Curvatures, RefuseMemoryOfAnotherSize) {
   expect_refusal(less + "count" + expected, [&](CurvatureMemory& m) { m.count = m.count.first(rows - 1); });
 }
 
-TEST(Curvatures, OfAListAreThoseOfAllVertices) {
-  const Case one(bumpy_grid(30).finish(false));
-  const std::vector<VertexId> rows{17, 3, 899, 3, 450};
-  const std::vector<double> radii{3, 3, 5, 5, 2};
-  const Curvatures few = curvatures(one.surface, {.vertices = rows, .radius = radii});
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Curvatures all = curvatures(one.surface, {.radius = radii[i]});
-    EXPECT_NEAR(few.k1[i], all.k1[rows[i]], 1e-11 * (1 + std::abs(few.k1[i])));
-    EXPECT_NEAR(few.k2[i], all.k2[rows[i]], 1e-11 * (1 + std::abs(few.k2[i])));
-  }
-  const std::vector<VertexId> none;
-  EXPECT_TRUE(curvatures(one.surface, {.vertices = none, .radius = 1.0}).k1.empty());
-}
-
 TEST(Curvatures, TheFilterKeepsTheOtherSideOfAFoldOut) {
   // Two plates, one above the other and turned away from it, joined at one side.
   TestMesh mesh = make_grid(20, 20, false);
@@ -481,29 +466,6 @@ TEST(Curvatures, AVertexWithANormalOfNanHasNoNormal) {
     EXPECT_TRUE(std::isfinite(k.k1[v]) && std::isfinite(k.k2[v]));
   }
   EXPECT_EQ(k.k1[77], 0);
-}
-
-TEST(Curvatures, TheSurfaceOutlivesItsIndex) {
-  const TestMesh mesh = bumpy_grid(12).finish(false);
-  std::optional<Index> index = build(mesh.view());
-  const Surface surface(*index, mesh.view());
-  const Curvatures expected = curvatures(surface, {.radius = 3.0});
-  const Index moved = std::move(*index);
-  index.reset();
-  EXPECT_EQ(curvatures(surface, {.radius = 3.0}).k1, expected.k1);
-}
-
-TEST(Curvatures, ARefitOfTheIndexLeavesTheSurfaceUnchanged) {
-  TestMesh mesh = bumpy_grid(12).finish(false);
-  Index index = build(mesh.view());
-  const Surface surface(index, mesh.view());
-  const Curvatures expected = curvatures(surface, {.radius = 3.0});
-  mesh.positions[3 * 40 + 2] += 0.5;
-  mesh.finish(false);
-  const std::vector<std::uint32_t> changed{40};
-  index = refit(index, mesh.positions_view(), changed);
-  EXPECT_EQ(curvatures(surface, {.radius = 3.0}).k1, expected.k1);
-  EXPECT_NE(curvatures(Surface(index, mesh.view()), {.radius = 3.0}).k1, expected.k1);
 }
 
 TEST(Curvatures, LibiglsAxisPointsToTheNeighborWithTheLowestId) {

@@ -7,7 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "exact/joint/packet_answer.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -24,8 +23,10 @@
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/limited_isa.h"
 #include "support/refusal.h"
 #include "support/scale.h"
+#include "support/sorted.h"
 #include "support/without_walls.h"
 
 namespace meshhood::test {
@@ -89,24 +90,6 @@ class MaskedCase {
   std::vector<VertexId> ids_;
 };
 
-std::vector<VertexId> sorted(std::span<const VertexId> ids) {
-  std::vector<VertexId> result(ids.begin(), ids.end());
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
-/// Limits the kernels of all searches.
-class LimitedKernels {
- public:
-  explicit LimitedKernels(Isa isa) : before_(best_isa()) { limit_isa(isa); }
-  LimitedKernels(const LimitedKernels&) = delete;
-  LimitedKernels& operator=(const LimitedKernels&) = delete;
-  ~LimitedKernels() { limit_isa(before_); }
-
- private:
-  Isa before_;
-};
-
 /// How many queries had which way.
 struct Ways {
   std::size_t queries = 0;
@@ -141,7 +124,7 @@ void compare_batch(MaskedCase& scene, double radius, unsigned threads, Ways& way
   for (VertexId v = 0; v < scene.size(); ++v) {
     const std::size_t begin = found.offsets[v];
     const auto ids = std::span(found.ids).subspan(begin, found.offsets[v + 1] - begin);
-    ASSERT_EQ(sorted(ids), scene.expected(v, radius)) << "vertex " << v << ", radius " << radius;
+    ASSERT_EQ(sorted({ids.begin(), ids.end()}), scene.expected(v, radius)) << "vertex " << v << ", radius " << radius;
     ASSERT_EQ(sizes[v], ids.size());
     for (std::size_t i = 0; i < ids.size(); ++i) {
       ASSERT_EQ(found.distances[begin + i], distance(scene.mesh().positions_view(), v, ids[i]));
@@ -163,7 +146,7 @@ TEST_P(MaskedFamily, GivesTheAnswersOfTheGraphWithoutWalls) {
     ASSERT_NO_FATAL_FAILURE(compare_single(scene, random, oracle, ways));
     const std::vector<double> radii =
         draw_radii(random, oracle, static_cast<std::uint32_t>(random.below(scene.size())));
-    const LimitedKernels limited(isas[seed % isas.size()]);
+    const LimitedIsa limited(isas[seed % isas.size()]);
     for (std::size_t i = 0; i < (scene.size() > 1000 ? 1 : 3); ++i) {
       ASSERT_NO_FATAL_FAILURE(
           compare_batch(scene, radii[random.below(radii.size())], 1 + static_cast<unsigned>(seed % 2), ways));
@@ -210,20 +193,6 @@ TEST(Masked, GivesRowsWithRadiiOfTheirOwnAndOfChosenVertices) {
     ASSERT_EQ(scaled_sizes[i], scene.expected(rows[i], 5).size());
     ASSERT_EQ(scaled_sizes[rows.size() + i], scene.expected(rows[i], 1.5).size());
   }
-}
-
-TEST(Masked, RestrictsPathsInBatches) {
-  const TestMesh mesh = make_grid(5, 5, true).finish(false);
-  const Index index = build(mesh.view());
-  std::vector<std::uint8_t> walls(25);
-  for (std::size_t v = 10; v < 14; ++v) walls[v] = 1;
-  std::vector<std::uint8_t> ignored(25);
-  ignored[9] = 1;
-  const std::vector<VertexId> rows{7, 12};
-  const Index searched = masked(index, {walls, ignored});
-  const BatchQuery query{.vertices = rows, .radius = 5, .metric = Metric::Path};
-  EXPECT_THAT(counts(searched, query), ElementsAre(13, 0)) << "two rows without 9, then 14, 19, 18 and 24";
-  EXPECT_EQ(neighborhoods(searched, query).ids.size(), 13U);
 }
 
 TEST(Masked, HasACopyOfTheMasks) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The quality of an index: what a build would gain, compared with what it gains.
-#include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>

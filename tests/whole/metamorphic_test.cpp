@@ -18,6 +18,7 @@
 #include "support/families.h"
 #include "support/oracle.h"
 #include "support/scale.h"
+#include "support/sorted.h"
 
 namespace meshhood::test {
 namespace {
@@ -124,12 +125,6 @@ struct NamedTransformation {
 };
 
 class Metamorphic : public testing::TestWithParam<NamedTransformation> {};
-
-std::vector<std::uint32_t> sorted(const std::vector<VertexId>& ids) {
-  std::vector<std::uint32_t> result(ids.begin(), ids.end());
-  std::sort(result.begin(), result.end());
-  return result;
-}
 
 void compare(const TestMesh& mesh, const Equivalent& changed, Random& random) {
   ReferenceSearcher before(mesh.view());

@@ -3,10 +3,7 @@
 // and queried. Rows A4 to A12, A15 and A16.
 #include <algorithm>
 #include <climits>
-#include <cmath>
 #include <cstdio>
-#include <limits>
-#include <numeric>
 #include <string>
 #include <vector>
 
