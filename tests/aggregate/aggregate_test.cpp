@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -616,13 +615,6 @@ TEST(AggregateOfFloats, IsThatOfTheSameNumbersAsDoubles) {
     EXPECT_EQ(aggregate(index, {.values = values, .channels = 2}, query),
               aggregate(index, {.values = doubles, .channels = 2}, query));
   }
-}
-
-TEST(AggregateOfAnEmptyMesh, IsEmpty) {
-  const Index index = build(TestMesh().finish(true).view());
-  EXPECT_TRUE(aggregate(index, {}, {.radius = 1}).empty());
-  EXPECT_TRUE(
-      aggregate(index, {}, {.radius = BatchRadius::scales({1, 2}), .kernel = SmoothingKernel::Biweight}).empty());
 }
 
 TEST_F(Aggregate, RefusesWrongArguments) {

@@ -48,21 +48,6 @@ TEST(ReferenceSearcher, ReturnsTheVertexFirstAndNoDuplicates) {
   }
 }
 
-TEST(ReferenceSearcher, AGraphGivesTheAnswersOfItsMesh) {
-  const TestMesh mesh = make_grid(20, 20, false);
-  const Adjacency graph = adjacency(mesh.view());
-  ReferenceSearcher of_mesh(mesh.view());
-  ReferenceSearcher of_graph(GraphView{mesh.positions_view(), graph.view()});
-  EXPECT_TRUE(std::ranges::equal(of_mesh.adjacency().neighbors, graph.neighbors));
-  std::vector<VertexId> a;
-  std::vector<VertexId> b;
-  for (VertexId v = 0; v < mesh.size(); ++v) {
-    of_mesh.neighborhood(v, 4, a);
-    of_graph.neighborhood(v, 4, b);
-    ASSERT_EQ(a, b);
-  }
-}
-
 TEST(ReferenceSearcher, AnswersStayTheSameWhenTheQueryNumberWrapsAround) {
   const TestMesh mesh = make_grid(20, 20, false);
   ReferenceSearcher searcher(mesh.view());

@@ -150,9 +150,6 @@ static_assert(!std::constructible_from<PositionsView, std::vector<std::array<flo
 static_assert(!std::constructible_from<IndicesView, std::vector<std::int32_t>>);
 static_assert(!MakesTriangles<std::vector<std::uint32_t>>);
 static_assert(!MakesTriangles<std::vector<std::array<std::uint32_t, 3>>>);
-static_assert(!std::constructible_from<BatchVertices, std::vector<VertexId>>);
-static_assert(!std::constructible_from<BatchRadius, std::vector<double>>);
-static_assert(std::constructible_from<BatchRadius, int> && !std::constructible_from<BatchRadius, bool>);
 static_assert(!std::constructible_from<Searcher, Index>);
 static_assert(!std::constructible_from<paper::Searcher, paper::Index>);
 static_assert(!std::constructible_from<SearchMethod, Index>);
@@ -162,7 +159,6 @@ static_assert(HasView<const GraphData&> && !HasView<GraphData>);
 static_assert(HasView<const ReorderedMesh&> && !HasView<ReorderedMesh>);
 
 // A radius of any arithmetic type.
-static_assert(std::constructible_from<BatchRadius, int>);
 static_assert(std::constructible_from<BatchRadius, float>);
 static_assert(std::constructible_from<BatchRadius, const std::vector<double>&>);
 

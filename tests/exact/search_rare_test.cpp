@@ -231,14 +231,6 @@ TEST(Rare, AnswerThatIsSmallBesideWhatWasReachedIsSearchedLeafByLeaf) {
   query_everywhere(exact, mesh.size(), {37, 38.5, 39.5, 41});
 }
 
-TEST(Rare, WholeMeshInsideTheBall) {
-  const TestMesh mesh = make_grid(70, 70, true);
-  ExactAnswer exact(mesh.view());
-  exact.query(0, kInfinity);
-  EXPECT_EQ(exact.answer().size(), mesh.size());
-  query_everywhere(exact, mesh.size(), {98, 1e10, 1e300, kInfinity});
-}
-
 TEST(Rare, LeavesWithMoreThanEightLinks) {
   const TestMesh mesh = star(20'000);
   ExactAnswer exact(mesh.view());
@@ -295,15 +287,6 @@ TEST(Rare, SurfacesOfManyComponents) {
     }
     ASSERT_EQ(found.distance, std::sqrt(least));
   }
-}
-
-TEST(Rare, CoincidentVertices) {
-  TestMesh mesh = make_grid(30, 30, false);
-  append(mesh, make_grid(30, 30, false));                  // every position twice, not connected
-  for (double& x : mesh.positions) x = std::floor(x / 2);  // four times more, connected
-  mesh.finish(true);
-  ExactAnswer exact(mesh.view());
-  query_everywhere(exact, mesh.size(), {0, 1, std::numbers::sqrt2, 2, 5, 100});
 }
 
 TEST(Rare, DistancesThatSinglePrecisionCannotDecide) {

@@ -16,7 +16,6 @@
 #include "meshhood/meshhood.h"
 
 #include "support/families.h"
-#include "support/oracle.h"
 #include "support/scale.h"
 #include "support/sorted.h"
 
@@ -187,24 +186,6 @@ TEST(MetamorphicLattice, ExactAnswersDoNotChangeUnderAShift) {
     Random random(seed);
     compare(mesh, in_place(std::move(shifted)), random);
   }
-}
-
-TEST(Metamorphic, InfinityIsTheComponent) {
-  std::size_t queries = 0;
-  for (const Family& family : families()) {
-    const TestMesh mesh = make_mesh(family, 5, 300);
-    if (mesh.size() == 0) continue;
-    const Oracle oracle(mesh);
-    const paper::Index index = paper::build(mesh.view());
-    paper::Searcher searcher(index);
-    std::vector<std::size_t> sizes(mesh.size(), 0);
-    for (std::size_t v = 0; v < mesh.size(); ++v) ++sizes[oracle.component(v)];
-    for (std::size_t v = 0; v < mesh.size(); ++v, ++queries) {
-      const std::size_t count = searcher.count(static_cast<VertexId>(v), std::numeric_limits<double>::infinity());
-      ASSERT_EQ(count, sizes[oracle.component(v)]) << mesh.name << ", vertex " << v;
-    }
-  }
-  std::printf("%zu queries, 0 mismatches\n", queries);
 }
 
 }  // namespace
