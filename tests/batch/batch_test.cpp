@@ -151,21 +151,6 @@ TEST_P(Families, RowsAreTheAnswersToSingleQueries) {
   std::printf("%s: %zu rows, %zu numbers of threads\n", std::string(GetParam().name).c_str(), rows, kThreads.size());
 }
 
-TEST_P(Families, OrderDoesNotDependOnTheThreads) {
-  const TestMesh mesh = make_mesh(GetParam(), 6, scaled(3000, 800));
-  const Index index = build(mesh.view());
-  const RandomRows rows(mesh.view(), 600, 1);
-  for (const std::size_t buffer : {std::size_t{5000}, std::size_t{1} << 24}) {
-    const Streamed expected = stream(index, rows.query(), {.distances = true, .buffer_bytes = buffer}, {.threads = 1});
-    const Neighborhoods collected = neighborhoods(index, rows.query(), {}, {.threads = 1});
-    for (const unsigned threads : kThreads) {
-      EXPECT_EQ(stream(index, rows.query(), {.distances = true, .buffer_bytes = buffer}, {.threads = threads}),
-                expected);
-      EXPECT_EQ(neighborhoods(index, rows.query(), {}, {.threads = threads}).ids, collected.ids);
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(families()), family_name);
 
 /// A grid of 60 by 60 vertices, and its index.

@@ -216,9 +216,6 @@ TEST_P(Allocation, FailsInTheGraphOfAnOddMesh) {
 
 TEST_P(Allocation, FailsInARegionSearch) {
   expect_answered<Searcher>(shortages, mesh, index, [](Searcher& s, VertexId v, double r, Answers& answers) {
-    s.neighborhood(v, r, answers.ids, answers.distances);
-  });
-  expect_answered<Searcher>(shortages, mesh, index, [](Searcher& s, VertexId v, double r, Answers& answers) {
     const std::vector<double> radii = r < kInfinity ? std::vector{r / 2, r + 1} : std::vector{1.0, r};
     std::vector<std::size_t> counts;
     s.nested(v, radii, answers.ids, counts);
