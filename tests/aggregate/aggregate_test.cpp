@@ -9,9 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
-#include <set>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -166,7 +164,7 @@ TestSignal make_signal(std::size_t vertices, bool gaps, Random& random) {
 /// A mesh, its index, and the definition of every aggregate.
 class AggregateCase {
  public:
-  explicit AggregateCase(TestMesh mesh) : mesh_(std::move(mesh)), index_(build(mesh_.view())) {}
+  explicit AggregateCase(TestMesh mesh) : mesh_(std::move(mesh)), index_(build(mesh_.view())), oracle_(mesh_) {}
 
   [[nodiscard]] const Index& index() const { return index_; }
   [[nodiscard]] std::size_t size() const { return mesh_.size(); }
@@ -204,7 +202,7 @@ class AggregateCase {
       } else if (query.metric == Metric::Space) {
         BallSearcher(mesh_.positions_view()).neighborhood(v, searched, ids_, distances_);
       } else if (i == 0 || v != paths_from_) {
-        find_paths(v, graph, query.metric);
+        find_paths(v, masks.walls, query.metric);
       }
       const Expected expected =
           reduce_items(items(signal, i % signal.channels, v, query.metric, masks, radius), query, radius);
@@ -222,27 +220,20 @@ class AggregateCase {
   [[nodiscard]] std::size_t compared() const { return compared_; }
 
  private:
-  /// All vertices and the lengths of the paths to them, by the algorithm of Dijkstra. By rings, an edge has length 1.
-  void find_paths(VertexId v, const Adjacency& graph, Metric metric) {
+  /// All vertices and the lengths of the paths to them. By rings, an edge has length 1.
+  void find_paths(VertexId v, VertexMask walls, Metric metric) {
     paths_from_ = v;
+    PlainStart start{.center = position(mesh_, v), .seeds = {v}, .walls = std::vector<std::uint8_t>(size())};
+    for (VertexId w = 0; w < size(); ++w) start.walls[w] = walls.size() != 0 && walls[w] ? 1 : 0;
+    const std::vector<double> lengths = oracle_.path_lengths(start, kInfinity, [&](std::uint32_t a, std::uint32_t b) {
+      return metric == Metric::Rings ? 1 : oracle_.graph().distance(a, b);
+    });
     ids_.clear();
     distances_.clear();
-    std::vector<double> lengths(size(), kInfinity);
-    std::set<std::pair<double, VertexId>> queue{{0.0, v}};
-    lengths[v] = 0;
-    while (!queue.empty()) {
-      const auto [length, nearest] = *queue.begin();
-      queue.erase(queue.begin());
-      ids_.push_back(nearest);
-      distances_.push_back(length);
-      for (const VertexId w : graph.view()[nearest]) {
-        const double edge = metric == Metric::Rings ? 1 : distance(mesh_.positions_view(), nearest, w);
-        const double through = length + edge;
-        if (!(through < lengths[w])) continue;
-        queue.erase({lengths[w], w});
-        lengths[w] = through;
-        queue.insert({through, w});
-      }
+    for (VertexId w = 0; w < size(); ++w) {
+      if (lengths[w] == kInfinity) continue;
+      ids_.push_back(w);
+      distances_.push_back(lengths[w]);
     }
   }
 
@@ -276,6 +267,7 @@ class AggregateCase {
 
   TestMesh mesh_;
   Index index_;
+  RegionOracle oracle_;
   VertexId paths_from_ = 0;
   std::vector<VertexId> ids_;
   std::vector<double> distances_;
@@ -521,18 +513,6 @@ TEST_F(Aggregate, OfMissingValuesOnlyIsNaNExceptForSumAndCount) {
   EXPECT_GT(of(Reduce::Count, MissingValues::Propagate), 1);
 }
 
-TEST_F(Aggregate, OfAWholeLeafWithOneMissingValueIsNaN) {
-  std::vector<double> values(scene.size(), 1.0);
-  values[scene.size() / 2] = kNan;
-  const auto of = [&](Reduce reduce, MissingValues missing) {
-    return aggregate(scene.index(), {values}, {.radius = kInfinity, .reduce = {reduce}, .missing = missing}).front();
-  };
-  for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::Minimum, Reduce::Maximum, Reduce::Variance}) {
-    EXPECT_THAT(of(reduce, MissingValues::Propagate), IsNan());
-    EXPECT_FALSE(std::isnan(of(reduce, MissingValues::Omit)));
-  }
-}
-
 TEST_F(Aggregate, IgnoresAHugeValueOutsideTheNeighborhood) {
   // In the same leaf as vertices of the neighborhood, so that the sums stored for the leaf include it.
   std::vector<double> values(scene.size(), 1.0);
@@ -621,21 +601,6 @@ TEST(AggregateWithAKernel, GivesAVertexAtExactlyTheRadiusNoWeight) {
   EXPECT_GT(ties, 0U);
 }
 
-TEST(AggregateOfIsolatedVertices, IsTheirOwnValue) {
-  TestMesh mesh;
-  for (int i = 0; i < 50; ++i) mesh.add_vertex(0.01 * i, 0, 0);
-  mesh.finish(false);
-  const Index index = build(mesh.view());
-  std::vector<double> values;
-  for (int i = 0; i < 50; ++i) values.push_back(i);
-  for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::Minimum, Reduce::Maximum}) {
-    EXPECT_EQ(aggregate(index, {values}, {.radius = 1, .reduce = {reduce}}), values);
-  }
-  EXPECT_THAT(aggregate(index, {values}, {.radius = 1, .reduce = {Reduce::Count}}), Each(1));
-  EXPECT_THAT(aggregate(index, {values}, {.radius = 1, .reduce = {Reduce::Variance}}), Each(0));
-  EXPECT_THAT(aggregate(index, {values}, {.radius = 1, .reduce = {Reduce::Variance}, .ddof = 1}), Each(IsNan()));
-}
-
 TEST(AggregateOfFloats, IsThatOfTheSameNumbersAsDoubles) {
   const TestMesh mesh = bumpy_grid(30);
   const Index index = build(mesh.view());
@@ -650,13 +615,6 @@ TEST(AggregateOfFloats, IsThatOfTheSameNumbersAsDoubles) {
     EXPECT_EQ(aggregate(index, {.values = values, .channels = 2}, query),
               aggregate(index, {.values = doubles, .channels = 2}, query));
   }
-}
-
-TEST(AggregateOfAnEmptyMesh, IsEmpty) {
-  const Index index = build(TestMesh().finish(true).view());
-  EXPECT_TRUE(aggregate(index, {}, {.radius = 1}).empty());
-  EXPECT_TRUE(
-      aggregate(index, {}, {.radius = BatchRadius::scales({1, 2}), .kernel = SmoothingKernel::Biweight}).empty());
 }
 
 TEST_F(Aggregate, RefusesWrongArguments) {

@@ -126,45 +126,5 @@ TEST_P(SmoothedPoint, EndsWithAThousandthAtTheRadius) {
 INSTANTIATE_TEST_SUITE_P(Metrics, SmoothedPoint, testing::Values(Metric::Straight, Metric::Path),
                          [](const auto& metric) { return metric.param == Metric::Path ? "Path" : "Straight"; });
 
-TEST(SmoothedPlane, HasTheVarianceOfTheWidthAlongEachAxis) {
-  constexpr std::size_t kSide = 101;
-  constexpr double kWidth = 15;
-  const TestMesh mesh = make_grid(kSide, kSide, false).finish(false);
-  std::vector<double> values(mesh.size());
-  values[kSide * kSide / 2] = 1;
-  const std::vector<double> smooth =
-      aggregate(build(mesh.view()), {.values = values},
-                {.radius = smoothing_radius(kWidth), .kernel = SmoothingKernel::Gaussian});
-  for (const std::size_t axis : {0U, 1U}) {
-    double weights = 0;
-    double squares = 0;
-    for (std::size_t v = 0; v < mesh.size(); ++v) {
-      const double step = mesh.positions[3 * v + axis] - mesh.positions[3 * (kSide * kSide / 2) + axis];
-      weights += smooth[v];
-      squares += smooth[v] * step * step;
-    }
-    EXPECT_NEAR(kDeviationsOfAWidth * std::sqrt(squares / weights), kWidth, 0.01 * kWidth);
-  }
-}
-
-// A lattice has such vertices: (3, 4, 5).
-TEST(AggregateWithAGaussian, HasAVertexAtExactlyTheRadius) {
-  const TestMesh mesh = make_grid(21, 21, false).finish(false);
-  std::vector<double> values(mesh.size());
-  values[13 * 21 + 14] = 1;
-  const std::vector<VertexId> row{10 * 21 + 10};
-  for (const Metric metric : {Metric::Straight, Metric::Path}) {
-    const double radius = metric == Metric::Path ? 7 : 5;
-    values[10 * 21 + 17] = metric == Metric::Path ? 1 : 0;
-    values[13 * 21 + 14] = metric == Metric::Path ? 0 : 1;
-    const AggregateQuery query{.vertices = row,
-                               .radius = radius,
-                               .metric = metric,
-                               .reduce = {Reduce::Sum},
-                               .kernel = SmoothingKernel::Gaussian};
-    EXPECT_NEAR(aggregate(build(mesh.view()), {.values = values}, query)[0], 1e-3, 1e-17);
-  }
-}
-
 }  // namespace
 }  // namespace meshhood::test

@@ -2,7 +2,6 @@
 #include "meshhood/adjacency.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <vector>
 
@@ -25,42 +24,6 @@ TEST(Adjacency, ConsecutiveCornersAreNeighbors) {
   const Adjacency graph = adjacency(mesh.view());
   EXPECT_THAT(graph.offsets, ElementsAre(0, 2, 4, 6, 8));
   EXPECT_THAT(graph.neighbors, ElementsAre(1, 2, 0, 3, 0, 3, 1, 2));
-}
-
-TEST(Adjacency, APolygonIsACycleWithoutDiagonals) {
-  const TestMesh mesh = make_mesh(*std::ranges::find(trap_families(), "polygon", &Family::name), 1, 1000);
-  const Adjacency graph = adjacency(mesh.view());
-  EXPECT_EQ(graph.neighbors.size(), 2000U);
-}
-
-TEST(Adjacency, AnEdgeOfManyFacesCountsOnce) {
-  const TestMesh mesh = make_grid(3, 3, false);
-  const Adjacency once = adjacency(mesh.view());
-  TestMesh doubled = mesh;
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    std::vector<std::uint32_t> face(mesh.face(f).begin(), mesh.face(f).end());
-    doubled.add_face(face);
-    std::ranges::reverse(face);
-    doubled.add_face(face);
-  }
-  EXPECT_EQ(adjacency(doubled.view()).neighbors, once.neighbors);
-  EXPECT_EQ(adjacency(doubled.view()).offsets, once.offsets);
-}
-
-TEST(Adjacency, RepeatedCornersAndFacesOfOneCornerGiveNoEdge) {
-  TestMesh mesh;
-  for (int v = 0; v < 5; ++v) mesh.add_vertex(v, 0, 0);
-  mesh.add_face({0, 0, 1, 1, 0});  // joins 0 and 1
-  mesh.add_face({3});
-  mesh.add_face(std::initializer_list<std::uint32_t>{});
-  mesh.add_face({4, 4});
-  mesh.add_face({2, 3});
-  const Adjacency graph = adjacency(mesh.finish(true).view());
-  EXPECT_THAT(graph.view()[0], ElementsAre(1));
-  EXPECT_THAT(graph.view()[1], ElementsAre(0));
-  EXPECT_THAT(graph.view()[2], ElementsAre(3));
-  EXPECT_THAT(graph.view()[3], ElementsAre(2));
-  EXPECT_THAT(graph.view()[4], IsEmpty());
 }
 
 TEST(Adjacency, AnEmptyMeshIsAccepted) {
@@ -87,22 +50,6 @@ TEST(Adjacency, EqualsTheOracle) {
     }
   }
   std::printf("%zu meshes, %zu rows\n", meshes, rows);
-}
-
-TEST(MeanEdgeLength, CountsEachEdgeOnce) {
-  TestMesh mesh;
-  for (const double x : {0, 1, 4}) mesh.add_vertex(x, 0, 0);
-  mesh.add_face({0, 1});
-  mesh.add_face({1, 2});
-  mesh.add_face({2, 1});
-  const Adjacency graph = adjacency(mesh.finish(true).view());
-  EXPECT_EQ(mean_edge_length({mesh.positions_view(), graph.view()}), 2);
-}
-
-TEST(MeanEdgeLength, IsZeroWithoutEdges) {
-  const std::vector<float> positions{0, 0, 0};
-  const Adjacency graph{{0, 0}, {}};
-  EXPECT_EQ(mean_edge_length({positions, graph.view()}), 0);
 }
 
 /// Three vertices with the rows that the case gives.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Edges cut by a list: the graph is that of the mesh without them, and searches do not cross them.
-#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <set>
@@ -52,15 +51,6 @@ TEST(CutEdges, KeepsAllOtherEdges) {
   }
   std::printf("%zu edges cut\n", cut);
   EXPECT_GT(cut, 0U);
-}
-
-TEST(CutEdges, SeparateTheTwoHalvesOfAStrip) {
-  const TestMesh mesh = make_grid(8, 3, true);
-  const std::vector<std::int32_t> edges{9, 12, 13, 10, 11, 14};
-  const Adjacency graph = adjacency(mesh.view());
-  const Adjacency cut = cut_edges(graph.view(), edges);
-  const Index index = build(GraphView{mesh.positions_view(), cut.view()});
-  EXPECT_EQ(Searcher(index).count(0, kInfinity), 12U);
 }
 
 TEST(CutEdges, RefusesPairsThatAreNotEdgesAndNamesTheRow) {

@@ -40,12 +40,6 @@ TEST(EpochArray, KnowsWhatWasSetSinceTheLastForget) {
   EXPECT_GT(known, 1000U);
 }
 
-TEST(EpochArray, KnowsNothingBeforeTheFirstSet) {
-  EpochArray<int> array(3);
-  array.forget();
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_FALSE(array.is_known(i));
-}
-
 // The numbers of the searches run out after 2^32 of them. What earlier ones have set must not become known again, nor
 // what none has set.
 TEST(EpochArray, ForgetsEverythingWhenTheEpochsRunOut) {

@@ -50,14 +50,6 @@ std::vector<std::vector<std::size_t>> listed(const FacesView& faces) {
   return result;
 }
 
-TEST(Views, ReturnTheirFacesInOrder) {
-  const std::vector<std::int32_t> corners{0, 1, 2, 2, 1, 0};
-  const std::vector<std::uint64_t> offsets{0, 2, 2, 6};
-  EXPECT_THAT(listed(FacesView::triangles(corners)), ElementsAre(ElementsAre(0, 1, 2), ElementsAre(2, 1, 0)));
-  EXPECT_THAT(listed(FacesView::polygons(offsets, corners)),
-              ElementsAre(ElementsAre(0, 1), ElementsAre(), ElementsAre(2, 2, 1, 0)));
-}
-
 template <class Index>
 class IndexTypes : public testing::Test {};
 

@@ -37,13 +37,6 @@ TEST(ExactNeighborhood, ExcludesNearVerticesThatAreNotConnected) {
   EXPECT_THAT(exact_neighborhood(mesh.view(), 0, 10.5), ElementsAre(0, 1, 2, 3, 4, 5));
 }
 
-TEST(Ball, IncludesNearVerticesThatAreNotConnected) {
-  const TestMesh mesh = horseshoe();
-  std::vector<VertexId> out;
-  BallSearcher(mesh.positions_view()).neighborhood(0, 1, out);
-  EXPECT_THAT(out, ElementsAre(0, 5));
-}
-
 TEST(ReferenceSearcher, ReturnsTheVertexFirstAndNoDuplicates) {
   const TestMesh mesh = make_grid(20, 20, false);
   ReferenceSearcher searcher(mesh.view());
@@ -53,31 +46,6 @@ TEST(ReferenceSearcher, ReturnsTheVertexFirstAndNoDuplicates) {
     EXPECT_EQ(out.front(), v);
     EXPECT_EQ(std::set<VertexId>(out.begin(), out.end()).size(), out.size());
   }
-}
-
-TEST(ReferenceSearcher, AGraphGivesTheAnswersOfItsMesh) {
-  const TestMesh mesh = make_grid(20, 20, false);
-  const Adjacency graph = adjacency(mesh.view());
-  ReferenceSearcher of_mesh(mesh.view());
-  ReferenceSearcher of_graph(GraphView{mesh.positions_view(), graph.view()});
-  EXPECT_TRUE(std::ranges::equal(of_mesh.adjacency().neighbors, graph.neighbors));
-  std::vector<VertexId> a;
-  std::vector<VertexId> b;
-  for (VertexId v = 0; v < mesh.size(); ++v) {
-    of_mesh.neighborhood(v, 4, a);
-    of_graph.neighborhood(v, 4, b);
-    ASSERT_EQ(a, b);
-  }
-}
-
-TEST(ReferenceSearcher, CanBeMoved) {
-  const TestMesh mesh = make_grid(5, 5, false);
-  ReferenceSearcher first(mesh.view());
-  ReferenceSearcher second(std::move(first));
-  first = std::move(second);
-  std::vector<VertexId> out;
-  first.neighborhood(12, 1, out);
-  EXPECT_EQ(out.size(), 5U);
 }
 
 TEST(ReferenceSearcher, AnswersStayTheSameWhenTheQueryNumberWrapsAround) {

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 // All searchers satisfy `NeighborhoodSearcher`: their calls agree, and a visit gives the same vertices.
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <span>
 #include <stdexcept>
-#include <string>
 #include <variant>
 #include <vector>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meshhood/meshhood.h"
@@ -20,11 +14,10 @@
 #include "support/family_name.h"
 #include "support/refusal.h"
 #include "support/scale.h"
+#include "support/sorted.h"
 
 namespace meshhood::test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <NeighborhoodSearcher S>
 std::vector<VertexId> ids_of_visit(S& searcher, VertexId v, double radius) {
@@ -36,11 +29,6 @@ std::vector<VertexId> ids_of_visit(S& searcher, VertexId v, double radius) {
     }
   });
   EXPECT_TRUE(all);
-  return ids;
-}
-
-std::vector<VertexId> sorted(std::vector<VertexId> ids) {
-  std::sort(ids.begin(), ids.end());
   return ids;
 }
 

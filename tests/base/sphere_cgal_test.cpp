@@ -2,7 +2,6 @@
 // Our bounding spheres compared with those of CGAL, which are the smallest: on random points, and on every cluster of
 // meshes.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>

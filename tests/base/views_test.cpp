@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,7 +15,6 @@
 #include "meshhood/io/mesh_io.h"
 #include "meshhood/meshhood.h"
 
-#include "support/families.h"
 #include "support/index_bytes.h"
 #include "support/refusal.h"
 
@@ -152,9 +150,6 @@ static_assert(!std::constructible_from<PositionsView, std::vector<std::array<flo
 static_assert(!std::constructible_from<IndicesView, std::vector<std::int32_t>>);
 static_assert(!MakesTriangles<std::vector<std::uint32_t>>);
 static_assert(!MakesTriangles<std::vector<std::array<std::uint32_t, 3>>>);
-static_assert(!std::constructible_from<BatchVertices, std::vector<VertexId>>);
-static_assert(!std::constructible_from<BatchRadius, std::vector<double>>);
-static_assert(std::constructible_from<BatchRadius, int> && !std::constructible_from<BatchRadius, bool>);
 static_assert(!std::constructible_from<Searcher, Index>);
 static_assert(!std::constructible_from<paper::Searcher, paper::Index>);
 static_assert(!std::constructible_from<SearchMethod, Index>);
@@ -164,7 +159,6 @@ static_assert(HasView<const GraphData&> && !HasView<GraphData>);
 static_assert(HasView<const ReorderedMesh&> && !HasView<ReorderedMesh>);
 
 // A radius of any arithmetic type.
-static_assert(std::constructible_from<BatchRadius, int>);
 static_assert(std::constructible_from<BatchRadius, float>);
 static_assert(std::constructible_from<BatchRadius, const std::vector<double>&>);
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <new>
@@ -17,6 +16,7 @@
 
 #include "meshhood/meshhood.h"
 
+#include "exact/index_access.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/refusal.h"
@@ -151,21 +151,6 @@ TEST_P(Families, RowsAreTheAnswersToSingleQueries) {
   std::printf("%s: %zu rows, %zu numbers of threads\n", std::string(GetParam().name).c_str(), rows, kThreads.size());
 }
 
-TEST_P(Families, OrderDoesNotDependOnTheThreads) {
-  const TestMesh mesh = make_mesh(GetParam(), 6, scaled(3000, 800));
-  const Index index = build(mesh.view());
-  const RandomRows rows(mesh.view(), 600, 1);
-  for (const std::size_t buffer : {std::size_t{5000}, std::size_t{1} << 24}) {
-    const Streamed expected = stream(index, rows.query(), {.distances = true, .buffer_bytes = buffer}, {.threads = 1});
-    const Neighborhoods collected = neighborhoods(index, rows.query(), {}, {.threads = 1});
-    for (const unsigned threads : kThreads) {
-      EXPECT_EQ(stream(index, rows.query(), {.distances = true, .buffer_bytes = buffer}, {.threads = threads}),
-                expected);
-      EXPECT_EQ(neighborhoods(index, rows.query(), {}, {.threads = threads}).ids, collected.ids);
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(families()), family_name);
 
 /// A grid of 60 by 60 vertices, and its index.
@@ -181,6 +166,37 @@ TEST_F(Batches, WithoutAListTakeAllVerticesInOrder) {
   const BatchOptions options{.sorted = true};
   EXPECT_EQ(stream(index, {.radius = 2.5}, options), stream(index, {.vertices = all, .radius = 2.5}, options));
   EXPECT_EQ(counts(index, {.radius = 0.5}), std::vector<std::uint64_t>(all.size(), 1));
+}
+
+TEST_F(Batches, InIndexOrderAreTheSameRowsSortedByTheirPlaceInTheIndex) {
+  const RandomRows rows(mesh.view(), 3000, 4);
+  const Streamed expected = stream(index, rows.query(), {.sorted = true});
+  const auto& slot = IndexAccess::view(index).slot;
+  std::vector<std::size_t> order_on_one_thread;
+  for (const unsigned threads : kThreads) {
+    for (const std::size_t buffer : {std::size_t{1000}, std::size_t{100'000}, std::size_t{8} << 20}) {
+      std::vector<std::size_t> order;
+      const auto sink = [&](const BatchRow& row) {
+        ASSERT_THAT(row.ids, testing::ElementsAreArray(expected.ids[row.row])) << "row " << row.row;
+        order.push_back(row.row);
+      };
+      const BatchOptions options{.sorted = true, .in_index_order = true, .buffer_bytes = buffer};
+      for_each_neighborhood(index, rows.query(), sink, options, {.threads = threads});
+      EXPECT_TRUE(std::ranges::is_sorted(order, {}, [&](std::size_t row) { return slot[rows.vertices[row]]; }));
+      if (order_on_one_thread.empty()) order_on_one_thread = order;
+      EXPECT_EQ(order, order_on_one_thread);
+    }
+  }
+  std::ranges::sort(order_on_one_thread);
+  for (std::size_t row = 0; row < rows.vertices.size(); ++row) ASSERT_EQ(order_on_one_thread.at(row), row);
+}
+
+TEST_F(Batches, KeptStayInTheOrderOfTheirRows) {
+  const RandomRows rows(mesh.view(), 3000, 5);
+  for (const SearchMethod& method : {SearchMethod(index), SearchMethod::ball_scan(mesh.positions_view())}) {
+    const Neighborhoods kept = neighborhoods(method, rows.query(), {.sorted = true, .in_index_order = true});
+    EXPECT_EQ(rows_of(kept), rows_of(neighborhoods(method, rows.query(), {.sorted = true})));
+  }
 }
 
 TEST_F(Batches, OfNoRowsAreEmpty) {

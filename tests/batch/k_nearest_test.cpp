@@ -18,8 +18,10 @@
 #include "meshhood/search.h"
 
 #include "support/draw_start.h"
+#include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/limited_isa.h"
 #include "support/random.h"
 #include "support/refusal.h"
 #include "support/region_oracle.h"
@@ -80,19 +82,18 @@ TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
     const Index index = build(mesh.view());
     const RegionOracle oracle(mesh);
     Random random(vertices);
-    std::vector<std::uint8_t> walls(mesh.size());
-    std::vector<std::uint8_t> ignored(mesh.size());
+    const std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), 8);
+    const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), 8);
     std::vector<double> areas(mesh.size());
-    for (std::size_t v = 0; v < mesh.size(); ++v) {
-      walls[v] = static_cast<std::uint8_t>(random.below(8) == 0);
-      ignored[v] = static_cast<std::uint8_t>(random.below(8) == 0);
-      areas[v] = random.below(4) == 0 ? 0 : random.uniform(0, 1);
-    }
+    for (double& area : areas) area = random.below(4) == 0 ? 0 : random.uniform(0, 1);
     std::vector<VertexId> some;
     for (std::size_t i = 0; i < scaled(40, 10); ++i) some.push_back(static_cast<VertexId>(random.below(mesh.size())));
     const double edge = oracle.graph().mean_edge();
+    const double tie = oracle.graph().distance(some[0], some[1]);
+    const std::vector<Isa> isas = available_isas();
     for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
-      for (const double radius : {kInfinity, metric == Metric::Rings ? 3.5 : 3 * edge, 0.0}) {
+      for (const double radius : {kInfinity, metric == Metric::Rings ? 3.5 : 3 * edge, tie, 0.0}) {
+        const LimitedIsa limited(isas[random.below(isas.size())]);
         const NearestOptions options{.metric = metric, .radius = radius};
         const Index searched = masked(index, radius != 0 ? Masks{walls, ignored} : Masks{});
         Searcher edges(searched, metric);
@@ -104,8 +105,7 @@ TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
         ASSERT_EQ(disc.offsets.size(), some.size() + 1);
         for (std::size_t i = 0; i < some.size(); ++i, ++rows) {
           PlainStart start;
-          start.center = {mesh.positions[3 * some[i]], mesh.positions[3 * some[i] + 1],
-                          mesh.positions[3 * some[i] + 2]};
+          start.center = position(mesh, some[i]);
           start.seeds = {some[i]};
           start.walls = radius != 0 ? walls : std::vector<std::uint8_t>(mesh.size());
           start.ignored = radius != 0 ? ignored : std::vector<std::uint8_t>(mesh.size());
@@ -155,19 +155,6 @@ TEST_P(KNearestIn, AllVerticesHaveTheRowsOfSingleQueries) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, KNearestIn, testing::ValuesIn(families()), family_name);
-
-TEST(KNearest, OfAllVerticesAreTheRowsInTheirOrder) {
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
-  Searcher searcher(index);
-  const KNearest found = k_nearest(index, {}, 7, {}, {.threads = 3});
-  ASSERT_EQ(found.ids.size(), 7 * mesh.size());
-  NearestRow expected;
-  for (VertexId v = 0; v < mesh.size(); ++v) {
-    searcher.nearest_connected(v, 7, expected.ids, expected.distances);
-    ASSERT_EQ(k_of(found, v, 7).ids, expected.ids);
-  }
-}
 
 TEST(KNearest, DiscsOfAPlaneHaveTheirArea) {
   const TestMesh mesh = make_grid(60, 60, false);

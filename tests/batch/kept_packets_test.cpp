@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <vector>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meshhood/batch.h"
@@ -17,7 +16,6 @@
 
 #include "batch/batch.h"
 #include "support/draw_start.h"
-#include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/random.h"

@@ -6,8 +6,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <limits>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -20,12 +18,12 @@
 
 #include "meshhood/meshhood.h"
 
+#include "exact/index_access.h"
+#include "exact/joint/row_writer.h"
+#include "support/exact_answer.h"
 #include "support/families.h"
-#include "support/family_name.h"
-#include "support/oracle.h"
 #include "support/random.h"
 #include "support/refusal.h"
-#include "support/scale.h"
 
 namespace meshhood::test {
 namespace {
@@ -52,17 +50,6 @@ std::vector<double> sums_of(const PacketAnswer& answer, const Index& index, std:
   return sums;
 }
 
-/// The ids of each row of a packet, ascending.
-std::vector<std::vector<VertexId>> ids_of(const PacketAnswer& answer, const Index& index) {
-  std::vector<std::vector<VertexId>> ids(answer.rows.size());
-  for_each_vertex(answer, index, [&](std::size_t place, QueryWord queries) {
-    const VertexId id = index.permutation().empty() ? static_cast<VertexId>(place) : index.permutation()[place];
-    for_each_query(queries, [&](std::size_t row) { ids[row].push_back(id); });
-  });
-  for (std::vector<VertexId>& row : ids) std::sort(row.begin(), row.end());
-  return ids;
-}
-
 /// Visits all packets on this thread.
 void visit(const Index& index, const BatchQuery& query, const PacketVisitor& visitor) {
   for_each_packet(index, query, [&](unsigned) { return visitor; }, {}, {.threads = 1});
@@ -72,40 +59,6 @@ void visit(const Index& index, const BatchQuery& query, const PacketVisitor& vis
 PacketVisitorFactory everyone(const PacketVisitor& visitor) {
   return [visitor](unsigned) { return visitor; };
 }
-
-class PacketFamilies : public testing::TestWithParam<Family> {};
-
-TEST_P(PacketFamilies, HoldTheNeighborhoodsOfTheOracle) {
-  std::size_t rows = 0;
-  for (const std::size_t vertices : {1U, 40U, 300U}) {
-    const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
-    if (mesh.size() == 0) continue;
-    const Oracle oracle(mesh);
-    const Index index = build(mesh.view());
-    Random random(vertices);
-    const double edge = oracle.mean_edge();
-    for (const double radius : {0.0, 2 * edge, 6 * edge, std::numeric_limits<double>::infinity()}) {
-      std::vector<double> radii(mesh.size(), radius);
-      if (radius > 0) radii[random.below(radii.size())] = random.uniform(0, 3) * edge;
-      std::size_t seen = 0;
-      visit(index, {.radius = radii}, [&](const PacketAnswer& answer) {
-        const std::vector<std::vector<VertexId>> ids = ids_of(answer, index);
-        for (std::size_t i = 0; i < ids.size(); ++i) {
-          ASSERT_EQ(answer.rows[i], answer.vertices[i]);
-          ASSERT_EQ(answer.radii[i], radii[answer.rows[i]]);
-          ASSERT_THAT(ids[i], testing::ElementsAreArray(oracle.exact(answer.vertices[i], answer.radii[i])))
-              << mesh.name << ", vertex " << answer.vertices[i] << ", radius " << answer.radii[i];
-        }
-        seen += ids.size();
-      });
-      EXPECT_EQ(seen, mesh.size());
-      rows += seen;
-    }
-  }
-  std::printf("%s: %zu rows\n", std::string(GetParam().name).c_str(), rows);
-}
-
-INSTANTIATE_TEST_SUITE_P(All, PacketFamilies, testing::ValuesIn(families()), family_name);
 
 class Packets : public testing::Test {
  protected:
@@ -155,6 +108,38 @@ TEST_F(Packets, HaveEachRowOnceWithItsVertexAndRadius) {
   EXPECT_THAT(seen, testing::Each(1));
   EXPECT_GT(sizes[1], 0U) << "no row was answered by itself";
   EXPECT_GT(sizes.rbegin()->first, 20U);
+}
+
+TEST_F(Packets, AreWrittenRowByRow) {
+  const IndexView& view = IndexAccess::view(index);
+  std::vector<PerLane<QueryWord>> words(view.leaf_count());
+  std::vector<Piece> pieces;
+  for (LeafId leaf = 0; leaf + 1 < view.leaf_count(); leaf += 1 + static_cast<LeafId>(random.below(3))) {
+    for (std::size_t lane = 0; lane < view.leaves[leaf].size; ++lane) {
+      words[leaf][lane] = static_cast<QueryWord>(random.bits());
+    }
+    const bool is_run = random.below(2) == 0;
+    pieces.push_back({{leaf, leaf + 1}, is_run ? 0xAAAA'5555 : 0, is_run ? nullptr : words[leaf].data()});
+  }
+  std::vector<std::vector<VertexId>> expected(kPacketCapacity);
+  for_each_vertex({.pieces = pieces}, index, [&](std::size_t place, QueryWord queries) {
+    for_each_query(queries, [&](std::size_t row) { expected[row].push_back(index.permutation()[place]); });
+  });
+  for (const Isa isa : available_isas()) {
+    RowWriter writer(view, isa);
+    writer.begin(pieces);
+    for (unsigned row = 0; row < kPacketCapacity; ++row) {
+      std::vector<VertexId> ids(expected[row].size());
+      writer.write_ids(row, ids);
+      ASSERT_EQ(ids, expected[row]);
+      std::vector<double> distances(mesh.size(), -1);
+      writer.write_distances(row, view.position(0, 0), std::span(distances).first(ids.size()));
+      for (std::size_t i = 0; i < ids.size(); ++i) {
+        ASSERT_EQ(distances[i], distance(mesh.positions_view(), view.id(0), ids[i]));
+      }
+      ASSERT_EQ(std::ranges::count(distances, -1), static_cast<std::ptrdiff_t>(mesh.size() - ids.size()));
+    }
+  }
 }
 
 TEST_F(Packets, SumASignalAsTheReferenceDoes) {

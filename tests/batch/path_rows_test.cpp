@@ -17,6 +17,7 @@
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/limited_isa.h"
 #include "support/scale.h"
 
 namespace meshhood::test {
@@ -26,12 +27,11 @@ class PathRowsOfFamily : public testing::TestWithParam<Family> {};
 
 TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
   Random random(37);
-  const Isa best = best_isa();
   std::size_t rows = 0;
   for (std::uint64_t seed = 0; seed < scaled(16, 4); ++seed) {
     const TestMesh mesh = make_mesh(GetParam(), seed, 300);
     const Index index = build(mesh.view());
-    limit_isa(available_isas()[seed % available_isas().size()]);
+    const LimitedIsa limited(available_isas()[seed % available_isas().size()]);
     const std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), random.below(2) * 9);
     const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), random.below(2) * 4);
     Searcher searcher(index, Metric::Path);
@@ -65,7 +65,6 @@ TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
     }
     rows += vertices.size();
   }
-  limit_isa(best);
   std::printf("%zu rows\n", rows);
 }
 

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meshhood/corrected_curvature.h"

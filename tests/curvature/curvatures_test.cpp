@@ -9,7 +9,6 @@
 #include <cstring>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,6 +33,7 @@ namespace meshhood::test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+const CurvatureOptions kUnfilteredJet{.filter = false, .fit = CurvatureFit::Jet};
 
 /// A mesh with its index and surface.
 struct Case {
@@ -140,11 +140,13 @@ TEST(Curvatures, OfAGraphAreThoseOfItsQuadricWhereTheNormalIsVertical) {
   const Case saddle(graph(0.3, 0.4, -0.5, 41));
   const VertexId middle = 20 * 41 + 20;
   const std::vector<VertexId> rows{middle};
-  const Curvatures k = curvatures(saddle.surface, {.vertices = rows, .radius = 0.4});
   // The shape operator of the height field is -[[2a, b], [b, 2c]].
   const double root = std::hypot(0.8, 0.4);
-  EXPECT_NEAR(k.k1[0], 0.2 + root, 1e-10);
-  EXPECT_NEAR(k.k2[0], 0.2 - root, 1e-10);
+  for (const CurvatureOptions& options : {CurvatureOptions{}, kUnfilteredJet}) {
+    const Curvatures k = curvatures(saddle.surface, {.vertices = rows, .radius = 0.4}, options);
+    EXPECT_NEAR(k.k1[0], 0.2 + root, 1e-10);
+    EXPECT_NEAR(k.k2[0], 0.2 - root, 1e-10);
+  }
 }
 
 /// Rows of a mesh of every family against the fit to their points, which shares neither moments nor packets.
@@ -197,14 +199,13 @@ TEST(Curvatures, AreThoseOfTheFitToThePointsOnEveryFamily) {
 }
 
 TEST(Curvatures, OfJetsAreThoseOfTheFitToThePoints) {
-  const CurvatureOptions options{.filter = false, .fit = CurvatureFit::Jet};
   for (const TestMesh& mesh : {torus(3, 1), graph(0.2, 0.5, -0.4, 31)}) {
     const Case one(mesh);
     const OrientedIndex state = SurfaceAccess::oriented(one.surface);
     const GraphData edges = extract_graph(one.index);
     const double radius = 4 * mean_edge_length(edges.view());
-    const Curvatures k = curvatures(one.surface, {.radius = radius}, options);
-    DirectFit direct(state, Metric::Straight, options);
+    const Curvatures k = curvatures(one.surface, {.radius = radius}, kUnfilteredJet);
+    DirectFit direct(state, Metric::Straight, kUnfilteredJet);
     for (std::size_t i = 0; i < mesh.size(); i += 5) {
       const VertexId v = state.index->id(i);
       const auto expected = direct.fit(static_cast<std::uint32_t>(i), radius, frame_of(state.normal(i)));
@@ -215,39 +216,23 @@ TEST(Curvatures, OfJetsAreThoseOfTheFitToThePoints) {
   }
 }
 
-TEST(Curvatures, OfJetsAreThoseOfAGraphOfDegree2) {
-  const Case saddle(graph(0.3, 0.4, -0.5, 41));
-  const std::vector<VertexId> rows{20 * 41 + 20};
-  const Curvatures k =
-      curvatures(saddle.surface, {.vertices = rows, .radius = 0.4}, {.filter = false, .fit = CurvatureFit::Jet});
-  EXPECT_NEAR(k.k1[0], 0.2 + std::hypot(0.8, 0.4), 1e-10);
-  EXPECT_NEAR(k.k2[0], 0.2 - std::hypot(0.8, 0.4), 1e-10);
-}
-
-TEST(Curvatures, OfJetsAreThoseOfAnyUnit) {
-  TestMesh mesh = bumpy_grid(15).finish(false);
-  const CurvatureOptions options{.fit = CurvatureFit::Jet};
-  const Curvatures expected = curvatures(Case(mesh).surface, {.radius = 3.0}, options);
-  for (double& x : mesh.positions) x = std::ldexp(x, -400);
-  const Curvatures k = curvatures(Case(mesh).surface, {.radius = std::ldexp(3.0, -400)}, options);
-  for (std::size_t v = 0; v < mesh.size(); ++v) ASSERT_EQ(std::ldexp(k.k1[v], -400), expected.k1[v]);
-}
-
 TEST(Curvatures, ScaleByPowersOfTwoBitForBit) {
   const TestMesh mesh = bumpy_grid(30).finish(false);
   const Case one(mesh);
-  const Curvatures expected = curvatures(one.surface, {.radius = 3.0});
-  for (const int exponent : {-480, -300, -3, 5, 300, 480}) {
-    TestMesh scaled_mesh = mesh;
-    for (double& x : scaled_mesh.positions) x = std::ldexp(x, exponent);
-    const Case other(scaled_mesh);
-    const Curvatures k = curvatures(other.surface, {.radius = std::ldexp(3.0, exponent)});
-    for (std::size_t v = 0; v < mesh.size(); ++v) {
-      ASSERT_EQ(std::ldexp(k.k1[v], exponent), expected.k1[v]) << "2^" << exponent << ", vertex " << v;
-      ASSERT_EQ(std::ldexp(k.k2[v], exponent), expected.k2[v]);
+  for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
+    const Curvatures expected = curvatures(one.surface, {.radius = 3.0}, {.fit = fit});
+    for (const int exponent : {-480, -400, -300, -3, 5, 300, 480}) {
+      TestMesh scaled_mesh = mesh;
+      for (double& x : scaled_mesh.positions) x = std::ldexp(x, exponent);
+      const Case other(scaled_mesh);
+      const Curvatures k = curvatures(other.surface, {.radius = std::ldexp(3.0, exponent)}, {.fit = fit});
+      for (std::size_t v = 0; v < mesh.size(); ++v) {
+        ASSERT_EQ(std::ldexp(k.k1[v], exponent), expected.k1[v]) << "2^" << exponent << ", vertex " << v;
+        ASSERT_EQ(std::ldexp(k.k2[v], exponent), expected.k2[v]);
+      }
+      EXPECT_EQ(k.d1, expected.d1);
+      EXPECT_EQ(k.state, expected.state);
     }
-    EXPECT_EQ(k.d1, expected.d1);
-    EXPECT_EQ(k.state, expected.state);
   }
 }
 
@@ -375,20 +360,6 @@ TEST(Curvatures, RefuseMemoryOfAnotherSize) {
   expect_refusal(less + "count" + expected, [&](CurvatureMemory& m) { m.count = m.count.first(rows - 1); });
 }
 
-TEST(Curvatures, OfAListAreThoseOfAllVertices) {
-  const Case one(bumpy_grid(30).finish(false));
-  const std::vector<VertexId> rows{17, 3, 899, 3, 450};
-  const std::vector<double> radii{3, 3, 5, 5, 2};
-  const Curvatures few = curvatures(one.surface, {.vertices = rows, .radius = radii});
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Curvatures all = curvatures(one.surface, {.radius = radii[i]});
-    EXPECT_NEAR(few.k1[i], all.k1[rows[i]], 1e-11 * (1 + std::abs(few.k1[i])));
-    EXPECT_NEAR(few.k2[i], all.k2[rows[i]], 1e-11 * (1 + std::abs(few.k2[i])));
-  }
-  const std::vector<VertexId> none;
-  EXPECT_TRUE(curvatures(one.surface, {.vertices = none, .radius = 1.0}).k1.empty());
-}
-
 TEST(Curvatures, TheFilterKeepsTheOtherSideOfAFoldOut) {
   // Two plates, one above the other and turned away from it, joined at one side.
   TestMesh mesh = make_grid(20, 20, false);
@@ -481,29 +452,6 @@ TEST(Curvatures, AVertexWithANormalOfNanHasNoNormal) {
     EXPECT_TRUE(std::isfinite(k.k1[v]) && std::isfinite(k.k2[v]));
   }
   EXPECT_EQ(k.k1[77], 0);
-}
-
-TEST(Curvatures, TheSurfaceOutlivesItsIndex) {
-  const TestMesh mesh = bumpy_grid(12).finish(false);
-  std::optional<Index> index = build(mesh.view());
-  const Surface surface(*index, mesh.view());
-  const Curvatures expected = curvatures(surface, {.radius = 3.0});
-  const Index moved = std::move(*index);
-  index.reset();
-  EXPECT_EQ(curvatures(surface, {.radius = 3.0}).k1, expected.k1);
-}
-
-TEST(Curvatures, ARefitOfTheIndexLeavesTheSurfaceUnchanged) {
-  TestMesh mesh = bumpy_grid(12).finish(false);
-  Index index = build(mesh.view());
-  const Surface surface(index, mesh.view());
-  const Curvatures expected = curvatures(surface, {.radius = 3.0});
-  mesh.positions[3 * 40 + 2] += 0.5;
-  mesh.finish(false);
-  const std::vector<std::uint32_t> changed{40};
-  index = refit(index, mesh.positions_view(), changed);
-  EXPECT_EQ(curvatures(surface, {.radius = 3.0}).k1, expected.k1);
-  EXPECT_NE(curvatures(Surface(index, mesh.view()), {.radius = 3.0}).k1, expected.k1);
 }
 
 TEST(Curvatures, LibiglsAxisPointsToTheNeighborWithTheLowestId) {

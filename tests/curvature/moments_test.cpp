@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -3,7 +3,6 @@
 #include "curvature/quadric.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <vector>

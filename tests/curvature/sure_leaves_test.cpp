@@ -8,7 +8,6 @@
 #include <set>
 #include <vector>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meshhood/meshhood.h"

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A build on several threads gives the same bytes, and can be cancelled.
-#include <array>
 #include <cstdio>
 #include <new>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +12,6 @@
 #include "support/families.h"
 #include "support/refusal.h"
 #include "support/same_storage.h"
-#include "support/shared_meshes.h"
 
 namespace meshhood::test {
 namespace {
@@ -40,16 +36,6 @@ TEST(ThreadedBuild, GivesTheSameBytesOnAllFamilies) {
     }
   }
   std::printf("%zu meshes\n", meshes);
-}
-
-TEST(ThreadedBuild, GivesTheSameBytesOnRealMeshes) {
-  MESHHOOD_NEED_SHARED_MESHES();
-  for (const char* name : {"paper/tosca_cat0.off", "paper/stanford_dragon_437k.ply.zst"}) {
-    SCOPED_TRACE(name);
-    const io::Mesh mesh = shared_mesh(name);
-    expect_the_same_for_any_threads(mesh.view());
-    std::printf("%s: %zu vertices\n", name, mesh.view().positions.size());
-  }
 }
 
 TEST(ThreadedBuild, RejectsTooManyThreads) {

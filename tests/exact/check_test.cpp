@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // `Index::check` finds every kind of fault: each test damages an index by hand.
-#include <algorithm>
 #include <functional>
 
 #include <gmock/gmock.h>

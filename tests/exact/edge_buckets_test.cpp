@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "exact/build/edge_buckets.h"
 
-#include <algorithm>
 #include <thread>
 #include <utility>
 #include <vector>

@@ -120,9 +120,7 @@ std::vector<std::uint64_t> padded(const FacesView& faces) {
   return result;
 }
 
-class SerializeFaces : public testing::TestWithParam<Family> {};
-
-TEST_P(SerializeFaces, RestoresThem) {
+TEST_P(Serialize, RestoresTheFaces) {
   for (const std::size_t vertices : {1U, 33U, 400U}) {
     const TestMesh mesh = make_mesh(GetParam(), 7, vertices);
     SCOPED_TRACE(mesh.name);
@@ -146,8 +144,6 @@ TEST_P(SerializeFaces, RestoresThem) {
     EXPECT_FALSE(without_faces.faces());
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(All, SerializeFaces, testing::ValuesIn(families()), family_name);
 
 TEST(SerializeEdges, GivesTheSameBytesHoweverTheFacesAreRepresented) {
   const TestMesh mesh = make_grid(5, 4, false).finish(true);

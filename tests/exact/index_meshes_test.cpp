@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The indexes of real meshes. Answers on them: query_meshes_test.cpp, joint_meshes_test.cpp, and tools/verify.
+// The indexes of real meshes. Answers on them: query_meshes_test.cpp and tools/verify.
 #include <cstdio>
 
 #include <gmock/gmock.h>

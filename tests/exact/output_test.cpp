@@ -2,7 +2,6 @@
 // Ids and distances of an answer, for every instruction set, in the order of VertexSet::for_each.
 #include <vector>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meshhood/reorder.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -132,6 +131,7 @@ class Comparison {
     DrawnStart drawn = draw_start_on_surface(random_, mesh_);
     drawn.plain.seeds = {static_cast<VertexId>(random_.below(mesh_.size()))};
     const VertexId v = drawn.plain.seeds[0];
+    drawn.plain.center = position(mesh_, v);
     const double limit = 14 * mean_edge_;
     const std::vector<double> least =
         oracle_.path_lengths(drawn.plain, limit, [&](auto a, auto b) { return oracle_.graph().distance(a, b); });

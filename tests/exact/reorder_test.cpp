@@ -3,7 +3,6 @@
 #include "meshhood/reorder.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <limits>
 #include <span>
@@ -75,6 +74,7 @@ std::size_t expect_same_answers(const ReorderedMesh& reordered, const Index& ind
                                             : distance(mesh.positions, old, other) * (queries % 3 == 0 ? 1 : 0.3);
     now.neighborhood(v, radius, ids, distances);
     before.neighborhood(old, radius, expected);
+    EXPECT_TRUE(std::ranges::is_sorted(ids)) << "index order";
     for (std::size_t i = 0; i < ids.size(); ++i) {
       EXPECT_EQ(distances[i], distance(reordered.view().positions, v, ids[i]));
       ids[i] = reordered.permutation[ids[i]];

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <limits>
 #include <map>
-#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -23,7 +21,6 @@
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
-#include "support/index_bytes.h"
 #include "support/oracle.h"
 #include "support/scale.h"
 #include "support/sheets.h"
@@ -251,53 +248,6 @@ TEST(SearchOrder, IsThatOfTheIndexInEveryWayToAnswer) {
     }
   }
   for (const Way way : {Way::Alone, Way::LeafBfs, Way::Component}) EXPECT_GT(ways[way], 0U);
-}
-
-TEST(SearchOrder, IsTheSameInEveryThread) {
-  const TestMesh mesh = folded();
-  const Index index = build(mesh.view());
-  const Questions questions(mesh, index, 4, scaled(30, 8));
-  std::vector<std::size_t> wrong(4);
-  std::vector<std::thread> threads;
-  for (std::size_t t = 0; t < wrong.size(); ++t) {
-    threads.emplace_back([&, t] {
-      Random random(t);
-      Searcher searcher(index);
-      for (const auto& order : orders_of(questions.asked.size(), random)) {
-        for (const std::uint32_t i : order) {
-          wrong[t] += static_cast<std::size_t>(ask(searcher, questions.asked[i]) != questions.answers[i]);
-        }
-      }
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
-  EXPECT_THAT(wrong, testing::Each(0U));
-}
-
-TEST(SearchOrder, IsTheSameAfterSavingAndLoading) {
-  const TestMesh mesh = folded();
-  const Index index = build(mesh.view());
-  const Questions questions(mesh, index, 5, scaled(30, 8));
-  const Index loaded = load(saved(index));
-  Searcher searcher(loaded);
-  for (std::size_t i = 0; i < questions.asked.size(); ++i) questions.expect(searcher, loaded, i);
-}
-
-TEST(SearchOrder, OfAReorderedMeshIsAscending) {
-  const TestMesh mesh = folded();
-  const ReorderedMesh reordered = reorder(mesh.view());
-  Searcher searcher(reordered.index);
-  Searcher regions(reordered.index);
-  Random random(6);
-  std::vector<VertexId> ids;
-  for (std::size_t i = 0; i < scaled(500, 50); ++i) {
-    const auto v = static_cast<VertexId>(random.below(mesh.size()));
-    const double radius = random.uniform(0, 60);
-    searcher.neighborhood(v, radius, ids);
-    ASSERT_TRUE(std::ranges::is_sorted(ids));
-    regions.neighborhood(v, radius, ids);
-    ASSERT_TRUE(std::ranges::is_sorted(ids));
-  }
 }
 
 }  // namespace

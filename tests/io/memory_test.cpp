@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/hostile.h"

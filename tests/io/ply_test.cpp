@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <limits>

@@ -2,7 +2,6 @@
 // Progress and cancellation of reading a mesh.
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>

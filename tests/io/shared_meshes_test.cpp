@@ -4,10 +4,8 @@
 #include <cstddef>
 #include <cstdio>
 #include <map>
-#include <set>
 #include <span>
 #include <string>
-#include <variant>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Vertices without a position, as scanners and depth cameras mark holes: walls if no face has them, otherwise an error.
-#include <cmath>
-#include <cstddef>
 #include <limits>
 #include <string>
 #include <variant>

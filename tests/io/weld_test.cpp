@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "io/weld.h"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <set>
-#include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -19,7 +17,6 @@
 #include "support/random.h"
 #include "support/refusal.h"
 #include "support/scale.h"
-#include "support/shared_meshes.h"
 
 namespace meshhood::test {
 namespace {
@@ -157,16 +154,6 @@ TEST(Weld, AnEpsOfTheSmallestOrLargestSizeIsExact) {
   }
 }
 
-TEST(Weld, WeldingAgainChangesNothing) {
-  Random random(4);
-  const std::vector<double> xyz = random_points<double>(random, 1000, 1, 0);
-  for (const double eps : {0.0, 0.05, 0.5}) {
-    const io::WeldedMesh once = io::weld({xyz, {}}, eps);
-    const io::WeldedMesh twice = io::weld(once.view(), eps);
-    EXPECT_EQ(once.positions, twice.positions) << eps;
-  }
-}
-
 TEST(Weld, PositionsAndFacesMayBeStrided) {
   const std::vector<double> columns{0, 1, 1, 0, 0, 0, 0, 0, 0};
   const std::vector<std::int64_t> corners{0, 1, 2};
@@ -193,18 +180,6 @@ TEST(Weld, BadArgumentsAreRefused) {
   expect_refused(ErrorCode::InvalidMesh, "vertex 1", [&] { return io::weld({xyz, {}}); });
   expect_refused(ErrorCode::InvalidMesh, "vertex 1", [&] { return io::welded_ids(xyz, 0.5); });
   expect_refused(ErrorCode::InvalidMesh, "face 0", [&] { return io::weld({good, FacesView::triangles(corners)}); });
-}
-
-// The figures of the manifest.
-TEST(Weld, JoinsTheFacesOfAMeshWithSeams) {
-  MESHHOOD_NEED_SHARED_MESHES();
-  const io::Mesh mesh = shared_mesh("components/suzanne_unwelded.ply");
-  const io::WeldedMesh welded = io::weld(mesh.view());
-  EXPECT_EQ(welded.ids.size(), 1966U);
-  EXPECT_EQ(welded.view().positions.size(), 1966U - 1461U);
-  EXPECT_EQ(welded.view().faces.size(), 500U);
-  const double eps = 1e-6;
-  EXPECT_EQ(io::welded_ids(mesh.view().positions, eps), welded.ids);
 }
 
 }  // namespace

@@ -25,7 +25,6 @@
 #include "support/hostile.h"
 #include "support/refusal.h"
 #include "support/scratch.h"
-#include "support/shared_meshes.h"
 
 namespace meshhood::test {
 namespace {
@@ -331,24 +330,6 @@ TEST_F(WritePly, NamesMayHaveTheMaximalLength) {
   const auto longest = scratch.path() / std::string(255, 'x');
   io::write_ply(longest, triangle);
   EXPECT_EQ(face_count(io::read_mesh(longest)), 1U);
-}
-
-TEST_F(WritePly, SharedMeshesReadBackTheSame) {
-  MESHHOOD_NEED_SHARED_MESHES();
-  std::size_t meshes = 0;
-  for (const std::string name : {"poly/cow_mixed.obj", "nonmanifold/office_chair.obj", "cad/thingi10k_472042.stl",
-                                 "scan/horse_big_endian.ply", "poly/mpi.off", "broken/invalid-face-definition.obj"}) {
-    const auto before = shared_mesh(name);
-    for (const bool ascii : {false, true}) {
-      io::write_ply(file, before.view(), {.ascii = ascii});
-      const auto after = io::read_mesh(file, {.strict = true});
-      EXPECT_EQ(after.positions, before.positions) << name;
-      EXPECT_EQ(after.offsets, before.offsets) << name;
-      EXPECT_EQ(after.corners, before.corners) << name;
-      ++meshes;
-    }
-  }
-  std::printf("%zu meshes written and read back\n", meshes);
 }
 
 }  // namespace

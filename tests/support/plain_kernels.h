@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -109,30 +108,16 @@ inline VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
   return out;
 }
 
-/// Bit `i` for each `i`.
-inline constexpr PerLane<std::uint32_t> kBits = [] {
-  PerLane<std::uint32_t> bits{};
-  for (unsigned i = 0; i < kLeafCapacity; ++i) bits[i] = std::uint32_t{1} << i;
-  return bits;
-}();
-
 /// The words of one vertex: compares it with all balls of the packet.
 inline QueryWord compare(const LeafPoints& points, std::size_t lane, const PacketBalls& balls, QueryWord& maybe) {
-  const float x = points.x[lane];
-  const float y = points.y[lane];
-  const float z = points.z[lane];
-  const float square = points.square[lane];
-  PerLane<float> heights;
-  for (std::size_t i = 0; i < kPacketCapacity; ++i) {
-    heights[i] = ((x * balls.x[i] + y * balls.y[i]) + z * balls.z[i]) - square;
-  }
   QueryWord sure = 0;
-  QueryWord some = 0;
+  maybe = 0;
   for (std::size_t i = 0; i < kPacketCapacity; ++i) {
-    sure |= (0 - QueryWord{heights[i] >= balls.surely_inside[i]}) & kBits[i];
-    some |= (0 - QueryWord{heights[i] >= balls.maybe_inside[i]}) & kBits[i];
+    const float along = (points.x[lane] * balls.x[i] + points.y[lane] * balls.y[i]) + points.z[lane] * balls.z[i];
+    const float height = along - points.square[lane];
+    sure |= QueryWord{height >= balls.surely_inside[i]} << i;
+    maybe |= QueryWord{height >= balls.maybe_inside[i]} << i;
   }
-  maybe = some;
   return sure;
 }
 
@@ -188,7 +173,7 @@ inline LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, LaneMas
 /// The lanes in which the words differ.
 inline LaneMask differing(const PerLane<QueryWord>& a, const PerLane<QueryWord>& b) {
   LaneMask lanes = 0;
-  for (std::size_t i = 0; i < kLeafCapacity; ++i) lanes |= a[i] != b[i] ? kBits[i] : 0;
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) lanes |= LaneMask{a[i] != b[i]} << i;
   return lanes;
 }
 
@@ -232,40 +217,17 @@ inline LaneMask step_words(LeafWords& words, FreshWords& fresh, const LaneMask* 
   return lanes;
 }
 
-/// Counters for each bit of a word, a plane for each binary digit, so that a word is added to all of them at once.
-class BitCounters {
- public:
-  void add(QueryWord word) {
-    for (std::size_t digit = 0; word != 0; ++digit) {
-      const QueryWord carry = planes_[digit] & word;
-      planes_[digit] ^= word;
-      word = carry;
-    }
-  }
-
-  void add_to(PerLane<std::uint64_t>& counts) const {
-    for (std::size_t digit = 0; digit < planes_.size(); ++digit) {
-      for (QueryWord left = planes_[digit]; left != 0; left &= left - 1) {
-        counts[static_cast<std::size_t>(std::countr_zero(left))] += std::uint64_t{1} << digit;
-      }
-    }
-  }
-
- private:
-  std::array<QueryWord, 40> planes_{};  // enough for every vertex of an index
-};
-
 inline void count_words(const LeafWords* words, std::span<const LeafOfWords> list, PerLane<std::uint64_t>& counts) {
-  BitCounters counters;
   for (const LeafOfWords& leaf : list) {
-    for (const QueryWord word : words[leaf.words].reached) counters.add(word);
+    for (const QueryWord word : words[leaf.words].reached) {
+      for_each_query(word, [&](std::size_t query) { ++counts[query]; });
+    }
   }
-  counters.add_to(counts);
 }
 
 inline LaneMask lanes_of(const QueryWord* reached, unsigned query) {
   LaneMask lanes = 0;
-  for (std::size_t i = 0; i < kLeafCapacity; ++i) lanes |= (reached[i] & kBits[query]) != 0 ? kBits[i] : 0;
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) lanes |= LaneMask{(reached[i] >> query & 1U) != 0} << i;
   return lanes;
 }
 

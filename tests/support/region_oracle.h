@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <set>
 #include <tuple>
@@ -73,12 +72,12 @@ class RegionOracle {
     return radii;
   }
 
-  /// The least length of a path of edges from a seed, by vertex, ignored ones included; infinite where there is none up
-  /// to `limit`. `length(v, w)` is that of an edge.
+  /// The least length of a path by a straight line to a seed and then along edges, by vertex, ignored ones included;
+  /// infinite where there is none up to `limit`. `length(v, w)` is that of an edge.
   template <class Length>
   [[nodiscard]] std::vector<double> path_lengths(const PlainStart& start, double limit, Length&& length) const {
     return least(
-        start, limit, [](std::uint32_t) { return 0.0; },
+        start, limit, [&](std::uint32_t seed) { return distance(start, seed); },
         [&](double sum, std::uint32_t v, std::uint32_t w) { return sum + length(v, w); });
   }
 

@@ -2,8 +2,6 @@
 // Every readable mesh of the shared folder: built with few and with all levels, checked and queried.
 #include <cstdio>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "support/each_shared_mesh.h"
 #include "support/real_mesh.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -216,9 +215,6 @@ TEST_P(Allocation, FailsInTheGraphOfAnOddMesh) {
 }
 
 TEST_P(Allocation, FailsInARegionSearch) {
-  expect_answered<Searcher>(shortages, mesh, index, [](Searcher& s, VertexId v, double r, Answers& answers) {
-    s.neighborhood(v, r, answers.ids, answers.distances);
-  });
   expect_answered<Searcher>(shortages, mesh, index, [](Searcher& s, VertexId v, double r, Answers& answers) {
     const std::vector<double> radii = r < kInfinity ? std::vector{r / 2, r + 1} : std::vector{1.0, r};
     std::vector<std::size_t> counts;

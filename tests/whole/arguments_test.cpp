@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Invalid and extreme arguments to every method: rows A1 to A3 and A18 of docs/reliability.md. The meshes of A4 to A16
 // are in robustness_test, A13 and A14 in paper/fusion_test, A17 in base/error_test.
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <stdexcept>

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <immintrin.h>
 
-#include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/sorted.h"

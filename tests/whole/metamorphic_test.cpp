@@ -16,8 +16,8 @@
 #include "meshhood/meshhood.h"
 
 #include "support/families.h"
-#include "support/oracle.h"
 #include "support/scale.h"
+#include "support/sorted.h"
 
 namespace meshhood::test {
 namespace {
@@ -125,12 +125,6 @@ struct NamedTransformation {
 
 class Metamorphic : public testing::TestWithParam<NamedTransformation> {};
 
-std::vector<std::uint32_t> sorted(const std::vector<VertexId>& ids) {
-  std::vector<std::uint32_t> result(ids.begin(), ids.end());
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
 void compare(const TestMesh& mesh, const Equivalent& changed, Random& random) {
   ReferenceSearcher before(mesh.view());
   ReferenceSearcher after(changed.mesh.view());
@@ -192,24 +186,6 @@ TEST(MetamorphicLattice, ExactAnswersDoNotChangeUnderAShift) {
     Random random(seed);
     compare(mesh, in_place(std::move(shifted)), random);
   }
-}
-
-TEST(Metamorphic, InfinityIsTheComponent) {
-  std::size_t queries = 0;
-  for (const Family& family : families()) {
-    const TestMesh mesh = make_mesh(family, 5, 300);
-    if (mesh.size() == 0) continue;
-    const Oracle oracle(mesh);
-    const paper::Index index = paper::build(mesh.view());
-    paper::Searcher searcher(index);
-    std::vector<std::size_t> sizes(mesh.size(), 0);
-    for (std::size_t v = 0; v < mesh.size(); ++v) ++sizes[oracle.component(v)];
-    for (std::size_t v = 0; v < mesh.size(); ++v, ++queries) {
-      const std::size_t count = searcher.count(static_cast<VertexId>(v), std::numeric_limits<double>::infinity());
-      ASSERT_EQ(count, sizes[oracle.component(v)]) << mesh.name << ", vertex " << v;
-    }
-  }
-  std::printf("%zu queries, 0 mismatches\n", queries);
 }
 
 }  // namespace

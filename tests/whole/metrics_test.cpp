@@ -14,6 +14,7 @@
 
 #include "meshhood/meshhood.h"
 
+#include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/random.h"
@@ -42,10 +43,8 @@ class MetricCase {
 
   /// Of the index that is asked; without masks at first.
   void draw_masks(Random& random) {
-    for (std::size_t v = 0; v < mesh_.size(); ++v) {
-      walls_[v] = random.below(20) == 0 ? 1 : 0;
-      ignored_[v] = random.below(9) == 0 ? 1 : 0;
-    }
+    walls_ = draw_mask(random, mesh_.size(), 20);
+    ignored_ = draw_mask(random, mesh_.size(), 9);
     asked_ = masked(index_, {walls_, ignored_});
   }
 
@@ -142,6 +141,7 @@ class MetricCase {
   [[nodiscard]] Ids neighborhood(std::size_t row) const {
     if (metric_ == Metric::Space) return neighborhood_in_space(row);
     PlainStart start;
+    start.center = position(mesh_, rows_[row]);
     start.seeds = {rows_[row]};
     start.walls = walls_;
     start.ignored = ignored_;

@@ -203,16 +203,22 @@ TEST_F(Outlives, ARefitAMoveAndTheEndOfTheIndex) {
     const Index other = refit(*owner, moved.positions_view());
     for (const auto& [name, ask] : before) EXPECT_EQ(ask(), expected[name]) << name;
   }
-  const Index taken = std::move(*owner);
+  std::optional<Index> taken(std::move(*owner));
   std::size_t asked = 0;
-  for (const auto& [name, ask] : before) {
-    const bool borrows = name.find("straight: ") == 0 || name.find("paths") == 0 || name.find("rings: ") == 0 ||
-                         name.find("space: ") == 0;  // methods, of which the index must stay where it is
-    if (borrows && name.find("searcher") == std::string::npos) continue;
-    EXPECT_EQ(ask(), expected[name]) << name;
-    ++asked;
-  }
-  std::printf("%zu kinds\n", asked);
+  const auto ask_again = [&] {
+    for (const auto& [name, ask] : before) {
+      const bool borrows = name.find("straight: ") == 0 || name.find("paths") == 0 || name.find("rings: ") == 0 ||
+                           name.find("space: ") == 0;  // methods, of which the index must stay where it is
+      if (borrows && name.find("searcher") == std::string::npos) continue;
+      EXPECT_EQ(ask(), expected[name]) << name;
+      ++asked;
+    }
+  };
+  ask_again();
+  taken.reset();
+  owner.reset();
+  ask_again();
+  std::printf("%zu answers\n", asked);
 }
 
 TEST_F(Outlives, ARefittedIndexARefitOfItsOrigin) {

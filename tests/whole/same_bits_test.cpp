@@ -17,9 +17,9 @@
 
 #include "meshhood/meshhood.h"
 
-#include "simd/kernels.h"
 #include "support/exact_answer.h"
 #include "support/families.h"
+#include "support/limited_isa.h"
 #include "support/oracle.h"
 #include "support/random.h"
 
@@ -37,18 +37,6 @@ using Bits = std::vector<std::uint64_t>;
 void append(Bits& bits, const std::vector<double>& numbers) {
   for (const double number : numbers) bits.push_back(std::bit_cast<std::uint64_t>(number));
 }
-
-/// Limits the kernels while it lives.
-class LimitedIsa {
- public:
-  explicit LimitedIsa(Isa isa) : before_(best_isa()) { limit_isa(isa); }
-  LimitedIsa(const LimitedIsa&) = delete;
-  LimitedIsa& operator=(const LimitedIsa&) = delete;
-  ~LimitedIsa() { limit_isa(before_); }
-
- private:
-  Isa before_;
-};
 
 /// A mesh with everything that a call may need.
 struct Scene {

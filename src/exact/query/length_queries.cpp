@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "exact/query/arguments.h"
 #include "exact/query/length_search.h"
 #include "exact/query/single_queries.h"
 #include "shared/distance.h"

@@ -2,7 +2,6 @@
 // The bounds on distances and the filter of balls, on which region searches rely, agree with the predicate.
 #include "exact/query/any_center.h"
 
-#include <array>
 #include <cstdio>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The answers by path distance and by number of edges, against the relaxation of all edges until nothing changes.
+// The answers by path distance and by number of edges, against the plain searches of the oracle.
 
 #include <algorithm>
 #include <array>
@@ -19,8 +19,8 @@
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
-#include "support/oracle.h"
 #include "support/refusal.h"
+#include "support/region_oracle.h"
 #include "support/scale.h"
 #include "support/sorted.h"
 
@@ -28,30 +28,6 @@ namespace meshhood::test {
 namespace {
 
 using testing::ElementsAre;
-
-/// The least length of a path to each vertex, by the algorithm of Bellman and Ford. `first(v)` is that of a path to a
-/// seed, `length(v, w)` that of an edge.
-template <class First, class Length>
-std::vector<double> path_distances(const Oracle& graph, const PlainStart& start, First&& first, Length&& length) {
-  const std::vector<std::uint8_t>& walls = start.walls;
-  std::vector<double> least(graph.size(), kInfinity);
-  for (const std::uint32_t seed : start.seeds) {
-    if (walls[seed] == 0) least[seed] = std::min(least[seed], first(seed));
-  }
-  for (bool has_changed = true; has_changed;) {
-    has_changed = false;
-    for (std::uint32_t a = 0; a < graph.size(); ++a) {
-      if (least[a] == kInfinity) continue;
-      for (const std::uint32_t b : graph.neighbors(a)) {
-        const double through = least[a] + length(a, b);
-        if (walls[b] != 0 || !(through < least[b])) continue;
-        least[b] = through;
-        has_changed = true;
-      }
-    }
-  }
-  return least;
-}
 
 /// A start, its masks, and the length from it to each vertex.
 struct Case {
@@ -93,11 +69,11 @@ class AlongEdges : public testing::TestWithParam<Family> {
         if (metric == Metric::Rings) {
           one.drawn.is_vertex = true;
           one.drawn.plain.seeds.resize(1);
+          one.drawn.plain.center = position(mesh, one.drawn.plain.seeds[0]);
         }
-        one.least = path_distances(
-            graph, one.drawn.plain,
-            [&](VertexId seed) { return one.drawn.is_vertex ? 0.0 : oracle.distance(one.drawn.plain, seed); },
-            [&](std::size_t a, std::size_t b) { return metric == Metric::Path ? graph.distance(a, b) : 1; });
+        one.least = oracle.path_lengths(one.drawn.plain, kInfinity, [&](std::size_t a, std::size_t b) {
+          return metric == Metric::Path ? graph.distance(a, b) : 1;
+        });
         const Index searched = one.drawn.on(index);
         one.searcher.rebind(searched);
         f(one, random);
@@ -190,44 +166,6 @@ TEST_P(AlongEdges, ConnectingRadiiAreLengths) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, AlongEdges, testing::ValuesIn(families()), family_name);
-
-TEST(EdgeSearch, MeasuresThePathAroundACorner) {
-  const TestMesh mesh = make_grid(4, 4, true);
-  const Index index = build(mesh.view());
-  Searcher searcher(index, Metric::Path);
-  std::vector<VertexId> ids;
-  std::vector<double> distances;
-  searcher.neighborhood(0, 2, ids, distances);
-  EXPECT_THAT(sorted(ids), ElementsAre(0, 1, 2, 4, 5, 8));
-  EXPECT_EQ(distances.back(), 2);
-}
-
-TEST(EdgeSearch, BeginsAtAPointWithTheStraightLineToASeed) {
-  const TestMesh mesh = make_grid(4, 4, true);
-  const Index index = build(mesh.view());
-  Searcher searcher(index, Metric::Path);
-  std::vector<VertexId> ids;
-  std::vector<double> distances;
-  const std::array<VertexId, 3> corners{0, 1, 4};
-  const Start inside({0.25, 0.25, 0}, corners);
-  searcher.neighborhood(inside, 1.5, ids, distances);
-  ASSERT_FALSE(ids.empty());
-  EXPECT_EQ(ids[0], 0U);
-  EXPECT_EQ(distances[0], std::sqrt(0.125));
-  EXPECT_THAT(sorted(ids), ElementsAre(0, 1, 4));
-  EXPECT_EQ(searcher.connecting_radius(inside, 5), std::sqrt(0.625) + 1);
-  EXPECT_THAT(searcher.neighborhood({{0.25, 0.25, 0}, {}}, 9), testing::IsEmpty());
-  EXPECT_THAT(searcher.neighborhood(Start::nearest(index, {0, 0, 2}), 1), testing::IsEmpty());
-}
-
-TEST(EdgeSearch, PassesFromRingToRing) {
-  const TestMesh mesh = make_grid(4, 4, true);
-  const Index index = build(mesh.view());
-  std::vector<VertexId> ids;
-  std::vector<std::size_t> counts;
-  Searcher(index, Metric::Rings).nested(0, std::array{0.0, 1.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0}, ids, counts);
-  EXPECT_THAT(counts, ElementsAre(1, 3, 6, 10, 13, 15, 16, 16));
-}
 
 TEST(EdgeSearch, RefusesInvalidArguments) {
   const TestMesh mesh = make_grid(3, 3, true);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The vertex nearest to a point, against a scan of all vertices.
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <limits>

@@ -3,7 +3,6 @@
 #include "exact/query/path_queue.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 #include <set>
 #include <vector>

@@ -172,29 +172,6 @@ TEST_P(Regions, OfAStrokeAreTheirUnion) {
 
 INSTANTIATE_TEST_SUITE_P(All, Regions, testing::ValuesIn(families()), family_name);
 
-/// Two sheets 0.5 apart, joined at x = 9 only.
-TestMesh folded_sheet() {
-  TestMesh mesh;
-  for (int i = 0; i < 20; ++i) {
-    for (int j = 0; j < 4; ++j) mesh.add_vertex(i < 10 ? i : 19 - i, j, i < 10 ? 0 : 0.5);
-  }
-  add_grid_faces(mesh, {.rows = 20, .regions = 4, .quads = true});
-  return mesh.finish(true);
-}
-
-TEST(Region, OfAPointOnAFaceWhoseCornersAreOutsideIsEmpty) {
-  const TestMesh mesh = make_grid(5, 5, false);
-  const Index index = build(mesh.view());
-  Searcher searcher(index);
-  const std::array<VertexId, 3> corners{0, 1, 6};
-  const SpacePoint middle = point_on_face(index, corners, std::array{0.4, 0.3, 0.3});
-  std::vector<VertexId> ids{7};
-  searcher.neighborhood({middle, corners}, 0.2, ids);
-  EXPECT_THAT(ids, IsEmpty());
-  searcher.neighborhood({middle, corners}, 0.9, ids);
-  EXPECT_THAT(ids, testing::Not(IsEmpty()));
-}
-
 TEST(Region, SaysWhetherASeedLiesInTheBall) {
   const TestMesh mesh = make_grid(5, 5, false);
   const Index index = build(mesh.view());
@@ -225,34 +202,10 @@ TEST(Region, SaysWhetherASeedLiesInTheBall) {
 TEST(Region, WithoutSeedsIsEmpty) {
   const TestMesh mesh = make_grid(5, 5, false);
   const Index index = build(mesh.view());
-  Searcher searcher(index);
-  EXPECT_EQ(searcher.count({{1, 1, 0}, {}}, 10), 0U);
-  EXPECT_EQ(searcher.connecting_radius({{1, 1, 0}, {}}, 0), kInfinity);
-}
-
-TEST(Region, KeepsAVertexThatOnlyAWiderBallConnectsForALaterRing) {
-  const TestMesh mesh = folded_sheet();
-  const Index index = build(mesh.view());
-  Searcher searcher(index);
-  const VertexId above_start = 4 * 19;  // 0.5 above vertex 0
-  EXPECT_EQ(searcher.connecting_radius(VertexId{0}, above_start), std::sqrt(81 + 0.25));
-  std::vector<VertexId> ids;
-  std::vector<std::size_t> counts;
-  searcher.nested(VertexId{0}, std::array{1.0, 9.5}, ids, counts);
-  const auto place = std::find(ids.begin(), ids.end(), above_start) - ids.begin();
-  EXPECT_GE(static_cast<std::size_t>(place), counts[0]);
-  EXPECT_LT(static_cast<std::size_t>(place), ids.size());
-}
-
-TEST(Region, HasItsOwnRingsAfterThoseOfAnotherVertex) {
-  const TestMesh mesh = make_grid(20, 20, true);
-  const Index index = build(mesh.view());
-  Searcher searcher(index);
-  std::vector<VertexId> ids;
-  std::vector<std::size_t> counts;
-  for (const VertexId v : {210U, 211U, 210U}) {
-    searcher.nested(v, std::array{2.0, 5.0}, ids, counts);
-    EXPECT_THAT(counts, testing::ElementsAre(searcher.count(v, 2), searcher.count(v, 5)));
+  for (const Metric metric : {Metric::Straight, Metric::Path}) {
+    Searcher searcher(index, metric);
+    EXPECT_EQ(searcher.count({{1, 1, 0}, {}}, 10), 0U);
+    EXPECT_EQ(searcher.connecting_radius({{1, 1, 0}, {}}, 0), kInfinity);
   }
 }
 

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
-#include <span>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -21,7 +19,6 @@
 #include "shared/distance.h"
 #include "support/family_name.h"
 #include "support/index_bytes.h"
-#include "support/refusal.h"
 #include "support/search_case.h"
 
 namespace meshhood::test {
@@ -103,23 +100,6 @@ TEST_P(VertexBfsOnFamilies, FindsTheNeighborhoodInIndexOrder) {
   std::printf("%zu queries\n", queries);
 }
 
-/// Every kind of answer of one searcher in turn, so that searches of all ways mix.
-TEST_P(VertexBfsOnFamilies, AnswersOfASearcherAreThoseOfTheOracle) {
-  for (std::uint64_t seed = 0; seed < scaled(8, 2); ++seed) {
-    const TestMesh mesh = make_mesh(GetParam(), seed, 1000);
-    if (mesh.size() == 0) continue;
-    const Oracle oracle(mesh);
-    const Index index = build(mesh.view());
-    Searcher searcher(index);
-    Random random(seed);
-    for (std::size_t i = 0; i < 30; ++i) {
-      const auto v = static_cast<VertexId>(random.below(mesh.size()));
-      for (const double radius : draw_radii(random, oracle, v)) expect_answers(searcher, oracle, v, radius);
-      ASSERT_FALSE(testing::Test::HasFailure()) << mesh.name;
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Families, VertexBfsOnFamilies, testing::ValuesIn(families()), family_name);
 
 TEST(VertexBfs, HubsAndRandomGraphsAreUnlikeASurface) {
@@ -179,17 +159,6 @@ TEST(VertexBfs, LeavesGraphsOfOneEdgeAndSurfacesToTheSearchesOverLeaves) {
   EXPECT_FALSE(is_odd(IndexAccess::view(grid)));
   const Index none = build(TestMesh{}.view());
   EXPECT_FALSE(is_odd(IndexAccess::view(none)));
-}
-
-TEST(VertexBfs, RefusesWhatTheSearchesOverLeavesRefuse) {
-  const Index index = build(make_hubs(100, 2).view());
-  Searcher searcher(index);
-  const auto count = [&](VertexId v, double radius) {
-    return [&, v, radius] { static_cast<void>(searcher.count(v, radius)); };
-  };
-  expect_refused(ErrorCode::VertexOutOfRange, "vertex 100, but the mesh has 100 vertices", count(100, 0.5));
-  expect_refused(ErrorCode::InvalidRadius, "radius -0.5, expected a number >= 0", count(0, -0.5));
-  expect_refused(ErrorCode::InvalidRadius, "radius nan, expected a number >= 0", count(0, std::nan("")));
 }
 
 void compare_answers(const TestMesh& mesh, const Index& index) {
