@@ -117,9 +117,7 @@ void region(const RegionCommand& options) {
   check_start_options(options.start, false);
   const bool clips = options.faces == "clip";
   if (clips && !options.start.seeds.empty()) {
-    raise(ErrorCode::InvalidOption,
-          "--faces clip: starts at the point of the surface nearest to --point, expected no "
-          "--seed");
+    raise(ErrorCode::InvalidOption, "--faces clip: starts at the nearest point of the surface, expected no --seed");
   }
   if (options.tolerance && !clips) raise(ErrorCode::InvalidOption, "--tolerance: expected --faces clip");
   check_outputs();
@@ -155,10 +153,12 @@ void add_region(CLI::App& program) {
   add_reading(*command, options->reading);
   add_radius(*command, options->radius);
   add_start(*command, "query vertex, by its number in the file from 0", options->start);
-  add_choice(*command, "--faces",
-             "all: the faces with all corners in the neighborhood; any: with at least one corner; clip: the connected "
-             "surface in the ball, in triangles that end at the sphere",
-             {"all", "any", "clip"}, options->faces);
+  add_choice(
+      *command, "--faces",
+      "all: the faces with all corners in the neighborhood; any: with at least one corner; clip: the connected "
+      "surface in the ball, in triangles that end at the sphere, which is around the vertex, or the point of the "
+      "surface nearest to --point",
+      {"all", "any", "clip"}, options->faces);
   command
       ->add_option("--tolerance", options->tolerance,
                    "with --faces clip: how far chords may be from the arcs of the sphere, in radii, from 1e-12 to 1; "
