@@ -122,7 +122,9 @@ TEST_F(Packets, AreWrittenRowByRow) {
     pieces.push_back({{leaf, leaf + 1}, is_run ? 0xAAAA'5555 : 0, is_run ? nullptr : words[leaf].data()});
   }
   std::vector<std::vector<VertexId>> expected(kPacketCapacity);
-  for_each_vertex({.pieces = pieces}, index, [&](std::size_t place, QueryWord queries) {
+  PacketAnswer packet{};
+  packet.pieces = pieces;
+  for_each_vertex(packet, index, [&](std::size_t place, QueryWord queries) {
     for_each_query(queries, [&](std::size_t row) { expected[row].push_back(index.permutation()[place]); });
   });
   for (const Isa isa : available_isas()) {

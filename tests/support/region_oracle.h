@@ -21,9 +21,9 @@ namespace meshhood::test {
 /// A start of a search, with its filter, as the oracle sees it.
 struct PlainStart {
   std::array<double, 3> center{};
-  std::vector<std::uint32_t> seeds;
-  std::vector<std::uint8_t> walls;    // #V
-  std::vector<std::uint8_t> ignored;  // #V
+  std::vector<std::uint32_t> seeds = {};
+  std::vector<std::uint8_t> walls = {};    // #V
+  std::vector<std::uint8_t> ignored = {};  // #V
 };
 
 /// Regions and connecting radii by the simplest means. Shares only the definition of distance with the library.

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <immintrin.h>
 
+#include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/sorted.h"
