@@ -145,7 +145,13 @@ Channels read_numpy(io::InputBuffer& input, std::optional<std::size_t> vertices)
 std::vector<std::uint8_t> read_mask(const std::string& file, const Input& input) {
   if (file.empty()) return {};
   std::vector<std::uint8_t> mask(input.vertex_count());
-  for (const VertexId v : read_vertex_list(file, mask.size())) mask[input.welding().kept(v)] = 1;
+  const std::vector<VertexId> list = read_vertex_list(file, mask.size());
+  if (list.size() == mask.size() && list.size() > 2 && std::ranges::max(list) <= 1) {
+    raise(ErrorCode::InvalidOption, fmt::format("{}: {} numbers 0 or 1, expected the vertices of the mask, one in each "
+                                                "line",
+                                                io::printable_name(file), list.size()));
+  }
+  for (const VertexId v : list) mask[input.welding().kept(v)] = 1;
   return mask;
 }
 

@@ -249,6 +249,7 @@ def test_areas_of_facets_and_volumes_of_convex_pieces_are_those_of_overlap(kind)
         (lambda index: index.patch(99, 1), ValueError, "start: vertex 99"),
         (lambda index: index.patch([0.0, 0.0, 0.0], 1, face=99), ValueError, "face 99"),
         (lambda index: index.patch(0, 1, face=0), TypeError, "start"),
+        (lambda index: index.clip([2, 2, 0.0], 1), TypeError, "start: a point, expected its face, too: face="),
         (lambda index: index.clip(99, 1), ValueError, "start: vertex 99"),
         (lambda index: index.clip(0, 1, tolerance=0), ValueError, "tolerance: 0.0, expected a finite number > 0"),
         (lambda index: index.clip(0, 1, tolerance=2), ValueError, "tolerance 2, expected one from 1e-12 to 1"),

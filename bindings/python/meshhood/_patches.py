@@ -212,6 +212,8 @@ class Patches(Held):
         radius = self._scale(unit) * _convert.radius(r)
         patches = self._with_masks(walls, None)._patches(F)
         if face is None:
+            if not _convert.is_single(start):
+                raise TypeError("start: a point, expected its face, too: face=, as closest_point or first_hit returns it")
             vertex = _convert.vertex(start, self._count, "start")
             return patches, {"vertex": vertex, "face": None, "point": [0.0, 0.0, 0.0], "radius": radius}
         point = _convert.point(start, "start", "invariants, gaps")[0].tolist()
