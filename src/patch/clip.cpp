@@ -15,7 +15,7 @@
 #include "exact/query/arguments.h"
 #include "patch/patches.h"
 #include "patch/section.h"
-#include "surface/face_tree.h"
+#include "surface/face_triangles.h"
 #include "surface/triangle_point.h"
 
 namespace meshhood {

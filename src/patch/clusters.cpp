@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/vector.h"
-#include "surface/face_tree.h"
+#include "surface/face_triangles.h"
 
 namespace meshhood {
 namespace {

@@ -77,9 +77,9 @@ struct Clusters {
 
 /// What all searches of the patches of a surface share. The walls of the index are left out.
 struct PatchState {
-  /// Borrows the index and the faces, of which `tree` is.
-  PatchState(const IndexView& given, const StoredFaces& all, const FaceTree& tree)
-      : index(&given), faces(&all), triangles(given, tree), clusters(given, triangles) {}
+  /// Borrows the index and the faces.
+  PatchState(const IndexView& given, const StoredFaces& all)
+      : index(&given), faces(&all), triangles(given, all), clusters(given, triangles) {}
 
   const IndexView* index;
   const StoredFaces* faces;

@@ -10,7 +10,7 @@
 #include "patch/patches.h"
 #include "patch/section.h"
 #include "patch/twofold.h"
-#include "surface/face_tree.h"
+#include "surface/face_triangles.h"
 #include "surface/triangle_point.h"
 
 namespace meshhood {

@@ -18,7 +18,7 @@
 #include "patch/search.h"
 #include "shared/parallel.h"
 #include "shared/text.h"
-#include "surface/face_tree.h"
+#include "surface/face_triangles.h"
 #include "surface/surface.h"
 #include "surface/triangle_point.h"
 

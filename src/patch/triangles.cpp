@@ -69,17 +69,19 @@ std::size_t bytes_of(const Arrays&... arrays) {
 
 std::size_t Triangles::bytes() const { return bytes_of(corners, face, flags, ring, first_fan, fans, first_of_cluster); }
 
-Triangles::Triangles(const IndexView& index, const FaceTree& all) {
-  if (all.triangles().size() > std::numeric_limits<std::uint32_t>::max() / 3) {
-    raise(ErrorCode::TooLarge, std::to_string(all.triangles().size()) + " triangles, expected at most 2^32 / 3");
+Triangles::Triangles(const IndexView& index, const StoredFaces& faces) {
+  const std::vector<Triangle> all = triangles_in_index_order(index, faces);
+  if (all.empty()) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
+  if (all.size() > std::numeric_limits<std::uint32_t>::max() / 3) {
+    raise(ErrorCode::TooLarge, std::to_string(all.size()) + " triangles, expected at most 2^32 / 3");
   }
-  cluster(index, all.triangles());
+  cluster(index, all);
   if (size() == 0) raise(ErrorCode::InvalidMesh, "every face of the mesh has a wall, expected one without");
   make_fans(index.vertex_count());
   join_sides(index.vertex_count());
 }
 
-/// The triangles are in the order of the leaves already.
+/// Triangles in index order are in the order of the leaves already.
 void Triangles::cluster(const IndexView& index, std::span<const Triangle> all) {
   LeafParts parts;
   std::vector<GivenTriangle> given;  // of one leaf

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "exact/layout.h"
-#include "surface/face_tree.h"
+#include "surface/face_triangles.h"
 
 namespace meshhood {
 
@@ -30,9 +30,8 @@ struct Triangles {
   std::vector<TriangleId> fans;              // the triangles at each place
   std::vector<TriangleId> first_of_cluster;  // by cluster, and one more
 
-  /// `all` has the triangles of the index without walls. Throws Error{InvalidMesh} if there is none left, and
-  /// Error{TooLarge} beyond 2^32 / 3.
-  Triangles(const IndexView& index, const FaceTree& all);
+  /// Throws Error{InvalidMesh} if no face has a triangle, and Error{TooLarge} beyond 2^32 / 3 triangles.
+  Triangles(const IndexView& index, const StoredFaces& faces);
 
   [[nodiscard]] std::size_t size() const { return corners.size(); }
   [[nodiscard]] std::size_t bytes() const;

@@ -88,7 +88,7 @@ class SurfaceGraph {
   explicit SurfaceGraph(const SurfaceState& surface)
       : index_(*surface.index),
         faces_(surface.faces()),
-        triangles_(surface.tree().triangles()),
+        triangles_(triangles_in_index_order(index_, faces_)),
         edges_(&edges_of(surface)) {}
 
   [[nodiscard]] WeightedGraph make() const {
@@ -186,7 +186,7 @@ class SurfaceGraph {
 
   const IndexView& index_;
   const StoredFaces& faces_;
-  std::span<const Triangle> triangles_;
+  std::vector<Triangle> triangles_;
   const WeightedGraph* edges_;
 };
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "meshhood/surface.h"
+
+#include "base/triangulate.h"
+#include "exact/layout.h"
+#include "exact/stored_faces.h"
+#include "shared/distance.h"
+#include "surface/triangle_point.h"
+
+namespace meshhood {
+
+/// A triangle of the triangulation of a face (see base/triangulate.h).
+struct Triangle {
+  std::array<std::uint32_t, 3> corners;  // places in index order
+  std::uint32_t face;
+  std::uint32_t diagonals;  // a bit for each of its sides that lies inside the face
+};
+
+/// How many triangles a face of so many corners has.
+[[nodiscard]] constexpr std::size_t triangle_count(std::size_t corners) { return corners < 3 ? 0 : corners - 2; }
+
+/// Divides faces of an index into triangles.
+class Triangulator {
+ public:
+  explicit Triangulator(const IndexView& index) : index_(&index) {}
+
+  /// Writes `triangle_count(corners.size())` triangles.
+  void run(std::uint32_t face, std::span<const VertexId> corners, Triangle* out);
+
+ private:
+  const IndexView* index_;
+  std::vector<Point> points_;
+  Triangulation triangles_;
+};
+
+/// Those of all faces, in the order of the first corner of their face in index order, then of their faces.
+[[nodiscard]] std::vector<Triangle> triangles_in_index_order(const IndexView& index, const StoredFaces& faces);
+
+/// The positions of the corners of a triangle.
+[[nodiscard]] std::array<Point, 3> corners_of(const IndexView& index, const std::array<std::uint32_t, 3>& places);
+
+/// A point of a triangle of a face, with these corners, as callers see it.
+[[nodiscard]] SurfacePoint surface_point(const IndexView& index, const StoredFaces& faces, std::size_t face,
+                                         const std::array<std::uint32_t, 3>& places, const TrianglePoint& found);
+
+}  // namespace meshhood
