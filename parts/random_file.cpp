@@ -11,12 +11,24 @@
 #include "io/messages.h"
 
 namespace meshhood::parts {
+namespace {
+
+/// macOS has another name for what POSIX calls `st_mtim`.
+timespec written_at(const struct stat& status) {
+#if defined(__APPLE__)
+  return status.st_mtimespec;
+#else
+  return status.st_mtim;
+#endif
+}
+
+}  // namespace
 
 RandomFile::RandomFile(const std::filesystem::path& path) : path_(path), file_(io::open_to_read(path)) {
   const struct stat opened = status();
   if (!S_ISREG(opened.st_mode)) io::raise_io(path, EINVAL, "is not a regular file, which is read several times");
   size_ = static_cast<std::uint64_t>(opened.st_size);
-  written_ = opened.st_mtim;
+  written_ = written_at(opened);
 }
 
 struct stat RandomFile::status() const {
@@ -27,8 +39,9 @@ struct stat RandomFile::status() const {
 
 void RandomFile::check_unchanged() const {
   const struct stat now = status();
-  const bool is_same = static_cast<std::uint64_t>(now.st_size) == size_ && now.st_mtim.tv_sec == written_.tv_sec &&
-                       now.st_mtim.tv_nsec == written_.tv_nsec;
+  const timespec written = written_at(now);
+  const bool is_same = static_cast<std::uint64_t>(now.st_size) == size_ && written.tv_sec == written_.tv_sec &&
+                       written.tv_nsec == written_.tv_nsec;
   if (!is_same) io::raise_io(path_, 0, "was written to while it was read, which takes several passes");
 }
 
