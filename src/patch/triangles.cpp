@@ -71,7 +71,6 @@ std::size_t Triangles::bytes() const { return bytes_of(corners, face, flags, rin
 
 Triangles::Triangles(const IndexView& index, const StoredFaces& faces) {
   const std::vector<Triangle> all = triangles_in_index_order(index, faces);
-  if (all.empty()) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
   if (all.size() > std::numeric_limits<std::uint32_t>::max() / 3) {
     raise(ErrorCode::TooLarge, std::to_string(all.size()) + " triangles, expected at most 2^32 / 3");
   }

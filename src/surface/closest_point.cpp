@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
@@ -66,9 +65,9 @@ class ClosestPoint {
   SurfacePoint run(const Point& q) {
     q_ = q;
     in_frame_ = index_->frame.to_frame(q);
-    reach_ = std::numeric_limits<double>::infinity();
-    best_.distance = std::numeric_limits<double>::infinity();
-    const std::size_t first = nearest_;
+    reach_ = kInfinity;
+    nearest_.at.distance = kInfinity;
+    const std::size_t first = nearest_.triangle;
     compare(first);
     tree_->boxes().search(
         in_frame_, [&] { return reach_; },
@@ -76,7 +75,8 @@ class ClosestPoint {
           if (i != first) compare(i);
         });
     measure();
-    return surface_point(*index_, *faces_, triangles_[nearest_].face, triangles_[nearest_].corners, best_);
+    const Triangle& triangle = triangles_[nearest_.triangle];
+    return surface_point(*index_, *faces_, triangle.face, triangle.corners, nearest_.at);
   }
 
  private:
@@ -112,14 +112,11 @@ class ClosestPoint {
     for (const Candidate& candidate : std::span(candidates_).first(std::exchange(size_, 0))) {
       if (is_far(candidate.least)) continue;
       const Triangle& triangle = triangles_[candidate.triangle];
-      const TrianglePoint found = nearest_in_triangle(q_, corners_of(*index_, triangle.corners), scale_);
-      const std::pair rank(triangle.face, candidate.triangle);
-      const bool is_nearer = found.distance < best_.distance || (found.distance == best_.distance &&
-                                                                 rank < std::pair(triangles_[nearest_].face, nearest_));
-      if (!is_nearer) continue;
-      best_ = found;
-      nearest_ = candidate.triangle;
-      limit_to(best_.distance * scale_);
+      const TriangleHit found{candidate.triangle,
+                              nearest_in_triangle(q_, corners_of(*index_, triangle.corners), scale_)};
+      if (!precedes(found, nearest_, triangles_)) continue;
+      nearest_ = found;
+      limit_to(nearest_.at.distance * scale_);
     }
   }
 
@@ -133,8 +130,7 @@ class ClosestPoint {
   double reach_ = 0;  // in the frame: what is farther cannot be the nearest
   std::array<Candidate, 16> candidates_{};
   std::size_t size_ = 0;
-  TrianglePoint best_{};
-  std::size_t nearest_ = 0;  // of the triangles of the tree
+  TriangleHit nearest_;
 };
 
 }  // namespace

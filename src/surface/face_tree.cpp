@@ -6,8 +6,6 @@
 #include <bit>
 #include <utility>
 
-#include "meshhood/error.h"
-
 #include "base/vector.h"
 
 namespace meshhood {
@@ -73,7 +71,7 @@ FaceTree::FaceTree(const IndexView& index, const StoredFaces& faces) : first_(fa
                       static_cast<std::uint32_t>(triangles)});
     count += triangles;
   }
-  if (count == 0) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
+  check_triangle_count(count);
   sort_in_space(places, 0, count);
   triangles_.resize(count);
   Triangulator triangulator(index);

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <variant>
 
+#include "meshhood/error.h"
+
 #include "base/vector.h"
 
 namespace meshhood {
@@ -38,6 +40,10 @@ void Triangulator::run(std::uint32_t face, std::span<const VertexId> corners, Tr
   }
 }
 
+void check_triangle_count(std::size_t triangles) {
+  if (triangles == 0) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
+}
+
 // Counting sort by the first corner of each face.
 std::vector<Triangle> triangles_in_index_order(const IndexView& index, const StoredFaces& faces) {
   std::vector<std::size_t> next(index.vertex_count() + 1, 0);
@@ -47,6 +53,7 @@ std::vector<Triangle> triangles_in_index_order(const IndexView& index, const Sto
     }
   }
   std::partial_sum(next.begin(), next.end(), next.begin());
+  check_triangle_count(next.back());
   std::vector<Triangle> triangles(next.back());
   Triangulator triangulator(index);
   for (std::size_t face = 0; face < faces.size(); ++face) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "meshhood/surface.h"
@@ -24,6 +25,20 @@ struct Triangle {
   std::uint32_t diagonals;  // a bit for each of its sides that lies inside the face
 };
 
+/// A triangle, and what a search found of it. As it stands: none.
+struct TriangleHit {
+  std::size_t triangle = 0;
+  TrianglePoint at{{}, {}, kInfinity};
+};
+
+/// Whether `a` is nearer than `b`; at the same distance, of a face with a smaller number.
+[[nodiscard]] inline bool precedes(const TriangleHit& a, const TriangleHit& b, std::span<const Triangle> triangles) {
+  const auto rank = [&](const TriangleHit& hit) {
+    return std::tuple(hit.at.distance, triangles[hit.triangle].face, hit.triangle);
+  };
+  return rank(a) < rank(b);
+}
+
 /// How many triangles a face of so many corners has.
 [[nodiscard]] constexpr std::size_t triangle_count(std::size_t corners) { return corners < 3 ? 0 : corners - 2; }
 
@@ -41,7 +56,11 @@ class Triangulator {
   Triangulation triangles_;
 };
 
-/// Those of all faces, in the order of the first corner of their face in index order, then of their faces.
+/// Throws Error{InvalidMesh} if no face has a triangle.
+void check_triangle_count(std::size_t triangles);
+
+/// Those of all faces, at least one, in the order of the first corner of their face in index order, then of their
+/// faces.
 [[nodiscard]] std::vector<Triangle> triangles_in_index_order(const IndexView& index, const StoredFaces& faces);
 
 /// The positions of the corners of a triangle.

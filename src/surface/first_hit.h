@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <tuple>
 
 #include "base/frame.h"
 #include "exact/layout.h"
@@ -47,25 +46,16 @@ class Ray {
   std::size_t main_axis_;
 };
 
-/// A triangle that a ray meets. As it stands: none.
-struct TriangleHit {
-  std::size_t triangle = 0;
-  TrianglePoint at{{}, {}, kInfinity};
-};
-
-/// The first of the triangles that the ray meets and for which `counts(i, at)`; at the same distance, that of the face
-/// with the smallest number.
+/// The first of the triangles that the ray meets and for which `counts(i, at)`.
 template <class Counts>
 [[nodiscard]] TriangleHit find_first_hit(const IndexView& index, const FaceTree& tree, const Ray& ray,
                                          Counts&& counts) {
   TriangleHit first;
-  const auto rank = [&](std::size_t i, double distance) { return std::tuple(distance, tree.triangles()[i].face, i); };
   tree.boxes().cast(
       ray.origin(), ray.direction(), [&] { return ray.way_to(first.at.distance); },
       [&](std::size_t i) {
         const std::optional<TrianglePoint> at = ray.meet(corners_of(index, tree.triangles()[i].corners));
-        if (!at || !(rank(i, at->distance) < rank(first.triangle, first.at.distance)) || !counts(i, *at)) return;
-        first = {i, *at};
+        if (at && precedes({i, *at}, first, tree.triangles()) && counts(i, *at)) first = {i, *at};
       });
   return first;
 }

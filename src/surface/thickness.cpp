@@ -47,7 +47,7 @@ class OppositeSide {
     double radius = std::min(way / 2, kFirstRadius / scale);
     bool is_met = way < kInfinity;
     for (;;) {
-      const TrianglePoint nearest = nearest_in_ball(radius, cones);
+      const TrianglePoint nearest = nearest_to(vertex_ + radius * inward_, radius, cones);
       const Point offset = scale * (nearest.point - vertex_);
       const double along = dot(inward_, offset);
       const bool is_inside = nearest.distance < radius && along > 0;
@@ -82,21 +82,19 @@ class OppositeSide {
     return find_first_hit(*index_, *tree_, Ray(vertex_, inward_, index_->frame), counts).at.distance;
   }
 
-  /// The point of an opposite face nearest to the center of the ball that touches at the vertex; at its radius if no
-  /// face is nearer.
-  [[nodiscard]] TrianglePoint nearest_in_ball(double radius, const NormalCones& cones) const {
+  /// The point of an opposite face nearest to the center of a ball, if there is one in the ball.
+  [[nodiscard]] TrianglePoint nearest_to(const Point& center, double radius, const NormalCones& cones) const {
     const double scale = index_->frame.scale;
-    const Point center = vertex_ + radius * inward_;
-    TrianglePoint nearest{{}, vertex_, radius};
+    TriangleHit nearest;
     tree_->boxes().search(
-        index_->frame.to_frame(center), [&] { return reach_of(nearest.distance * scale, scale); },
+        index_->frame.to_frame(center), [&] { return reach_of(std::min(radius, nearest.at.distance) * scale, scale); },
         [&](std::size_t i) {
           if (touches(i) || !opposes(i)) return;
-          const TrianglePoint found = nearest_in_triangle(center, corners(i), scale);
-          if (found.distance < nearest.distance) nearest = found;
+          const TriangleHit found{i, nearest_in_triangle(center, corners(i), scale)};
+          if (precedes(found, nearest, tree_->triangles())) nearest = found;
         },
         [&](std::size_t level, std::size_t group) { return cones.may_oppose(level, group, normal_); });
-    return nearest;
+    return nearest.at;
   }
 
   const IndexView* index_;
