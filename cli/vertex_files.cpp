@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -50,9 +51,12 @@ auto read_file(const std::string& file, Read&& read) {
   }
 }
 
+/// Whole numbers may have an exponent: R writes 1e+05, and NumPy 1.000000000000000000e+05.
 VertexId parse_vertex(const io::Text& text, std::string_view token, std::size_t vertices) {
-  const std::uint64_t vertex = io::parse_count(token).value_or(vertices);
-  if (vertex < vertices) return static_cast<VertexId>(vertex);
+  const double vertex = io::parse_real<double>(token).value_or(-1);
+  if (vertex >= 0 && vertex < static_cast<double>(vertices) && vertex == std::floor(vertex)) {
+    return static_cast<VertexId>(vertex);
+  }
   const std::string expected =
       vertices == 0 ? "no vertex: the mesh has none" : fmt::format("a vertex from 0 to {}", vertices - 1);
   text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected {}", io::quote(token), expected));
@@ -161,9 +165,10 @@ std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vert
   return read_file(file, [&](io::InputBuffer& input) {
     io::Text text(input, {.hash_comments = true});
     std::vector<VertexId> list;
+    bool may_be_name = true;  // of the column, as tables have it
     while (text.next_line()) {
       std::string_view token = text.token_on_line();
-      if (token.empty()) continue;
+      if (token.empty() || (std::exchange(may_be_name, false) && token == "vertex")) continue;
       for (std::size_t column = 0; column < columns; ++column, token = text.token_on_line()) {
         list.push_back(parse_vertex(text, token, vertices));
       }

@@ -12,7 +12,7 @@ Result = TypeVar("Result", bound=type)
 
 
 def shown_in_a_line(result: Result) -> Result:
-    """A named tuple whose arrays are shown by their shapes, and all else as it is."""
+    """A named tuple whose arrays are shown by their shapes; points, weights and all else as they are."""
     setattr(result, "__repr__", _in_a_line)
     return result
 
@@ -25,4 +25,5 @@ def _in_a_line(result: Any) -> str:
 def _shown(value: Any) -> str:
     if isinstance(value, tuple):
         return f"({', '.join(map(_shown, value))})"
-    return " by ".join(map(str, np.shape(value))) or f"{value}"
+    shape = np.shape(value)
+    return f"{value}" if shape in ((), (3,)) else " by ".join(map(str, shape))
