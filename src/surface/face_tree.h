@@ -17,8 +17,8 @@ namespace meshhood {
 /// Those of a face follow each other.
 class FaceTree {
  public:
-  /// Throws Error{InvalidMesh} if no face has three corners. O(n log n) for n triangles.
-  FaceTree(const IndexView& index, const StoredFaces& faces);
+  /// Throws Error{InvalidMesh} if no face has three corners, and Error{Cancelled}. O(n log n) for n triangles.
+  FaceTree(const IndexView& index, const StoredFaces& faces, TaskContext& task);
 
   /// The triangles and boxes of the faces `changed`, after vertices have moved. The frame must be the same.
   void renew(const IndexView& index, const StoredFaces& faces, std::span<const std::uint32_t> changed);

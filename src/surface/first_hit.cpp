@@ -138,7 +138,8 @@ SurfacePoint Surface::first_hit(const SpacePoint& origin, const SpacePoint& dire
   const State& state = SurfaceAccess::state(*this);
   check_point(origin, "origin: ");
   check_direction(direction, "direction: ");
-  return hit(state, state.tree(), make_ray(state, origin, direction));
+  TaskContext alone;
+  return hit(state, state.tree(alone), make_ray(state, origin, direction));
 }
 
 std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origins,
@@ -152,13 +153,13 @@ std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origin
     check_point(origins[i], "origins: row " + std::to_string(i) + ": ");
     check_direction(directions[i], "directions: row " + std::to_string(i) + ": ");
   }
-  const FaceTree& tree = state.tree();
+  TaskContext task(run.threads, run.progress, origins.size());
+  const FaceTree& tree = state.tree(task);
   const auto ray_of = [&](std::size_t i) { return make_ray(state, origins[i], directions[i]); };
   const std::vector<std::size_t> in_order = rows_along_curve(origins.size(), [&](std::size_t i) {
     const Ray ray = ray_of(i);
     return ray.origin() + way_to_frame(ray.origin(), ray.direction()) * ray.direction();
   });
-  TaskContext task(run.threads, run.progress, origins.size());
   std::vector<SurfacePoint> found(origins.size());
   task.parallel_for(origins.size(), kRaysOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) found[in_order[i]] = hit(state, tree, ray_of(in_order[i]));

@@ -95,12 +95,12 @@ const FaceLists& Surface::State::lists() const {
   return topology->lists.get([&] { return FaceLists(faces(), index->vertex_count()); });
 }
 
-const FaceTree& Surface::State::tree() const {
-  return geometry->tree.get([&] { return FaceTree(*index, faces()); });
+const FaceTree& Surface::State::tree(TaskContext& task) const {
+  return geometry->tree.get([&] { return FaceTree(*index, faces(), task); });
 }
 
-const NormalCones& Surface::State::cones() const {
-  return geometry->cones.get([&] { return NormalCones(*index, tree()); });
+const NormalCones& Surface::State::cones(TaskContext& task) const {
+  return geometry->cones.get([&] { return NormalCones(*index, tree(task)); });
 }
 
 const Normals& Surface::State::normals(TaskContext& task) const {

@@ -70,8 +70,8 @@ struct Surface::State {
 
   [[nodiscard]] const StoredFaces& faces() const { return topology->faces; }
   [[nodiscard]] const FaceLists& lists() const;
-  [[nodiscard]] const FaceTree& tree() const;
-  [[nodiscard]] const NormalCones& cones() const;
+  [[nodiscard]] const FaceTree& tree(TaskContext& task) const;
+  [[nodiscard]] const NormalCones& cones(TaskContext& task) const;
   [[nodiscard]] const Normals& normals(TaskContext& task) const;
   [[nodiscard]] const std::vector<double>& areas() const;
   [[nodiscard]] const PatchState& patches() const;

@@ -112,8 +112,8 @@ std::vector<double> thickness(const Surface& surface, const BatchVertices& verti
   const SurfaceState& state = SurfaceAccess::state(surface);
   const Rows rows({.vertices = vertices, .radius = 0}, state.index->vertex_count());
   TaskContext task(run.threads, run.progress, rows.size());
-  const FaceTree& tree = state.tree();
-  const NormalCones* const cones = method == ThicknessMethod::Sphere ? &state.cones() : nullptr;
+  const FaceTree& tree = state.tree(task);
+  const NormalCones* const cones = method == ThicknessMethod::Sphere ? &state.cones(task) : nullptr;
   const OrientedIndex oriented = SurfaceAccess::oriented(surface, task);
   const std::vector<std::size_t> in_order =
       rows_by_position(rows.size(), [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; });

@@ -6,6 +6,7 @@
 #include "exact/build/kd_order.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <limits>
 #include <numeric>
@@ -16,6 +17,17 @@
 
 namespace meshhood {
 namespace {
+
+struct Cuts {
+  std::size_t unit;
+  KdCut where;
+
+  /// The size of the first part of more than `unit` points.
+  [[nodiscard]] std::size_t operator()(std::size_t points) const {
+    const std::size_t units = (points + unit - 1) / unit;
+    return unit * (where == KdCut::Middle ? units / 2 : std::bit_floor(units - 1));
+  }
+};
 
 struct PointBox {
   std::array<float, 3> low;
@@ -142,11 +154,13 @@ void cut_across(std::span<Chunk> chunks, const PointBox& box, std::size_t middle
 }
 
 /// Copies the points of the chunks to `to`, cut across the widest side of their box, and returns the size of the first
-/// part.
-std::size_t cut(std::span<Chunk> chunks, std::size_t unit, std::span<KdPoint> to, TaskContext& task) {
-  const std::size_t units = (to.size() + unit - 1) / unit;
-  assert(unit > 0 && to.size() > unit);
-  const std::size_t middle = units / 2 * unit;
+/// part: all, if they are not more than a unit.
+std::size_t cut(std::span<Chunk> chunks, const Cuts& cuts, std::span<KdPoint> to, TaskContext& task) {
+  if (to.size() <= cuts.unit) {
+    for (auto out = to.begin(); const Chunk& chunk : chunks) out = std::ranges::copy(chunk.points, out).out;
+    return to.size();
+  }
+  const std::size_t middle = cuts(to.size());
   for_each_chunk(chunks, task, [](Chunk& chunk) { chunk.box = box_of(chunk.points); });
   PointBox box = chunks.front().box;
   for (const Chunk& chunk : chunks.subspan(1)) box.extend(chunk.box);
@@ -159,15 +173,15 @@ std::size_t cut(std::span<Chunk> chunks, std::size_t unit, std::span<KdPoint> to
 }
 
 /// The same for points in one run, on this thread.
-std::size_t cut(std::span<const KdPoint> points, std::size_t unit, std::span<KdPoint> to) {
+std::size_t cut(std::span<const KdPoint> points, const Cuts& cuts, std::span<KdPoint> to) {
   TaskContext alone;
   Chunk chunk;
   chunk.points = points;
-  return cut(std::span(&chunk, 1), unit, to, alone);
+  return cut(std::span(&chunk, 1), cuts, to, alone);
 }
 
 /// The same on all threads.
-std::size_t cut(std::span<const KdPoint> points, std::size_t unit, std::span<KdPoint> to, TaskContext& task) {
+std::size_t cut(std::span<const KdPoint> points, const Cuts& cuts, std::span<KdPoint> to, TaskContext& task) {
   constexpr std::size_t kMostChunks = 64;
   constexpr std::size_t kSmallest = 2048;
   const std::size_t size = std::max(kSmallest, (points.size() + kMostChunks - 1) / kMostChunks);
@@ -175,7 +189,7 @@ std::size_t cut(std::span<const KdPoint> points, std::size_t unit, std::span<KdP
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     chunks[i].points = points.subspan(i * size, std::min(size, points.size() - i * size));
   }
-  return cut(chunks, unit, to, task);
+  return cut(chunks, cuts, to, task);
 }
 
 /// Copies the points of a unit to `to`, ascending by id: the place of each is the number of smaller ids.
@@ -205,11 +219,11 @@ struct PointRun {
 };
 
 /// Orders a run. The result is in the other array if `moves` is set.
-void order(const PointRun& run, std::size_t unit, bool moves) {
-  if (run.size() > unit) {
-    const std::size_t middle = cut(run.points, unit, run.other);
-    order(run.part(0, middle).swapped(), unit, !moves);
-    order(run.part(middle, run.size() - middle).swapped(), unit, !moves);
+void order(const PointRun& run, const Cuts& cuts, bool moves) {
+  if (run.size() > cuts.unit) {
+    const std::size_t middle = cut(run.points, cuts, run.other);
+    order(run.part(0, middle).swapped(), cuts, !moves);
+    order(run.part(middle, run.size() - middle).swapped(), cuts, !moves);
   } else if (moves) {
     copy_by_id(run.points, run.other);
   } else {
@@ -219,17 +233,17 @@ void order(const PointRun& run, std::size_t unit, bool moves) {
 }
 
 /// Cuts each run in two, on all threads together while there are fewer runs than threads.
-std::vector<PointRun> cut_each(const std::vector<PointRun>& runs, std::size_t unit, TaskContext& task) {
+std::vector<PointRun> cut_each(const std::vector<PointRun>& runs, const Cuts& cuts, TaskContext& task) {
   std::vector<PointRun> halves(2 * runs.size());
   const auto set_halves = [&](std::size_t i, std::size_t middle) {
     halves[2 * i] = runs[i].part(0, middle).swapped();
     halves[2 * i + 1] = runs[i].part(middle, runs[i].size() - middle).swapped();
   };
   if (runs.size() < task.threads()) {
-    for (std::size_t i = 0; i < runs.size(); ++i) set_halves(i, cut(runs[i].points, unit, runs[i].other, task));
+    for (std::size_t i = 0; i < runs.size(); ++i) set_halves(i, cut(runs[i].points, cuts, runs[i].other, task));
   } else {
     task.parallel_for(runs.size(), 1, [&](unsigned, std::size_t i, std::size_t) {
-      set_halves(i, cut(runs[i].points, unit, runs[i].other));
+      set_halves(i, cut(runs[i].points, cuts, runs[i].other));
     });
   }
   return halves;
@@ -237,7 +251,8 @@ std::vector<PointRun> cut_each(const std::vector<PointRun>& runs, std::size_t un
 
 }  // namespace
 
-void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task) {
+void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task, KdCut where) {
+  const Cuts cuts{unit, where};
   // Several runs a thread, so that all threads end at about the same time; but none so short that starting it costs
   // more than cutting it. A run of more than four units has more than one in each half.
   constexpr std::size_t kRunsPerThread = 8;
@@ -246,10 +261,10 @@ void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task) {
   std::vector<PointRun> runs{{points, other}};
   bool moves = false;
   while (runs.size() < kRunsPerThread * task.threads() && points.size() / runs.size() > shortest) {
-    runs = cut_each(runs, unit, task);
+    runs = cut_each(runs, cuts, task);
     moves = !moves;
   }
-  task.parallel_for(runs.size(), 1, [&](unsigned, std::size_t i, std::size_t) { order(runs[i], unit, moves); });
+  task.parallel_for(runs.size(), 1, [&](unsigned, std::size_t i, std::size_t) { order(runs[i], cuts, moves); });
 }
 
 }  // namespace meshhood

@@ -15,13 +15,18 @@ struct KdPoint {
   std::uint32_t id;
 };
 
+/// Where a set of n points is cut.
+enum class KdCut {
+  Middle,  // at the multiple of `unit` nearest to n / 2 from below
+  Power,   // at the largest power of two of units below n, so that each such number of units lies close together
+};
+
 /// Reorders `points` so that every `unit` consecutive ones, counted from the first, lie close together: cuts the set
-/// across the widest side of its bounding box, at the multiple of `unit` nearest to the middle from below, and
-/// continues with both halves. Ties are broken by id, and each `unit` points are in ascending order of ids, so the
-/// result does not depend on the order given, nor on the number of threads. Throws Error{Cancelled}. O(n log(n /
-/// unit)).
+/// across the widest side of its bounding box, and continues with both parts. Ties are broken by id, and each `unit`
+/// points are in ascending order of ids, so the result does not depend on the order given, nor on the number of
+/// threads. Throws Error{Cancelled}. O(n log(n / unit)).
 ///
 /// unit  at most 32
-void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task);
+void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task, KdCut where = KdCut::Middle);
 
 }  // namespace meshhood
