@@ -29,7 +29,10 @@ Groups ask_all(const TestMesh& mesh) {
   const Index index = build(mesh.view());
   const Surface surface(index, mesh.view().faces);
   const SurfaceState& state = SurfaceAccess::state(surface);
-  const std::size_t triangles = state.tree().triangles().size();
+  TaskContext alone;
+  const FaceTree& tree = state.tree(alone);
+  const NormalCones& cones = state.cones(alone);
+  const std::size_t triangles = tree.triangles().size();
   Groups sum;
   Random random(1);
   for (int round = 0; round < 100; ++round) {
@@ -40,9 +43,9 @@ Groups ask_all(const TestMesh& mesh) {
       for (std::size_t first = 0; first < triangles; first += size) {
         bool has_opposite = false;
         for (std::size_t i = first; i < std::min(first + size, triangles); ++i) {
-          has_opposite |= is_opposite(doubled_area(*state.index, state.tree().triangles()[i]), normal);
+          has_opposite |= is_opposite(doubled_area(*state.index, tree.triangles()[i]), normal);
         }
-        const bool enters = state.cones().may_oppose(level, first / size, normal);
+        const bool enters = cones.may_oppose(level, first / size, normal);
         EXPECT_TRUE(enters || !has_opposite) << "level " << level << ", triangle " << first;
         sum.opposite += static_cast<std::size_t>(has_opposite);
         sum.entered += static_cast<std::size_t>(enters);
