@@ -118,10 +118,9 @@ std::optional<TrianglePoint> Ray::meet(const std::array<Point, 3>& corners) cons
   const std::array seen{see(corners[0]), see(corners[1]), see(corners[2])};
   const std::array areas{doubled_area(seen[1], seen[2]), doubled_area(seen[2], seen[0]),
                          doubled_area(seen[0], seen[1])};
-  // Without branches: most triangles are missed, on no foreseeable side.
-  const bool is_left = (areas[0] > 0) | (areas[1] > 0) | (areas[2] > 0);
-  const bool is_right = (areas[0] < 0) | (areas[1] < 0) | (areas[2] < 0);
-  if (is_left == is_right) return std::nullopt;
+  const double least = std::min(areas[0], std::min(areas[1], areas[2]));
+  const double most = std::max(areas[0], std::max(areas[1], areas[2]));
+  if ((least < 0) == (most > 0)) return std::nullopt;
   TrianglePoint found{{}, {0, 0, 0}, 0};
   const auto zero = static_cast<std::size_t>(std::ranges::find(areas, 0.0) - areas.begin());
   found.barycentric = zero == areas.size() ? weights_inside(seen, areas)
