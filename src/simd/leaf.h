@@ -100,7 +100,7 @@ alignas(16) inline constexpr std::array<std::array<std::uint8_t, 16>, 16> kByteP
   std::array<std::array<std::uint8_t, 16>, 16> lists{};
   for (std::size_t set = 0; set < 16; ++set) {
     for (std::size_t i = 0; i < 16; ++i)
-      lists[set][i] = static_cast<std::uint8_t>(4 * kBitPositions[set][i / 4] + i % 4);
+      lists[set][i] = static_cast<std::uint8_t>(std::size_t{4} * kBitPositions[set][i / 4] + i % 4);
   }
   return lists;
 }();

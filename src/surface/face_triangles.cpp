@@ -6,8 +6,6 @@
 #include <numeric>
 #include <variant>
 
-#include "meshhood/error.h"
-
 #include "base/vector.h"
 
 namespace meshhood {
@@ -38,10 +36,6 @@ void Triangulator::run(std::uint32_t face, std::span<const VertexId> corners, Tr
               face,
               is_diagonal(a, b) | is_diagonal(b, c) << 1U | is_diagonal(c, a) << 2U};
   }
-}
-
-void check_triangle_count(std::size_t triangles) {
-  if (triangles == 0) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
 }
 
 // Counting sort by the first corner of each face.

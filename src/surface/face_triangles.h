@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "meshhood/error.h"
 #include "meshhood/surface.h"
 
 #include "base/triangulate.h"
@@ -57,7 +58,9 @@ class Triangulator {
 };
 
 /// Throws Error{InvalidMesh} if no face has a triangle.
-void check_triangle_count(std::size_t triangles);
+inline void check_triangle_count(std::size_t triangles) {
+  if (triangles == 0) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
+}
 
 /// Those of all faces, at least one, in the order of the first corner of their face in index order, then of their
 /// faces.
