@@ -30,7 +30,7 @@ struct Triangles {
   std::vector<TriangleId> fans;              // the triangles at each place
   std::vector<TriangleId> first_of_cluster;  // by cluster, and one more
 
-  /// Throws Error{InvalidMesh} if no face has a triangle, and Error{TooLarge} beyond 2^32 / 3 triangles.
+  /// Throws Error{InvalidMesh} if no face without a wall has a triangle, and Error{TooLarge} beyond 2^32 / 3 triangles.
   Triangles(const IndexView& index, const StoredFaces& faces);
 
   [[nodiscard]] std::size_t size() const { return corners.size(); }
