@@ -20,8 +20,8 @@ namespace {
 #if defined(__x86_64__) || defined(__i386__)
 /// The registers whose contents the operating system saves: XCR0.
 std::uint32_t saved_registers() {
-  std::uint32_t low = 0;
-  std::uint32_t high = 0;
+  std::uint32_t low = 0;   // NOLINT(misc-const-correctness): the instruction writes both
+  std::uint32_t high = 0;  // NOLINT(misc-const-correctness)
   asm volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
   return low;
 }
