@@ -64,14 +64,14 @@ const WeightedGraph& KeptGraph::of(const IndexView& index) {
 }
 
 void KeptGraph::renew(const IndexView& index, std::span<const VertexId> moved) {
-  if (graph_.made() == nullptr) return;
-  auto& [edges, lengths] = *graph_.made();
+  WeightedGraph* const graph = graph_.made();
+  if (graph == nullptr) return;
   const auto renew_row = [&](auto xyz, VertexId v) {
-    for_each_length(*edges, xyz, v, [&](std::size_t k, double length) {
-      const VertexId to = edges->neighbors[k];
-      const std::span<const VertexId> row = edges->view()[to];
+    for_each_length(*graph->edges, xyz, v, [&](std::size_t k, double length) {
+      const VertexId to = graph->edges->neighbors[k];
+      const std::span<const VertexId> row = graph->edges->view()[to];
       const auto back = static_cast<std::size_t>(std::ranges::lower_bound(row, v) - row.begin());
-      lengths[k] = lengths[edges->offsets[to] + back] = length;
+      graph->lengths[k] = graph->lengths[graph->edges->offsets[to] + back] = length;
     });
   };
   std::visit([&](auto xyz) { std::ranges::for_each(moved, [&](VertexId v) { renew_row(xyz, v); }); }, index.positions);

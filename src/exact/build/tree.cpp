@@ -40,9 +40,9 @@ Spheres spheres_of(const Group& group, std::size_t count) {
 /// A sphere of radius 0. The coordinates are rounded through memory: where they are converted back at once, g++ 12
 /// would measure the radius from those that are not rounded (docs/decisions.md, "A compiler trap").
 FrameSphere rounded(const Point& center) {
-  volatile float x = static_cast<float>(center.x);
-  volatile float y = static_cast<float>(center.y);
-  volatile float z = static_cast<float>(center.z);
+  const volatile auto x = static_cast<float>(center.x);
+  const volatile auto y = static_cast<float>(center.y);
+  const volatile auto z = static_cast<float>(center.z);
   return {x, y, z, 0};
 }
 
