@@ -165,10 +165,10 @@ std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vert
   return read_file(file, [&](io::InputBuffer& input) {
     io::Text text(input, {.hash_comments = true});
     std::vector<VertexId> list;
-    bool may_be_name = true;  // of the column, as tables have it
+    bool may_be_name = true;  // of a column of `pair_names`
     while (text.next_line()) {
       std::string_view token = text.token_on_line();
-      if (token.empty() || (std::exchange(may_be_name, false) && token == "vertex")) continue;
+      if (token.empty() || (std::exchange(may_be_name, false) && (token == "vertex" || token == "neighbor"))) continue;
       for (std::size_t column = 0; column < columns; ++column, token = text.token_on_line()) {
         list.push_back(parse_vertex(text, token, vertices));
       }

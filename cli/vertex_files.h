@@ -20,7 +20,7 @@
 namespace meshhood::cli {
 
 /// Reads vertices of a mesh of `vertices`: a text with one vertex per line, or `columns`; in any order, repeats
-/// allowed. A first line `vertex`, as tables of the command line have it, is skipped.
+/// allowed. A first line `vertex` or `neighbor`, the name of a column of a table, is skipped.
 [[nodiscard]] std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices,
                                                      std::size_t columns = 1);
 

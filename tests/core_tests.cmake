@@ -16,7 +16,7 @@ set(parts
   aggregate/aggregate aggregate/listed_sums aggregate/smoothing
   batch/batch batch/packets batch/path_rows batch/position_sort batch/kept_packets batch/ring_rows batch/k_nearest batch/unconnected
   exact/build_threads exact/collect_rows exact/edge_buckets exact/edge_source exact/masked exact/link_points
-  exact/nearest_packet exact/node_parts exact/path_packet exact/quality exact/refit exact/check exact/damage exact/file exact/index exact/verify
+  exact/kd_order exact/nearest_packet exact/node_parts exact/path_packet exact/quality exact/refit exact/check exact/damage exact/file exact/index exact/verify
   exact/search_differential exact/search_order exact/search_rare exact/search_traps exact/threads
   exact/query/any_center exact/query/length_queries exact/query/nearest exact/query/path_order exact/query/path_queue exact/query/path_search exact/query/space_search exact/query/straight_queries
   exact/search/component exact/search/group_states exact/search/leaf_bfs exact/search/leaf_bits

@@ -74,10 +74,10 @@ struct Rim {
 /// A polygon is the fan of the triangles of its corners 0, i and i + 1 if it is convex; otherwise its ears are cut off,
 /// so that its triangles cover what it covers. A face with fewer than three corners has no points, and no area.
 ///
-/// What depends on the faces is made when it is first needed, and kept: 48 bytes a triangle for closest points, 24
-/// bytes a vertex for curvature, 4 bytes a corner and 8 a vertex for the faces of each vertex, 8 bytes a vertex for
-/// areas, beside those for closest points 60 bytes a triangle for patches (see patch.h) and 2.3 for thickness by balls.
-/// The first call of its kind so takes O(#V + #corners).
+/// What depends on the faces is made when it is first needed, and kept: 52 bytes a triangle for closest points and
+/// rays, and 2.3 more for thickness by balls, 60 bytes a triangle for patches (see patch.h), 24 bytes a vertex for
+/// curvature, 4 bytes a corner and 8 a vertex for the faces of each vertex, 8 bytes a vertex for areas. The first call
+/// of its kind so takes O(#V + #corners), and O(n log n) for the n triangles of closest points and patches.
 ///
 /// Any number of threads may use it, but for `refit_in_place`. Shares the memory of the index, as a searcher does: the
 /// index may be moved or destroyed. After a refit of the index in place, calls throw Error{InvalidOption} until

@@ -20,7 +20,7 @@
 #include "aggregate/maximal_nodes.h"
 #include "aggregate/minima.h"
 #include "aggregate/node_tree.h"
-#include "aggregate/patch.h"
+#include "aggregate/patch_cutter.h"
 #include "aggregate/quantiles.h"
 #include "aggregate/signal_block.h"
 #include "aggregate/sums.h"

@@ -33,7 +33,7 @@ struct SearcherFactory {
   /// Rows that lie between two multiples of this many positions are computed together.
   std::uint32_t positions_together = 1;
 
-  /// Makes a search that answers rows together; empty if rows are answered one by one, by a searcher.
+  /// Makes a search that answers rows together where that pays; empty if a searcher answers all one by one.
   std::function<std::unique_ptr<RowSearch>()> make_joint_search = {};
 
   /// The worker of a thread.

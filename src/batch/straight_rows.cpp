@@ -60,7 +60,7 @@ VertexSet& StraightRows::search(VertexId v, double radius) {
     space_->search(v, radius);
     return space_->answer;
   }
-  if (!single_) single_.emplace(BoundIndex(index_), IndexAccess::share_graph(index_), best_isa());
+  if (!single_) single_.emplace(BoundIndex(index_), IndexAccess::share_graph(index_), isa_);
   single_->search(v, radius);
   return single_->answer;
 }

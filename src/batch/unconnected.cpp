@@ -166,7 +166,7 @@ class UnconnectedSearch {
   /// the limit has shrunk.
   bool offer(Query& query, std::size_t vertex) const {
     if (index_->is_wall_at(vertex) || index_->is_ignored_at(vertex)) return false;
-    const Point p = std::visit([&](auto xyz) { return point(xyz, vertex); }, index_->positions);
+    const Point p = index_->position(vertex);
     const double distance = std::sqrt(squared_distance(query.ball.center, p));
     const VertexId id = index_->id(vertex);
     if (distance > query.limit || (distance == query.distance && query.vertex < id)) return false;

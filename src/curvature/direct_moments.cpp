@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 #include "base/vector.h"
 #include "curvature/packet_moments.h"
@@ -11,9 +10,7 @@
 
 namespace meshhood {
 
-Point DirectMoments::offset(std::uint32_t i, const Point& center) const {
-  return std::visit([&](auto xyz) { return point(xyz, i); }, source_.index->positions) - center;
-}
+Point DirectMoments::offset(std::uint32_t i, const Point& center) const { return source_.index->position(i) - center; }
 
 /// Powers of two that bring the longest offset and the largest weight of the neighborhood to about 1.
 void DirectMoments::set_units(const Point& center) {

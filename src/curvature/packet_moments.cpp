@@ -91,7 +91,7 @@ QueryWord PacketMoments::set_unit(LeafId leaf, std::span<const double> radii, Qu
 
 void PacketMoments::set_offsets(std::span<const std::uint32_t> places) {
   for (std::size_t q = 0; q < size_; ++q) {
-    const Point at = std::visit([&](auto xyz) { return point(xyz, places[q]); }, source_.index->positions);
+    const Point at = source_.index->position(places[q]);
     offsets_.set(q, scale_ * (center_ - at));
   }
 }

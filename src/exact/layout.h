@@ -174,14 +174,14 @@ struct IndexView {
   /// The slot of a vertex in index order.
   [[nodiscard]] std::uint32_t slot_at(std::size_t vertex) const { return slot[id(vertex)]; }
 
-  [[nodiscard]] Point position(LeafId leaf, unsigned lane) const {
-    const std::size_t vertex = std::size_t{leaf_begin[leaf]} + lane;
+  /// The position of a vertex in index order; the next in the frame.
+  [[nodiscard]] Point position(std::size_t vertex) const {
     return std::visit([&](auto xyz) { return point(xyz, vertex); }, positions);
   }
+  [[nodiscard]] Point in_frame(std::size_t vertex) const { return frame.to_frame(position(vertex)); }
 
-  /// The position of a vertex in index order, in the frame.
-  [[nodiscard]] Point in_frame(std::size_t vertex) const {
-    return frame.to_frame(std::visit([&](auto xyz) { return point(xyz, vertex); }, positions));
+  [[nodiscard]] Point position(LeafId leaf, unsigned lane) const {
+    return position(std::size_t{leaf_begin[leaf]} + lane);
   }
 
   /// The links of a leaf, ascending by the linked leaf.

@@ -10,21 +10,32 @@
 
 namespace meshhood {
 
-FaceTree::FaceTree(const IndexView& index, const StoredFaces& faces, TaskContext& task) : first_(faces.size()) {
+namespace {
+
+/// The faces that have triangles, at the middles of their boxes.
+std::vector<KdPoint> centers_of(const IndexView& index, const StoredFaces& faces) {
   std::vector<KdPoint> centers;
-  std::size_t count = 0;
   for (std::size_t face = 0; face < faces.size(); ++face) {
-    const std::size_t triangles = triangle_count(faces[face].size());
-    if (triangles == 0) continue;
+    if (triangle_count(faces[face].size()) == 0) continue;
     BoundingBox box;
     for (const VertexId v : faces[face]) box.add(index.in_frame(index.place(v)));
     const Point center = 0.5 * (box.low + box.high);
     centers.push_back({{static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z)},
                        static_cast<std::uint32_t>(face)});
-    count += triangles;
   }
+  return centers;
+}
+
+}  // namespace
+
+FaceTree::FaceTree(const IndexView& index, const StoredFaces& faces, TaskContext& task) : first_(faces.size()) {
+  std::vector<KdPoint> centers = centers_of(index, faces);
+  std::size_t count = 0;
+  for (const KdPoint& center : centers) count += triangle_count(faces[center.id].size());
   check_triangle_count(count);
-  kd_order(centers, std::max<std::size_t>(kFanOut * centers.size() / count, 1), task, KdCut::Power);
+  // So many faces have about as many triangles as a group of boxes.
+  const std::size_t faces_of_group = std::max<std::size_t>(kFanOut * centers.size() / count, 1);
+  kd_order(centers, faces_of_group, task, KdCut::Power);
   triangles_.resize(count);
   Triangulator triangulator(index);
   std::size_t next = 0;

@@ -11,10 +11,6 @@
 namespace meshhood {
 namespace {
 
-Point position(const IndexView& index, std::uint32_t place) {
-  return std::visit([&](auto xyz) { return point(xyz, place); }, index.positions);
-}
-
 /// The least place of a corner.
 std::uint32_t first_place(const IndexView& index, std::span<const VertexId> corners) {
   std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
@@ -26,7 +22,7 @@ std::uint32_t first_place(const IndexView& index, std::span<const VertexId> corn
 
 void Triangulator::run(std::uint32_t face, std::span<const VertexId> corners, Triangle* out) {
   points_.clear();
-  for (const VertexId v : corners) points_.push_back(index_->frame.scale * position(*index_, index_->place(v)));
+  for (const VertexId v : corners) points_.push_back(index_->frame.scale * index_->position(index_->place(v)));
   triangulate(points_, triangles_);
   for (const auto& [a, b, c] : triangles_) {
     const auto is_diagonal = [&](std::size_t i, std::size_t j) {

@@ -120,7 +120,7 @@ std::optional<TrianglePoint> Ray::meet(const std::array<Point, 3>& corners) cons
                          doubled_area(seen[0], seen[1])};
   const double least = std::min(areas[0], std::min(areas[1], areas[2]));
   const double most = std::max(areas[0], std::max(areas[1], areas[2]));
-  if ((least < 0) == (most > 0)) return std::nullopt;
+  if ((least < 0) == (most > 0)) return std::nullopt;  // beside the ray, or all 0: seen from its side
   TrianglePoint found{{}, {0, 0, 0}, 0};
   const auto zero = static_cast<std::size_t>(std::ranges::find(areas, 0.0) - areas.begin());
   found.barycentric = zero == areas.size() ? weights_inside(seen, areas)

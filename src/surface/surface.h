@@ -6,7 +6,6 @@
 #include <memory>
 #include <span>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "meshhood/surface.h"
@@ -89,9 +88,7 @@ struct OrientedIndex {
   const IndexView* index;
   const Normals* normals;
 
-  [[nodiscard]] Point position(std::size_t place) const {
-    return std::visit([&](auto xyz) { return point(xyz, place); }, index->positions);
-  }
+  [[nodiscard]] Point position(std::size_t place) const { return index->position(place); }
   [[nodiscard]] Point normal(std::size_t place) const {
     return {normals->x[place], normals->y[place], normals->z[place]};
   }

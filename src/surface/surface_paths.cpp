@@ -123,10 +123,6 @@ class SurfaceGraph {
     return IndexAccess::share_graph(surface.searched)->of(*surface.index);
   }
 
-  [[nodiscard]] Point position(std::size_t place) const {
-    return std::visit([&](auto xyz) { return point(xyz, place); }, index_.positions);
-  }
-
   template <class F>
   void for_each_edge(F&& f) const {
     const auto& [edges, lengths] = *edges_;
@@ -172,11 +168,12 @@ class SurfaceGraph {
       for (auto first = row.begin(); first != row.end();) {
         const VertexId b = first->to;
         const auto end = std::find_if(first, row.end(), [&](const SharedSide& side) { return side.to != b; });
-        if (!is_edge(a, b)) f(a, b, length(position(b) - position(a)));
+        if (!is_edge(a, b)) f(a, b, length(index_.position(b) - index_.position(a)));
         if (end - first == 2 && first->opposite != first[1].opposite) {
           const VertexId c = first->opposite;
           const VertexId d = first[1].opposite;
-          const double length = unfolded_length(position(a), position(b), position(c), position(d));
+          const double length =
+              unfolded_length(index_.position(a), index_.position(b), index_.position(c), index_.position(d));
           if (length != kNoLine) f(c, d, length);
         }
         first = end;

@@ -82,7 +82,8 @@ class OppositeSide {
     return find_first_hit(*index_, *tree_, Ray(vertex_, inward_, index_->frame), counts).at.distance;
   }
 
-  /// The point of an opposite face nearest to the center of a ball, if there is one in the ball.
+  /// The point of an opposite face nearest to the center of a ball; one that is not nearer than `radius` if there is
+  /// none in the ball.
   [[nodiscard]] TrianglePoint nearest_to(const Point& center, double radius, const NormalCones& cones) const {
     const double scale = index_->frame.scale;
     TriangleHit nearest;

@@ -254,7 +254,7 @@ std::vector<PointRun> cut_each(const std::vector<PointRun>& runs, const Cuts& cu
 void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task, KdCut where) {
   const Cuts cuts{unit, where};
   // Several runs a thread, so that all threads end at about the same time; but none so short that starting it costs
-  // more than cutting it. A run of more than four units has more than one in each half.
+  // more than cutting it. By `KdCut::Power`, a part may have one unit or none; `cut` then copies it.
   constexpr std::size_t kRunsPerThread = 8;
   const std::size_t shortest = std::max<std::size_t>(400, 4 * unit);
   RawVector<KdPoint> other(points.size());

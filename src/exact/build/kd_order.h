@@ -17,7 +17,7 @@ struct KdPoint {
 
 /// Where a set of n points is cut.
 enum class KdCut {
-  Middle,  // at the multiple of `unit` nearest to n / 2 from below
+  Middle,  // after half of the units, rounded down; the last of them may be short
   Power,   // at the largest power of two of units below n, so that each such number of units lies close together
 };
 

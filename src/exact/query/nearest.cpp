@@ -34,7 +34,7 @@ class NearestSearch {
   void visit_leaf(LeafId leaf) {
     for (std::size_t v = index_->leaf_begin[leaf]; v < index_->leaf_begin[leaf + 1]; ++v) {
       if (index_->is_wall_at(v)) continue;
-      const Point p = std::visit([&](auto xyz) { return point(xyz, v); }, index_->positions);
+      const Point p = index_->position(v);
       const double distance = std::sqrt(squared_distance(center_.exact, p));  // different squares may have one root
       if (distance > distance_) continue;
       const VertexId id = index_->id(v);

@@ -11,7 +11,7 @@ void HomeMarks::spread(const Query& query, Reach& reach) {
   begin(query, reach);
   for (const std::uint32_t group : reach.top_groups()) mark_nodes(group);
   for (const std::uint32_t group : reach.lower_groups()) mark_nodes(group);
-  // A group sees the marks of those before it only. Chosen: a third pass would find few more.
+  // A group sees the marks of those before it only. Chosen: a fourth pass would find few more.
   keep_open(reach.groups());
   for (int pass = 0; pass < 2; ++pass) {
     for (const std::uint32_t group : open_groups_) mark_nodes(group);

@@ -49,7 +49,7 @@ struct StraightSearch {
 
   /// The way that answers a query. It depends on index, vertex and radius alone.
   enum class Way { VertexBfs, Wall, Alone, LeafBfs, Component };
-  Way way = Way::VertexBfs;  // of the last query, for tests and benchmarks
+  Way way = Way::VertexBfs;  // of the last query; its answer is not aligned to leaves after `VertexBfs`
 
  private:
   void find(VertexId v, std::uint32_t slot);

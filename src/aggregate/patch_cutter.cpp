@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "aggregate/patch.h"
+#include "aggregate/patch_cutter.h"
 
 #include <algorithm>
-#include <variant>
 
 #include "base/frame.h"
 #include "shared/distance.h"
@@ -102,7 +101,7 @@ void PatchCutter::cut_leaf(NodeTree::Node leaf, const QueryWord* queries) {
 
 /// The queries whose ball holds a vertex: the predicate.
 QueryWord PatchCutter::inside(std::size_t vertex, QueryWord queries) const {
-  const Point p = std::visit([&](auto xyz) { return point(xyz, vertex); }, index_->positions);
+  const Point p = index_->position(vertex);
   QueryWord result = 0;
   for_each_query(queries, [&](std::size_t row) {
     const bool is_inside = squared_distance(p, centers_[row]) <= squared_radius_;
