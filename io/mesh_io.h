@@ -90,8 +90,8 @@ struct Mesh {
 /// Peak memory is at most twice the decoded arrays plus 64 MB, where positions in text count as double. A count in a
 /// header allocates no memory unless the file is long enough for it. Parsing does not depend on the locale. No other
 /// file is opened.
-/// Throws Error{IoFailure, MalformedFile, UnsupportedFormat, TooLarge, InvalidMesh, Cancelled}: one line with the file,
-/// the line and column or the byte, the element, its value and what was expected.
+/// Throws Error{IoFailure, MalformedFile, UnsupportedFormat, TooLarge, InvalidMesh, InvalidOption, Cancelled}: one line
+/// with the file, the line and column or the byte, the element, its value and what was expected.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// The same for bytes in memory. `name` is the file in messages; its extension is used as that of a file.

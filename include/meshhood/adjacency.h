@@ -87,6 +87,7 @@ void validate(const GraphView& graph);
 
 /// The graph without some of its edges. `build` of its view gives an index whose searches do not cross them.
 ///
+/// graph  valid (see `validate`), which is not checked.
 /// edges  #cut by 2: the two ends of each edge, in either order; repeats are allowed.
 ///
 /// Throws Error{InvalidOption} if the number of ends is odd, Error{VertexOutOfRange}, and Error{InvalidOption} if two

@@ -38,7 +38,8 @@ enum class Reduce : std::uint8_t {
 };
 
 /// How the weight of a vertex falls with its distance d from `v`, for `Reduce::Sum` and `Reduce::Mean`. Distances are
-/// those of the metric, as is the radius r; nothing beyond the neighborhood is used.
+/// those of the metric, as is the radius r; nothing beyond the neighborhood is used. All but `Box` are
+/// Error{InvalidOption} with another reduction.
 enum class SmoothingKernel : std::uint8_t {
   Box,           ///< 1
   Epanechnikov,  ///< 1 - (d/r)^2
@@ -169,6 +170,7 @@ void aggregate(const Index& index, const SignalView& signal, const AggregateQuer
 
 /// The weight of a vertex at a distance, as a part of its own; 0 beyond the radius. To 1e-14 of the weight of the
 /// query vertex, and of a Gaussian to 1e-14 of itself. The same bits on every processor and with every C library.
+/// distance, radius  >= 0, not checked; 0 if one is NaN.
 [[nodiscard]] double smoothing_weight(SmoothingKernel kernel, double distance, double radius);
 
 }  // namespace meshhood

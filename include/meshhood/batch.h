@@ -33,8 +33,8 @@ struct SearcherFactory;
 using AnySearcher = std::variant<Searcher, paper::Searcher, ReferenceSearcher, BallSearcher>;
 
 /// A way to find neighborhoods, chosen at run time: makes searchers for single queries, and is the first argument of a
-/// batch. Converts from either index. Borrows its arguments, which must outlive it and its searchers. A copy is cheap.
-/// Any number of threads may use one.
+/// batch. Converts from either index. Borrows its arguments, which must outlive it and its searchers, and must not
+/// be moved meanwhile. A copy is cheap. Any number of threads may use one.
 class SearchMethod {
  public:
   /// The exact neighborhoods (see `Searcher`).
@@ -50,7 +50,8 @@ class SearchMethod {
   SearchMethod(const paper::Index& index, const paper::QueryOptions& options = {});
   SearchMethod(const paper::Index&&, const paper::QueryOptions& = {}) = delete;
 
-  /// The exact neighborhoods without an index (see `ReferenceSearcher`). Each thread copies the positions.
+  /// The exact neighborhoods without an index (see `ReferenceSearcher`). Each thread copies the positions and
+  /// checks the graph, in O(#V + #E log(valence)).
   /// Throws Error{InvalidMesh, TooLarge} if the graph is invalid.
   [[nodiscard]] static SearchMethod breadth_first(const GraphView& graph);
 
@@ -119,7 +120,8 @@ class BatchRadius {
   BatchRadius(Range&& radii) : list_(std::span<const double>(radii)) {}
 
   /// Several radii, at least one, in any order, each for all rows: the result then has a leading axis, radius after
-  /// radius. For counts, aggregates, corrected curvatures and features; other calls reject it.
+  /// radius. For `counts`, `aggregate`, `corrected_curvatures`, `features`, `invariants` and `gaps`; other
+  /// calls throw Error{InvalidRadius}.
   [[nodiscard]] static BatchRadius scales(std::vector<double> radii) {
     BatchRadius result;
     result.scales_ = std::move(radii);
@@ -158,7 +160,7 @@ struct BatchQuery {
 /// the other rows. With an `Index`, its ids are in index order: ascending places of the permutation of the index. Rows
 /// of other methods have the order of their searcher.
 struct BatchOptions {
-  bool distances = false;  ///< also compute the distance of each vertex (see `distance`); ignored when only counting
+  bool distances = false;  ///< also compute the distance of each vertex (see `distance`)
   bool sorted = false;     ///< ids of a row ascend, whatever the method
 
   /// `for_each_neighborhood` passes the rows in index order (see `Index::permutation`) instead of ascending. Near rows
@@ -175,7 +177,7 @@ struct BatchOptions {
 /// One neighborhood of a batch. Valid during the call of the sink.
 struct BatchRow {
   std::size_t row;                    ///< ascends from 0, unless `BatchOptions::in_index_order`
-  std::span<const VertexId> ids;      ///< without duplicates, the query vertex included
+  std::span<const VertexId> ids;      ///< without duplicates; the query vertex included unless it is masked
   std::span<const double> distances;  ///< in the order of `ids`; empty unless `BatchOptions::distances`
 };
 
@@ -185,7 +187,7 @@ using RowSink = std::function<void(const BatchRow&)>;
 struct Neighborhoods {
   std::vector<std::uint64_t> offsets;  ///< #rows + 1
   std::vector<VertexId> ids;
-  std::vector<double> distances;  ///< empty unless `BatchOptions::distances`
+  std::vector<double> distances;  ///< empty unless `BatchOptions::distances`; always there from `discs`
 };
 
 /// Memory for the rows: room for all ids, and for as many distances if they are computed.
@@ -211,7 +213,8 @@ void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, 
 /// about as much memory as the ids at most, and is dropped if `max_bytes` is less than it and the result together. Rows
 /// of paths and of `paper::Index` are searched twice. Without an index each row is searched once, and the result is
 /// held twice. Throws as `for_each_neighborhood`, and Error{TooLarge} if ids and distances exceed `run.max_bytes`: at
-/// once if a sample of the rows shows that they will not fit, else soon after the rows counted so far exceed the limit.
+/// once if a sample of the rows shows that they will not fit (with an index), else soon after the rows so far exceed
+/// it.
 [[nodiscard]] Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query,
                                           const BatchOptions& options = {}, const Run& run = {});
 

@@ -14,7 +14,7 @@
 namespace meshhood MESHHOOD_API {
 
 /// One value for each row of the query; #radii by #rows if it has scales, which are then meant by #rows. All but the
-/// area and the measures are NaN where the area is 0.
+/// area and the measures are NaN where the area is 0; k1, k2, d1 and d2 also where the vertex has no normal.
 struct CorrectedCurvatures {
   std::vector<double> area;      ///< #rows: of the neighborhood, corrected by the normals
   std::vector<double> mean;      ///< #rows: H, in 1 / unit of the positions, positive where convex, as in `Curvatures`

@@ -65,7 +65,7 @@ struct CurvatureOptions {
   /// If true, a vertex at exactly the radius is outside, as in libigl. Otherwise it is inside.
   bool open_ball = false;
 
-  /// For the quadric. A jet always uses `Exact`.
+  /// Of the quadric. Of a jet, all but `Exact` is Error{InvalidOption}.
   ShapeOperator shape_operator = ShapeOperator::Exact;
 
   CurvatureFit fit = CurvatureFit::Quadric;
@@ -118,7 +118,8 @@ struct CurvatureMemory {
 /// A row depends on surface, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls,
 /// threads or the processor. O(size of the neighborhoods) in the worst case; the common part of the neighborhoods of a
 /// leaf is summed once.
-/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row, and Error{InvalidMesh} if
+/// the surface has neither faces nor normals of its own.
 [[nodiscard]] Curvatures curvatures(const Surface& surface, const BatchQuery& query,
                                     const CurvatureOptions& options = {}, const Run& run = {});
 
@@ -128,7 +129,7 @@ void curvatures(const Surface& surface, const BatchQuery& query, const Curvature
                 const CurvatureOptions& options = {}, const Run& run = {});
 
 /// Koenderink's shape index, 2 / pi atan((k1 + k2) / (k1 - k2)): 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a
-/// valley, -1 in a bowl. NaN where both are 0, where it is not defined.
+/// valley, -1 in a bowl. NaN where both are 0, where it is not defined. k1 >= k2, which is not checked.
 [[nodiscard]] double shape_index(double k1, double k2);
 
 /// Koenderink's curvedness, the square root of (k1^2 + k2^2) / 2.

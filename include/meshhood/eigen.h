@@ -49,7 +49,7 @@ template <BorrowedMatrix M>
                                 static_cast<std::size_t>(V.colStride()));
 }
 
-/// `F`: #F by 3, integers of 32 or 64 bits. Borrowed. Throws Error{InvalidMesh} if it has other than three columns.
+/// `F`: #F by 3, integers of 16 to 64 bits. Borrowed. Throws Error{InvalidMesh} if it has other than three columns.
 template <BorrowedMatrix M>
 [[nodiscard]] FacesView triangles_view(M&& F) {
   detail::check_columns(F, "F");

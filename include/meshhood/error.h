@@ -12,9 +12,9 @@ namespace meshhood MESHHOOD_API {
 
 /// Why a call failed. The list is closed: a program may switch over it.
 enum class ErrorCode {
-  VertexOutOfRange,  ///< a query vertex that the mesh does not have
-  InvalidRadius,     ///< a radius that is NaN or negative
-  InvalidOption,     ///< an option outside its documented range
+  VertexOutOfRange,  ///< an id that the mesh does not have; or `nearest` of a mesh without a vertex to find
+  InvalidRadius,     ///< a radius that is NaN or negative, or that the call does not take; or a wrong list of radii
+  InvalidOption,     ///< an option outside its range; or an object that was moved from or follows no refit
   InvalidMesh,    ///< arrays that do not describe a mesh: an index out of range, a coordinate that is not finite, ...
   MalformedFile,  ///< a file whose content contradicts its format or itself
   UnsupportedFormat,  ///< a file in a format, or a variant of one, that is not read
@@ -28,7 +28,8 @@ enum class ErrorCode {
 [[nodiscard]] std::string_view describe(ErrorCode code) noexcept;
 
 /// The one exception that meshhood throws. `what()` is one line that names the cause (file and place, face, corner,
-/// value) and what was expected. A failed call leaves its arguments and the object it was called on as they were.
+/// value) and what was expected. A failed call leaves its arguments and the object it was called on as they were;
+/// memory of the caller for results (`aggregate`, `curvatures`, `BatchMemory`) may have been written to.
 ///
 /// If memory runs out, `std::bad_alloc` is passed on, with the same promise. Functions that read files throw
 /// `TooLarge` instead if they still can.

@@ -40,7 +40,8 @@ struct FeatureOptions {
   /// One column each, at least one.
   std::vector<Feature> kinds = {Feature::Crease};
 
-  /// #V, the area of each vertex, for Height and Variation; those of the surface if empty.
+  /// #V, the area of each vertex, for Height and Variation; those of the surface if empty;
+  /// Error{InvalidOption} if it has no faces then.
   Borrowed<double> areas = {};
 
   /// As for `curvatures`.
@@ -55,13 +56,14 @@ struct FeatureOptions {
 /// Each radius has a neighborhood of its own. Time of `curvatures`, `principal_components`, `invariants` and `gaps` for
 /// each radius, as the kinds require; the last two share one search. A row depends on surface, areas, vertex and radius
 /// alone, bit for bit: not on the other rows of the call, earlier calls, threads or the processor. Throws
-/// Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}. A radius must be > 0 and finite. Area, Volume and
-/// Gap throw InvalidOption by another metric than `Straight` and of a surface without faces, and InvalidMesh if every
-/// face has a wall.
+/// Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, and InvalidMesh for kinds that need normals if
+/// there are none. A radius must be > 0 and finite. Area, Volume and Gap throw InvalidOption by another metric than
+/// `Straight` and of a surface without faces, and InvalidMesh if every face has a wall.
 [[nodiscard]] std::vector<double> features(const Surface& surface, const BatchQuery& query,
                                            const FeatureOptions& options = {}, const Run& run = {});
 
-/// `count` radii from `smallest` to `largest` with a constant ratio. Throws Error{InvalidRadius, InvalidOption}.
+/// `count` radii from `smallest` to `largest` with a constant ratio; one is `largest`. Throws Error{InvalidRadius}
+/// unless 0 < smallest <= largest < infinity, and Error{InvalidOption} unless `count` is in [1, 1000].
 [[nodiscard]] std::vector<double> geometric_radii(double smallest, double largest, std::size_t count);
 
 /// Over how many scales a feature lasts, one entry for each row.
@@ -75,7 +77,7 @@ struct Persistence {
 };
 
 /// values     #radii by #rows, one kind of feature. A NaN ends a run.
-/// radii      ascending.
+/// radii      strictly ascending.
 /// threshold  > 0.
 /// Throws Error{InvalidOption, InvalidRadius}.
 [[nodiscard]] Persistence persistence(std::span<const double> values, std::span<const double> radii, double threshold);

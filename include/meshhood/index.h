@@ -78,7 +78,8 @@ class Index {
   ///  - the links between nodes are those of the mesh, and every node above the leaves is connected by them;
   ///  - each sphere encloses its vertices.
   ///
-  /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid. O((#V + #E) log #V).
+  /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid, and Error{InvalidOption} for an index with masks or of
+  /// paths along a surface. O((#V + #E) log #V).
   [[nodiscard]] std::vector<std::string> check(const MeshView& mesh) const;
   [[nodiscard]] std::vector<std::string> check(const GraphView& graph) const;
 

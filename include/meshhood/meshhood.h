@@ -19,7 +19,8 @@
 /// neighborhoods in aggregate.h and moments.h, walls in masks.h, meshes that deform in refit.h. `Surface`, for closest
 /// points, regions as meshes and curvature, is in surface.h; areas, volumes and gaps in a ball are in patch.h. Files
 /// are in io/mesh_io.h and io/index_io.h. Meshes of other libraries are in eigen.h, cgal.h, openmesh.h and
-/// geometry_central.h. `meshhood::paper` has the same calls with the approximate neighborhoods of the paper.
+/// geometry_central.h. `meshhood::paper` has an index and a searcher for the approximate neighborhoods of the paper; a
+/// `SearchMethod` of it makes batches.
 
 #include "meshhood/adjacency.h"            // IWYU pragma: export
 #include "meshhood/aggregate.h"            // IWYU pragma: export

@@ -69,7 +69,7 @@ struct ClippedMesh {
   std::vector<std::array<VertexId, 3>> vertices;  ///< of each point, by their ids in the whole mesh: see `clip`
   std::vector<std::array<double, 3>> weights;     ///< barycentric coordinates in these: >= 0, with the sum 1
   std::vector<std::size_t> faces;  ///< of each triangle: the number of the face it is a part of; ascending
-  std::vector<std::array<VertexId, 3>> triangles;  ///< as positions in `points`
+  std::vector<std::array<VertexId, 3>> triangles;  ///< as numbers of `points`
   double area = 0;  ///< of the patch, as `PatchSearcher::measure` says; that of the triangles is a little less
 
   /// Borrows from this object. A view of a temporary does not compile.
@@ -77,7 +77,9 @@ struct ClippedMesh {
   [[nodiscard]] MeshView view() const&& = delete;
 };
 
-/// Answers one start at a time; one for each thread. Owns 8 bytes for each vertex and triangle.
+/// Answers one start at a time; one for each thread. Owns 8 bytes for each vertex and triangle. Shares the memory of
+/// the surface, which may be moved or destroyed. After a refit, make a new one. One that has been moved from can be
+/// assigned and destroyed.
 ///
 /// radius  >= 0 or infinite. A point at exactly `radius` counts.
 /// All throw Error{VertexOutOfRange, InvalidRadius, InvalidOption}: InvalidOption for a face or point that is not of

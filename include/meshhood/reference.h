@@ -110,7 +110,8 @@ class BallSearcher {
 };
 
 /// One exact neighborhood of a mesh, by a `ReferenceSearcher` that is built for this call. For a single query; for
-/// more, keep a searcher or an index. O(#V + #corners log(valence)), whatever the radius.
+/// more, keep a searcher or an index. Ids in the order of the search, `v` first; a vertex at exactly `radius` is
+/// inside. O(#V + #corners log(valence)), whatever the radius.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidMesh, TooLarge}.
 [[nodiscard]] std::vector<VertexId> exact_neighborhood(const MeshView& mesh, VertexId v, double radius);

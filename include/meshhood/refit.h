@@ -40,7 +40,7 @@ namespace meshhood MESHHOOD_API {
 
 /// The same if only the vertices `changed` have moved. Positions of others are not read.
 ///
-/// positions  as above; may be float for an index in double, but not the reverse.
+/// positions  as above; may be float for an index in double; the reverse is Error{InvalidMesh}.
 /// changed    ids of vertices, in any order; duplicates are allowed. Borrowed for the call; read once.
 ///
 /// Copies everything that depends on the positions: 14 bytes a vertex in float, 26 in double. `Index::refit_in_place`

@@ -24,8 +24,8 @@ struct ReorderedMesh {
   [[nodiscard]] MeshView view() const&& = delete;
 };
 
-/// Builds the index of `mesh` and renumbers the mesh: vertices in index order, faces by their first vertex in it. The
-/// same for any number of threads.
+/// Builds the index of `mesh` and renumbers the mesh: vertices in index order, faces by their first vertex in it,
+/// otherwise in the order given, those without corners last. The same for any number of threads.
 ///
 /// mesh    any polygonal mesh (see `validate`); borrowed for the call.
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. TooLarge also beyond 2^32 - 1 faces. O(#V log #V + #E

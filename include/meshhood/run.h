@@ -11,7 +11,7 @@
 namespace meshhood MESHHOOD_API {
 
 /// Callback of a long call: `done` of `total` equal parts are complete. Return false to cancel. The call then throws
-/// Error{Cancelled} and leaves its arguments unchanged.
+/// Error{Cancelled}, with the promise of `Error`.
 ///
 /// It is called on the calling thread only, with 0 at the beginning and `total` at the end, in batches at most twenty
 /// times a second. `done` never decreases and `total` is constant. An exception from it ends the call and is passed on.
@@ -37,8 +37,9 @@ struct Run {
 
   Progress progress = {};
 
-  /// The most bytes of the result of `neighborhoods`, `aggregate`, `k_nearest` and `discs`; no other call looks at it.
-  /// A larger result is refused before memory is allocated.
+  /// The most bytes of the result of `neighborhoods`, `aggregate`, `aggregate_size`, `k_nearest` and `discs`; no other
+  /// call looks at it. A larger result is refused before memory is allocated for it; by `discs`, and by `neighborhoods`
+  /// without an index, once the rows so far exceed it.
   std::uint64_t max_bytes = kUnlimited;
 };
 

@@ -38,7 +38,8 @@ struct VertexRange {
 ///
 /// - `v` is in [0, `vertex_count()`). `radius` is >= 0 or infinite, in the unit of the positions. A vertex at exactly
 ///   `radius` is inside.
-/// - `neighborhood` fills `ids`, and `distances` in the same order. Each vertex is listed once, `v` included.
+/// - `neighborhood` fills `ids`, and `distances` in the same order. Each vertex is listed once, `v` included unless a
+///   mask leaves it out (see masks.h).
 /// - `count` returns the number of vertices.
 /// - `ranges` returns the neighborhood as disjoint, nonempty ranges of the searcher's order. They are valid until the
 ///   next call.
@@ -99,7 +100,9 @@ struct Dab {
 ///
 /// Use one object per thread: it owns scratch memory, 23 to 30 bytes per leaf for balls around vertices, 64 for all
 /// else of the straight metric; 8 bytes a vertex for paths. Each part is made when it is first needed. It shares the
-/// memory of the index, which may be moved, refitted or destroyed meanwhile: answers are those of the index as it was.
+/// memory of the index, which may be moved or destroyed meanwhile: answers are those of the index as it was. After
+/// `refit_in_place`, each query throws Error{InvalidOption} until `rebind`; so do those of a searcher that has been
+/// moved from, which can be assigned, destroyed and bound again.
 ///
 /// On a graph unlike a surface (with a vertex that has very many neighbors, or with random edges), the cost of a ball
 /// is that of `ReferenceSearcher`, and each searcher owns 20 bytes per vertex more (36 for double). All of them share a
@@ -111,12 +114,13 @@ struct Dab {
 /// `nearest_connected` in space, where nothing is connected.
 class Searcher {
  public:
+  /// Throws Error{InvalidOption} if the index has been moved from, or is masked and its mesh was refitted in place.
   explicit Searcher(const Index& index, Metric metric = Metric::Straight);
   explicit Searcher(const Index&&, Metric = Metric::Straight) = delete;
 
   /// Goes on with `index`: the answers are then those of a new searcher. After `refit_in_place` of the same index, it
   /// keeps its scratch memory and takes O(1). If all vertices have moved, the next search by paths takes O(#V + #E); on
-  /// a graph unlike a surface, the next search always does.
+  /// a graph unlike a surface, the next search always does. Throws as the constructor.
   void rebind(const Index& index);
   void rebind(const Index&&) = delete;
 
@@ -142,7 +146,7 @@ class Searcher {
   void neighborhood(const Start& start, Radius radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
   /// The neighborhood as ranges of the index order, without copying ids. Ascending, with gaps between them, none empty;
-  /// valid until the next call. See `visit` and `reduce`.
+  /// valid until the next call. For a vertex, `visit` and `reduce` loop over them.
   [[nodiscard]] std::span<const VertexRange> ranges(const Start& start, Radius radius) &;
 
   /// The number of vertices of the neighborhood.

@@ -40,7 +40,8 @@ struct SaveOptions {
 /// Streams the bytes of `index` to `sink`. Progress is reported while the fingerprint is computed, then between parts:
 /// the checksum of each section, and pieces of the bytes. The longest part takes O(bytes). Peak memory is one copy of
 /// the graph, for the fingerprint, and one of the faces. Throws Error{InvalidMesh, TooLarge} if the faces are invalid,
-/// or are not all triangles and have 2^32 corners or more; Error{Cancelled}. O(bytes of the index).
+/// or are not all triangles and have 2^32 corners or more; Error{InvalidOption} for an index with masks or of paths
+/// along a surface; Error{Cancelled}. O(bytes of the index), on one thread, as all that saves and loads.
 void save(const Index& index, const Sink& sink, const SaveOptions& options = {}, const Run& run = {});
 
 /// Returns the index that was saved as `bytes`, which are copied. Progress is reported between the parts of the

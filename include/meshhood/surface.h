@@ -95,7 +95,8 @@ class Surface {
   ///
   /// normals  #V by 3, in the order of the caller's vertices, of any length; copied. A vertex whose normal has length 0
   ///          or a NaN counts as one without a normal.
-  /// Throws as above, and Error{InvalidMesh}, naming the vertex, if a normal is infinite.
+  /// Throws as above, and Error{InvalidMesh} if there are not 3 #V numbers, or, naming the vertex, if a normal is
+  /// infinite.
   [[nodiscard]] static Surface of_normals(const Index& index, std::span<const double> normals,
                                           const FacesView& faces = {});
 
@@ -109,8 +110,9 @@ class Surface {
   ///
   /// index    refitted in place, or a refitted copy.
   /// changed  ids of the vertices that have moved since, at least.
-  /// Throws Error{InvalidOption} if the index is of a mesh with another number of vertices, or if the surface has
-  /// normals of its own; Error{VertexOutOfRange}, naming the row of `changed`. The surface is then as it was.
+  /// Throws Error{InvalidOption} if the index is no refit of that of the surface, as one that was built again, or if
+  /// the surface has normals of its own; Error{VertexOutOfRange}, naming the row of `changed`. The surface is then as
+  /// it was.
   void refit_in_place(const Index& index);
   void refit_in_place(const Index& index, const IndicesView& changed);
 
@@ -185,8 +187,8 @@ class Surface {
   /// A face with fewer than three corners adds nothing. Polylines, and the first point of a loop, come in a fixed order
   /// for each set of `ids`.
   ///
-  /// Throws as `faces`, Error{InvalidRadius}, and Error{InvalidOption} if a coordinate of `center` is not finite or a
-  /// vertex of `ids` at the rim lies outside the ball.
+  /// Throws as `faces`, Error{InvalidRadius}, and Error{InvalidOption} if a coordinate of `center` is not finite or
+  /// beyond 2^500, or a vertex of `ids` at the rim lies outside the ball.
   [[nodiscard]] Rim rim(std::span<const VertexId> ids, const SpacePoint& center, double radius) const;
 
   /// The area of each vertex, #V in the caller's order (see `vertex_areas`). Valid as long as the surface, or until it
