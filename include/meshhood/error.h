@@ -14,7 +14,7 @@ namespace meshhood MESHHOOD_API {
 enum class ErrorCode {
   VertexOutOfRange,  ///< an id that the mesh does not have; or `nearest` of a mesh without a vertex to find
   InvalidRadius,     ///< a radius that is NaN or negative, or that the call does not take; or a wrong list of radii
-  InvalidOption,     ///< an option outside its range; or an object that was moved from or follows no refit
+  InvalidOption,     ///< an option outside its range; an object that was moved from, or did not follow a refit
   InvalidMesh,    ///< arrays that do not describe a mesh: an index out of range, a coordinate that is not finite, ...
   MalformedFile,  ///< a file whose content contradicts its format or itself
   UnsupportedFormat,  ///< a file in a format, or a variant of one, that is not read

@@ -174,10 +174,11 @@ struct IndexView {
   /// The slot of a vertex in index order.
   [[nodiscard]] std::uint32_t slot_at(std::size_t vertex) const { return slot[id(vertex)]; }
 
-  /// The position of a vertex in index order; the next in the frame.
+  /// The position of a vertex in index order, in the unit of the mesh.
   [[nodiscard]] Point position(std::size_t vertex) const {
     return std::visit([&](auto xyz) { return point(xyz, vertex); }, positions);
   }
+  /// The same in the frame.
   [[nodiscard]] Point in_frame(std::size_t vertex) const { return frame.to_frame(position(vertex)); }
 
   [[nodiscard]] Point position(LeafId leaf, unsigned lane) const {

@@ -9,7 +9,6 @@
 #include "shared/parallel.h"
 
 namespace meshhood {
-
 namespace {
 
 /// The faces that have triangles, at the middles of their boxes.

@@ -279,6 +279,14 @@ def test_a_submesh_is_handed_to_pyvista_and_trimesh():
             np.testing.assert_array_equal(made.face_attributes["faces"], np.repeat(part.faces, sides - 2))
 
 
+def test_a_point_is_described_by_its_coordinates():
+    V, quads = grid(9)
+    index = meshhood.MeshIndex(V, np.array(quads)[:, :3])
+    face, weights, point = found = index.closest_point([2.0, 3.0, 1.0])
+    assert repr(found) == f"<meshhood.ClosestPoint: face {face}, barycentric {weights}, point {point}>"
+    assert repr(index.closest_point(V[:5])) == "<meshhood.ClosestPoint: face 5, barycentric 5 by 3, point 5 by 3>"
+
+
 def test_a_submesh_is_described_in_a_line():
     V, quads = grid(9)
     index = meshhood.MeshIndex(V, quads)

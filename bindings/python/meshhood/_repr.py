@@ -12,7 +12,7 @@ Result = TypeVar("Result", bound=type)
 
 
 def shown_in_a_line(result: Result) -> Result:
-    """A named tuple whose arrays are shown by their shapes; points, weights and all else as they are."""
+    """A named tuple whose arrays are shown by their shapes; three numbers, as of a point, and all else as they are."""
     setattr(result, "__repr__", _in_a_line)
     return result
 
