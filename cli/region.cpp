@@ -89,7 +89,8 @@ void write_arrays(const std::string& file, const Submesh& part, const Rim& rim) 
 /// Of a vertex, or of the point of the surface that is nearest to --point.
 PatchStart patch_start(const QueryStart& start, const Surface& surface) {
   if (start.vertex()) return *start.vertex();
-  const SurfacePoint nearest = surface.closest_point(*start.view().center());
+  const Start center = start.view();
+  const SurfacePoint nearest = surface.closest_point(*center.center());
   return {nearest.face, nearest.point};
 }
 

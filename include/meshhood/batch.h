@@ -90,7 +90,8 @@ class BatchVertices {
   BatchVertices(Range&& vertices) : list_(std::span<const VertexId>(vertices)) {}
 
   /// The list; none if all vertices are meant.
-  [[nodiscard]] const std::optional<std::span<const VertexId>>& list() const { return list_; }
+  [[nodiscard]] const std::optional<std::span<const VertexId>>& list() const& { return list_; }
+  [[nodiscard]] const std::optional<std::span<const VertexId>>& list() const&& = delete;
 
   /// How many rows these are for a mesh of `vertices` vertices.
   [[nodiscard]] std::size_t count(std::size_t vertices) const { return list_ ? list_->size() : vertices; }
@@ -132,10 +133,12 @@ class BatchRadius {
   [[nodiscard]] double common() const { return common_; }
 
   /// The list, if there is one.
-  [[nodiscard]] const std::optional<std::span<const double>>& list() const { return list_; }
+  [[nodiscard]] const std::optional<std::span<const double>>& list() const& { return list_; }
+  [[nodiscard]] const std::optional<std::span<const double>>& list() const&& = delete;
 
   /// The scales, if there are some.
-  [[nodiscard]] const std::optional<std::vector<double>>& scales() const { return scales_; }
+  [[nodiscard]] const std::optional<std::vector<double>>& scales() const& { return scales_; }
+  [[nodiscard]] const std::optional<std::vector<double>>& scales() const&& = delete;
 
  private:
   double common_ = std::numeric_limits<double>::quiet_NaN();

@@ -9,6 +9,7 @@
 #include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/run.h"
 
 namespace meshhood MESHHOOD_API {
 

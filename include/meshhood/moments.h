@@ -14,7 +14,7 @@
 /// integral invariants are computed without another pass over the vertices. See docs/curvature.md.
 ///
 ///     const std::vector<double> areas = meshhood::vertex_areas(mesh);
-///     const auto patches = meshhood::principal_components(index, {.radius = 2.5}, {.weights = areas});
+///     const auto components = meshhood::principal_components(index, {.radius = 2.5}, {.weights = areas});
 namespace meshhood MESHHOOD_API {
 
 /// The largest i + j + k of a moment.

@@ -167,7 +167,8 @@ class Searcher {
   [[nodiscard]] std::size_t count(VertexId v, double radius);
 
   /// Statistics of the last successful query.
-  [[nodiscard]] const QueryProfile& profile() const { return profile_; }
+  [[nodiscard]] const QueryProfile& profile() const& { return profile_; }
+  [[nodiscard]] const QueryProfile& profile() const&& = delete;
 
  private:
   friend struct SearcherAccess;  // defined by tests

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "meshhood/export.h"
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
+#include "meshhood/run.h"
 #include "meshhood/start.h"
 #include "meshhood/surface.h"
 
@@ -46,8 +48,10 @@ class PatchStart {
 
   /// The vertex, unless there is a face.
   [[nodiscard]] VertexId vertex() const { return start_.vertex(); }
-  [[nodiscard]] const std::optional<std::size_t>& face() const { return face_; }
-  [[nodiscard]] const SpacePoint& point() const { return point_; }
+  [[nodiscard]] const std::optional<std::size_t>& face() const& { return face_; }
+  [[nodiscard]] const std::optional<std::size_t>& face() const&& = delete;
+  [[nodiscard]] const SpacePoint& point() const& { return point_; }
+  [[nodiscard]] const SpacePoint& point() const&& = delete;
 
  private:
   Start start_;

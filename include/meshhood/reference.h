@@ -61,7 +61,8 @@ class ReferenceSearcher {
   [[nodiscard]] std::size_t count(VertexId v, double radius);
 
   /// The graph that is searched. Lives as long as the searcher.
-  [[nodiscard]] AdjacencyView adjacency() const;
+  [[nodiscard]] AdjacencyView adjacency() const&;
+  [[nodiscard]] AdjacencyView adjacency() const&& = delete;
 
  private:
   friend struct ReferenceAccess;

@@ -6,6 +6,7 @@
 #include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/run.h"
 
 /// Indexes of meshes whose vertices move, while their edges stay as they are: animation, simulation, sculpting.
 ///

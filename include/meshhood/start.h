@@ -50,7 +50,8 @@ class Start {
 
   /// The vertex, if the start is a vertex; then `center` is empty.
   [[nodiscard]] VertexId vertex() const { return vertex_; }
-  [[nodiscard]] const std::optional<SpacePoint>& center() const { return center_; }
+  [[nodiscard]] const std::optional<SpacePoint>& center() const& { return center_; }
+  [[nodiscard]] const std::optional<SpacePoint>& center() const&& = delete;
 
   /// Valid as long as this object and the seeds that it was given.
   [[nodiscard]] std::span<const VertexId> seeds() const& { return seeds_ ? *seeds_ : std::span(&vertex_, 1); }

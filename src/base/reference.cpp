@@ -174,7 +174,7 @@ void ReferenceAccess::set_query(ReferenceSearcher& searcher, std::uint32_t queri
   searcher.state_->query = queries;
 }
 
-AdjacencyView ReferenceSearcher::adjacency() const { return state_->adjacency; }
+AdjacencyView ReferenceSearcher::adjacency() const& { return state_->adjacency; }
 
 std::vector<VertexId> exact_neighborhood(const MeshView& mesh, VertexId v, double radius) {
   check_query(v, mesh.positions.size(), radius);

@@ -45,8 +45,12 @@ class Batch {
   [[nodiscard]] std::size_t vertex_count() const { return factory_.vertex_count; }
   [[nodiscard]] TaskContext& task() { return task_; }
 
-  /// Begins another pass, with one radius for all rows, which must be valid.
-  void set_radius(double radius) { rows_.set_radius(radius); }
+  /// Begins another pass, with one radius for all rows, which must be valid. Its rows are numbered after those of the
+  /// passes before.
+  void begin_pass(double radius) {
+    rows_.set_radius(radius);
+    first_row_ += rows_.size();
+  }
 
   /// Sorts the rows by their position in the index, and returns the former number of each.
   std::vector<std::size_t> put_in_index_order();
@@ -100,6 +104,7 @@ class Batch {
   const SearcherFactory& factory_;  // of `method_`
   BatchOptions options_;
   Rows rows_;
+  std::size_t first_row_ = 0;  // of the pass
   TaskContext task_;
   std::vector<PerThread> threads_;
   RawVector<std::uint64_t> in_order_;    // position, and in the lower half the number `i` of the row
@@ -137,7 +142,7 @@ void Batch::run_chunks(std::size_t first_number, RowOf&& row_of, F&& f) {
     for (std::size_t k = 0; k < items.size(); ++k) {
       const std::uint64_t next = in_order[begin + k];
       const std::size_t row = row_of(static_cast<std::uint32_t>(next));
-      items[k] = {row, rows_.vertex(row), static_cast<std::uint32_t>(next >> 32), rows_.radius(row)};
+      items[k] = {first_row_ + row, rows_.vertex(row), static_cast<std::uint32_t>(next >> 32), rows_.radius(row)};
     }
     f(thread, BatchChunk{first_number + i, items});
   });

@@ -22,6 +22,9 @@ using PacketVisitorFactory = std::function<PacketVisitor(unsigned thread)>;
 struct PacketOptions {
   /// Whether packets have lengths, by paths and by rings. Rings are then searched row by row.
   bool lengths = false;
+
+  /// Whether the query may have scales: all rows are then visited for each, and numbered as a result #radii by #rows.
+  bool scales = false;
 };
 
 /// Visits the neighborhoods of all rows of `query` by its metric, each row in one packet, packets in no stated order.

@@ -48,8 +48,8 @@ class UnconnectedSearch {
     all_ = packet.queries;
     open_ = 0;
     queries_.clear();
-    const LeafId home = leaf_of(index_->slot[packet.vertices.front()]);
-    const Center center(index_->frame, center_of_leaf(home));
+    const LeafId leaf = leaf_of(index_->slot[packet.vertices.front()]);
+    const Center center(index_->frame, center_of_leaf(leaf));
     for (std::size_t i = 0; i < packet.vertices.size(); ++i) {
       const std::uint32_t slot = index_->slot[packet.vertices[i]];
       const Point p = index_->position(leaf_of(slot), lane_of(slot));

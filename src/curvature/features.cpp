@@ -73,10 +73,10 @@ double patch_feature(Feature kind, const FoundPatch& patch, double radius) {
     const SurfacePoint gap = patch.gap();
     return gap.face == kNoFace ? kNoFeature : gap.distance / radius;
   }
-  const double area = patch.search.area();
+  const double area = patch.area();
   if (!(area > 0)) return kNoFeature;
   if (kind == Feature::Area) return area / radius / radius / std::numbers::pi;
-  return patch.search.volume() / radius / radius / radius / (4 * std::numbers::pi / 3);
+  return patch.volume() / radius / radius / radius / (4 * std::numbers::pi / 3);
 }
 
 /// What one call of `features` computes, radius by radius.
@@ -197,7 +197,7 @@ class FeatureExtraction {
     const bool measures = std::ranges::any_of(
         options_.kinds, [](Feature kind) { return kind == Feature::Area || kind == Feature::Volume; });
     for_each_patch(surface_, query_of(radii), measures, next_pass(), [&](std::size_t row, const FoundPatch& patch) {
-      write_row(Source::Patches, row, values, [&](Feature kind) { return patch_feature(kind, patch, patch.radius); });
+      write_row(Source::Patches, row, values, [&](Feature kind) { return patch_feature(kind, patch, patch.radius()); });
     });
   }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "base/vector.h"
 #include "surface/face_triangles.h"
@@ -18,7 +20,7 @@ Cluster add_up(const IndexView& index, const Triangles& triangles, TriangleId be
   for (TriangleId t = begin; t < end; ++t) {
     for (const Point& corner : corners_of(index, triangles.corners[t])) box.add(corner);
   }
-  Cluster sums{box, 0, 0, {0, 0, 0}, 0, 0, 0, false};
+  Cluster sums{box, 0, 0, {0, 0, 0}, 0, 0, 0, 0, false};
   for (TriangleId t = begin; t < end; ++t) {
     std::array<Point, 3> corners = corners_of(index, triangles.corners[t]);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -45,6 +47,7 @@ Clusters::Clusters(const IndexView& index, const Triangles& triangles) : of_tria
   const auto set_first = [&] {
     clusters.back().first_link = static_cast<std::uint32_t>(links.size());
     clusters.back().first_hub = static_cast<std::uint32_t>(hubs.size());
+    clusters.back().first_corner = static_cast<std::uint32_t>(corners.size());
   };
   for (ClusterId cluster = 0; cluster < count; ++cluster) {
     const TriangleId end = triangles.first_of_cluster[cluster + std::size_t{1}];
@@ -55,24 +58,44 @@ Clusters::Clusters(const IndexView& index, const Triangles& triangles) : of_tria
   clusters.push_back({});
   set_first();
   links.push_back({0, static_cast<std::uint32_t>(linked.size())});
+  list_by_leaf(index);
   boxes.build(count, [&](std::size_t i) {
     const BoundingBox& box = clusters[i].box;
     return BoundingBox{index.frame.to_frame(box.low), index.frame.to_frame(box.high)};
   });
 }
 
-/// The triangles of other clusters at the corners of a cluster.
+void Clusters::list_by_leaf(const IndexView& index) {
+  const auto for_each_leaf = [&](auto&& f) {
+    for (ClusterId cluster = 0; cluster < size(); ++cluster) {
+      std::optional<LeafId> last;
+      for (const std::uint32_t place : corners_of(cluster)) {
+        const LeafId leaf = leaf_of(index.slot_at(place));
+        if (leaf != last) f(cluster, leaf);
+        last = leaf;
+      }
+    }
+  };
+  first_of_leaf.assign(index.leaf_count() + 2, 0);
+  for_each_leaf([&](ClusterId, LeafId leaf) { ++first_of_leaf[leaf + std::size_t{2}]; });
+  for (std::size_t i = 2; i < first_of_leaf.size(); ++i) first_of_leaf[i] += first_of_leaf[i - 1];
+  of_leaf.resize(first_of_leaf.back());
+  for_each_leaf([&](ClusterId cluster, LeafId leaf) { of_leaf[first_of_leaf[leaf + std::size_t{1}]++] = cluster; });
+  first_of_leaf.pop_back();
+}
+
+/// The corners of a cluster, and the triangles of other clusters there.
 void Clusters::link(const Triangles& triangles, ClusterId cluster) {
   const auto first = static_cast<std::ptrdiff_t>(linked.size());
   const TriangleId begin = triangles.first_of_cluster[cluster];
   const TriangleId end = triangles.first_of_cluster[cluster + std::size_t{1}];
-  std::vector<std::uint32_t> places;
+  const auto first_corner = static_cast<std::ptrdiff_t>(corners.size());
   for (TriangleId t = begin; t < end; ++t) {
-    places.insert(places.end(), triangles.corners[t].begin(), triangles.corners[t].end());
+    corners.insert(corners.end(), triangles.corners[t].begin(), triangles.corners[t].end());
   }
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  for (const std::uint32_t place : places) {
+  std::sort(corners.begin() + first_corner, corners.end());
+  corners.erase(std::unique(corners.begin() + first_corner, corners.end()), corners.end());
+  for (const std::uint32_t place : std::span(corners).subspan(static_cast<std::size_t>(first_corner))) {
     if (triangles.fan(place).size() > kMostLinked) {
       hubs.push_back(place);
       continue;
@@ -92,8 +115,8 @@ void Clusters::link(const Triangles& triangles, ClusterId cluster) {
 
 std::size_t Clusters::bytes() const {
   const auto bytes_of = [](const auto& array) { return array.size() * sizeof(array[0]); };
-  return bytes_of(clusters) + bytes_of(links) + bytes_of(linked) + bytes_of(hubs) + bytes_of(of_triangle) +
-         boxes.bytes();
+  return bytes_of(clusters) + bytes_of(links) + bytes_of(linked) + bytes_of(hubs) + bytes_of(corners) +
+         bytes_of(of_triangle) + bytes_of(first_of_leaf) + bytes_of(of_leaf) + boxes.bytes();
 }
 
 }  // namespace meshhood

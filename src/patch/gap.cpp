@@ -47,10 +47,10 @@ double far_distance(const Point& q, const std::array<Point, 3>& corners, double 
 template <class Real>
 class GapSearch {
  public:
-  GapSearch(const PatchState& state, const PatchSearch& search, std::span<const Real> xyz, double radius)
-      : state_(&state), search_(&search), xyz_(xyz), ball_(search.ball()), radius_(radius) {
+  GapSearch(const PatchState& state, const FoundPatch& patch, std::span<const Real> xyz)
+      : state_(&state), patch_(&patch), xyz_(xyz), ball_(patch.ball()), radius_(patch.radius()) {
     nearest_.distance = kInfinity;
-    set_limit(radius);
+    set_limit(radius_);
   }
 
   SurfacePoint run() {
@@ -70,10 +70,10 @@ class GapSearch {
   }
 
   void visit(ClusterId cluster) {
-    if (search_->has_taken(cluster)) return;
+    if (patch_->has_all(cluster)) return;
     const std::vector<TriangleId>& first = state_->triangles.first_of_cluster;
     for (TriangleId t = first[cluster]; t < first[cluster + std::size_t{1}]; ++t) {
-      if (!search_->has_seen(t)) offer(t);
+      if (!patch_->has(t)) offer(t);
     }
   }
 
@@ -99,7 +99,7 @@ class GapSearch {
   }
 
   const PatchState* state_;
-  const PatchSearch* search_;
+  const FoundPatch* patch_;
   std::span<const Real> xyz_;
   PatchBall ball_;
   double radius_;
@@ -111,8 +111,9 @@ class GapSearch {
 
 }  // namespace
 
-SurfacePoint find_gap(const PatchState& state, const PatchSearch& search, double radius) {
-  return std::visit([&](auto xyz) { return GapSearch(state, search, xyz, radius).run(); }, state.index->positions);
+SurfacePoint FoundPatch::gap() const {
+  if (!exists_) return {};
+  return std::visit([&](auto xyz) { return GapSearch(*state_, *this, xyz).run(); }, state_->index->positions);
 }
 
 }  // namespace meshhood

@@ -2,7 +2,9 @@
 #include "meshhood/patch.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -10,13 +12,12 @@
 #include "meshhood/error.h"
 
 #include "base/validate.h"
-#include "batch/position_sort.h"
-#include "batch/rows.h"
+#include "batch/packets.h"
 #include "exact/query/arguments.h"
 #include "patch/clusters.h"
+#include "patch/packet_patches.h"
 #include "patch/patches.h"
 #include "patch/search.h"
-#include "shared/parallel.h"
 #include "shared/text.h"
 #include "surface/face_triangles.h"
 #include "surface/surface.h"
@@ -24,8 +25,6 @@
 
 namespace meshhood {
 namespace {
-
-constexpr std::size_t kPatchesAtOnce = 32;
 
 /// Runs the search around a vertex. Returns whether there is a patch.
 bool run_at(const PatchState& state, PatchSearch& search, VertexId v, double radius, bool measures) {
@@ -119,41 +118,61 @@ PatchMeasure PatchSearcher::measure(const PatchStart& start, double radius) {
 }
 
 SurfacePoint PatchSearcher::gap(const PatchStart& start, double radius) {
-  return state_->run(start, radius, false) ? find_gap(*state_->surface, state_->search, radius) : SurfacePoint{};
+  const bool exists = state_->run(start, radius, false);
+  return FoundPatch(*state_->surface, state_->search, radius, exists).gap();
 }
+
+namespace {
+
+/// Visits the patches of packets, on one thread.
+class PacketVisit {
+ public:
+  using Visit = std::function<void(std::size_t place, const FoundPatch& patch)>;
+
+  PacketVisit(const PatchState& state, bool measures, const Visit& visit)
+      : state_(&state), packet_(state), measures_(measures), visit_(&visit) {}
+
+  void run(const PacketAnswer& answer) {
+    const QueryWord found = packet_.find(answer, measures_);
+    for_each_query(answer.queries, [&](std::size_t q) {
+      const std::size_t place = answer.rows[q];
+      if ((found >> q & 1U) != 0) return (*visit_)(place, FoundPatch(*state_, packet_, q, answer.radii[q]));
+      if (!search_) search_.emplace(*state_);
+      const bool exists = run_at(*state_, *search_, answer.vertices[q], answer.radii[q], measures_);
+      (*visit_)(place, FoundPatch(*state_, *search_, answer.radii[q], exists));
+    });
+  }
+
+ private:
+  const PatchState* state_;
+  PacketPatches packet_;
+  std::optional<PatchSearch> search_;  // of those that are not found in packets
+  bool measures_;
+  const Visit* visit_;
+};
+
+}  // namespace
 
 void for_each_patch(const Surface& surface, const BatchQuery& query, bool measures, const Run& run,
                     const std::function<void(std::size_t place, const FoundPatch& patch)>& visit) {
-  const PatchState& state = SurfaceAccess::state(surface).patches();
+  const SurfaceState& all = SurfaceAccess::state(surface);
+  const PatchState& state = all.patches();
   check_metric(query);
-  const std::vector<BatchRadius> passes = radius_of_passes(query.radius);
-  Rows rows({.vertices = query.vertices, .radius = passes.front()}, state.index->vertex_count());
-  const std::vector<std::size_t> in_order =
-      rows_by_position(rows.size(), [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; });
-  TaskContext task(run.threads, run.progress, passes.size() * rows.size());
-  std::vector<std::unique_ptr<PatchSearch>> searches(task.threads());
-  for (std::size_t pass = 0; pass < passes.size(); ++pass) {
-    if (query.radius.scales()) rows.set_radius(passes[pass].common());
-    task.parallel_for(rows.size(), kPatchesAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
-      if (!searches[thread]) searches[thread] = std::make_unique<PatchSearch>(state);
-      for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
-        const std::size_t row = in_order[i];
-        const double radius = rows.radius(row);
-        const bool exists = run_at(state, *searches[thread], rows.vertex(row), radius, measures);
-        visit(pass * rows.size() + row, {state, *searches[thread], radius, exists});
-        task.advance(thread, 1);
-      }
-    });
-  }
-  task.finish();
+  for_each_packet(
+      all.searched, query,
+      [&](unsigned /*thread*/) -> PacketVisitor {
+        const auto visits = std::make_shared<PacketVisit>(state, measures, visit);
+        return [visits](const PacketAnswer& answer) { visits->run(answer); };
+      },
+      {.scales = true}, run);
 }
 
 Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run) {
   const std::size_t size = result_size(surface, query);
   Invariants result{std::vector<double>(size), std::vector<double>(size)};
   for_each_patch(surface, query, true, run, [&](std::size_t place, const FoundPatch& patch) {
-    result.area[place] = patch.search.area();
-    result.volume[place] = patch.search.volume();
+    result.area[place] = patch.area();
+    result.volume[place] = patch.volume();
   });
   return result;
 }

@@ -8,25 +8,46 @@
 #include "meshhood/patch.h"
 #include "meshhood/run.h"
 
+#include "patch/packet_patches.h"
 #include "patch/search.h"
 
 namespace meshhood {
-
-/// The nearest point within `radius` of the center of the last run of `search` on a triangle that it has not reached.
-[[nodiscard]] SurfacePoint find_gap(const PatchState& state, const PatchSearch& search, double radius);
 
 /// The patch of the last run of `search`, which was given `radius`, as a mesh, without its area.
 [[nodiscard]] ClippedMesh clip_patch(const PatchState& state, const PatchSearch& search, double radius,
                                      double tolerance);
 
-/// The patch of a row, as a search has found it.
-struct FoundPatch {
-  const PatchState& state;
-  const PatchSearch& search;
-  double radius;
-  bool exists;
+/// A patch that was found, by a search of its own or as one of a packet. Borrows all; valid until the next is searched.
+class FoundPatch {
+ public:
+  /// `exists`: whether it has a triangle.
+  FoundPatch(const PatchState& state, const PatchSearch& search, double radius, bool exists)
+      : state_(&state), search_(&search), radius_(radius), exists_(exists) {}
+  FoundPatch(const PatchState& state, const PacketPatches& packet, std::size_t query, double radius)
+      : state_(&state), packet_(&packet), query_(query), radius_(radius), exists_(packet.exists(query)) {}
 
-  [[nodiscard]] SurfacePoint gap() const { return exists ? find_gap(state, search, radius) : SurfacePoint{}; }
+  [[nodiscard]] double radius() const { return radius_; }
+  [[nodiscard]] const PatchBall& ball() const { return search_ ? search_->ball() : packet_->ball(query_); }
+
+  /// If it was measured.
+  [[nodiscard]] double area() const { return search_ ? search_->area() : packet_->area(query_); }
+  [[nodiscard]] double volume() const { return search_ ? search_->volume() : packet_->volume(query_); }
+
+  [[nodiscard]] bool has(TriangleId t) const { return search_ ? search_->has_seen(t) : packet_->has(query_, t); }
+  [[nodiscard]] bool has_all(ClusterId cluster) const {
+    return search_ ? search_->has_taken(cluster) : packet_->has_all(query_, cluster);
+  }
+
+  /// The nearest point of a triangle in the ball that it does not have.
+  [[nodiscard]] SurfacePoint gap() const;
+
+ private:
+  const PatchState* state_;
+  const PatchSearch* search_ = nullptr;  // one of the two
+  const PacketPatches* packet_ = nullptr;
+  std::size_t query_ = 0;
+  double radius_;
+  bool exists_;
 };
 
 /// Calls `visit` with the patch of each row, on any thread; `place` is that of the row in a result #radii by #rows.

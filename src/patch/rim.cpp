@@ -7,12 +7,10 @@
 #include <numbers>
 
 #include "base/vector.h"
+#include "simd/sections.h"
 
 namespace meshhood {
 namespace {
-
-// An arc that is longer has nearly opposite ends, or more than that, and is added in four parts.
-constexpr double kLong = 2;
 
 // One of these is far from the rim, unless it is everywhere.
 constexpr std::array<Point, 6> kPoles{{{0.48, 0.6, 0.64},
@@ -46,9 +44,13 @@ Point Circle::middle(double theta, const Point& u, const Point& w) const {
   return size > 0 ? foot + (radius() / size) * toward : foot;
 }
 
-void RimArcs::clear() {
+void RimArcs::clear(const Point& normal) {
+  const double size = length(normal);
+  pole_ = size > 0 ? (1 / size) * normal : kPoles[0];
   ends_.clear();
   product_ = 1;
+  from_pole_ = 1;
+  least_from_pole_ = kInfinity;
   sum_ = 0;
   count_ = 0;
 }
@@ -59,18 +61,30 @@ void RimArcs::add(const Circle& circle, double theta, const Point& u, const Poin
   const Point n = sign * circle.normal;
   sum_ += sign * theta * (1 - sign * h);
   ++count_;
-  if (theta < kLong) return add_part(n, u, w);
+  const auto add_part = [&](const Point& from, const Point& to) {
+    add_factors(std::conj(half_area(n, from, to)), half_area(pole_, from, to), from, to);
+  };
+  if (theta < kLongArc) return add_part(u, w);
   const Point half = circle.middle(theta, u, w);
   const Point first = circle.middle(theta / 2, u, half);
   const Point last = circle.middle(theta / 2, half, w);
-  add_part(n, u, first);
-  add_part(n, first, half);
-  add_part(n, half, last);
-  add_part(n, last, w);
+  add_part(u, first);
+  add_part(first, half);
+  add_part(half, last);
+  add_part(last, w);
 }
 
-void RimArcs::add_part(const Point& n, const Point& u, const Point& w) {
-  product_ = rescaled(times(product_, std::conj(half_area(n, u, w))));
+void RimArcs::add_measured(double turn, const Complex& factor, const Complex& from_pole, const Point& u,
+                           const Point& w) {
+  sum_ += turn;
+  ++count_;
+  add_factors(factor, from_pole, u, w);
+}
+
+void RimArcs::add_factors(const Complex& factor, const Complex& from_pole, const Point& u, const Point& w) {
+  product_ = rescaled(times(product_, factor));
+  from_pole_ = rescaled(times(from_pole_, from_pole));
+  least_from_pole_ = std::min(least_from_pole_, squared_size(from_pole));
   ends_.emplace_back(u, w);
 }
 
@@ -83,9 +97,10 @@ double RimArcs::area_behind() const {
   constexpr double kSphere = 4 * std::numbers::pi;
   constexpr double kFarPole = 0.25;      // of the squared factor of an arc
   constexpr double kArcSlack = 0x1p-46;  // of an arc
-  Complex best = 1;
-  double most = -1;
+  Complex best = times(product_, from_pole_);
+  double most = least_from_pole_;
   for (const Point& pole : kPoles) {
+    if (most >= kFarPole) break;
     Complex product = product_;
     double least = kFarPole;
     for (const auto& [u, w] : ends_) {
@@ -97,7 +112,6 @@ double RimArcs::area_behind() const {
     if (least <= most) continue;
     most = least;
     best = product;
-    if (least == kFarPole) break;
   }
   const double area = std::fmod(-(sum_ + 2 * argument(best)), kSphere);
   const double positive = area < 0 ? area + kSphere : area;

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "patch/angle.h"
 #include "shared/distance.h"
+#include "simd/angle.h"
 
 namespace meshhood {
 
@@ -25,7 +25,7 @@ struct Circle {
 
 /// The arcs of the unit sphere along which a patch leaves it, which bound the part of the sphere behind the patch.
 ///
-/// The potential of the area form that is singular at -k gives, for the arc from u to w about the unit vector n in the
+/// The potential of the area form that is singular at -k, the opposite of the pole k, gives, for the arc from u to w about the unit vector n in the
 /// plane at height h, of the angle theta,
 ///     theta (1 - h) - T(n, u, w) + T(k, u, w),
 /// with T the signed area of a spherical triangle, T = 2 arg(1 + n.u + u.w + w.n + i n.(u x w)) (van Oosterom and
@@ -35,10 +35,17 @@ struct Circle {
 /// opposite ends have no spherical triangle.
 class RimArcs {
  public:
-  void clear();
+  /// Begins with a patch whose normal is about this one, of any length. Seen from there, the rim lies all around, most
+  /// often far from the opposite point, where the potential is singular.
+  void clear(const Point& normal);
+
+  [[nodiscard]] const Point& pole() const { return pole_; }
 
   /// An arc of the angle `theta` counterclockwise about the normal, from `u` to `w`. O(1).
   void add(const Circle& circle, double theta, const Point& u, const Point& w);
+
+  /// An arc that `SectionKernels` have measured: what its angle adds, and its factors of the products.
+  void add_measured(double turn, const Complex& factor, const Complex& from_pole, const Point& u, const Point& w);
 
   /// A whole circle.
   void add_circle(double h);
@@ -50,10 +57,13 @@ class RimArcs {
   [[nodiscard]] double area_behind() const;
 
  private:
-  void add_part(const Point& n, const Point& u, const Point& w);
+  void add_factors(const Complex& factor, const Complex& from_pole, const Point& u, const Point& w);
 
   std::vector<std::pair<Point, Point>> ends_;
   Complex product_{1, 0};
+  Point pole_{0, 0, 1};
+  Complex from_pole_{1, 0};             // the product of the factors of the pole
+  double least_from_pole_ = kInfinity;  // the square of the smallest
   double sum_ = 0;
   std::size_t count_ = 0;
 };

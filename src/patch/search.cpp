@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: MIT
-// The volume behind a patch is (sum of d A + r S) / 3, by the divergence theorem: d is the distance of a triangle's
-// plane from the center, along its normal, A the area of its part in the ball, S that of the part of the sphere behind.
-// The sum of d A over a cluster is linear in the center.
 #include "patch/search.h"
 
 #include <algorithm>
@@ -19,17 +16,6 @@ PatchSearch::PatchSearch(const PatchState& state)
       seen_(state.triangles.size()),
       kinds_(state.clusters.size()),
       triangles_(state.triangles.size() + 1) {}
-
-double PatchSearch::area() const { return area_ / ball_.scale / ball_.scale; }
-
-double PatchSearch::volume() const {
-  if (has_border_ || seen_count_ == 0) return kNan;
-  const double r = ball_.radius;
-  const bool is_inward = rim_.empty() && moment_ < 0;  // all of the ball but what the patch encloses
-  const double behind = is_inward ? 4 * std::numbers::pi : rim_.empty() ? 0 : rim_.area_behind();
-  const double cone = behind == 0 ? 0 : behind * r * r * r;
-  return (moment_ + cone) / 3 / ball_.scale / ball_.scale / ball_.scale;
-}
 
 std::vector<TriangleId> PatchSearch::triangles() const {
   const Triangles& all = state_->triangles;
@@ -104,8 +90,7 @@ void PatchSearch::spread(std::span<const Real> xyz) {
 }
 
 void PatchSearch::run(const Point& center, double radius, std::span<const TriangleId> starts, bool measures) {
-  const double scale = state_->index->frame.scale;
-  ball_ = {center, squared_radius(radius), scale, scale * radius, radius > 0 ? 1 / radius : kInfinity};
+  ball_ = patch_ball(center, radius, state_->index->frame.scale);
   measures_ = measures;
   inside_.forget();
   kinds_.forget();
@@ -115,10 +100,7 @@ void PatchSearch::run(const Point& center, double radius, std::span<const Triang
   }
   seen_count_ = 0;
   clusters_.clear();
-  rim_.clear();
-  has_border_ = false;
-  area_ = 0;
-  moment_ = 0;
+  sums_.clear(state_->triangles.normal_of(*state_->index, starts));
   for (const TriangleId t : starts) visit(t);
   std::visit([&](auto xyz) { spread(xyz); }, state_->index->positions);
 }
@@ -127,9 +109,8 @@ void PatchSearch::take(ClusterId cluster) {
   kinds_[cluster] = Kind::Taken;
   clusters_.push_back(cluster);
   const Cluster& sums = state_->clusters.clusters[cluster];
-  area_ += sums.area;
-  moment_ += sums.moment + dot(sums.vector_area, ball_.scale * (sums.center() - ball_.center));
-  has_border_ |= sums.has_border;
+  sums_.add_whole(sums.area, moment_from(ball_.center, sums, ball_.scale));
+  if (sums.has_border) sums_.meet_border();
 }
 
 /// All corners of a cluster that is taken are in the ball.
@@ -156,14 +137,13 @@ void PatchSearch::visit_ring(TriangleId t, std::size_t side) {
 void PatchSearch::add_whole(TriangleId t, const PatchTriangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
   const Point area = 0.5 * cross(ball_.scale * (b - a), ball_.scale * (c - a));
-  area_ += length(area);
-  moment_ += dot(area, ball_.scale * (a - ball_.center));
-  has_border_ |= state_->triangles.has_border(t);
+  sums_.add_whole(length(area), dot(area, ball_.scale * (a - ball_.center)));
+  if (state_->triangles.has_border(t)) sums_.meet_border();
 }
 
 void PatchSearch::add_cut(TriangleId t, const PatchTriangle& triangle) {
   const auto add_side = [&](std::size_t i, bool is_met) {
-    has_border_ |= is_met && state_->triangles.is_border(t, static_cast<unsigned>(i));
+    if (is_met && state_->triangles.is_border(t, static_cast<unsigned>(i))) sums_.meet_border();
   };
   if (!std::isfinite(ball_.unit)) {  // a ball that is next to nothing
     for (std::size_t i = 0; i < 3; ++i) add_side(i, triangle.inside[i] || triangle.inside[(i + 1) % 3]);
@@ -174,11 +154,7 @@ void PatchSearch::add_cut(TriangleId t, const PatchTriangle& triangle) {
     if (section.dips(i)) visit_ring(t, i);
     add_side(i, section.meets(i));
   }
-  if (!measures_) return;
-  const double r = ball_.radius;
-  const auto [area, distance] = section.measure(rim_);
-  area_ += area * r * r;
-  moment_ += area * distance * r * r * r;
+  if (measures_) sums_.add_cut(section, ball_);
 }
 
 }  // namespace meshhood

@@ -9,8 +9,8 @@
 
 #include "base/epoch_array.h"
 #include "patch/clusters.h"
-#include "patch/rim.h"
 #include "patch/section.h"
+#include "patch/sums.h"
 #include "shared/distance.h"
 
 namespace meshhood {
@@ -28,9 +28,9 @@ class PatchSearch {
   /// Finds the patch around `center` that has the triangles `starts`. `measures`: its area and volume, too.
   void run(const Point& center, double radius, std::span<const TriangleId> starts, bool measures);
 
-  /// Of the last run, with `measures`; in the unit of the mesh.
-  [[nodiscard]] double area() const;
-  [[nodiscard]] double volume() const;
+  /// Of the last run, with `measures`; in the unit of the mesh. No volume without a triangle.
+  [[nodiscard]] double area() const { return sums_.area(ball_); }
+  [[nodiscard]] double volume() const { return seen_count_ == 0 ? kNan : sums_.volume(ball_); }
 
   [[nodiscard]] const PatchBall& ball() const { return ball_; }
   /// A triangle is of the patch if it was seen, or its cluster taken.
@@ -63,12 +63,9 @@ class PatchSearch {
   std::vector<TriangleId> triangles_;  // seen, in this order; and room for one more than all
   std::size_t seen_count_ = 0;
   std::vector<ClusterId> clusters_;  // taken
-  RimArcs rim_;
+  PatchSums sums_;
   PatchBall ball_{};
   bool measures_ = false;
-  bool has_border_ = false;
-  double area_ = 0;    // these two in the frame
-  double moment_ = 0;  // the sum of area times distance
 };
 
 }  // namespace meshhood

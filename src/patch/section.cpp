@@ -10,8 +10,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-constexpr std::size_t after(std::size_t i) { return i == 2 ? 0 : i + 1; }
-
 RealVector<double> as_vector(const Point& p) { return {p.x, p.y, p.z}; }
 
 template <class Real>
@@ -56,7 +54,6 @@ void Section::set_line(Side& side, const RealVector<Real>& begin, const RealVect
 
 /// Whether the nearest point of a line lies between the ends and in the ball, but for rounding.
 bool Section::may_dip(std::size_t i) const {
-  constexpr double kTouchSlack = 1e-9;
   if (is_far_) return true;
   const Point& a = corners_[i];
   const Point side = corners_[after(i)] - a;
@@ -112,7 +109,7 @@ double Section::angle_of_arc(std::size_t from, std::size_t steps) const {
   const Complex arc = times(turn, std::conj(times(leaves, enters)));
   const double angle = argument(arc);
   if (steps == 1) return angle >= 0 ? angle : arc.real() > 0 ? 0 : 2 * kPi + angle;
-  if (std::abs(arc.imag()) > 1e-6 * arc.real()) return angle < 0 ? 2 * kPi + angle : angle;
+  if (std::abs(arc.imag()) > kClearTurn * arc.real()) return angle < 0 ? 2 * kPi + angle : angle;
   const double all = 2 * kPi - (steps == 2 ? std::abs(argument(turn)) : 0);  // without an area, its sign is noise
   return std::clamp(all - argument(leaves) - argument(enters), 0.0, 2 * kPi);
 }

@@ -7,10 +7,11 @@
 #include <cstdint>
 
 #include "base/vector.h"
-#include "patch/angle.h"
 #include "patch/rim.h"
 #include "patch/twofold.h"
 #include "shared/distance.h"
+#include "simd/angle.h"
+#include "simd/sections.h"
 
 namespace meshhood {
 
@@ -25,9 +26,12 @@ struct PatchBall {
   [[nodiscard]] bool contains(const Point& p) const { return squared_distance(center, p) <= squared; }
 };
 
-/// A corner farther away than so many radii is far. In double, the nearest point of a line is off by a few 2^-53 of its
-/// corners' distance: below 1e-13 of the radius, unless a corner is far.
-inline constexpr double kFar = 64;
+[[nodiscard]] inline PatchBall patch_ball(const Point& center, double radius, double scale) {
+  return {center, squared_radius(radius), scale, scale * radius, radius > 0 ? 1 / radius : kInfinity};
+}
+
+/// The corner or side of a triangle after number `i`.
+[[nodiscard]] constexpr std::size_t after(std::size_t i) { return i == 2 ? 0 : i + 1; }
 
 /// A triangle by its corners in the unit of the mesh, with what is known of them.
 struct PatchTriangle {

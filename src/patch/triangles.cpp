@@ -9,6 +9,9 @@
 
 #include "meshhood/error.h"
 
+#include "base/vector.h"
+#include "exact/neighbors.h"
+
 namespace meshhood {
 namespace {
 
@@ -77,7 +80,16 @@ Triangles::Triangles(const IndexView& index, const StoredFaces& faces) {
   cluster(index, all);
   if (size() == 0) raise(ErrorCode::InvalidMesh, "every face of the mesh has a wall, expected one without");
   make_fans(index.vertex_count());
-  join_sides(index.vertex_count());
+  join_sides(index);
+}
+
+Point Triangles::normal_of(const IndexView& index, std::span<const TriangleId> some) const {
+  Point sum{0, 0, 0};
+  for (const TriangleId t : some) {
+    const auto [a, b, c] = corners_of(index, corners[t]);
+    sum = sum + cross(index.frame.scale * (b - a), index.frame.scale * (c - a));
+  }
+  return sum;
 }
 
 /// Triangles in index order are in the order of the leaves already.
@@ -144,14 +156,27 @@ struct TriangleSide {
   [[nodiscard]] bool is_of(const TriangleSide& other) const { return last == other.last && owner == other.owner; }
 };
 
+/// The neighbors of a vertex that come after it in index order, ascending; no walls.
+void later_neighbors(const IndexView& index, std::uint32_t place, std::vector<std::uint32_t>& neighbors) {
+  neighbors.clear();
+  if (index.is_wall_at(place)) return;
+  const std::uint32_t slot = index.slot_at(place);
+  for_each_neighbor(index, leaf_of(slot), lane_of(slot), [&](std::size_t other) {
+    if (other > place && !index.is_wall_at(other)) neighbors.push_back(static_cast<std::uint32_t>(other));
+  });
+  std::sort(neighbors.begin(), neighbors.end());
+}
+
 }  // namespace
 
 /// The sides whose first end is a place, sorted so that those of a ring follow each other.
-void Triangles::join_sides(std::size_t places) {
+void Triangles::join_sides(const IndexView& index) {
   constexpr std::uint32_t kSharedSide = std::numeric_limits<std::uint32_t>::max();
   ring.resize(3 * size());
   std::vector<TriangleSide> sides;
-  for (std::uint32_t first = 0; first < places; ++first) {
+  std::vector<std::uint32_t> ends;       // of sides that are no diagonals
+  std::vector<std::uint32_t> neighbors;  // the ends of edges
+  for (std::uint32_t first = 0; first < index.vertex_count(); ++first) {
     sides.clear();
     for (const TriangleId t : fan(first)) {
       for (std::uint32_t i = 0; i < 3; ++i) {
@@ -176,6 +201,13 @@ void Triangles::join_sides(std::size_t places) {
         if (balance != 0) flags[side / 3] |= static_cast<std::uint8_t>(1U << side % 3);
       }
     }
+    ends.clear();
+    for (const TriangleSide& side : sides) {
+      if (side.owner == kSharedSide && side.last != first) ends.push_back(side.last);
+    }
+    later_neighbors(index, first, neighbors);
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    follow_edges = follow_edges && ends == neighbors;
   }
 }
 

@@ -29,6 +29,7 @@ struct Triangles {
   std::vector<std::uint32_t> first_fan;      // by place, and one more: in `fans`
   std::vector<TriangleId> fans;              // the triangles at each place
   std::vector<TriangleId> first_of_cluster;  // by cluster, and one more
+  bool follow_edges = true;  // whether their sides, without the diagonals, are the edges between vertices of the index
 
   /// Throws Error{InvalidMesh} if no face without a wall has a triangle, and Error{TooLarge} beyond 2^32 / 3 triangles.
   Triangles(const IndexView& index, const StoredFaces& faces);
@@ -40,15 +41,19 @@ struct Triangles {
     return std::span(fans).subspan(first_fan[place], first_fan[place + std::size_t{1}] - first_fan[place]);
   }
 
+  /// The sum of the vector areas of some triangles, in the frame.
+  [[nodiscard]] Point normal_of(const IndexView& index, std::span<const TriangleId> some) const;
+
   /// Whether a side does not have as many triangles in one direction as in the other: a border of the surface, or where
   /// its orientation changes.
   [[nodiscard]] bool is_border(TriangleId t, unsigned side) const { return (flags[t] >> side & 1U) != 0; }
+  [[nodiscard]] bool is_diagonal(TriangleId t, unsigned side) const { return (flags[t] >> (3 + side) & 1U) != 0; }
   [[nodiscard]] bool has_border(TriangleId t) const { return (flags[t] & 7U) != 0; }
 
  private:
   void cluster(const IndexView& index, std::span<const Triangle> all);
   void make_fans(std::size_t places);
-  void join_sides(std::size_t places);
+  void join_sides(const IndexView& index);
 };
 
 }  // namespace meshhood

@@ -30,6 +30,20 @@ concept HasPositions = requires(T&& owner) { std::forward<T>(owner).positions();
 template <class T>
 concept HasPermutation = requires(T&& owner) { std::forward<T>(owner).permutation(); };
 template <class T>
+concept HasAdjacency = requires(T&& owner) { std::forward<T>(owner).adjacency(); };
+template <class T>
+concept HasProfile = requires(T&& owner) { std::forward<T>(owner).profile(); };
+template <class T>
+concept HasList = requires(T&& owner) { std::forward<T>(owner).list(); };
+template <class T>
+concept HasScales = requires(T&& owner) { std::forward<T>(owner).scales(); };
+template <class T>
+concept HasCenter = requires(T&& owner) { std::forward<T>(owner).center(); };
+template <class T>
+concept HasFace = requires(T&& owner) { std::forward<T>(owner).face(); };
+template <class T>
+concept HasPoint = requires(T&& owner) { std::forward<T>(owner).point(); };
+template <class T>
 concept HasRanges = requires(T&& owner) { std::forward<T>(owner).ranges(VertexId{0}, 1.0); };
 
 // Containers that outlive the view, and views of them.
@@ -56,6 +70,14 @@ static_assert(HasRanges<Searcher&> && !HasRanges<Searcher>);
 static_assert(HasRanges<paper::Searcher&> && !HasRanges<paper::Searcher>);
 static_assert(HasRanges<ReferenceSearcher&> && !HasRanges<ReferenceSearcher>);
 static_assert(HasRanges<BallSearcher&> && !HasRanges<BallSearcher>);
+static_assert(HasAdjacency<const ReferenceSearcher&> && !HasAdjacency<ReferenceSearcher>);
+static_assert(HasProfile<const paper::Searcher&> && !HasProfile<paper::Searcher>);
+static_assert(HasList<const BatchVertices&> && !HasList<BatchVertices>);
+static_assert(HasList<const BatchRadius&> && !HasList<BatchRadius>);
+static_assert(HasScales<const BatchRadius&> && !HasScales<BatchRadius>);
+static_assert(HasCenter<const Start&> && !HasCenter<Start>);
+static_assert(HasFace<const PatchStart&> && !HasFace<PatchStart>);
+static_assert(HasPoint<const PatchStart&> && !HasPoint<PatchStart>);
 
 // A bool is no radius.
 template <class R>

@@ -51,7 +51,19 @@ struct Case {
   /// Compares what the library says with the reference.
   void expect_same(const PatchStart& start, const Reference::Answer& expected, double radius) {
     EXPECT_EQ(searcher.patch(start, radius), triangles.faces_of(expected.faces));
-    const PatchMeasure measure = searcher.measure(start, radius);
+    expect_same(searcher.measure(start, radius), expected, radius);
+    expect_same(searcher.gap(start, radius), expected, radius);
+  }
+
+  /// The same of a row among those of all vertices.
+  void expect_same_in_batch(VertexId v, const Reference::Answer& expected, double radius) const {
+    const Invariants all = invariants(surface, {.radius = radius});
+    expect_same(PatchMeasure{all.area[v], all.volume[v]}, expected, radius);
+    expect_same(gaps(surface, {.radius = radius})[v], expected, radius);
+  }
+
+ private:
+  void expect_same(const PatchMeasure& measure, const Reference::Answer& expected, double radius) const {
     const double disc = kPi * radius * radius;
     EXPECT_NEAR(measure.area / disc, expected.area / disc, 1e-12 * std::max(1.0, expected.area / disc));
     EXPECT_EQ(std::isnan(measure.volume), std::isnan(expected.volume));
@@ -64,7 +76,9 @@ struct Case {
       EXPECT_LT(is_sheet ? std::min(error, std::abs(error - 1)) : error, 1e-12 * scale)
           << measure.volume << " and " << expected.volume;
     }
-    const SurfacePoint gap = searcher.gap(start, radius);
+  }
+
+  void expect_same(const SurfacePoint& gap, const Reference::Answer& expected, double radius) const {
     EXPECT_EQ(gap.face == kNoFace, std::isinf(expected.gap));
     if (gap.face == kNoFace) return;
     EXPECT_NEAR(gap.distance, expected.gap, 1e-12 * radius);
@@ -84,6 +98,7 @@ struct Case {
     }
   }
 
+ public:
   TestMesh mesh;
   TestTriangles triangles;
   Reference reference;
@@ -116,6 +131,7 @@ TEST_P(PatchFamilies, AreThoseOfTheReference) {
       const Reference::Answer expected = test.reference.around_vertex(v, radius);
       if (expected.faces.empty()) continue;
       test.expect_same(v, expected, radius);
+      test.expect_same_in_batch(v, expected, radius);
       if (HasFailure()) return;
     }
   }
@@ -497,7 +513,7 @@ TEST(PatchBatch, HasTheSameBitsForAnyThreadsAndRows) {
     const auto scale = static_cast<std::size_t>(std::ranges::find(scales, radii[i]) - scales.begin());
     EXPECT_EQ(listed.area[i], one.area[scale * rows + some[i]]);
     EXPECT_EQ(listed.volume[i], one.volume[scale * rows + some[i]]);
-    EXPECT_EQ(listed.area[i], test.searcher.measure(some[i], radii[i]).area);
+    EXPECT_NEAR(listed.area[i], test.searcher.measure(some[i], radii[i]).area, 1e-14 * listed.area[i]);
     EXPECT_EQ(nearest[i].distance, test.searcher.gap(some[i], radii[i]).distance);
     EXPECT_EQ(nearest[i].distance, of_scales[scale * some.size() + i].distance);
   }

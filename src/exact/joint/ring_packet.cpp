@@ -12,13 +12,13 @@ void RingPacket::run(LeafId leaf, std::span<const RingQuery> queries) {
   states_.clear();
   active_.clear();
   queries_ = first_lanes(static_cast<unsigned>(queries.size()));
-  const Entry home = entry_of(leaf);
+  const Entry own = entry_of(leaf);
   std::uint32_t most = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    words_[home].pending[queries[i].lane] |= QueryWord{1} << i;
+    words_[own].pending[queries[i].lane] |= QueryWord{1} << i;
     most = std::max(most, queries[i].rings);
   }
-  pending_.assign(1, home);
+  pending_.assign(1, own);
   step(0, queries_);
   for (std::uint32_t ring = 1; ring <= most && !active_.empty(); ++ring) {
     QueryWord alive = 0;

@@ -55,14 +55,14 @@ inline void Component::complete(Reach& reach, VertexSet& answer) {
 inline void Component::add_group(std::uint32_t group, const Reach& reach, std::size_t& place, VertexSet& answer) const {
   const GroupState& state = reach.states()[group];
   const GroupRecord& record = index_->records[group];
-  for_each_node(static_cast<NodeSet>(state.home | state.intersecting), [&](unsigned i) {
-    const unsigned is_home = state.home >> i & 1U;
+  for_each_node(static_cast<NodeSet>(state.marked | state.intersecting), [&](unsigned i) {
+    const unsigned is_marked = state.marked >> i & 1U;
     if (index_->is_of_leaves(group)) {
       // Without branches, which could not be predicted.
-      const LaneMask lanes = marks_.lanes(place) & (is_home - 1U);
-      answer.add_if(is_home != 0 || lanes != 0, run_of(record, i), lanes);
-      place += 1U - is_home;
-    } else if (is_home != 0) {
+      const LaneMask lanes = marks_.lanes(place) & (is_marked - 1U);
+      answer.add_if(is_marked != 0 || lanes != 0, run_of(record, i), lanes);
+      place += 1U - is_marked;
+    } else if (is_marked != 0) {
       answer.add(run_of(record, i));
     } else {
       add_group(record.first_child + i, reach, place, answer);

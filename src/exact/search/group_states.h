@@ -15,7 +15,7 @@ struct GroupState {
   NodeSet intersecting = 0;  // neither surely in the ball nor surely outside; and reached
   NodeSet reached = 0;       // by the outward search
   NodeSet pending = 0;       // linked with a reached node, and not yet reached
-  NodeSet home = 0;          // whole, and known to be connected with the query vertex
+  NodeSet marked = 0;        // whole, with a home mark: known to be connected with the query vertex
   bool is_united = false;    // with larger whole nodes, see `OpenElements`
 
   /// Sets `whole` and `intersecting`. A pierced node is never whole, so it is refined to its leaves: a search uses the

@@ -27,7 +27,7 @@ void HomeMarks::spread(const Query& query, Reach& reach) {
 void HomeMarks::begin(const Query& query, const Reach& reach) {
   const auto mark = [&](LeafId leaf) {
     const NodeId whole = states_->whole_node(leaf);
-    if (whole != kNoNode) (*states_)[whole / kFanOut].home |= node_at(whole % kFanOut);
+    if (whole != kNoNode) (*states_)[whole / kFanOut].marked |= node_at(whole % kFanOut);
   };
   mark(query.leaf());
   const std::size_t place = reach.place_of(query.leaf());
@@ -45,20 +45,20 @@ void HomeMarks::mark_nodes(std::uint32_t group) {
   GroupState& state = (*states_)[group];
   if (state.whole == 0) return;
   const GroupRecord& record = index_->records[group];
-  unsigned linked = state.home;
+  unsigned linked = state.marked;
   if (index_->is_of_leaves(group)) {
     for (const NodeLink& link : index_->node_links_of(record)) linked |= link.mine & (0U - leaves_.has(link.node()));
   } else {
     for (const NodeLink& link : index_->node_links_of(record)) linked |= link.mine & (0U - covers(link.node()));
   }
-  state.home = reachable_nodes(record.linked, static_cast<NodeSet>(linked & state.whole), state.whole);
-  leaves_.add(group, state.home);
+  state.marked = reachable_nodes(record.linked, static_cast<NodeSet>(linked & state.whole), state.whole);
+  leaves_.add(group, state.marked);
 }
 
 /// Whether a node above the leaves, or a larger one that covers it, has a mark: 1 or 0.
 unsigned HomeMarks::covers(NodeId node) const {
   // A node of a known group may have marks below it that are not its own.
-  if (states_->is_known(node / kFanOut)) return (*states_)[node / kFanOut].home >> node % kFanOut & 1U;
+  if (states_->is_known(node / kFanOut)) return (*states_)[node / kFanOut].marked >> node % kFanOut & 1U;
   return leaves_.has_below(node);
 }
 
@@ -68,7 +68,7 @@ void HomeMarks::keep_open(std::span<const std::uint32_t> groups) {
   std::size_t kept = 0;
   for (const std::uint32_t group : groups) {
     open_groups_[kept] = group;
-    kept += static_cast<std::size_t>((*states_)[group].whole != (*states_)[group].home);
+    kept += static_cast<std::size_t>((*states_)[group].whole != (*states_)[group].marked);
   }
   open_groups_.resize(kept);
 }

@@ -24,7 +24,7 @@ class HomeMarks {
   void spread(const Query& query, Reach& reach);
 
   /// Marks some whole nodes of a group, or lanes of a surface leaf, that `spread` has left open.
-  void add_nodes(std::uint32_t group, NodeSet nodes) { (*states_)[group].home |= nodes; }
+  void add_nodes(std::uint32_t group, NodeSet nodes) { (*states_)[group].marked |= nodes; }
   void add_lanes(std::size_t place, LaneMask lanes) { lanes_[place] |= lanes; }
 
   /// The marked lanes of a surface leaf, by its place. `lanes(surface_leaves().size())` may be read, too.

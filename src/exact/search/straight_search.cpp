@@ -49,8 +49,8 @@ void StraightSearch::find(VertexId v, std::uint32_t slot) {
     vertex_bfs.run(v, bounds.leaf.squared_radius, answer);
     return;
   }
-  const Leaf& home = index->leaves[leaf_of(slot)];
-  leaf_bfs.prefetch_leaf(home, true);
+  const Leaf& leaf = index->leaves[leaf_of(slot)];
+  leaf_bfs.prefetch_leaf(leaf, true);
   if (is_tiny() && is_alone(slot)) {
     way = Way::Alone;
     answer.add_lanes({leaf_of(slot), LaneMask{1} << lane_of(slot)});
@@ -59,7 +59,7 @@ void StraightSearch::find(VertexId v, std::uint32_t slot) {
   const Query query(*index, v, bounds);
   // A leaf that is not connected has no links, so the answer is a part of it. Where the outward search would begin with
   // leaves, it saves nothing.
-  if (is_small(home) || !home.connected || !reach.run(query)) {
+  if (is_small(leaf) || !leaf.connected || !reach.run(query)) {
     way = Way::LeafBfs;
     leaf_bfs.run(query, answer);
     return;
@@ -80,10 +80,10 @@ bool StraightSearch::is_tiny() const {
 }
 
 /// Whether few leaves lie inside the ball, so that a search over leaves takes no longer than `Reach`.
-bool StraightSearch::is_small(const Leaf& home) const {
+bool StraightSearch::is_small(const Leaf& leaf) const {
   constexpr double kLeafRadii = 4.5;  // chosen
   // Where the mesh is finer than elsewhere, its leaves are smaller. A leaf much larger than others says nothing.
-  const double radius = std::min(static_cast<double>(home.bounds.radius), index->tree[0].mean_radius);
+  const double radius = std::min(static_cast<double>(leaf.bounds.radius), index->tree[0].mean_radius);
   return bounds.radius_in_frame < kLeafRadii * radius;
 }
 

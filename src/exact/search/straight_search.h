@@ -55,7 +55,7 @@ struct StraightSearch {
   void find(VertexId v, std::uint32_t slot);
   [[nodiscard]] bool is_alone(std::uint32_t slot) const;
   [[nodiscard]] bool is_tiny() const;
-  [[nodiscard]] bool is_small(const Leaf& home) const;
+  [[nodiscard]] bool is_small(const Leaf& leaf) const;
   [[nodiscard]] bool is_mostly_open() const;
 };
 

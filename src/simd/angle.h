@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -15,19 +16,22 @@ using Complex = std::complex<double>;
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
-/// The arctangent of t, |t| < 0.67: the rational function of the library Cephes (S. L. Moshier).
+/// Of the rational function of the library Cephes for the arctangent (S. L. Moshier), from the highest power on; the
+/// first coefficient of the one below is 1.
+inline constexpr std::array kArctangentAbove{-8.750608600031904122785e-1, -1.615753718753365076637e1,
+                                             -7.500855792314704667340e1, -1.228866684490136173410e2,
+                                             -6.485021904942025371773e1};
+inline constexpr std::array kArctangentBelow{2.485846490142306297962e1, 1.650270098316988542046e2,
+                                             4.328810604912902668951e2, 4.853903996359136964868e2,
+                                             1.945506571482613964425e2};
+
+/// The arctangent of t, |t| < 0.67.
 [[nodiscard]] inline double small_arctangent(double t) {
   const double z = t * t;
-  const double above =
-      (((-8.750608600031904122785e-1 * z - 1.615753718733365076637e1) * z - 7.500855792314704667340e1) * z -
-       1.228866684490136173410e2) *
-          z -
-      6.485021904942025371773e1;
-  const double below =
-      ((((z + 2.485846490142306297962e1) * z + 1.650270098316988542046e2) * z + 4.328810604912902668951e2) * z +
-       4.853903996359136964868e2) *
-          z +
-      1.945506571482613964425e2;
+  double above = 0;
+  for (const double coefficient : kArctangentAbove) above = above * z + coefficient;
+  double below = 1;
+  for (const double coefficient : kArctangentBelow) below = below * z + coefficient;
   return t + t * (z * above / below);
 }
 

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "patch/packet_patches.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vector.h"
+#include "surface/face_triangles.h"
+
+namespace meshhood {
+PacketPatches::PacketPatches(const PatchState& state)
+    : state_(&state),
+      kernels_(&section_kernels(best_isa())),
+      words_(state.index->vertex_count()),
+      all_(state.clusters.size()) {}
+
+QueryWord PacketPatches::find(const PacketAnswer& packet, bool measures) {
+  measures_ = measures;
+  clear();
+  if (!state_->follows_neighborhoods()) return 0;
+  set_balls(packet);
+  set_words(packet);
+  std::ranges::sort(clusters_);
+  for (const ClusterId cluster : clusters_) add_cluster(cluster);
+  measure_cut();
+  follow_dips();
+  for_each_query(queries_, [&](std::size_t q) { sums_[q].add_whole(whole_.area[q], whole_.moment[q]); });
+  return queries_;
+}
+
+bool PacketPatches::has(std::size_t query, TriangleId t) const {
+  const auto [a, b, c] = words_of(t);
+  return ((a | b | c) >> query & 1U) != 0 || std::ranges::find(extras_, Extra{query, t}) != extras_.end();
+}
+
+void PacketPatches::clear() {
+  const IndexView& index = *state_->index;
+  for (const LeafId leaf : leaves_) {
+    std::fill(&words_[index.leaf_begin[leaf]], words_.data() + index.leaf_begin[leaf + std::size_t{1}], QueryWord{0});
+  }
+  leaves_.clear();
+  clusters_.clear();
+  all_.forget();
+  met_ = 0;
+  dips_.clear();
+  extras_.clear();
+}
+
+void PacketPatches::set_balls(const PacketAnswer& packet) {
+  const IndexView& index = *state_->index;
+  queries_ = packet.queries;
+  whole_ = {};
+  for_each_query(packet.queries, [&](std::size_t q) {
+    const std::uint32_t place = index.place(packet.vertices[q]);
+    balls_[q] = patch_ball(index.position(place), packet.radii[q], index.frame.scale);
+    if (!std::isfinite(balls_[q].unit) || !std::isfinite(balls_[q].radius)) queries_ &= ~(QueryWord{1} << q);
+    centers_.set(q, balls_[q].center);
+    sums_[q].clear(state_->triangles.normal_of(index, state_->triangles.fan(place)));
+  });
+}
+
+void PacketPatches::set_words(const PacketAnswer& packet) {
+  const IndexView& index = *state_->index;
+  for (const Piece& piece : packet.pieces) {
+    for (LeafId leaf = piece.leaves.begin; leaf < piece.leaves.end; ++leaf) {
+      touch(leaf);
+      const std::size_t begin = index.leaf_begin[leaf];
+      const std::size_t size = index.leaf_begin[leaf + std::size_t{1}] - begin;
+      for (std::size_t i = 0; i < size; ++i) {
+        words_[begin + i] = (piece.is_run() ? piece.queries : piece.reached[i]) & queries_;
+      }
+    }
+  }
+}
+
+void PacketPatches::touch(LeafId leaf) {
+  leaves_.push_back(leaf);
+  for (const ClusterId cluster : state_->clusters.at_leaf(leaf)) {
+    if (all_.is_known(cluster)) continue;
+    all_.set(cluster, 0);
+    clusters_.push_back(cluster);
+  }
+}
+
+void PacketPatches::add_cluster(ClusterId cluster) {
+  QueryWord all = queries_;
+  QueryWord some = 0;
+  for (const std::uint32_t place : state_->clusters.corners_of(cluster)) {
+    all &= words_[place];
+    some |= words_[place];
+  }
+  all_[cluster] = all;
+  met_ |= some;
+  const Cluster& sums = state_->clusters.clusters[cluster];
+  if (sums.has_border) for_each_query(all, [&](std::size_t q) { sums_[q].meet_border(); });
+  if (all != 0) add_whole({sums.area, sums.vector_area, sums.center(), sums.moment}, all);
+  if (some == all) return;
+  const std::vector<TriangleId>& first = state_->triangles.first_of_cluster;
+  for (TriangleId t = first[cluster]; t < first[cluster + std::size_t{1}]; ++t) add_triangle(t, some & ~all);
+}
+
+void PacketPatches::add_triangle(TriangleId t, QueryWord queries) {
+  auto [a, b, c] = words_of(t);
+  a &= queries;
+  b &= queries;
+  c &= queries;
+  const QueryWord whole = a & b & c;
+  if ((a | b | c) == 0) return;
+  if (state_->triangles.flags[t] != 0) check_sides(t, {a, b, c});
+  const std::array<Point, 3> corners = corners_of(*state_->index, state_->triangles.corners[t]);
+  if (whole != 0) {
+    const double scale = state_->index->frame.scale;
+    const Point vector = 0.5 * cross(scale * (corners[1] - corners[0]), scale * (corners[2] - corners[0]));
+    add_whole({length(vector), vector, corners[0], 0}, whole);
+  }
+  add_cut(t, corners, 0, (a & ~b & ~c) | (~a & b & c));
+  add_cut(t, corners, 1, (b & ~c & ~a) | (~b & c & a));
+  add_cut(t, corners, 2, (c & ~a & ~b) | (~c & a & b));
+}
+
+/// The ends of a diagonal are joined in a patch, but not by an edge: if both are in a ball, both must be in the
+/// neighborhood.
+void PacketPatches::check_sides(TriangleId t, const std::array<QueryWord, 3>& words) {
+  const std::array<std::uint32_t, 3>& places = state_->triangles.corners[t];
+  for (unsigned i = 0; i < 3; ++i) {
+    if (state_->triangles.is_border(t, i)) {
+      for_each_query(words[i] | words[after(i)], [&](std::size_t q) { sums_[q].meet_border(); });
+    }
+    if (!state_->triangles.is_diagonal(t, i)) continue;
+    for_each_query(words[i] ^ words[after(i)], [&](std::size_t q) {
+      const std::uint32_t other = places[(words[i] >> q & 1U) != 0 ? after(i) : i];
+      if (balls_[q].contains(state_->index->position(other))) queries_ &= ~(QueryWord{1} << q);
+    });
+  }
+}
+
+void PacketPatches::add_whole(const WholeTriangles& triangles, QueryWord queries) {
+  if (measures_) kernels_->add_whole(triangles, queries, centers_, state_->index->frame.scale, whole_);
+}
+
+/// Corner `first` is alone inside or outside.
+void PacketPatches::add_cut(TriangleId t, const std::array<Point, 3>& corners, std::size_t first, QueryWord queries) {
+  if (queries == 0) return;
+  const std::array<std::uint32_t, 3>& places = state_->triangles.corners[t];
+  const std::array<std::size_t, 4> order{first, after(first), after(after(first)), first};
+  const auto direction = [&](std::size_t k) { return places[order[k + 1]] < places[order[k]] ? -1.0 : 1.0; };
+  const std::array directions{direction(0), direction(1), direction(2)};
+  const QueryWord inside = words_[places[first]];
+  for_each_query(queries, [&](std::size_t q) {
+    if (cut_count_ == kPacketCapacity) measure_cut();
+    const std::size_t i = cut_count_++;
+    cut_triangles_[i] = t;
+    cut_queries_[i] = q;
+    for (std::size_t k = 0; k < 3; ++k) {
+      cut_.corners[k].set(i, corners[order[k]]);
+      cut_.directions[k][i] = directions[k];
+    }
+    cut_.insides[i] = (inside >> q & 1U) != 0 ? 1 : -1;
+    cut_.centers.set(i, balls_[q].center);
+    cut_.units[i] = balls_[q].unit;
+    cut_.poles.set(i, sums_[q].rim().pole());
+  });
+}
+
+void PacketPatches::measure_cut() {
+  const LaneMask measured = cut_count_ == 0 ? 0 : kernels_->measure(cut_, cut_count_, parts_);
+  for (std::size_t i = 0; i < cut_count_; ++i) {
+    const std::size_t q = cut_queries_[i];
+    if ((measured >> i & 1U) == 0) {
+      add_section(cut_triangles_[i], q);
+    } else if (measures_) {
+      sums_[q].add_cut(parts_.area[i], parts_.distance[i], balls_[q]);
+      sums_[q].rim().add_measured(parts_.turn[i], {parts_.real[i], parts_.imaginary[i]},
+                                  {parts_.real_from_pole[i], parts_.imaginary_from_pole[i]}, parts_.from.at(i),
+                                  parts_.to.at(i));
+    }
+  }
+  cut_count_ = 0;
+}
+
+void PacketPatches::add_section(TriangleId t, std::size_t query) {
+  const Triangles& all = state_->triangles;
+  const auto [a, b, c] = words_of(t);
+  const auto has = [&](QueryWord word) { return (word >> query & 1U) != 0; };
+  const PatchTriangle triangle{corners_of(*state_->index, all.corners[t]), all.corners[t], {has(a), has(b), has(c)}};
+  Section section(balls_[query], triangle);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!section.dips(i)) continue;
+    dips_.push_back({query, t, i});
+    if (all.is_border(t, static_cast<unsigned>(i))) sums_[query].meet_border();
+  }
+  if (measures_) sums_[query].add_cut(section, balls_[query]);
+}
+
+/// In the order in which they were found, which may find more.
+void PacketPatches::follow_dips() {
+  for (std::size_t next = 0; next < dips_.size(); ++next) follow(Dip(dips_[next]));
+}
+
+void PacketPatches::follow(const Dip& dip) {
+  const Triangles& all = state_->triangles;
+  const std::uint32_t begin = 3 * dip.triangle + static_cast<std::uint32_t>(dip.side);
+  for (std::uint32_t side = all.ring[begin]; side != begin; side = all.ring[side]) {
+    const TriangleId t = side / 3;
+    if (has(dip.query, t)) continue;
+    for (const Point& corner : corners_of(*state_->index, all.corners[t])) {
+      if (balls_[dip.query].contains(corner)) queries_ &= ~(QueryWord{1} << dip.query);
+    }
+    extras_.push_back({dip.query, t});
+    add_section(t, dip.query);
+  }
+}
+
+}  // namespace meshhood

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/epoch_array.h"
+#include "exact/joint/packet_answer.h"
+#include "patch/clusters.h"
+#include "patch/section.h"
+#include "patch/sums.h"
+#include "simd/sections.h"
+
+namespace meshhood {
+
+/// The patches around the queries of a packet, from their neighborhoods. One object a thread.
+///
+/// A patch whose vertices are a neighborhood has the triangles with a corner in it, and those behind a side that dips
+/// into the ball between its ends. So each triangle is looked at once for all queries, by the words of its corners: it
+/// lies in the ball of the queries that have all three, and is cut by the sphere of those that have some. Cut triangles
+/// are measured by vectors of queries.
+///
+/// What is added for a query, and in which order, depends on the query alone: clusters and triangles ascend, and sums
+/// over whole ones are apart from those over cut ones, which wait until a vector is full.
+class PacketPatches {
+ public:
+  /// Borrows the state, which must follow the neighborhoods.
+  explicit PacketPatches(const PatchState& state);
+
+  /// Returns the queries whose patches it has found. Of the others the patch has more vertices than the neighborhood,
+  /// behind a diagonal or a side that dips into the ball, or the radius is next to nothing or infinite. `measures`:
+  /// area and volume, too.
+  QueryWord find(const PacketAnswer& packet, bool measures);
+
+  // Of a query that was found:
+  [[nodiscard]] const PatchBall& ball(std::size_t query) const { return balls_[query]; }
+  [[nodiscard]] bool exists(std::size_t query) const { return (met_ >> query & 1U) != 0; }
+  [[nodiscard]] double area(std::size_t query) const { return sums_[query].area(balls_[query]); }
+  [[nodiscard]] double volume(std::size_t query) const {
+    return exists(query) ? sums_[query].volume(balls_[query]) : kNan;
+  }
+  [[nodiscard]] bool has(std::size_t query, TriangleId t) const;
+  [[nodiscard]] bool has_all(std::size_t query, ClusterId cluster) const {
+    return all_.is_known(cluster) && (all_[cluster] >> query & 1U) != 0;
+  }
+
+ private:
+  /// A side of a triangle that dips into the ball of a query.
+  struct Dip {
+    std::size_t query;
+    TriangleId triangle;
+    std::size_t side;
+  };
+
+  /// A triangle of a patch without a corner in the ball.
+  struct Extra {
+    std::size_t query;
+    TriangleId triangle;
+
+    friend bool operator==(const Extra&, const Extra&) = default;
+  };
+
+  void clear();
+  void set_balls(const PacketAnswer& packet);
+  void set_words(const PacketAnswer& packet);
+  void touch(LeafId leaf);
+  void add_cluster(ClusterId cluster);
+  void add_triangle(TriangleId t, QueryWord queries);
+  void check_sides(TriangleId t, const std::array<QueryWord, 3>& words);
+  void add_whole(const WholeTriangles& triangles, QueryWord queries);
+  void add_cut(TriangleId t, const std::array<Point, 3>& corners, std::size_t first, QueryWord queries);
+  void measure_cut();
+  void add_section(TriangleId t, std::size_t query);
+  void follow_dips();
+  void follow(const Dip& dip);
+
+  [[nodiscard]] std::array<QueryWord, 3> words_of(TriangleId t) const {
+    const auto& [a, b, c] = state_->triangles.corners[t];
+    return {words_[a], words_[b], words_[c]};
+  }
+
+  const PatchState* state_;
+  const SectionKernels* kernels_;
+  bool measures_ = false;
+  QueryWord queries_ = 0;         // that are found
+  std::array<PatchBall, kPacketCapacity> balls_{};
+  PointPerLane<double> centers_{};  // of the balls
+  std::vector<QueryWord> words_;  // by place: the queries that have the vertex
+  std::vector<LeafId> leaves_;    // with words
+  EpochArray<QueryWord> all_;     // by cluster: the queries that have all of it
+  std::vector<ClusterId> clusters_;
+  QueryWord met_ = 0;             // that have a triangle
+
+  std::size_t cut_count_ = 0;  // waiting
+  std::array<TriangleId, kPacketCapacity> cut_triangles_{};
+  std::array<std::size_t, kPacketCapacity> cut_queries_{};
+  CutTriangles cut_{};
+  CutParts parts_{};
+
+  std::vector<Dip> dips_;
+  std::vector<Extra> extras_;
+  WholeSums whole_{};
+  std::array<PatchSums, kPacketCapacity> sums_;
+};
+
+}  // namespace meshhood
