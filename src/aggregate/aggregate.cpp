@@ -165,6 +165,7 @@ class Reductions final : public Reduction {
 
   [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer() const override {
     std::vector<std::unique_ptr<PacketReducer>> reducers;
+    reducers.reserve(all_.size());
     for (const auto& reduction : all_) reducers.push_back(reduction->make_reducer());
     return std::make_unique<Reducers>(std::move(reducers));
   }

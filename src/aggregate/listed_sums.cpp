@@ -45,9 +45,9 @@ bool is_moderate(const SignalView& signal) {
 double mean_count(const Index& index, Metric metric, double radius) {
   constexpr std::size_t kSample = 64;
   const std::size_t vertices = index.vertex_count();
-  std::vector<VertexId> sample;
-  for (std::size_t i = 0; i < std::min(kSample, vertices); ++i) {
-    sample.push_back(IndexAccess::view(index).id(i * vertices / std::min(kSample, vertices)));
+  std::vector<VertexId> sample(std::min(kSample, vertices));
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    sample[i] = IndexAccess::view(index).id(i * vertices / sample.size());
   }
   const std::vector<std::uint64_t> sizes = counts(index, {.vertices = sample, .radius = radius, .metric = metric});
   return static_cast<double>(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})) /
@@ -60,16 +60,16 @@ struct Sums {
   std::array<double, kChannelsOfABlock> weights{};
 };
 
-/// Adds the values of the channels `first ..` of a row's vertices. `kOmit`: a NaN is left out.
-template <bool kOmit, class Real>
+/// Adds the values of the channels `first ..` of a row's vertices. `Omit`: a NaN is left out.
+template <bool Omit, class Real>
 void add(std::span<const VertexId> ids, const double* weights, const Real* values, std::size_t channels,
          std::size_t count, Sums& sums) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const double weight = weights[i];
     const Real* const row = values + ids[i] * channels;
     const auto add_channel = [&](std::size_t c) {
-      const double value = static_cast<double>(row[c]);
-      if constexpr (kOmit) {
+      const auto value = static_cast<double>(row[c]);
+      if constexpr (Omit) {
         sums.values[c] += std::isnan(value) ? 0.0 : weight * value;
         sums.weights[c] += std::isnan(value) ? 0.0 : weight;
       } else {

@@ -9,7 +9,8 @@ std::string_view describe(ErrorCode code) noexcept {
   switch (code) {
     case ErrorCode::VertexOutOfRange: return "the mesh has no such vertex";
     case ErrorCode::InvalidRadius: return "a radius is NaN or negative, or not one that the call takes";
-    case ErrorCode::InvalidOption: return "an option is outside its range, or an object was moved from or did not follow a refit";
+    case ErrorCode::InvalidOption:
+      return "an option is outside its range, or an object was moved from or did not follow a refit";
     case ErrorCode::InvalidMesh: return "the arrays do not describe a mesh";
     case ErrorCode::MalformedFile: return "the file contradicts its format or itself";
     case ErrorCode::UnsupportedFormat: return "the format, or this variant of it, is not read";

@@ -232,8 +232,8 @@ void check_sample(const Index& index, const BatchVertices& vertices, double area
   if (count < kWorthwhile * SizeLimit::kSample) return;
   const std::uint64_t most = limit.max_items() / count;
   if (most >= index.vertex_count()) return;
-  std::vector<VertexId> some;
-  for (std::size_t i = 0; i < SizeLimit::kSample; ++i) some.push_back(vertices[limit.sampled_row(i)]);
+  std::vector<VertexId> some(SizeLimit::kSample);
+  for (std::size_t i = 0; i < some.size(); ++i) some[i] = vertices[limit.sampled_row(i)];
   if (run.progress) {
     run.progress = [count, all = run.progress](std::size_t, std::size_t) { return all(0, count); };
   }

@@ -74,7 +74,8 @@ class UnconnectedSearch {
 
   /// Whether a query has not reached a vertex of the node, and the search goes on.
   [[nodiscard]] bool wants(NodeId node) {
-    if (nodes_left_ == 0 || --nodes_left_ == 0) {
+    if (nodes_left_ > 0) --nodes_left_;
+    if (nodes_left_ == 0) {
       reach_ = -1;
       return false;
     }

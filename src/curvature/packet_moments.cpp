@@ -30,7 +30,6 @@ PacketMoments::PacketMoments(const MomentSource& source, Isa isa)
       offsets_{},
       facing_{},
       terms_{},
-      words_{},
       points_{},
       sums_{},
       moments_{},

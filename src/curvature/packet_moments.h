@@ -118,7 +118,7 @@ class PacketMoments {
   // Terms that are not added yet. Added together, they cost less.
   std::size_t term_count_ = 0;
   std::array<PaddedMoments, kTerms> terms_;
-  std::array<QueryWord, kTerms + 15> words_;
+  std::array<QueryWord, kTerms + 15> words_{};
   MomentPoints points_;
   MomentsByQuery sums_;
   QueryMoments moments_;

@@ -27,9 +27,9 @@ void VertexSet::assign(std::span<const LeafSubset> subsets) {
   clear();
   sorted_.assign(subsets.begin(), subsets.end());
   std::sort(sorted_.begin(), sorted_.end(), [](const LeafSubset& a, const LeafSubset& b) { return a.leaf < b.leaf; });
-  for (std::size_t i = 0; i < sorted_.size();) {
+  for (std::size_t i = 0, end = 0; i < sorted_.size(); i = end) {
     LeafSubset all = sorted_[i];
-    while (++i < sorted_.size() && sorted_[i].leaf == all.leaf) all.lanes |= sorted_[i].lanes;
+    for (end = i + 1; end < sorted_.size() && sorted_[end].leaf == all.leaf; ++end) all.lanes |= sorted_[end].lanes;
     add_lanes(all);
   }
 }
@@ -70,7 +70,7 @@ void VertexSet::align_to_leaves() {
         begin = leaf.begin;
       }
       const VertexId end = std::min(part.end, leaf.end);
-      last.lanes |= first_lanes(end - begin) << (begin - leaf.begin);
+      last.lanes |= first_lanes(end - begin) << (begin - leaf.begin);  // NOLINT(clang-analyzer-core.BitwiseShift)
       begin = end;
     }
   }

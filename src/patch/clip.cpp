@@ -63,7 +63,7 @@ class Clip {
     } else if (std::isfinite(ball_.unit)) {
       add_section();
     }
-    outlines_.push_back({state_->triangles.face[t], outline_.size()});
+    outlines_.emplace_back(state_->triangles.face[t], outline_.size());
   }
 
   [[nodiscard]] ClippedMesh finish() {

@@ -23,10 +23,10 @@ struct Cluster {
   BoundingBox box;
   double radius;  // of a bounding sphere about the center
   double area;
-  Point vector_area;         // the sum of area times normal
-  double moment;             // the sum of area times the distance of the plane from `center`, along the normal
-  std::uint32_t first_link;  // in `Clusters::links`
-  std::uint32_t first_hub;   // in `Clusters::hubs`
+  Point vector_area;           // the sum of area times normal
+  double moment;               // the sum of area times the distance of the plane from `center`, along the normal
+  std::uint32_t first_link;    // in `Clusters::links`
+  std::uint32_t first_hub;     // in `Clusters::hubs`
   std::uint32_t first_corner;  // in `Clusters::corners`
   bool has_border;
 
@@ -44,15 +44,15 @@ struct Clusters {
   /// A corner of more triangles is a hub: links do not list its triangles, which many clusters would.
   static constexpr std::size_t kMostLinked = 64;
 
-  std::vector<Cluster> clusters;       // and one more, for the end of the last links, hubs and corners
-  std::vector<ClusterLink> links;      // and one more, for the end of the last triangles
-  std::vector<TriangleId> linked;      // ascending
-  std::vector<std::uint32_t> hubs;     // places
-  std::vector<std::uint32_t> corners;  // the places at each cluster, ascending
-  std::vector<ClusterId> of_triangle;  // the cluster of each
+  std::vector<Cluster> clusters;             // and one more, for the end of the last links, hubs and corners
+  std::vector<ClusterLink> links;            // and one more, for the end of the last triangles
+  std::vector<TriangleId> linked;            // ascending
+  std::vector<std::uint32_t> hubs;           // places
+  std::vector<std::uint32_t> corners;        // the places at each cluster, ascending
+  std::vector<ClusterId> of_triangle;        // the cluster of each
   std::vector<std::uint32_t> first_of_leaf;  // by leaf, and one more: in `of_leaf`
   std::vector<ClusterId> of_leaf;            // those with a corner in it, ascending
-  BoxTree boxes;                       // of the clusters
+  BoxTree boxes;                             // of the clusters
 
   Clusters(const IndexView& index, const Triangles& triangles);
 
@@ -100,9 +100,9 @@ struct PatchState {
   Triangles triangles;
   Clusters clusters;
 
-  /// Whether the vertices of a patch that are in its ball are the neighborhood of its center, but for diagonals and
-  /// sides that dip into the ball.
-  [[nodiscard]] bool follows_neighborhoods() const { return triangles.follow_edges && index->ignored.empty(); }
+  /// Whether the vertices of a patch that are in its ball are the neighborhood of its center, but for loose edges,
+  /// diagonals, and sides that dip into the ball.
+  [[nodiscard]] bool follows_neighborhoods() const { return triangles.are_of_index && index->ignored.empty(); }
 
   [[nodiscard]] std::size_t bytes() const { return triangles.bytes() + clusters.bytes(); }
 };

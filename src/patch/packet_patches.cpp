@@ -20,6 +20,7 @@ QueryWord PacketPatches::find(const PacketAnswer& packet, bool measures) {
   if (!state_->follows_neighborhoods()) return 0;
   set_balls(packet);
   set_words(packet);
+  leave_loose();
   std::ranges::sort(clusters_);
   for (const ClusterId cluster : clusters_) add_cluster(cluster);
   measure_cut();
@@ -30,7 +31,7 @@ QueryWord PacketPatches::find(const PacketAnswer& packet, bool measures) {
 
 bool PacketPatches::has(std::size_t query, TriangleId t) const {
   const auto [a, b, c] = words_of(t);
-  return ((a | b | c) >> query & 1U) != 0 || std::ranges::find(extras_, Extra{query, t}) != extras_.end();
+  return ((a | b | c) >> query & 1U) != 0 || std::ranges::find(extras_[query], t) != extras_[query].end();
 }
 
 void PacketPatches::clear() {
@@ -43,7 +44,7 @@ void PacketPatches::clear() {
   all_.forget();
   met_ = 0;
   dips_.clear();
-  extras_.clear();
+  for (std::vector<TriangleId>& extras : extras_) extras.clear();
 }
 
 void PacketPatches::set_balls(const PacketAnswer& packet) {
@@ -73,6 +74,17 @@ void PacketPatches::set_words(const PacketAnswer& packet) {
   }
 }
 
+/// A loose edge joins a neighborhood, but no patch.
+void PacketPatches::leave_loose() {
+  const std::vector<Triangles::LooseEdge>& loose = state_->triangles.loose;
+  for (std::size_t i = 0; i < leaves_.size() && !loose.empty(); ++i) {
+    const std::uint32_t end = state_->index->leaf_begin[leaves_[i] + std::size_t{1}];
+    auto edge =
+        std::ranges::lower_bound(loose, state_->index->leaf_begin[leaves_[i]], {}, &Triangles::LooseEdge::first);
+    for (; edge != loose.end() && edge->first < end; ++edge) queries_ &= ~(words_[edge->first] & words_[edge->last]);
+  }
+}
+
 void PacketPatches::touch(LeafId leaf) {
   leaves_.push_back(leaf);
   for (const ClusterId cluster : state_->clusters.at_leaf(leaf)) {
@@ -89,6 +101,7 @@ void PacketPatches::add_cluster(ClusterId cluster) {
     all &= words_[place];
     some |= words_[place];
   }
+  some &= queries_;
   all_[cluster] = all;
   met_ |= some;
   const Cluster& sums = state_->clusters.clusters[cluster];
@@ -206,7 +219,7 @@ void PacketPatches::follow(const Dip& dip) {
     for (const Point& corner : corners_of(*state_->index, all.corners[t])) {
       if (balls_[dip.query].contains(corner)) queries_ &= ~(QueryWord{1} << dip.query);
     }
-    extras_.push_back({dip.query, t});
+    extras_[dip.query].push_back(t);
     add_section(t, dip.query);
   }
 }

@@ -30,9 +30,9 @@ class PacketPatches {
   /// Borrows the state, which must follow the neighborhoods.
   explicit PacketPatches(const PatchState& state);
 
-  /// Returns the queries whose patches it has found. Of the others the patch has more vertices than the neighborhood,
-  /// behind a diagonal or a side that dips into the ball, or the radius is next to nothing or infinite. `measures`:
-  /// area and volume, too.
+  /// Returns the queries whose patches it has found. Of the others patch and neighborhood may differ, by a loose edge,
+  /// a diagonal or what is behind a side that dips into the ball; or the radius is next to nothing or infinite.
+  /// `measures`: area and volume, too.
   QueryWord find(const PacketAnswer& packet, bool measures);
 
   // Of a query that was found:
@@ -55,17 +55,10 @@ class PacketPatches {
     std::size_t side;
   };
 
-  /// A triangle of a patch without a corner in the ball.
-  struct Extra {
-    std::size_t query;
-    TriangleId triangle;
-
-    friend bool operator==(const Extra&, const Extra&) = default;
-  };
-
   void clear();
   void set_balls(const PacketAnswer& packet);
   void set_words(const PacketAnswer& packet);
+  void leave_loose();
   void touch(LeafId leaf);
   void add_cluster(ClusterId cluster);
   void add_triangle(TriangleId t, QueryWord queries);
@@ -85,14 +78,14 @@ class PacketPatches {
   const PatchState* state_;
   const SectionKernels* kernels_;
   bool measures_ = false;
-  QueryWord queries_ = 0;         // that are found
+  QueryWord queries_ = 0;  // that are found
   std::array<PatchBall, kPacketCapacity> balls_{};
   PointPerLane<double> centers_{};  // of the balls
-  std::vector<QueryWord> words_;  // by place: the queries that have the vertex
-  std::vector<LeafId> leaves_;    // with words
-  EpochArray<QueryWord> all_;     // by cluster: the queries that have all of it
+  std::vector<QueryWord> words_;    // by place: the queries that have the vertex
+  std::vector<LeafId> leaves_;      // with words
+  EpochArray<QueryWord> all_;       // by cluster: the queries that have all of it
   std::vector<ClusterId> clusters_;
-  QueryWord met_ = 0;             // that have a triangle
+  QueryWord met_ = 0;  // that have a triangle
 
   std::size_t cut_count_ = 0;  // waiting
   std::array<TriangleId, kPacketCapacity> cut_triangles_{};
@@ -101,7 +94,7 @@ class PacketPatches {
   CutParts parts_{};
 
   std::vector<Dip> dips_;
-  std::vector<Extra> extras_;
+  std::array<std::vector<TriangleId>, kPacketCapacity> extras_;  // without a corner in the ball
   WholeSums whole_{};
   std::array<PatchSums, kPacketCapacity> sums_;
 };

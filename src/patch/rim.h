@@ -25,8 +25,8 @@ struct Circle {
 
 /// The arcs of the unit sphere along which a patch leaves it, which bound the part of the sphere behind the patch.
 ///
-/// The potential of the area form that is singular at -k, the opposite of the pole k, gives, for the arc from u to w about the unit vector n in the
-/// plane at height h, of the angle theta,
+/// The potential of the area form that is singular at -k, the opposite of the pole k, gives, for the arc from u to w
+/// about the unit vector n in the plane at height h, of the angle theta,
 ///     theta (1 - h) - T(n, u, w) + T(k, u, w),
 /// with T the signed area of a spherical triangle, T = 2 arg(1 + n.u + u.w + w.n + i n.(u x w)) (van Oosterom and
 /// Strackee, "The solid angle of a plane triangle", 1983). The area to the right of all arcs is minus the sum, modulo

@@ -116,12 +116,14 @@ double Section::angle_of_arc(std::size_t from, std::size_t steps) const {
 
 /// From the longest chord, whose line is near.
 double Section::distance_of_plane() const {
-  const Side* longest = nullptr;
+  double longest = -1;
+  Point nearest{0, 0, 0};
   for (const Side& side : sides_) {
-    if (!side.is_cut) continue;
-    if (longest == nullptr || side.to - side.from > longest->to - longest->from) longest = &side;
+    if (!side.is_cut || !(side.to - side.from > longest)) continue;
+    longest = side.to - side.from;
+    nearest = side.nearest;
   }
-  return std::clamp(dot(plane_.circle.normal, longest->nearest), -1.0, 1.0);
+  return std::clamp(dot(plane_.circle.normal, nearest), -1.0, 1.0);
 }
 
 /// The vector area of the triangle and whether the foot of the center on its plane lies in it, in the frame.

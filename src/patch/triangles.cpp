@@ -70,7 +70,9 @@ std::size_t bytes_of(const Arrays&... arrays) {
 
 }  // namespace
 
-std::size_t Triangles::bytes() const { return bytes_of(corners, face, flags, ring, first_fan, fans, first_of_cluster); }
+std::size_t Triangles::bytes() const {
+  return bytes_of(corners, face, flags, ring, first_fan, fans, first_of_cluster, loose);
+}
 
 Triangles::Triangles(const IndexView& index, const StoredFaces& faces) {
   const std::vector<Triangle> all = triangles_in_index_order(index, faces);
@@ -207,7 +209,10 @@ void Triangles::join_sides(const IndexView& index) {
     }
     later_neighbors(index, first, neighbors);
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    follow_edges = follow_edges && ends == neighbors;
+    are_of_index = are_of_index && std::ranges::includes(neighbors, ends);
+    for (const std::uint32_t last : neighbors) {
+      if (!std::ranges::binary_search(ends, last)) loose.push_back({first, last});
+    }
   }
 }
 

@@ -29,7 +29,14 @@ struct Triangles {
   std::vector<std::uint32_t> first_fan;      // by place, and one more: in `fans`
   std::vector<TriangleId> fans;              // the triangles at each place
   std::vector<TriangleId> first_of_cluster;  // by cluster, and one more
-  bool follow_edges = true;  // whether their sides, without the diagonals, are the edges between vertices of the index
+  bool are_of_index = true;                  // whether each side that is no diagonal is an edge of the index
+
+  /// An edge of the index that is no side: between two faces with walls, or of a face with two corners. By places.
+  struct LooseEdge {
+    std::uint32_t first;
+    std::uint32_t last;
+  };
+  std::vector<LooseEdge> loose;  // ascending
 
   /// Throws Error{InvalidMesh} if no face without a wall has a triangle, and Error{TooLarge} beyond 2^32 / 3 triangles.
   Triangles(const IndexView& index, const StoredFaces& faces);

@@ -75,8 +75,8 @@ HWY_INLINE Numbers arguments(const Turns& numbers) {
 
 /// `half_area` of src/patch/rim.cpp.
 HWY_INLINE Turns half_areas(const Vectors& n, const Vectors& u, const Vectors& w) {
-  const auto products = hn::Add(hn::Add(hn::Add(splat(1.0), scalar_product(n, u)), scalar_product(u, w)),
-                                scalar_product(w, n));
+  const auto products =
+      hn::Add(hn::Add(hn::Add(splat(1.0), scalar_product(n, u)), scalar_product(u, w)), scalar_product(w, n));
   return {products, scalar_product(n, vector_product(u, w))};
 }
 
@@ -100,7 +100,7 @@ struct Line {
   Vectors nearest;
   Vectors along;
   Numbers half;
-  Numbers from{};    // the part of the side in the ball, from `nearest` on
+  Numbers from{};  // the part of the side in the ball, from `nearest` on
   Numbers to{};
   Numbers offset{};  // from the foot of the center on the plane
 };
@@ -112,9 +112,9 @@ HWY_INLINE Lanes may_dip(const Vectors& a, const Vectors& b) {
   const auto along = scalar_product(a, side);
   const auto square = squared_length(side);
   const auto depth = hn::Sub(hn::Mul(squared_length(a), square), hn::Mul(along, along));
-  return hn::And(hn::And(hn::Le(along, hn::Mul(splat(kTouchSlack), square)),
-                         hn::Ge(along, negated(hn::Mul(more, square)))),
-                 hn::Le(depth, hn::Mul(more, square)));
+  return hn::And(
+      hn::And(hn::Le(along, hn::Mul(splat(kTouchSlack), square)), hn::Ge(along, negated(hn::Mul(more, square)))),
+      hn::Le(depth, hn::Mul(more, square)));
 }
 
 /// Those from `i` on, a vector.
@@ -124,9 +124,8 @@ HWY_INLINE LaneMask measure_vector(const CutTriangles& cut, std::size_t i, CutPa
   const auto one = splat(1.0);
   const auto center = load_rows(d, cut.centers, i);
   const auto unit = load(cut.units[i]);
-  const auto corner = [&](std::size_t k) HWY_ATTR {
-    return scaled(difference(load_rows(d, cut.corners[k], i), center), unit);
-  };
+  const auto corner = [&](std::size_t k)
+                          HWY_ATTR { return scaled(difference(load_rows(d, cut.corners[k], i), center), unit); };
   const auto a = corner(0);
   const auto b = corner(1);
   const auto c = corner(2);

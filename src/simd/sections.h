@@ -30,8 +30,8 @@ struct CutTriangles {
   std::array<PointPerLane<double>, 3> corners;  // in the orientation of the triangle
   PointPerLane<double> centers;
   PointPerLane<double> poles;  // of the rims: unit vectors
-  PerLane<double> units;   // 1 / radius
-  PerLane<double> insides;  // 1 if the first corner is in the ball, else -1
+  PerLane<double> units;       // 1 / radius
+  PerLane<double> insides;     // 1 if the first corner is in the ball, else -1
   /// By side, from the corner of its number on: 1, or -1 if its line is computed from the other end, as in the other
   /// triangle that has the side.
   std::array<PerLane<double>, 3> directions;

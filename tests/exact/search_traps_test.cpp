@@ -48,7 +48,8 @@ Others others_of(const SearcherAccess::State& state) {
   Others others;
   for (const std::uint32_t group : state.reach.groups()) {
     const GroupState& known = state.reach.states()[group];
-    (state.index->is_of_leaves(group) ? others.leaves : others.large) += count_of(known.whole & ~unsigned{known.marked});
+    (state.index->is_of_leaves(group) ? others.leaves : others.large) +=
+        count_of(known.whole & ~unsigned{known.marked});
   }
   return others;
 }

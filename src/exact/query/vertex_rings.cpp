@@ -17,6 +17,7 @@ std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
   };
   reach(index_->place_at(slot), 0);
   std::size_t count = 0;
+  // NOLINTNEXTLINE(modernize-loop-convert): the queue grows meanwhile
   for (std::size_t head = 0; head < queue_.size(); ++head) {
     const std::uint32_t place = queue_[head];
     if (!index_->is_ignored_at(place)) {

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// The kernels of sections give what `Section` gives, with the same bits on every processor.
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "base/vector.h"
+#include "patch/rim.h"
+#include "patch/section.h"
+#include "simd/sections.h"
+#include "support/random.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// A triangle and a ball, with what `Section` needs.
+struct Cut {
+  PatchTriangle triangle;
+  PatchBall ball;
+  std::size_t first;  // the corner that is alone inside or outside
+};
+
+class EverySectionKernel : public testing::TestWithParam<Isa> {
+ protected:
+  double coordinate(double size) { return size * random.uniform(-1, 1); }
+  Point point(double size) { return {coordinate(size), coordinate(size), coordinate(size)}; }
+
+  /// Some triangles are slivers, have sides that nearly touch the ball, or corners far away.
+  Cut draw() {
+    for (;;) {
+      const double size = std::exp2(random.uniform(-6, 8));
+      Cut cut{{{}, {}, {}}, patch_ball(point(3), std::exp2(random.uniform(-3, 3)), 0.25), 0};
+      const Point start = cut.ball.center + point(1.2 / cut.ball.unit);
+      for (std::size_t i = 0; i < 3; ++i) {
+        cut.triangle.corners[i] = start + point(size / cut.ball.unit);
+        cut.triangle.places[i] = static_cast<std::uint32_t>(3 * random.below(9) + i);
+      }
+      if (random.below(8) == 0) cut.triangle.corners[2] = cut.triangle.corners[random.below(2)] + point(1e-9);
+      if (random.below(30) == 0) cut.triangle.corners[2] = cut.triangle.corners[0];
+      std::size_t inside = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        cut.triangle.inside[i] = cut.ball.contains(cut.triangle.corners[i]);
+        inside += cut.triangle.inside[i] ? 1 : 0;
+      }
+      if (inside != 1 && inside != 2) continue;
+      while (cut.triangle.inside[cut.first] != (inside == 1)) ++cut.first;
+      return cut;
+    }
+  }
+
+  void set(std::size_t lane, const Cut& cut) {
+    std::size_t corner = cut.first;
+    for (std::size_t k = 0; k < 3; ++k) {
+      given->corners[k].set(lane, cut.triangle.corners[corner]);
+      given->directions[k][lane] = cut.triangle.places[after(corner)] < cut.triangle.places[corner] ? -1 : 1;
+      corner = after(corner);
+    }
+    given->centers.set(lane, cut.ball.center);
+    given->poles.set(lane, {0, 0.6, -0.8});
+    given->units[lane] = cut.ball.unit;
+    given->insides[lane] = cut.triangle.inside[cut.first] ? 1 : -1;
+  }
+
+  [[nodiscard]] std::array<double, 13> lane_of(std::size_t i) const {
+    const Point from = parts->from.at(i);
+    const Point to = parts->to.at(i);
+    return {parts->area[i], parts->distance[i],       parts->turn[i],
+            parts->real[i], parts->imaginary[i],      parts->real_from_pole[i],
+            from.x,         from.y,                   from.z,
+            to.x,           to.y,                     to.z,
+            parts->imaginary_from_pole[i]};
+  }
+
+  Random random{91};
+  std::unique_ptr<CutTriangles> given = std::make_unique<CutTriangles>();
+  std::unique_ptr<CutParts> parts = std::make_unique<CutParts>();
+};
+
+TEST_P(EverySectionKernel, MeasuresAsASection) {
+  std::size_t drawn = 0;
+  std::size_t measured_count = 0;
+  for (std::size_t round = 0; round < scaled(4000, 400); ++round) {
+    std::array<Cut, kPacketCapacity> cuts;
+    const std::size_t count = 1 + random.below(kPacketCapacity);
+    for (std::size_t i = 0; i < count; ++i) set(i, cuts[i] = draw());
+    const LaneMask measured = section_kernels(GetParam()).measure(*given, count, *parts);
+    ASSERT_EQ(measured & ~first_lanes(static_cast<unsigned>(count)), 0U);
+    drawn += count;
+    measured_count += count_of(measured);
+    for_each_query(measured, [&](std::size_t i) {
+      RimArcs expected;
+      expected.clear({0, 3, -4});
+      Section section(cuts[i].ball, cuts[i].triangle);
+      for (std::size_t side = 0; side < 3; ++side) EXPECT_FALSE(section.dips(side));
+      const Section::Measure measure = section.measure(expected);
+      EXPECT_NEAR(parts->area[i], measure.area, 1e-12);
+      // Where a triangle is nearly a line, its normal is inexact, but its area is next to nothing.
+      EXPECT_LT(std::abs(parts->distance[i] - measure.distance) * measure.area, 1e-13);
+      RimArcs found;
+      found.clear({0, 3, -4});
+      found.add_measured(parts->turn[i], {parts->real[i], parts->imaginary[i]},
+                         {parts->real_from_pole[i], parts->imaginary_from_pole[i]}, parts->from.at(i), parts->to.at(i));
+      const double error = std::abs(found.area_behind() - expected.area_behind());
+      EXPECT_LT(std::min(error, std::abs(4 * kPi - error)), 1e-11);
+    });
+    if (HasFailure()) return;
+  }
+  std::printf("measured %zu of %zu\n", measured_count, drawn);
+  EXPECT_GT(measured_count, drawn / 4);
+  EXPECT_LT(measured_count, drawn);
+}
+
+TEST_P(EverySectionKernel, GivesTheSameBits) {
+  for (std::size_t round = 0; round < scaled(1000, 100); ++round) {
+    for (std::size_t i = 0; i < kPacketCapacity; ++i) set(i, draw());
+    const LaneMask measured = section_kernels(Isa{}).measure(*given, kPacketCapacity, *parts);
+    const CutParts expected = *parts;
+    ASSERT_EQ(section_kernels(GetParam()).measure(*given, kPacketCapacity, *parts), measured);
+    for_each_query(measured, [&](std::size_t i) {
+      const std::array<double, 13> found = lane_of(i);
+      const CutParts other = std::exchange(*parts, expected);
+      EXPECT_EQ(std::memcmp(lane_of(i).data(), found.data(), sizeof(found)), 0);
+      *parts = other;
+    });
+  }
+}
+
+TEST_P(EverySectionKernel, AddsWholeTriangles) {
+  PointPerLane<double> centers{};
+  for (std::size_t round = 0; round < scaled(1000, 100); ++round) {
+    for (std::size_t q = 0; q < kPacketCapacity; ++q) centers.set(q, point(3));
+    const WholeTriangles triangles{random.uniform(0, 2), point(1), point(4), coordinate(1)};
+    const auto queries = static_cast<QueryWord>(random.below(std::uint64_t{1} << 32));
+    WholeSums sums{};
+    sums.area.fill(0.5);
+    sums.moment.fill(0.25);
+    section_kernels(GetParam()).add_whole(triangles, queries, centers, 0.5, sums);
+    for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+      const bool has = (queries >> q & 1U) != 0;
+      const Point offset = 0.5 * (triangles.point - centers.at(q));
+      EXPECT_EQ(sums.area[q], has ? 0.5 + triangles.area : 0.5);
+      EXPECT_EQ(sums.moment[q], has ? 0.25 + (triangles.moment + dot(triangles.vector, offset)) : 0.25);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Isas, EverySectionKernel, testing::ValuesIn(available_isas()));
+
+}  // namespace
+}  // namespace meshhood::test
