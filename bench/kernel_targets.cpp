@@ -98,6 +98,7 @@ class KernelTargets {
         {"variance", rows_.size(), [=] { aggregated(Reduce::Variance, SmoothingKernel::Box); }},
         {"curvature", rows_.size(),
          [this, batch] { static_cast<void>(curvatures(surface_, batch, {}, {.threads = 1})); }},
+        {"invariants", rows_.size(), [this, batch] { static_cast<void>(invariants(surface_, batch, {.threads = 1})); }},
     };
   }
 

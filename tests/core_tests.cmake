@@ -35,8 +35,10 @@ endforeach()
 add_subdirectory(golden)
 
 if(NOT WIN32) # aligned_alloc
-  meshhood_test(whole/allocation ALONE meshhood_families)
-  target_sources(whole_allocation_test PRIVATE support/failing_allocations.cpp)
+  foreach(part allocation allocation_calls)
+    meshhood_test(whole/${part} ALONE meshhood_families)
+    target_sources(whole_${part}_test PRIVATE support/failing_allocations.cpp)
+  endforeach()
 endif()
 
 if(TARGET meshhood_test_support)

@@ -115,14 +115,7 @@ void PatchSearch::take(ClusterId cluster) {
 
 /// All corners of a cluster that is taken are in the ball.
 void PatchSearch::leave(ClusterId cluster) {
-  const Clusters& clusters = state_->clusters;
-  for (const ClusterLink& link : clusters.links_of(cluster)) {
-    const Kind kind = kind_of(link.cluster);
-    if (kind == Kind::Whole) take(link.cluster);
-    if (kind != Kind::Partial) continue;
-    for (const TriangleId t : clusters.linked_by(link)) visit(t);
-  }
-  for (const std::uint32_t place : clusters.hubs_of(cluster)) {
+  for (const std::uint32_t place : state_->clusters.corners_of(cluster)) {
     if (inside_.is_known(place)) continue;
     inside_.set(place, true);
     visit_fan(place);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whole calls whose results are numbers have the same bits with every kernel and any number of threads, with masks and
-// without; those of aggregates, corrected curvature, nearest vertices, rays and thickness do not depend on the other
-// rows of the call, either.
+// without; those of aggregates, corrected curvature, nearest vertices, patches, rays and thickness do not depend on the
+// other rows of the call, either.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -226,9 +226,21 @@ std::vector<Call> nearest_calls(const Scene& scene, double radius) {
   return calls;
 }
 
-/// Of rays and walls.
-std::vector<Call> surface_calls(const Scene& scene) {
+/// Of patches, rays and walls.
+std::vector<Call> surface_calls(const Scene& scene, double radius) {
   std::vector<Call> calls;
+  calls.push_back({"patches",
+                   [&scene, radius](const auto& rows, unsigned threads) {
+                     const BatchQuery query{.vertices = rows, .radius = radius};
+                     const Invariants found = invariants(scene.surface, query, {.threads = threads});
+                     const std::vector<SurfacePoint> nearest = gaps(scene.surface, query, {.threads = threads});
+                     std::vector<double> numbers;
+                     for (std::size_t i = 0; i < rows.size(); ++i) {
+                       numbers.insert(numbers.end(), {found.area[i], found.volume[i], nearest[i].distance});
+                     }
+                     return numbers;
+                   },
+                   3, true});
   calls.push_back({"first hits",
                    [&scene](const auto& rows, unsigned threads) {
                      std::vector<SpacePoint> origins;
@@ -262,7 +274,7 @@ std::vector<Call> all_calls(const Scene& scene, double radius) {
     for (Call& call : curvature_calls(scene, radius, metric)) calls.push_back(std::move(call));
   }
   for (Call& call : nearest_calls(scene, radius)) calls.push_back(std::move(call));
-  for (Call& call : surface_calls(scene)) calls.push_back(std::move(call));
+  for (Call& call : surface_calls(scene, radius)) calls.push_back(std::move(call));
   return calls;
 }
 

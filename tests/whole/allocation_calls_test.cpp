@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Every allocation of each other public call fails once: the call throws, or gives what it gives with enough memory.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "meshhood/meshhood.h"
+
+#include "support/failing_allocations.h"
+#include "support/families.h"
+
+namespace meshhood::test {
+namespace {
+
+using Numbers = std::vector<double>;
+
+struct Call {
+  std::string name;
+  std::function<Numbers()> result;
+};
+
+template <class T>
+Numbers numbers(const std::vector<T>& list) {
+  return {list.begin(), list.end()};
+}
+
+Numbers areas_of(const Surface& surface) {
+  const auto areas = surface.vertex_areas();
+  return {areas.begin(), areas.end()};
+}
+
+class AllocationInEachCall : public testing::Test {
+ protected:
+  void expect_each(const std::vector<Call>& calls) {
+    for (const Call& call : calls) {
+      SCOPED_TRACE(call.name);
+      const Numbers expected = call.result();
+      ASSERT_FALSE(expected.empty());
+      shortages.fail_each([] { return std::optional<Numbers>(); },
+                          [&](std::optional<Numbers>& made) { made = call.result(); },
+                          [&](const std::optional<Numbers>& made, Ending ending) {
+                            ASSERT_EQ(made.has_value(), ending == Ending::Well);
+                            EXPECT_TRUE(!made || *made == expected);
+                          });
+      if (HasFailure()) return;
+    }
+  }
+
+  [[nodiscard]] BatchQuery query(Metric metric = Metric::Straight) const {
+    return {.vertices = some, .radius = 2.5, .metric = metric};
+  }
+
+  const meshhood::Run run{.threads = 1};  // so that the allocations of a call have one order
+  const TestMesh mesh = bumpy_grid(12).finish(false);
+  const Index index = build(mesh.view());
+  const Surface surface{index, mesh.view()};
+  const std::vector<VertexId> some{0, 1, 2, 17, 90, 91};
+  std::vector<double> values = std::vector<double>(mesh.size());
+  Shortages shortages;
+};
+
+TEST_F(AllocationInEachCall, OfQueriesAndBatches) {
+  std::vector<Call> calls;
+  for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings, Metric::Space}) {
+    const std::string name = " by metric " + std::to_string(static_cast<int>(metric));
+    calls.push_back({"counts" + name, [=, this] { return numbers(counts(index, query(metric), run)); }});
+    calls.push_back({"ids" + name,
+                     [=, this] { return numbers(neighborhoods(index, query(metric), {.distances = true}, run).ids); }});
+    calls.push_back({"one" + name, [=, this] { return numbers(Searcher(index, metric).neighborhood(17, 2.0)); }});
+    for (const Reduce reduce :
+         {Reduce::Sum, Reduce::Minimum, Reduce::StandardDeviation, Reduce::Count, Reduce::Median}) {
+      calls.push_back({"reduction " + std::to_string(static_cast<int>(reduce)) + name, [=, this] {
+                         return aggregate(index, {values},
+                                          {.vertices = some, .radius = 2.0, .metric = metric, .reduce = {reduce}}, run);
+                       }});
+    }
+  }
+  calls.push_back({"a searcher bound again", [&] {
+                     const Index other = build(mesh.view(), run);
+                     Searcher searcher(index);
+                     searcher.rebind(other);
+                     return Numbers{static_cast<double>(searcher.contains(17, 18, 2.5))};
+                   }});
+  calls.push_back({"a masked index", [&] {
+                     std::vector<std::uint8_t> walls(mesh.size());
+                     for (std::size_t v = 3; v < walls.size(); v += 5) walls[v] = 1;
+                     const Index with_walls = masked(index, {.walls = walls}, run);
+                     return numbers(neighborhoods(with_walls, query(), {}, run).ids);
+                   }});
+  calls.push_back({"breadth-first search", [&] {
+                     const GraphData graph = extract_graph(index);
+                     return numbers(counts(SearchMethod::breadth_first(graph.view()), query(), run));
+                   }});
+  calls.push_back(
+      {"a scan", [&] { return numbers(counts(SearchMethod::ball_scan(mesh.positions_view()), query(), run)); }});
+  calls.push_back({"a single query of a mesh", [&] { return numbers(exact_neighborhood(mesh.view(), 17, 2.5)); }});
+  expect_each(calls);
+}
+
+TEST_F(AllocationInEachCall, OfShape) {
+  const BatchQuery scales{.vertices = some, .radius = BatchRadius::scales({1.0, 2.5})};
+  expect_each({
+      {"moments", [&] { return moments(index, query(), {}, run); }},
+      {"principal components", [&] { return principal_components(index, query(), {}, run).center; }},
+      {"features", [&] { return features(surface, scales, {.kinds = {Feature::Crease, Feature::Area}}, run); }},
+      {"persistence", [&] { return persistence(Numbers{1, 2, 3, 4}, Numbers{1, 2}, 1).strength; }},
+      {"radii", [&] { return geometric_radii(1, 8, 4); }},
+      {"corrected curvature", [&] { return corrected_curvatures(surface, query(), run).measures; }},
+      {"curvature by normals of the caller",
+       [&] {
+         const Numbers up(mesh.positions.size(), 0.5);
+         return curvatures(Surface::of_normals(index, up, mesh.view().faces), query(), {}, run).k1;
+       }},
+  });
+}
+
+TEST_F(AllocationInEachCall, OfTheSurface) {
+  expect_each({
+      {"invariants", [&] { return invariants(surface, query(), run).area; }},
+      {"gaps", [&] { return Numbers{gaps(surface, query(), run)[0].distance}; }},
+      {"a patch", [&] { return numbers(PatchSearcher(surface).patch(17, 2.5)); }},
+      {"its measure", [&] { return Numbers{PatchSearcher(surface).measure(17, 2.5).area}; }},
+      {"its gap", [&] { return Numbers{PatchSearcher(surface).gap(17, 2.5).distance}; }},
+      {"faces", [&] { return numbers(surface.on(index).faces(some, Corners::Any)); }},
+      {"areas", [&] { return areas_of(Surface(index, mesh.view())); }},
+      {"areas of a mesh", [&] { return vertex_areas(mesh.view()); }},
+      {"thickness by rays", [&] { return thickness(surface, some, ThicknessMethod::Ray, run); }},
+      {"a refit in place",
+       [&] {
+         Index moving = build(mesh.view(), run);
+         Surface follows(moving, mesh.view());
+         moving.refit_in_place(mesh.positions_view(), run);
+         follows.refit_in_place(moving);
+         return areas_of(follows);
+       }},
+  });
+}
+
+TEST_F(AllocationInEachCall, OfTheIndexAndTheGraph) {
+  expect_each({
+      {"quality", [&] { return Numbers{quality(index).gain}; }},
+      {"check", [&] { return Numbers{static_cast<double>(index.check(mesh.view()).size())}; }},
+      {"levels", [&] { return Numbers{static_cast<double>(index.levels().size())}; }},
+      {"fingerprint", [&] { return Numbers{static_cast<double>(fingerprint(index) == fingerprint(mesh.view()))}; }},
+      {"graph", [&] { return numbers(extract_graph(index).adjacency.neighbors); }},
+      {"adjacency", [&] { return numbers(adjacency(mesh.view()).neighbors); }},
+      {"cut edges",
+       [&] {
+         const Adjacency all = adjacency(mesh.view());
+         const std::vector<VertexId> cut{0, 1};
+         return numbers(cut_edges(all.view(), cut).neighbors);
+       }},
+      {"points that are linked",
+       [&] {
+         const Index linked = build_linked(mesh.positions_view(), 1.5, {}, run);
+         return numbers(Searcher(linked).neighborhood(17, 2.5));
+       }},
+  });
+}
+
+}  // namespace
+}  // namespace meshhood::test
