@@ -100,6 +100,7 @@ class AggregateQuantity : public Quantity {
   [[nodiscard]] AggregateQuery query_of(const RowTask& task, const std::vector<double>& radii) const {
     const BatchQuery batch = task.rows.query();
     std::vector<Reduce> reductions;
+    reductions.reserve(reduce_.size());
     for (const std::string& name : reduce_) reductions.push_back(value_of(kReductions, name));
     return {.vertices = batch.vertices,
             .radius = batch.radius.scales() ? BatchRadius::scales(radii) : BatchRadius(radii),

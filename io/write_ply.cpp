@@ -34,6 +34,7 @@ constexpr std::array<std::string_view, 3> kColors = {"red", "green", "blue"};
 std::vector<std::string> names_of(const VertexProperty& property, std::size_t vertices) {
   if (components(property, vertices) == 1) return {property.name};
   std::vector<std::string> names;
+  names.reserve(kAxes.size());
   for (const auto axis : kAxes) names.push_back(fmt::format("{}_{}", property.name, axis));
   return names;
 }

@@ -2,6 +2,7 @@
 #include "measure/radius_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <random>
 #include <span>
@@ -46,8 +47,8 @@ class QueryVertices {
 };
 
 double quantile(std::vector<double> values, double fraction) {
-  const double last = static_cast<double>(values.size() - 1);
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(fraction * last + 0.5);
+  const auto last = static_cast<double>(values.size() - 1);
+  const auto nth = values.begin() + std::lround(fraction * last);
   std::nth_element(values.begin(), nth, values.end());
   return *nth;
 }
