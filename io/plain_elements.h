@@ -17,7 +17,7 @@ namespace meshhood::io {
 /// A row of a vertex.
 struct VertexRow {
   static constexpr std::uint64_t kLines = 1;
-  static constexpr std::string_view kInLastLine;
+  static constexpr std::string_view kInLastLine{};
 
   std::size_t values;
   std::array<std::size_t, 3> axes;  ///< which values are x, y, z
@@ -39,7 +39,7 @@ struct VertexRow {
 /// A row of a face: values, the number of vertices, the vertices, and values.
 struct FaceRow {
   static constexpr std::uint64_t kLines = 1;
-  static constexpr std::string_view kInLastLine;
+  static constexpr std::string_view kInLastLine{};
 
   std::size_t before;
   std::size_t after;

@@ -36,7 +36,7 @@ bool contains(const Words& words, std::string_view word) {
 // coordinate or a normal.
 struct ObjRow {
   static constexpr uint64_t kLines = 1;
-  static constexpr std::string_view kInLastLine;
+  static constexpr std::string_view kInLastLine{};
 
   template <class Real>
   const char* take(const char* row, const char* end, PlainBlock<Real>& block) const {

@@ -74,10 +74,18 @@ class EverySectionKernel : public testing::TestWithParam<Isa> {
   [[nodiscard]] std::array<double, 13> lane_of(std::size_t i) const {
     const Point from = parts->from.at(i);
     const Point to = parts->to.at(i);
-    return {parts->area[i], parts->distance[i],       parts->turn[i],
-            parts->real[i], parts->imaginary[i],      parts->real_from_pole[i],
-            from.x,         from.y,                   from.z,
-            to.x,           to.y,                     to.z,
+    return {parts->area[i],
+            parts->distance[i],
+            parts->turn[i],
+            parts->real[i],
+            parts->imaginary[i],
+            parts->real_from_pole[i],
+            from.x,
+            from.y,
+            from.z,
+            to.x,
+            to.y,
+            to.z,
             parts->imaginary_from_pole[i]};
   }
 
