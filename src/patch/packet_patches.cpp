@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/vector.h"
 #include "surface/face_triangles.h"
@@ -106,7 +107,9 @@ void PacketPatches::add_cluster(ClusterId cluster) {
   met_ |= some;
   const Cluster& sums = state_->clusters.clusters[cluster];
   if (sums.has_border) for_each_query(all, [&](std::size_t q) { sums_[q].meet_border(); });
-  if (all != 0) add_whole({sums.area, sums.vector_area, sums.center(), sums.moment}, all);
+  if (all != 0) {
+    add_whole({.area = sums.area, .vector = sums.vector_area, .point = sums.center(), .moment = sums.moment}, all);
+  }
   if (some == all) return;
   const std::vector<TriangleId>& first = state_->triangles.first_of_cluster;
   for (TriangleId t = first[cluster]; t < first[cluster + std::size_t{1}]; ++t) add_triangle(t, some & ~all);
@@ -119,30 +122,36 @@ void PacketPatches::add_triangle(TriangleId t, QueryWord queries) {
   c &= queries;
   const QueryWord whole = a & b & c;
   if ((a | b | c) == 0) return;
-  if (state_->triangles.flags[t] != 0) check_sides(t, {a, b, c});
+  if (state_->triangles.flags[t] != 0) {
+    meet_borders(t, {a, b, c});
+    leave_at_diagonals(t, {a, b, c});
+  }
   const std::array<Point, 3> corners = corners_of(*state_->index, state_->triangles.corners[t]);
   if (whole != 0) {
     const double scale = state_->index->frame.scale;
     const Point vector = 0.5 * cross(scale * (corners[1] - corners[0]), scale * (corners[2] - corners[0]));
-    add_whole({length(vector), vector, corners[0], 0}, whole);
+    add_whole({.area = length(vector), .vector = vector, .point = corners[0], .moment = 0}, whole);
   }
   add_cut(t, corners, 0, (a & ~b & ~c) | (~a & b & c));
   add_cut(t, corners, 1, (b & ~c & ~a) | (~b & c & a));
   add_cut(t, corners, 2, (c & ~a & ~b) | (~c & a & b));
 }
 
+void PacketPatches::meet_borders(TriangleId t, const std::array<QueryWord, 3>& words) {
+  for (unsigned i = 0; i < 3; ++i) {
+    if (!state_->triangles.is_border(t, i)) continue;
+    for_each_query(words[i] | words[after(i)], [&](std::size_t q) { sums_[q].meet_border(); });
+  }
+}
+
 /// The ends of a diagonal are joined in a patch, but not by an edge: if both are in a ball, both must be in the
 /// neighborhood.
-void PacketPatches::check_sides(TriangleId t, const std::array<QueryWord, 3>& words) {
-  const std::array<std::uint32_t, 3>& places = state_->triangles.corners[t];
+void PacketPatches::leave_at_diagonals(TriangleId t, const std::array<QueryWord, 3>& words) {
   for (unsigned i = 0; i < 3; ++i) {
-    if (state_->triangles.is_border(t, i)) {
-      for_each_query(words[i] | words[after(i)], [&](std::size_t q) { sums_[q].meet_border(); });
-    }
     if (!state_->triangles.is_diagonal(t, i)) continue;
     for_each_query(words[i] ^ words[after(i)], [&](std::size_t q) {
-      const std::uint32_t other = places[(words[i] >> q & 1U) != 0 ? after(i) : i];
-      if (balls_[q].contains(state_->index->position(other))) queries_ &= ~(QueryWord{1} << q);
+      const std::size_t other = (words[i] >> q & 1U) != 0 ? after(i) : i;
+      if (balls_[q].contains(state_->index->position(state_->triangles.corners[t][other]))) leave(q);
     });
   }
 }
@@ -153,12 +162,13 @@ void PacketPatches::add_whole(const WholeTriangles& triangles, QueryWord queries
 
 /// Corner `first` is alone inside or outside.
 void PacketPatches::add_cut(TriangleId t, const std::array<Point, 3>& corners, std::size_t first, QueryWord queries) {
-  if (queries == 0) return;
   const std::array<std::uint32_t, 3>& places = state_->triangles.corners[t];
+  const QueryWord inside = words_[places[first]];
+  if (!measures_) queries &= inside;  // of two corners in a ball, no side dips
+  if (queries == 0) return;
   const std::array<std::size_t, 4> order{first, after(first), after(after(first)), first};
   const auto direction = [&](std::size_t k) { return places[order[k + 1]] < places[order[k]] ? -1.0 : 1.0; };
   const std::array directions{direction(0), direction(1), direction(2)};
-  const QueryWord inside = words_[places[first]];
   for_each_query(queries, [&](std::size_t q) {
     if (cut_count_ == kPacketCapacity) measure_cut();
     const std::size_t i = cut_count_++;
@@ -176,10 +186,13 @@ void PacketPatches::add_cut(TriangleId t, const std::array<Point, 3>& corners, s
 }
 
 void PacketPatches::measure_cut() {
-  const LaneMask measured = cut_count_ == 0 ? 0 : kernels_->measure(cut_, cut_count_, parts_);
-  for (std::size_t i = 0; i < cut_count_; ++i) {
+  const auto lanes = static_cast<unsigned>(std::exchange(cut_count_, 0));
+  if (lanes == 0) return;
+  const LaneMask left =
+      measures_ ? first_lanes(lanes) & ~kernels_->measure(cut_, lanes, parts_) : kernels_->may_dip(cut_, lanes);
+  for (unsigned i = 0; i < lanes; ++i) {
     const std::size_t q = cut_queries_[i];
-    if ((measured >> i & 1U) == 0) {
+    if ((left >> i & 1U) != 0) {
       add_section(cut_triangles_[i], q);
     } else if (measures_) {
       sums_[q].add_cut(parts_.area[i], parts_.distance[i], balls_[q]);
@@ -188,7 +201,6 @@ void PacketPatches::measure_cut() {
                                   parts_.to.at(i));
     }
   }
-  cut_count_ = 0;
 }
 
 void PacketPatches::add_section(TriangleId t, std::size_t query) {
@@ -211,14 +223,15 @@ void PacketPatches::follow_dips() {
 }
 
 void PacketPatches::follow(const Dip& dip) {
+  constexpr std::size_t kMostExtras = 64;  // so that a list is searched in little time
   const Triangles& all = state_->triangles;
   const std::uint32_t begin = 3 * dip.triangle + static_cast<std::uint32_t>(dip.side);
-  for (std::uint32_t side = all.ring[begin]; side != begin; side = all.ring[side]) {
+  for (std::uint32_t side = all.ring[begin]; side != begin && is_found(dip.query); side = all.ring[side]) {
     const TriangleId t = side / 3;
     if (has(dip.query, t)) continue;
-    for (const Point& corner : corners_of(*state_->index, all.corners[t])) {
-      if (balls_[dip.query].contains(corner)) queries_ &= ~(QueryWord{1} << dip.query);
-    }
+    const std::array<Point, 3> corners = corners_of(*state_->index, all.corners[t]);
+    const auto is_inside = [&](const Point& corner) { return balls_[dip.query].contains(corner); };
+    if (extras_[dip.query].size() == kMostExtras || std::ranges::any_of(corners, is_inside)) return leave(dip.query);
     extras_[dip.query].push_back(t);
     add_section(t, dip.query);
   }

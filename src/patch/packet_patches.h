@@ -31,8 +31,8 @@ class PacketPatches {
   explicit PacketPatches(const PatchState& state);
 
   /// Returns the queries whose patches it has found. Of the others patch and neighborhood may differ, by a loose edge,
-  /// a diagonal or what is behind a side that dips into the ball; or the radius is next to nothing or infinite.
-  /// `measures`: area and volume, too.
+  /// a diagonal or what is behind a side that dips into the ball; or much is behind such sides; or the radius is next
+  /// to nothing or infinite. `measures`: area and volume, too.
   QueryWord find(const PacketAnswer& packet, bool measures);
 
   // Of a query that was found:
@@ -62,13 +62,17 @@ class PacketPatches {
   void touch(LeafId leaf);
   void add_cluster(ClusterId cluster);
   void add_triangle(TriangleId t, QueryWord queries);
-  void check_sides(TriangleId t, const std::array<QueryWord, 3>& words);
+  void meet_borders(TriangleId t, const std::array<QueryWord, 3>& words);
+  void leave_at_diagonals(TriangleId t, const std::array<QueryWord, 3>& words);
   void add_whole(const WholeTriangles& triangles, QueryWord queries);
   void add_cut(TriangleId t, const std::array<Point, 3>& corners, std::size_t first, QueryWord queries);
   void measure_cut();
   void add_section(TriangleId t, std::size_t query);
   void follow_dips();
   void follow(const Dip& dip);
+
+  [[nodiscard]] bool is_found(std::size_t query) const { return (queries_ >> query & 1U) != 0; }
+  void leave(std::size_t query) { queries_ &= ~(QueryWord{1} << query); }
 
   [[nodiscard]] std::array<QueryWord, 3> words_of(TriangleId t) const {
     const auto& [a, b, c] = state_->triangles.corners[t];

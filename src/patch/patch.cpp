@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
 
 #include "meshhood/error.h"
 
@@ -134,13 +133,16 @@ class PacketVisit {
 
   void run(const PacketAnswer& answer) {
     const QueryWord found = packet_.find(answer, measures_);
-    for_each_query(answer.queries, [&](std::size_t q) {
-      const std::size_t place = answer.rows[q];
-      if ((found >> q & 1U) != 0) return (*visit_)(place, FoundPatch(*state_, packet_, q, answer.radii[q]));
-      if (!search_) search_.emplace(*state_);
-      const bool exists = run_at(*state_, *search_, answer.vertices[q], answer.radii[q], measures_);
-      (*visit_)(place, FoundPatch(*state_, *search_, answer.radii[q], exists));
-    });
+    for (std::size_t q = 0; q < answer.rows.size(); ++q) {  // walls, too, which are no queries of a packet
+      const double radius = answer.radii[q];
+      if ((found >> q & 1U) != 0) {
+        (*visit_)(answer.rows[q], FoundPatch(*state_, packet_, q, radius));
+      } else {
+        if (!search_) search_.emplace(*state_);
+        const bool exists = run_at(*state_, *search_, answer.vertices[q], radius, measures_);
+        (*visit_)(answer.rows[q], FoundPatch(*state_, *search_, radius, exists));
+      }
+    }
   }
 
  private:

@@ -109,7 +109,8 @@ void PatchSearch::take(ClusterId cluster) {
   kinds_[cluster] = Kind::Taken;
   clusters_.push_back(cluster);
   const Cluster& sums = state_->clusters.clusters[cluster];
-  sums_.add_whole(sums.area, moment_from(ball_.center, sums, ball_.scale));
+  const Point offset = ball_.scale * (sums.center() - ball_.center);
+  sums_.add_whole(sums.area, sums.moment + dot(sums.vector_area, offset));
   if (sums.has_border) sums_.meet_border();
 }
 

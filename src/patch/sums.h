@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "patch/clusters.h"
 #include "patch/rim.h"
 #include "patch/section.h"
 #include "shared/distance.h"
@@ -24,8 +23,10 @@ class PatchSums {
     moment_ += moment;
   }
 
-  /// The part of a triangle that is not. `area` and `distance` in units of the radius; `arcs` are of the rim already.
+  /// The part of a triangle that is not, `area` and `distance` in units of the radius. The caller adds its arcs to
+  /// `rim`.
   void add_cut(double area, double distance, const PatchBall& ball);
+  /// The same, with its arcs.
   void add_cut(Section& section, const PatchBall& ball);
 
   [[nodiscard]] RimArcs& rim() { return rim_; }
@@ -44,10 +45,5 @@ class PatchSums {
   double area_ = 0;    // these two in the frame
   double moment_ = 0;  // the sum of area times distance
 };
-
-/// The sum of area times distance of a cluster, seen from a center.
-[[nodiscard]] inline double moment_from(const Point& center, const Cluster& cluster, double scale) {
-  return cluster.moment + dot(cluster.vector_area, scale * (cluster.center() - center));
-}
 
 }  // namespace meshhood

@@ -117,21 +117,40 @@ HWY_INLINE Lanes may_dip(const Vectors& a, const Vectors& b) {
       hn::Le(depth, hn::Mul(more, square)));
 }
 
+/// From the center, in units of the radius.
+struct Corners {
+  HWY_INLINE Corners(const CutTriangles& cut, std::size_t i)
+      : center(load_rows(Doubles(), cut.centers, i)),
+        unit(load(cut.units[i])),
+        a(corner(cut.corners[0], i)),
+        b(corner(cut.corners[1], i)),
+        c(corner(cut.corners[2], i)) {}
+
+  HWY_INLINE Vectors corner(const PointPerLane<double>& corners, std::size_t i) const {
+    return scaled(difference(load_rows(Doubles(), corners, i), center), unit);
+  }
+
+  HWY_INLINE Lanes are_near() const {
+    const auto farthest = hn::Max(squared_length(a), hn::Max(squared_length(b), squared_length(c)));
+    return hn::Le(farthest, splat(kFar * kFar));
+  }
+
+  Vectors center;
+  Numbers unit;
+  Vectors a;
+  Vectors b;
+  Vectors c;
+};
+
 /// Those from `i` on, a vector.
 HWY_INLINE LaneMask measure_vector(const CutTriangles& cut, std::size_t i, CutParts& parts) {
   const Doubles d;
   const auto zero = hn::Zero(d);
   const auto one = splat(1.0);
-  const auto center = load_rows(d, cut.centers, i);
-  const auto unit = load(cut.units[i]);
-  const auto corner = [&](std::size_t k)
-                          HWY_ATTR { return scaled(difference(load_rows(d, cut.corners[k], i), center), unit); };
-  const auto a = corner(0);
-  const auto b = corner(1);
-  const auto c = corner(2);
+  const Corners corners(cut, i);
+  const auto& [center, unit, a, b, c] = corners;
   const auto sign = load(cut.insides[i]);
   const Lanes inside = hn::Gt(sign, zero);
-  const auto farthest = hn::Max(squared_length(a), hn::Max(squared_length(b), squared_length(c)));
 
   Line first(a, b, load(cut.directions[0][i]));
   Line middle(b, c, load(cut.directions[1][i]));
@@ -188,10 +207,9 @@ HWY_INLINE LaneMask measure_vector(const CutTriangles& cut, std::size_t i, CutPa
   const auto is_clear = hn::Gt(hn::Abs(arc.imaginary), hn::Mul(splat(kClearTurn), arc.real));
   const auto is_simple = hn::Or(hn::And(inside, hn::AndNot(may_dip(b, c), is_clear)),
                                 hn::AndNot(inside, hn::And(hn::Ge(angle, zero), hn::Gt(middle.square, zero))));
-  const auto is_near = hn::Le(farthest, splat(kFar * kFar));
   const auto has_area = hn::And(hn::Gt(size, zero), hn::Gt(hn::Mul(first.square, last.square), zero));
   const auto is_short = hn::Lt(angle, splat(kLongArc));
-  return bits_of(d, hn::And(hn::And(is_simple, is_near), hn::And(has_area, is_short)));
+  return bits_of(d, hn::And(hn::And(is_simple, corners.are_near()), hn::And(has_area, is_short)));
 }
 
 LaneMask measure(const CutTriangles& cut, std::size_t count, CutParts& parts) {
@@ -216,7 +234,19 @@ void add_whole(const WholeTriangles& triangles, QueryWord queries, const PointPe
   }
 }
 
-constexpr SectionKernels kSectionKernels{add_whole, measure};
+LaneMask may_dip_of(const CutTriangles& cut, std::size_t count) {
+  const Doubles d;
+  LaneMask result = 0;
+  for (std::size_t i = 0; i < count; i += kLanes<Doubles>) {
+    const Corners corners(cut, i);
+    const Lanes inside = hn::Gt(load(cut.insides[i]), hn::Zero(d));
+    const Lanes is_clear = hn::AndNot(may_dip(corners.b, corners.c), corners.are_near());
+    result |= bits_of(d, hn::AndNot(is_clear, inside)) << i;
+  }
+  return result & first_lanes(static_cast<unsigned>(count));
+}
+
+constexpr SectionKernels kSectionKernels{add_whole, measure, may_dip_of};
 
 }  // namespace
 }  // namespace meshhood::HWY_NAMESPACE

@@ -73,6 +73,9 @@ struct SectionKernels {
   /// Measures the first `count` triangles; reads and writes whole vectors. Returns those that it has measured: not one
   /// with a corner far away, without an area, with an arc that is not short, or whose third side may dip into the ball.
   LaneMask (*measure)(const CutTriangles& cut, std::size_t count, CutParts& parts);
+
+  /// Which of them have one corner in the ball, and a third side that may dip into it or a corner far away.
+  LaneMask (*may_dip)(const CutTriangles& cut, std::size_t count);
 };
 
 /// Those compiled for `isa`, which this processor must have.

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/masks.h"
+#include "meshhood/patch.h"
 #include "meshhood/surface.h"
 
 #include "batch/packets.h"
@@ -37,8 +38,10 @@ struct Tally {
 
 class PacketPatchesOf : public testing::TestWithParam<Family> {
  protected:
-  /// Compares the patches around all vertices.
+  /// Compares the patches around all vertices, some of a smaller radius.
   static void compare(const Index& index, const FacesView& faces, double radius, Tally& tally) {
+    std::vector<double> radii(index.vertex_count(), radius);
+    for (std::size_t v = 0; v < radii.size(); v += 7) radii[v] = radius / 2;
     const Surface surface(index, faces);
     const PatchState& state = SurfaceAccess::state(surface).patches();
     PacketPatches packets(state);
@@ -49,11 +52,11 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
       tally.left += count_of(answer.queries & ~found);
       for_each_query(found, [&](std::size_t q) {
         const std::uint32_t place = state.index->place(answer.vertices[q]);
-        search.run(state.index->position(place), radius, state.triangles.fan(place), true);
-        expect_same(state, packets, q, search, radius);
+        search.run(state.index->position(place), answer.radii[q], state.triangles.fan(place), true);
+        expect_same(state, packets, q, search, answer.radii[q]);
       });
     };
-    for_each_packet(index, {.radius = radius}, [&](unsigned) -> PacketVisitor { return visit; }, {}, {.threads = 1});
+    for_each_packet(index, {.radius = radii}, [&](unsigned) -> PacketVisitor { return visit; }, {}, {.threads = 1});
   }
 
   static void expect_same(const PatchState& state, const PacketPatches& packets, std::size_t q,
@@ -64,6 +67,11 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
     }
     std::ranges::sort(triangles, {}, [&](TriangleId t) { return std::pair(state.triangles.face[t], t); });
     ASSERT_EQ(triangles, search.triangles());
+    for (ClusterId cluster = 0; cluster < state.clusters.size(); ++cluster) {
+      if (!packets.has_all(q, cluster)) continue;
+      const auto first = state.triangles.first_of_cluster.begin() + cluster;
+      for (TriangleId t = first[0]; t < first[1]; ++t) EXPECT_TRUE(packets.has(q, t));
+    }
     EXPECT_EQ(packets.exists(q), !triangles.empty());
     const double disc = std::numbers::pi * radius * radius;
     EXPECT_NEAR(packets.area(q) / disc, search.area() / disc, 1e-12 * std::max(1.0, search.area() / disc));
@@ -85,6 +93,7 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
 TEST_P(PacketPatchesOf, AreThoseOfASearch) {
   Tally plain;
   Tally walled;
+  Tally ignoring;
   for (std::uint64_t seed = 0; seed < scaled(12, 2); ++seed) {
     SCOPED_TRACE(seed);
     const TestMesh mesh = make_mesh(GetParam(), seed, 150);
@@ -99,7 +108,7 @@ TEST_P(PacketPatchesOf, AreThoseOfASearch) {
       if (!(radius > 1e-100 && radius < 1e100)) continue;
       SCOPED_TRACE(radius);
       compare(index, mesh.view().faces, radius, plain);
-      compare(masked(index, {.ignored = ignored}), mesh.view().faces, radius, walled);
+      compare(masked(index, {.ignored = ignored}), mesh.view().faces, radius, ignoring);
       const Index with_walls = masked(index, {.walls = walls});
       if (std::ranges::find(walls, 0) == walls.end()) continue;
       try {
@@ -114,8 +123,61 @@ TEST_P(PacketPatchesOf, AreThoseOfASearch) {
   const bool is_surface = std::ranges::find(surfaces, GetParam().name, &Family::name) != surfaces.end();
   if (is_surface) {
     EXPECT_GT(plain.found, 10 * plain.left);
+    EXPECT_GT(walled.found, plain.found / 4);
   }
-  std::printf("found %zu, left %zu; with masks %zu and %zu\n", plain.found, plain.left, walled.found, walled.left);
+  EXPECT_EQ(ignoring.found, 0U);
+  std::printf("found %zu, left %zu; with walls %zu and %zu\n", plain.found, plain.left, walled.found, walled.left);
+}
+
+/// A strip of needles across the ball around its first vertex, whose sides dip into it one after the other.
+TestMesh make_needles(std::size_t count) {
+  TestMesh mesh;
+  for (std::size_t i = 0; i < count + 2; ++i) {
+    const double x = static_cast<double>(i) / static_cast<double>(count);
+    mesh.add_vertex(x, i == 0 ? 0 : i % 2 == 0 ? -2 : 2, 0);
+  }
+  for (std::uint32_t i = 0; i < count; ++i) mesh.add_face(std::vector<std::uint32_t>{i, i + 1, i + 2});
+  return mesh.finish(false);
+}
+
+TEST(PacketPatches, FollowSidesThatDipIntoTheBall) {
+  for (const std::size_t count : {20UL, 60UL, 2000UL}) {
+    const TestMesh mesh = make_needles(count);
+    const Index index = build(mesh.view());
+    const Surface surface(index, mesh.view().faces);
+    const PatchState& state = SurfaceAccess::state(surface).patches();
+    PacketPatches packets(state);
+    const std::vector<VertexId> first{0};
+    QueryWord found = 0;
+    std::size_t triangles = 0;
+    const auto visit = [&](const PacketAnswer& answer) {
+      found = packets.find(answer, false);
+      for (TriangleId t = 0; t < state.triangles.size(); ++t) triangles += packets.has(0, t) ? 1 : 0;
+    };
+    for_each_packet(index, {.vertices = first, .radius = 0.9}, [&](unsigned) -> PacketVisitor { return visit; }, {},
+                    {.threads = 1});
+    // Beyond so many the patch is searched alone, so that the time is in proportion.
+    EXPECT_EQ(found, count > 64 ? 0U : 1U) << count;
+    EXPECT_TRUE(found == 0 || triangles == PatchSearcher(surface).patch(0, 0.9).size());
+  }
+}
+
+/// A wall has no patch, whatever the other rows.
+TEST(PacketPatches, OfWallsAreEmpty) {
+  const TestMesh mesh = make_grid(20, 20, false);
+  const Index index = build(mesh.view());
+  const std::vector<VertexId> ids{5, 44, 230};
+  std::vector<std::uint8_t> walls(mesh.size());
+  for (const VertexId v : ids) walls[v] = 1;
+  const Index masks = masked(index, {.walls = walls});
+  const Surface surface(masks, mesh.view().faces);
+  const Invariants all = invariants(surface, {.radius = 2.5});
+  const std::vector<SurfacePoint> nearest = gaps(surface, {.radius = 2.5});
+  for (const VertexId v : ids) {
+    EXPECT_EQ(all.area[v], 0);
+    EXPECT_TRUE(std::isnan(all.volume[v]));
+    EXPECT_EQ(nearest[v].face, kNoFace);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, PacketPatchesOf, testing::ValuesIn(families()), family_name);

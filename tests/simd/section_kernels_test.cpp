@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The kernels of sections give what `Section` gives, with the same bits on every processor.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include <cstring>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -126,6 +128,29 @@ TEST_P(EverySectionKernel, MeasuresAsASection) {
   std::printf("measured %zu of %zu\n", measured_count, drawn);
   EXPECT_GT(measured_count, drawn / 4);
   EXPECT_LT(measured_count, drawn);
+}
+
+TEST_P(EverySectionKernel, FindsSidesThatMayDip) {
+  std::size_t dips = 0;
+  std::size_t others = 0;
+  for (std::size_t round = 0; round < scaled(4000, 400); ++round) {
+    std::array<Cut, kPacketCapacity> cuts;
+    const std::size_t count = 1 + random.below(kPacketCapacity);
+    for (std::size_t i = 0; i < count; ++i) set(i, cuts[i] = draw());
+    const LaneMask found = section_kernels(GetParam()).may_dip(*given, count);
+    ASSERT_EQ(found & ~first_lanes(static_cast<unsigned>(count)), 0U);
+    ASSERT_EQ(found, section_kernels(Isa{}).may_dip(*given, count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const Section section(cuts[i].ball, cuts[i].triangle);
+      const bool does = section.dips(0) || section.dips(1) || section.dips(2);
+      dips += does ? 1 : 0;
+      others += (found >> i & 1U) == 0 ? 1 : 0;
+      ASSERT_TRUE(!does || (found >> i & 1U) != 0);
+    }
+  }
+  std::printf("%zu sides dip, %zu triangles have none\n", dips, others);
+  EXPECT_GT(dips, 0U);
+  EXPECT_GT(others, dips);
 }
 
 TEST_P(EverySectionKernel, GivesTheSameBits) {
