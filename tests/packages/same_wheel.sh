@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the wheel for this machine once more, in another folder and from nothing, as one who checks a release does. It has
-# the same bytes. Exit code 77: there is no wheel to compare with.
+# Makes the wheel for this machine once more, in another folder and from nothing, as one who checks a release does. It
+# has the same bytes. Exit code 77: there is no wheel to compare with.
 # Usage: same_wheel.sh REPOSITORY
 set -euo pipefail
 cd "$1"

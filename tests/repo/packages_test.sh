@@ -8,8 +8,8 @@ repository=$2/repository programs=$2/programs
 rm -rf "$2"
 mkdir -p "$repository/build/packages" "$repository/build/venv/bin" "$programs"
 cd "$1"
-cp --parents tools/packages include/meshhood/version.h cmake/MeshhoodPackage.cmake README.md SECURITY.md CHANGELOG.md \
-  "$repository"
+cp --parents tools/packages include/meshhood/version.h cmake/MeshhoodPackage.cmake README.md SECURITY.md \
+  CHANGELOG.md docs/index.md "$repository"
 cd "$repository"
 PATH=$programs:$PATH
 program() { printf '#!/bin/sh\n%s\n' "$2" >"$1" && chmod +x "$1"; }
@@ -39,13 +39,14 @@ says "these were not made" cp39-cp39 cp312-abi3-manylinux_2_28_x86_64.whl tar.gz
 mapfile -t files < <(grep ^build "$programs/said.txt")
 
 sed -i 's/## \[.*/## [Unreleased]/' CHANGELOG.md
-echo "*Nothing is published yet*, to be filled, @invalid" | tee -a README.md SECURITY.md >>cmake/MeshhoodPackage.cmake
+echo 'Nothing is published yet | now | to be filled @invalid will have:' |
+  tee -a README.md docs/index.md SECURITY.md >>cmake/MeshhoodPackage.cmake
 commit
 git tag "v$version"
 touch new.txt
-says "v$version is not ready" new.txt README.md: SECURITY.md: MeshhoodPackage.cmake: CHANGELOG.md:
-sed -i '/Nothing is published yet\|to be filled\|@invalid/d; s/## \[Unreleased\]/## [0.0.0]/' README.md SECURITY.md \
-  CHANGELOG.md cmake/MeshhoodPackage.cmake
+says "v$version is not ready" new.txt README.md: index.md: SECURITY.md: MeshhoodPackage.cmake: CHANGELOG.md:
+sed -i '/Nothing is published yet\|| now |\|to be filled\|@invalid\|will have:/d; s/## \[Unreleased\]/## [0.0.0]/' \
+  README.md SECURITY.md CHANGELOG.md docs/index.md cmake/MeshhoodPackage.cmake
 commit
 git tag --force "v$version" >/dev/null
 says "these were not made"
