@@ -113,7 +113,9 @@ bool is_double_at(const JsonValues& json, const std::string& path) {
 
 Plan plan_from(const JsonValues& json) {
   if (const std::uint64_t format = json.count("plan/format"); format != kFormat) {
-    raise(ErrorCode::MalformedIndex, fmt::format("format {}, expected {}", format, kFormat));
+    raise(ErrorCode::MalformedIndex,
+          fmt::format("format {}, but this version reads format {}: {}", format, kFormat,
+                      format < kFormat ? "partition the mesh again" : "install a newer meshhood"));
   }
   const std::string& hash = json.text("plan/content_hash");
   return {.vertices = json.count("plan/vertices"),

@@ -8,6 +8,9 @@ add_test(NAME repo.docs COMMAND ${PROJECT_SOURCE_DIR}/tools/check_docs.py $<$<TA
 add_test(NAME repo.includes COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/includes.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME repo.borrowed COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/borrowed.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME repo.drawings COMMAND python3 -B ${PROJECT_SOURCE_DIR}/tools/drawings --check)
+add_test(NAME repo.packages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/packages_test.sh
+  ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/repo_packages)
+add_test(NAME repo.promises COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/repo/promises_test.py ${PROJECT_SOURCE_DIR})
 add_test(NAME repo.reference COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/site/names_test.py ${PROJECT_SOURCE_DIR})
 add_test(NAME repo.no_global_state COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/repo/no_global_state.py
   $<TARGET_FILE:meshhood> $<TARGET_FILE:meshhood_io>)

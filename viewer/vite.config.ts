@@ -27,9 +27,18 @@ const compressedModule = (): Plugin => ({
   },
 });
 
+/** Adds the licenses of all that the page contains. */
+const licenses = (): Plugin => ({
+  name: 'licenses',
+  transformIndexHtml() {
+    const children = ['../LICENSE', '../NOTICE'].map((file) => readFileSync(path(file), 'utf8')).join('\n');
+    return [{ tag: 'script', attrs: { type: 'text/plain', id: 'licenses' }, children, injectTo: 'body' }];
+  },
+});
+
 export default defineConfig({
   base: './',
-  plugins: [viteSingleFile({ removeViteModuleLoader: true })],
+  plugins: [viteSingleFile({ removeViteModuleLoader: true }), licenses()],
   resolve: { alias: { meshhood: path('../build/wasm/npm/meshhood.js') } },
   // Browsers refuse modules in workers of a page from file://.
   worker: { format: 'iife', plugins: () => [compressedModule()] },

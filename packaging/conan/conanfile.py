@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 from conan import ConanFile
+from conan.errors import ConanInvalidConfiguration
 from conan.tools.build import check_min_cppstd
 from conan.tools.cmake import CMake, CMakeDeps, CMakeToolchain, cmake_layout
 from conan.tools.files import copy, load, rmdir
@@ -36,6 +37,8 @@ class Meshhood(ConanFile):
 
     def validate(self):
         check_min_cppstd(self, 20)
+        if self.settings.os == "Windows" and self.options.with_io:
+            raise ConanInvalidConfiguration("meshhood::io needs POSIX: on Windows, set with_io=False")
 
     def requirements(self):
         self.requires("highway/[>=1.0.3]", visible=False)

@@ -8,16 +8,18 @@ file(GLOB_RECURSE files ${prefix}/*/meshhood.pc)
 cmake_path(GET files PARENT_PATH folder)
 set(ENV{PKG_CONFIG_PATH} ${folder})
 
+# Further arguments are flags.
 function(compile program package)
   execute_process(COMMAND pkg-config --cflags --libs ${package}
     OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   separate_arguments(flags UNIX_COMMAND "${flags}")
   execute_process(COMMAND ${COMPILER} -std=c++20 -O1 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
-    ${SOURCE_DIR}/tests/install/consumer/${program}.cpp ${flags}
+    ${ARGN} ${SOURCE_DIR}/tests/install/consumer/${program}.cpp ${flags}
     -o ${WORK_DIR}/${program} COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND ${WORK_DIR}/${program} ${WORK_DIR} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 compile(small meshhood)
+compile(small meshhood -fno-rtti -fno-exceptions)
 compile(main meshhood-io)
 
 # The commands of the documents that need an installed library, in a folder with the first program of docs/cpp.md. They do

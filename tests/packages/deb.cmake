@@ -18,6 +18,8 @@ if(lintian)
   execute_process(COMMAND ${lintian} --allow-root --fail-on error --suppress-tags bogus-mail-host,bogus-mail-host-in-debian-changelog
     ${package}
     COMMAND_ERROR_IS_FATAL ANY)
+elseif(ALL_PACKAGES)
+  message(FATAL_ERROR "lintian is not installed (tools/setup packages)")
 else()
   message("lintian is not installed: it has not checked the package (tools/setup packages)")
 endif()
@@ -28,6 +30,16 @@ foreach(file man/man1/meshhood.1.gz bash-completion/completions/meshhood zsh/sit
     fish/vendor_completions.d/meshhood.fish doc/meshhood/copyright)
   if(NOT EXISTS ${prefix}/share/${file})
     message(FATAL_ERROR "no share/${file}")
+  endif()
+endforeach()
+# All of NOTICE but the text of a license that Debian has.
+file(READ ${prefix}/share/doc/meshhood/copyright copyright)
+file(READ ${SOURCE_DIR}/NOTICE notice)
+string(REGEX REPLACE "\n## Apache-2.0\n.*\n## LLVM-exception\n" ";" notice "${notice}")
+foreach(text IN LISTS notice)
+  string(FIND "${copyright}" "${text}" at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "share/doc/meshhood/copyright does not have: ${text}")
   endif()
 endforeach()
 execute_process(COMMAND ${prefix}/bin/meshhood --version

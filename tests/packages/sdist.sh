@@ -14,7 +14,7 @@ if grep --extended-regexp '^[^/]+/(bench|docs|fuzz|packaging|tests|\.)' "$packag
   echo "these do not belong into the source package"
   exit 1
 fi
-for file in README.md LICENSE PKG-INFO build/viewer/viewer.html; do
+for file in README.md LICENSE NOTICE PKG-INFO build/viewer/viewer.html; do
   grep --quiet "^meshhood-[^/]*/$file\$" "$packages/sdist.txt"
 done
 "$python" -m twine check --strict "$archive"

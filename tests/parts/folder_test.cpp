@@ -238,7 +238,8 @@ TEST_F(Folder, IsRefusedIfItsManifestContradictsItself) {
   };
   refuses("no JSON at byte", "{", "<\x9b\x7f");
   refuses("more than 8 levels", "{", "[[[[[[[[[");
-  refuses("format 2, expected 1", "\"format\": 1", "\"format\": 2");
+  refuses("format 2, but this version reads format 1: install a newer meshhood", "\"format\": 1", "\"format\": 2");
+  refuses("format 0, but this version reads format 1: partition the mesh again", "\"format\": 1", "\"format\": 0");
   refuses("'plan/vertices' is missing", "\"vertices\": 900", "\"vertexes\": 900");
   refuses("'plan/vertices' is not a whole number >= 0", "\"vertices\": 900", "\"vertices\": -900");
   refuses("'plan/vertices' is not a whole number >= 0", "\"vertices\": 900", "\"vertices\": 1e300");

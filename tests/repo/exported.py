@@ -23,7 +23,8 @@ arguments = parser.parse_args()
 root = arguments.root
 headers = [*root.glob("include/meshhood/*.h"), *root.glob("src/shared/*.h")]
 headers += [root / "io" / name for name in ("index_io.h", "mesh_io.h", "weld.h")]
-words = set(re.findall(r"\w+", "".join(header.read_text(encoding="utf-8") for header in headers)))
+text = "".join(header.read_text(encoding="utf-8") for header in headers)
+words = set(re.findall(r"\w+", re.sub(r"//.*", "", text)))
 OURS = re.compile(r"(?:^|[ *&])meshhood::(?:(?:paper|io|detail)::)*(\(anonymous namespace\)|\w+)")
 
 

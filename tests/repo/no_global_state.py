@@ -15,7 +15,7 @@ KNOWN = {
     "serial": "a number for the name of the next temporary file",
     "current": "of each thread: the call that a slow reader waits for",
 }
-NAME = re.compile(r"^(?:guard variable for )?meshhood::(?:.*::)?(\w+)$")
+NAME = re.compile(r"^(?:guard variable for )?meshhood::(?:.*::)?(\w+)(?:<.*>)?$")
 
 seen, faults = set(), []
 for archive in sys.argv[1:]:

@@ -3,7 +3,7 @@
 // installs it; MESHHOOD_PYTHON is a Python for it.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 
@@ -19,6 +19,10 @@ const run = (program, ...options) =>
 async function expectAnswer(file) {
   const page = await openPage(browser, join(folder, file));
   assert.deepEqual(await idsOf(page, 'exact'), [0, 1, 2]);
+  const licenses = await page.locator('#licenses').textContent();
+  for (const name of ['LICENSE', 'NOTICE']) {
+    assert.ok(licenses.includes(readFileSync(join(process.env.MESHHOOD_VIEWER_SOURCES, '..', name), 'utf8')), name);
+  }
   await page.close();
 }
 
