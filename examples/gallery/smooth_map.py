@@ -3,7 +3,7 @@
 ==============================
 
 A patch on one bank of a groove is active; the medial wall (gray) has an artifact. ``smooth`` with ``metric="surface"``
-weighs by lengths along the surface: nothing crosses the groove or comes from ``walls``. A kernel in space mixes all.
+weighs by lengths along the surface: the other bank is far. Nothing comes from ``walls``. A kernel in space mixes all.
 """
 
 import meshhood
