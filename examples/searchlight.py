@@ -5,8 +5,8 @@
     searchlight.py MESH [RADIUS [WALL]]
 
 MESH     a surface, in mm        RADIUS   of the searchlight along the surface, 8 mm unless given
-WALL     a map (.func.gii, .shape.gii or .label.gii, by nibabel) that is 0 on the cortex and not on the medial wall, which
-         has no searchlights and is in none
+WALL     a map (.func.gii, .shape.gii or .label.gii, by nibabel) that is 0 on the cortex and not on the medial wall,
+         which has no searchlights and is in none
 
 The measurements are made up: 20 trials, noise everywhere, and an effect in one patch, which the analysis must find. A
 ball would include the other bank of the sulcus. The script prints how much of a ball is no part of the searchlight.

@@ -1,4 +1,4 @@
-# Smooths the thickness of both hemispheres of fsaverage; nothing comes from the medial wall, which is thinner than 1 mm.
+# Smooths the thickness of both hemispheres of fsaverage; nothing comes from the medial wall, thinner than 1 mm.
 import meshhood
 from nilearn.datasets import load_fsaverage_data
 from nilearn.surface import SurfaceImage

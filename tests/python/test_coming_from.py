@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The calls in the tables of docs/coming_from run on a small mesh: those of the other library, where it is installed, and
-ours. The pages of C++ libraries are left out, and the calls of pycortex where it is not installed."""
+"""The calls in the tables of docs/coming_from run on a small mesh: those of the other library, where it is installed,
+and ours. The pages of C++ libraries are left out, and the calls of pycortex where it is not installed."""
 
 import re
 import warnings
