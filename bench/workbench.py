@@ -19,6 +19,7 @@ import nibabel
 import numpy as np
 
 MAPS = 10
+METRICS = ("straight", "surface", "path")
 
 
 def save(path, **arrays):
@@ -42,22 +43,22 @@ def workbench(folder, maps, fwhm):
 
 
 def weights_by_distance(V, index, folder, fwhm):
-    """The response to 1 at a vertex, by the distance along the edges."""
+    """The response to 1 at a vertex, by the distance along the surface."""
     v = len(V) * 3 // 10
     impulse = np.zeros((len(V), 1))
     impulse[v] = 1
     theirs = workbench(folder, impulse, fwhm)[0][:, 0]
-    columns = [index.smoothing_matrix(fwhm, weights="area", metric=metric) for metric in ("straight", "path")]
+    columns = [index.smoothing_matrix(fwhm, weights="area", metric=metric) for metric in METRICS]
     ours = [matrix.tocsc()[:, [v]].toarray()[:, 0] for matrix in columns]
-    ids, lengths = index.neighborhood(v, 3 * fwhm, metric="path", return_distance=True)
-    path = np.full(len(V), np.inf)
-    path[ids] = lengths
+    ids, lengths = index.neighborhood(v, 3 * fwhm, metric="surface", return_distance=True)
+    distance = np.full(len(V), np.inf)
+    distance[ids] = lengths
     deviation = fwhm / np.sqrt(8 * np.log(2))
-    print(f"Workbench reaches {path[theirs != 0].max() / deviation:.2f} standard deviations")
-    print("path / fwhm | Gaussian | Workbench | meshhood straight | path")
+    print(f"Workbench reaches {distance[theirs != 0].max() / deviation:.2f} standard deviations")
+    print("distance / fwhm | Gaussian | Workbench | meshhood", " | ".join(METRICS))
     for low in np.arange(0, 1.6, 0.2):
-        near = (path >= low * fwhm) & (path < (low + 0.2) * fwhm)
-        columns = [np.exp(-((path[near] / deviation) ** 2) / 2).mean()]
+        near = (distance >= low * fwhm) & (distance < (low + 0.2) * fwhm)
+        columns = [np.exp(-((distance[near] / deviation) ** 2) / 2).mean()]
         columns += [column[near].mean() / column[v] for column in (theirs, *ours)]
         print(f"{low:.1f} to {low + 0.2:.1f} | " + " | ".join(f"{value:.3f}" for value in columns))
 
@@ -81,14 +82,14 @@ def main():
         weights_by_distance(V, index, folder, fwhm)
         theirs = workbench(folder, maps, fwhm)[0]
         seconds = min(workbench(folder, maps[:, :1], fwhm)[1] for _ in range(3))
-        for metric in ("straight", "path"):
+        for metric in METRICS:
             words = {"weights": "area", "metric": metric}
             built = least(lambda: meshhood.MeshIndex(V, F).smooth(maps[:, 0], fwhm, **words))  # noqa: B023
             kept = least(lambda: index.smooth(maps[:, 0], fwhm, **words))  # noqa: B023
             ours = index.smooth(maps, fwhm, weights="area", metric=metric)
             correlation = np.corrcoef(ours.ravel(), theirs.ravel())[0, 1]
             deviations = f"{ours.std():.3f} and {theirs.std():.3f}"
-            print(f"{metric}: correlation {correlation:.3f}, standard deviation {deviations}")
+            print(f"{metric}: correlation {correlation:.4f}, standard deviation {deviations}")
             for what, took in (("with the build of the index", built), ("with an index", kept)):
                 print(f"  one map {what} {1e3 * took:.1f} ms, {seconds / took:.0f} times as fast")
         print(f"Workbench: {1e3 * seconds:.0f} ms")

@@ -4,7 +4,7 @@
 
     curvature_map.py SCAN EDGES OUTPUT.ply
 
-SCAN    PLY, OBJ, OFF or STL of triangles
+SCAN    a file of triangles that meshhood.read_mesh reads
 EDGES   the radius, in mean edge lengths: larger than the noise, smaller than the features of interest
 """
 

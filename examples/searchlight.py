@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: MIT
 """A searchlight over a cortical surface: where do the patterns of two conditions differ?
 
-    searchlight.py MESH [RADIUS]
+    searchlight.py MESH [RADIUS [WALL]]
 
-MESH     a surface, in mm        RADIUS   of the searchlight, 8 mm unless given
+MESH     a surface, in mm        RADIUS   of the searchlight along the surface, 8 mm unless given
+WALL     a map (.func.gii, .shape.gii or .label.gii, by nibabel) that is 0 on the cortex and not on the medial wall,
+         which has no searchlights and is in none
 
 The measurements are made up: 20 trials, noise everywhere, and an effect in one patch, which the analysis must find. A
-ball instead of the neighborhood would include the other bank of the sulcus. The script prints how much of it.
+ball would include the other bank of the sulcus. The script prints how much of a ball is no part of the searchlight.
 """
 
 import sys
@@ -31,10 +33,20 @@ def evidence(first, second):
     return ((second.mean(axis=0) - first.mean(axis=0)) / error) ** 2
 
 
-def searchlight(index, radius, values):
-    """Per vertex, the mean of `values` over its neighborhood; memory does not grow with the mesh."""
-    result = np.empty(len(index))
-    for part in index.iter_neighborhoods(radius, chunk=10_000):
+def wall_of(names, vertex_count):
+    """A mask (#V,), of no vertices without a file."""
+    if not names:
+        return np.zeros(vertex_count, bool)
+    import nibabel
+
+    return nibabel.load(names[0]).agg_data() != 0
+
+
+def searchlight(index, radius, walls, values):
+    """Per vertex, the mean of `values` over its searchlight, NaN for walls; memory does not grow with the mesh."""
+    result = np.full(len(index), np.nan)
+    rows = np.flatnonzero(~walls)
+    for part in index.iter_neighborhoods(radius, rows, chunk=10_000, metric="surface", walls=walls):
         result[part.vertices] = np.add.reduceat(values[part.indices], part.indptr[:-1]) / np.diff(part.indptr)
     return result
 
@@ -42,16 +54,18 @@ def searchlight(index, radius, values):
 def main():
     V, F = meshhood.read_mesh(sys.argv[1])
     radius = float(sys.argv[2]) if len(sys.argv) > 2 else 8.0
+    walls = wall_of(sys.argv[3:], len(V))
     index = meshhood.MeshIndex(V, F)
     rng = np.random.default_rng(7)
-    center = int(rng.integers(len(index)))
-    patch = index.neighborhood(center, radius)
-    peak = int(searchlight(index, radius, evidence(*trials(len(index), patch, rng))).argmax())
+    center = int(rng.choice(np.flatnonzero(~walls)))
+    patch = index.neighborhood(center, radius, metric="surface", walls=walls)
+    found = searchlight(index, radius, walls, evidence(*trials(len(index), patch, rng)))
+    peak = int(np.nanargmax(found))
 
-    sample = rng.integers(len(index), size=50)
-    inside, ball = (index.counts(radius, sample, method=method).sum() for method in ("exact", "ball"))
+    sample = rng.choice(np.flatnonzero(~walls), size=50)
+    inside, ball = (index.counts(radius, sample, metric=metric).sum() for metric in ("surface", "space"))
     print(f"effect around vertex {center}, found at vertex {peak}, {np.linalg.norm(V[peak] - V[center]):.1f} mm away")
-    print(f"of the vertices in a ball, {1 - inside / ball:.0%} are on other folds")
+    print(f"of the vertices in a ball, {1 - inside / ball:.0%} are on other folds, or farther along the surface")
     if peak not in patch:
         sys.exit("the effect was not found")
 

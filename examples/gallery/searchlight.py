@@ -3,7 +3,7 @@
 ================
 
 Two conditions differ by a pattern in one patch. A searchlight is a row of ``radius_neighbors_graph``: the vertices
-within 8 mm along paths that do not pass the wall (gray). Half of the trials give the pattern of each searchlight; by it
+within 8 mm along the surface, without the wall (gray). Half of the trials give the pattern of each searchlight; by it
 the conditions of the other half are told apart. An accuracy of 0.5 is chance.
 """
 
@@ -19,7 +19,7 @@ hemisphere = np.flatnonzero((V[:, 2] > 10) & ~wall)
 patch = index.neighborhood(5456, 8.0)
 first, second = random.normal(size=(2, 2, 20, len(V)))  # half, trial, vertex
 second[..., patch] += random.choice([-0.3, 0.3], size=len(patch))
-lights = index.radius_neighbors_graph(8.0, vertices=hemisphere, metric="path", walls=wall)
+lights = index.radius_neighbors_graph(8.0, vertices=hemisphere, metric="surface", walls=wall)
 evidence = [lights @ ((second[0] - first[0]).mean(0) * trials).T for trials in (first[1], second[1])]
 accuracy = np.full(len(V), np.nan)
 accuracy[hemisphere] = (evidence[1][:, :, None] > evidence[0][:, None, :]).mean((1, 2))

@@ -2,8 +2,8 @@
 """Smoothing a map on a cortex
 ==============================
 
-A patch on one side of a groove is active; the medial wall (gray) has an artifact. ``smooth`` with ``metric="path"``
-weighs by path length, so that the other bank is far, and takes nothing from ``walls``. A kernel in space mixes all.
+A patch on one bank of a groove is active; the medial wall (gray) has an artifact. ``smooth`` with ``metric="surface"``
+weighs by lengths along the surface: the other bank is far. Nothing comes from ``walls``. A kernel in space mixes all.
 """
 
 import meshhood
@@ -17,7 +17,7 @@ index = meshhood.MeshIndex(V, F)
 wall = np.linalg.norm(V - V[5456] - (-24, 2, 0), axis=1) < 8
 values = np.random.default_rng(1).normal(0, 0.5, len(V)) + 5 * wall
 values[index.neighborhood(5456, 8.0)] += 1
-smooth = index.smooth(values, fwhm=6.0, metric="path", walls=wall)
+smooth = index.smooth(values, fwhm=6.0, metric="surface", walls=wall)
 d = KDTree(V).sparse_distance_matrix(KDTree(V), 9.47, output_type="coo_matrix")  # the same kernel in space
 d.data = 0.5 ** ((d.data / 3) ** 2)
 error = abs(d @ values / d.sum(1).A1 - smooth)

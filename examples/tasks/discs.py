@@ -4,4 +4,4 @@ V, F = meshhood.read_mesh(sys.argv[1])
 rows = np.linspace(0, len(V) - 1, 50).astype(int)
 
 index = meshhood.MeshIndex(V, F)
-result = index.neighborhoods(20.0, rows, metric="path", return_distance=True)
+result = index.neighborhoods(20.0, rows, metric="surface", return_distance=True)

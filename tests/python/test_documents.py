@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import meshes
@@ -36,6 +37,8 @@ def write_meshes():
     for name in ("hand", "cortex", "body"):
         sphere.export(f"{name}.ply")
     trimesh.Trimesh(50 * sphere.vertices, sphere.faces).export("lh.ply")
+    if find_spec("nibabel"):
+        meshhood.write_mesh("lh.midthickness.surf.gii", 50 * sphere.vertices, sphere.faces)
     hollow = np.concatenate([20 * sphere.vertices, 18 * sphere.vertices])  # a wall of 2 mm
     faces = np.concatenate([sphere.faces, sphere.faces[:, ::-1] + len(sphere.vertices)])
     meshhood.write_mesh("part.ply", hollow, faces)
@@ -82,6 +85,8 @@ def test_code_runs(name, tmp_path, monkeypatch):
     write_values(write_meshes())
     if "pyvista" in code:
         pytest.importorskip("pyvista").OFF_SCREEN = True
+    if ".surf.gii" in code:
+        pytest.importorskip("nibabel")
     names = {}
     for block in blocks:
         if block.language == "sh":

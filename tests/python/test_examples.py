@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 
 import meshes
+import meshhood
+import numpy as np
 import pytest
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -36,6 +38,14 @@ def test_smooth_signal():
     assert "10242 vertices" in run("smooth_signal.py")
 
 
+def wall_of(surface, name):
+    """Writes a map that is 1 on a wall, as a medial wall, and returns the mask."""
+    V, F = meshhood.read_mesh(surface)
+    wall = V[:, 0] > np.quantile(V[:, 0], 0.97)
+    meshhood.write_mesh(name, V, F, values={"wall": wall})
+    return wall
+
+
 def test_smooth_cortex(tmp_path):
     nibabel = pytest.importorskip("nibabel")
     surface = meshes.shared("scan/cortex_left_41k.ply.zst", tmp_path)
@@ -44,6 +54,9 @@ def test_smooth_cortex(tmp_path):
     assert "40962 vertices" in run("smooth_cortex.py", surface, first, "6", second)
     once, twice = (nibabel.load(name).agg_data() for name in (first, second))
     assert twice.std() < once.std() < 0.5
+    wall = wall_of(surface, tmp_path / "wall.shape.gii")
+    run("smooth_cortex.py", surface, first, "6", second, tmp_path / "wall.shape.gii")
+    np.testing.assert_array_equal(np.isnan(nibabel.load(second).agg_data()), wall)
 
 
 def test_curvature_map(tmp_path):
@@ -57,7 +70,11 @@ def test_relief(tmp_path):
 
 
 def test_searchlight(tmp_path):
-    run("searchlight.py", meshes.shared("scan/cortex_left_41k.ply.zst", tmp_path))
+    surface = meshes.shared("scan/cortex_left_41k.ply.zst", tmp_path)
+    run("searchlight.py", surface)
+    pytest.importorskip("nibabel")
+    wall_of(surface, tmp_path / "wall.shape.gii")
+    run("searchlight.py", surface, "8", tmp_path / "wall.shape.gii")
 
 
 def test_scan_graph(tmp_path):

@@ -195,19 +195,19 @@ class Aggregates(Held):
         """The values smoothed by a Gaussian of this full width at half maximum: the mean with the weights
         exp(-4 ln 2 (d / fwhm)^2) by the distance d, cut where they are below 1/1000.
 
-        fwhm : > 0, or one for each row; or several as `scales`. A distance in `unit`: straight, or with metric="path"
-            along edges. Vertices farther away than `smoothing_radius(fwhm)`, 1.578 fwhm, or not connected within that
-            distance, have no influence; one at exactly that distance has the weight 1/1000. With the straight metric,
-            two banks are not mixed as long as the path over the bottom between them leaves the ball; once it fits, the
-            other bank counts by its straight distance (docs/aggregate.md). With metric="path" it counts by the length
-            of the path.
+        fwhm : > 0, or one for each row; or several as `scales`. A distance in `unit`: straight, along the surface or
+            along edges, as `metric` says. Vertices farther away than `smoothing_radius(fwhm)`, 1.578 fwhm, or not
+            connected within that distance, have no influence; one at exactly that distance has the weight 1/1000. With
+            the straight metric, two banks are not mixed as long as the path over the bottom between them leaves the
+            ball; once it fits, the other bank counts by its straight distance (docs/aggregate.md). With
+            metric="surface" or "path" it counts by the length of the path.
         weights : None counts each vertex once; "area" weighs it by its area, and makes the result independent of how
             densely the surface is sampled.
         The other arguments are those of `aggregate`, which this calls with reduce="mean" and kernel="gaussian". Vertices
         that are walls get NaN.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> smooth = index.smooth(V[:, 2], 0.5, metric="path", walls=V[:, 2] < -0.9)
+        >>> smooth = index.smooth(V[:, 2], 0.5, metric="surface", walls=V[:, 2] < -0.9)
         """
         r, scales = _smoothing_radii(fwhm, scales)
         return self.aggregate(
