@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <csignal>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -59,7 +61,8 @@ cli::OtherReader reader_by(nb::handle reader) {
     if (!file) return mesh;
     mesh = io::read_mesh(std::as_bytes(std::span(file->ply)), name, options);
     mesh->format = io::Format::Other;
-    for (const std::string& note : file->notes) mesh->warnings.push_back({.what = note});
+    std::ranges::transform(file->notes, std::back_inserter(mesh->warnings),
+                           [](const std::string& note) { return io::Warning{.what = note}; });
     return mesh;
   };
 }
