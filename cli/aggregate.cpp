@@ -139,7 +139,7 @@ class AggregateQuantity : public Quantity {
     for (std::size_t i = 0; i < table.scales; ++i) {
       for (std::size_t number = 0; number < channels * kinds; ++number) {
         const std::string end = channels == 1 ? "" : fmt::format("_{}", number / kinds);
-        table.add_property(fmt::format("{}_{}{}", reduce_[number % kinds], i, end), "values", i, number);
+        table.add_property_of_scale(reduce_[number % kinds], "values", i, number, 1, end);
       }
     }
     table.shown = table.properties[(table.scales - 1) * channels * kinds].name;

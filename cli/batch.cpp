@@ -127,7 +127,10 @@ BatchSize write_counts(const SearchMethod& method, const BatchQuery& query, cons
   }();
   const std::size_t scales = options.rows.scale_count();
   const BatchSize total = size_of(sizes, scales);
-  RowTable table{.rows = total.rows, .scales = scales, .columns = {{"count", std::move(sizes), scales}}};
+  RowTable table{.rows = total.rows,
+                 .scales = scales,
+                 .scale_names = options.rows.radii.values,
+                 .columns = {{"count", std::move(sizes), scales}}};
   table.add_properties({"count"});
   table.max_bytes = options.max_bytes;
   check_size(options, total, method.vertex_count());

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -98,6 +99,8 @@ class FeaturesQuantity : public Quantity {
     RowTable table = task.table();
     const std::vector<double> scales = scales_of(task);
     if (!has_rows) table.radii = scales;
+    if (!largest_.empty())
+      std::ranges::transform(scales, std::back_inserter(table.scale_names), fmt::to_string<double>);
     table.scales = scales.size();
     static_cast<void>(persistence({}, scales, threshold_));  // refuses wrong radii before the work begins
     table.kinds = kinds_;
@@ -159,7 +162,7 @@ class FeaturesQuantity : public Quantity {
                      {"radius", std::vector<double>(table.rows * kinds_.size()), 0, kinds_.size()}};
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
       for (std::size_t i = 0; i < scales; ++i) {
-        table.add_property(fmt::format("{}_{}", kinds_[kind], i), "features", i, kind);
+        table.add_property_of_scale(kinds_[kind], "features", i, kind);
       }
       for (const char* name : {"scales", "strength", "radius"}) {
         table.add_property(fmt::format("{}_{}", kinds_[kind], name), name, 0, kind);

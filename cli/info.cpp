@@ -42,8 +42,9 @@ std::string_view format_name(io::Format format) {
     case io::Format::Stl: return "STL";
     case io::Format::Vtk: return "VTK";
     case io::Format::FreeSurfer: return "FreeSurfer";
+    case io::Format::Other: break;
   }
-  return "?";
+  return "other";
 }
 
 Json to_json(const io::Warning& warning) {

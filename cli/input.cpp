@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -50,6 +51,23 @@ io::Precision precision_of(const Reading& reading) {
   return reading.precision == "float" ? io::Precision::Float : io::Precision::Double;
 }
 
+OtherReader other_reader;
+
+/// Calls `read`, and for a file that it refuses the other reader.
+template <class Content>
+Content read_with(Content (*read)(const std::filesystem::path&, const io::ReadOptions&), const std::string& file,
+                  const Reading& reading, io::ReadOptions options) {
+  options.precision = precision_of(reading);
+  try {
+    return read(file, options);
+  } catch (const Error& refusal) {
+    if (refusal.code() != ErrorCode::UnsupportedFormat || !reading.by_others || !other_reader) throw;
+    std::optional<io::Mesh> mesh = other_reader(file, options);
+    if (!mesh) throw;
+    return *std::move(mesh);
+  }
+}
+
 /// An index says itself how its mesh was read.
 void refuse_to_read_otherwise(const Reading& reading, const std::string& file) {
   for (const auto& [value, option, advice] : {std::array<std::string_view, 3>{reading.weld, "--weld", "weld the mesh"},
@@ -83,12 +101,13 @@ PositionsData positions_of(const paper::Index& index) {
 
 }  // namespace
 
+void read_others_by(OtherReader reader) { other_reader = std::move(reader); }
+
 Input::Input(std::string file, const Reading& reading, unsigned threads) : name_(std::move(file)) {
   refuse_parts(name_);
   auto content = [&] {
     Task task(task_of(name_), kMegabytes);
-    return io::read_mesh_or_index(
-        name_, {.precision = precision_of(reading), .threads = threads, .progress = task.progress()});
+    return read_with(io::read_mesh_or_index, name_, reading, {.threads = threads, .progress = task.progress()});
   }();
   if (auto* mesh = std::get_if<io::Mesh>(&content)) {
     mesh_ = std::move(*mesh);
@@ -205,9 +224,8 @@ io::Mesh read_mesh(const std::string& file, const Reading& reading, unsigned thr
   refuse_parts(file);
   io::Mesh mesh = [&] {
     Task task(task_of(file), kMegabytes);
-    return io::read_mesh(
-        file,
-        {.precision = precision_of(reading), .threads = threads, .max_bytes = max_bytes, .progress = task.progress()});
+    return read_with<io::Mesh>(io::read_mesh, file, reading,
+                               {.threads = threads, .max_bytes = max_bytes, .progress = task.progress()});
   }();
   print_warnings(mesh, file);
   return mesh;

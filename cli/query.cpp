@@ -174,7 +174,7 @@ void write_answers(const QueryCommand& options, std::span<const double> radii, c
 void print(const QueryCommand& options, std::span<const double> radii, const std::vector<Answer>& answers) {
   if (options.output.is_csv()) {
     const std::string& output = options.output.name;
-    return print_result(options.json, {{"output", output}, {"answers", answers.size()}},
+    return print_result(options.json, {{"output", output}, {"rows", answers.size()}},
                         fmt::format("{}: {} answers\n", printable_name(output), answers.size()));
   }
   if (options.json) {

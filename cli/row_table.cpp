@@ -85,9 +85,10 @@ void write_csv(const std::string& file, const RowTable& table) {
   const Task task("writing " + file);
   std::vector<std::string> names;
   for (const Property& property : table.properties) {
-    if (property.width == 1) names.push_back(property.name);
+    const std::string& name = property.csv_name.empty() ? property.name : property.csv_name;
+    if (property.width == 1) names.push_back(name);
     for (const char* axis : {"x", "y", "z"}) {
-      if (property.width == 3) names.push_back(fmt::format("{}_{}", property.name, axis));
+      if (property.width == 3) names.push_back(fmt::format("{}_{}", name, axis));
     }
   }
   CsvWriter csv(file, names, table.max_bytes);
@@ -206,11 +207,17 @@ void RowTable::add_property(std::string name, std::string_view column, std::size
                         scale * rows * stride + channel, stride, width});
 }
 
+void RowTable::add_property_of_scale(std::string_view name, std::string_view column, std::size_t scale,
+                                     std::size_t channel, std::size_t width, std::string_view end) {
+  add_property(fmt::format("{}_{}{}", name, scale, end), column, scale, channel, width);
+  if (!scale_names.empty()) properties.back().csv_name = fmt::format("{}_r{}{}", name, scale_names[scale], end);
+}
+
 void RowTable::add_properties(std::initializer_list<std::string_view> names) {
   for (std::size_t scale = 0; scale < scales; ++scale) {
     for (const std::string_view name : names) {
       const std::size_t channels = std::ranges::find(columns, name, &Column::name)->channels;
-      add_property(fmt::format("{}_{}", name, scale), name, scale, 0, std::max<std::size_t>(1, channels));
+      add_property_of_scale(name, name, scale, 0, std::max<std::size_t>(1, channels));
     }
   }
 }

@@ -55,14 +55,16 @@ struct Property {
   std::size_t first;   ///< the place of that of row 0
   std::size_t stride;  ///< from one row to the next
   std::size_t width = 1;
+  std::string csv_name = {};  ///< instead of `name`; or empty
 };
 
 /// The result of a quantity.
 struct RowTable {
   std::size_t rows;
   std::size_t scales = 1;
-  std::vector<double> radii = {};       ///< of the scales, or with --radii of the rows
-  std::vector<std::string> kinds = {};  ///< names on the last axis, an array of their own; or empty
+  std::vector<double> radii = {};             ///< of the scales, or with --radii of the rows
+  std::vector<std::string> scale_names = {};  ///< the radii as typed; empty with --radii
+  std::vector<std::string> kinds = {};        ///< names on the last axis, an array of their own; or empty
   std::vector<Column> columns = {};
   std::vector<Property> properties = {};
   std::string shown = {};                       ///< the property that a program shows at once, MeshLab as `quality`
@@ -75,7 +77,11 @@ struct RowTable {
   void add_property(std::string name, std::string_view column, std::size_t scale = 0, std::size_t channel = 0,
                     std::size_t width = 1);
 
-  /// At each scale, the properties `name_0`, `name_1`, ... of these columns.
+  /// At a scale, `name_0`, and in a table of text `name_r2.5` if its radius was typed so. Both end in `end`.
+  void add_property_of_scale(std::string_view name, std::string_view column, std::size_t scale, std::size_t channel = 0,
+                             std::size_t width = 1, std::string_view end = "");
+
+  /// At each scale, the properties of these columns by their names.
   void add_properties(std::initializer_list<std::string_view> names);
 };
 
@@ -95,7 +101,10 @@ struct RowTask {
 
   /// One for each scale that --radius or --radii name.
   [[nodiscard]] RowTable table() const {
-    return {.rows = rows.size(), .scales = options.scale_count(), .radii = rows.radii()};
+    return {.rows = rows.size(),
+            .scales = options.scale_count(),
+            .radii = rows.radii(),
+            .scale_names = options.radii.values};
   }
 
   /// Calls `compute(query, run)` for each scale. `description` is for the display of the progress.

@@ -38,11 +38,19 @@ void check_rows(const io::InputBuffer& input, std::uint64_t rows, std::optional<
   fail(input, fmt::format("{} rows of values, expected one for each of {} vertices", rows, *vertices));
 }
 
+void refuse_xml(io::InputBuffer& input) {
+  if (!input.ahead(1).starts_with('<')) return;
+  fail(input,
+       "is XML, expected numbers; numpy.savetxt(\"values.txt\", nibabel.load(FILE).agg_data()) writes those of "
+       "GIFTI");
+}
+
 /// Opens a file and calls `read(input)`. A malformed one is a wrong option, not a wrong mesh.
 template <class Read>
 auto read_file(const std::string& file, Read&& read) {
   io::FileSource source(file);
   io::InputBuffer input(source, file, io::ReadOptions{}.max_bytes);
+  refuse_xml(input);
   try {
     return read(input);
   } catch (const Error& error) {

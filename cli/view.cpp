@@ -33,7 +33,7 @@ namespace {
 
 struct ViewCommand {
   std::string file;
-  Reading reading;
+  Reading reading{.by_others = false};  // the page holds the file and reads it itself
   std::optional<std::uint64_t> vertex;
   Radius radius;
   std::string answer;

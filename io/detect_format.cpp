@@ -85,10 +85,12 @@ void refuse_foreign(InputBuffer& input) {
   const auto head = input.ahead(kHead).substr(0, kHead);
   for (const auto& [mark, is_first, name] : kForeign) {
     if (is_first ? !head.starts_with(mark) : head.find(mark) == std::string_view::npos) continue;
+    constexpr std::string_view kConvert =
+        "; python3 -c 'import sys, meshhood as m; m.write_mesh(\"mesh.ply\", m.read_mesh(sys.argv[1]))' FILE converts "
+        "it";
     raise(ErrorCode::UnsupportedFormat,
-          fmt::format("{}: is {}, which only the Python package reads; python3 -c 'import sys, meshhood as m; "
-                      "m.write_mesh(\"mesh.ply\", m.read_mesh(sys.argv[1]))' FILE converts it",
-                      input.name(), name));
+          fmt::format("{}: is {}, which only the Python package reads{}", input.name(), name,
+                      input.size() ? kConvert : ", from a file: write it to one first"));
   }
 }
 

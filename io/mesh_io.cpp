@@ -62,7 +62,8 @@ Mesh read_format(Format format, InputBuffer& input, const ReaderOptions& options
     case Format::Off: return read_off(input, options);
     case Format::Stl: return read_stl(input, options);
     case Format::Vtk: return read_vtk(input, options);
-    case Format::FreeSurfer: break;
+    case Format::FreeSurfer:
+    case Format::Other: break;  // none that `detect_format` returns
   }
   return read_freesurfer(input, options);
 }

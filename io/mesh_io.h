@@ -17,7 +17,15 @@
 namespace meshhood {
 namespace io MESHHOOD_API {
 
-enum class Format { Ply, Obj, Off, Stl, Vtk, FreeSurfer };
+enum class Format {
+  Ply,
+  Obj,
+  Off,
+  Stl,
+  Vtk,
+  FreeSurfer,
+  Other,  ///< of a mesh that another library has read
+};
 
 /// The precision of the coordinates in memory.
 enum class Precision {

@@ -139,10 +139,10 @@ def table_of_rows(run):
         arrays["features"] = np.stack(list(columns.values())).reshape(len(kinds), -1, len(arrays["vertices"]))
         arrays["features"] = np.moveaxis(arrays["features"], 0, 2)
         return arrays
-    for name in dict.fromkeys(re.sub(r"_\d+(_[xyz])?$", "", name) for name in columns):
-        of_name = [column for key, column in columns.items() if re.fullmatch(rf"{name}_\d+", key)]
+    for name in dict.fromkeys(re.sub(r"_r?[^_]+(_[xyz])?$", "", name) for name in columns):
+        of_name = [column for key, column in columns.items() if re.fullmatch(rf"{name}_r?[^_]+", key)]
         if not of_name:
-            of_name = [column for key, column in columns.items() if re.fullmatch(rf"{name}_\d+_[xyz]", key)]
+            of_name = [column for key, column in columns.items() if re.fullmatch(rf"{name}_r?[^_]+_[xyz]", key)]
             of_name = np.stack(of_name).reshape(-1, 3, len(arrays["vertices"])).swapaxes(1, 2)
         arrays[name] = np.stack(list(of_name))
     return arrays

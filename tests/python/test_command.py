@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The command line of a wheel says and writes what the program does, in all its streams, errors and signals."""
 import os
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -78,6 +79,58 @@ def test_finds_the_page_of_the_package(folder, monkeypatch):
         pytest.skip("the page is not built")
     monkeypatch.delenv("MESHHOOD_VIEWER", raising=False)
     assert run(COMMAND, ["view", "scroll.ply", "-o", "scroll.html"], folder)[0] == 0
+
+
+@pytest.mark.parametrize(("end", "library"), [("surf.gii", "nibabel"), ("vtp", "pyvista"), ("glb", "trimesh")])
+def test_reads_what_the_package_reads(folder, end, library):
+    pytest.importorskip(library)
+    folder = folder / end
+    folder.mkdir()
+    meshhood.write_mesh(folder / f"mesh.{end}", *meshhood.read_mesh(folder.parent / "scroll.ply"))
+    meshhood.write_mesh(folder / "mesh.ply", *meshhood.read_mesh(folder / f"mesh.{end}"))
+    run(PROGRAM, ["build", "mesh.ply", "-o", "index.mhi"], folder)
+    for words in ("info", "info --json", "query -v 7 -r 3", "curvature -r 9 --csv", "check index.mhi --mesh"):
+        code, output, messages = run(PROGRAM, [*words.split(), "mesh.ply"], folder)
+        assert code == 0
+        output = output.replace(b"mesh.ply", f"mesh.{end}".encode()).replace(b"PLY", b"other")
+        assert run(COMMAND, [*words.split(), f"mesh.{end}"], folder) == (0, output, messages)
+
+
+@pytest.mark.parametrize(("end", "library"), [("surf.gii", "nibabel"), ("vtp", "pyvista"), ("glb", "trimesh")])
+def test_what_the_program_says_converts_what_it_does_not_read(folder, tmp_path, end, library):
+    pytest.importorskip(library)
+    V, F = meshhood.read_mesh(folder / "scroll.ply")
+    meshhood.write_mesh(tmp_path / f"a.{end}", V, F)
+    message = run(PROGRAM, ["info", f"a.{end}"], tmp_path)[2].decode()
+    line = message.partition("; ")[2].removesuffix(" converts it\n")
+    words = [word.replace("FILE", f"a.{end}") for word in shlex.split(line)]
+    assert run(sys.executable, words[1:], tmp_path) == (0, b"", b"")
+    assert (meshhood.read_mesh(tmp_path / "mesh.ply").vertices == V).all()
+
+
+def test_warns_of_files_of_other_libraries_as_the_package(folder):
+    nibabel = pytest.importorskip("nibabel")
+    meshhood.write_mesh(folder / "moved.gii", *meshhood.read_mesh(folder / "scroll.ply"))
+    image = nibabel.load(folder / "moved.gii")
+    image.darrays[0].coordsys.xform[0, 0] = 2
+    nibabel.save(image, folder / "moved.gii")
+    with pytest.warns(UserWarning, match="moved.gii: the coordinates are in the space") as noted:
+        meshhood.read_mesh(folder / "moved.gii")
+    done = run(COMMAND, ["query", "moved.gii", "-v", "7", "-r", "3"], folder)
+    assert done[2].decode() == f"meshhood: warning: {noted[0].message}\n".replace(f"{folder}/", "")
+
+
+def test_names_a_file_that_another_library_cannot_read(folder, monkeypatch):
+    pytest.importorskip("nibabel")
+    (folder / "broken.gii").write_text("<GIFTI")
+    (folder / "nibabel").mkdir()
+    code, _, message = run(COMMAND, ["info", "broken.gii"], folder)
+    assert code == 3
+    assert message.startswith(b"meshhood: broken.gii: a GIFTI surface that nibabel cannot read: ")
+    (folder / "nibabel" / "__init__.py").write_text("raise ModuleNotFoundError(name='nibabel')")
+    monkeypatch.setenv("PYTHONPATH", str(folder), prepend=os.pathsep)
+    message = b"meshhood: broken.gii: a GIFTI surface needs nibabel: pip install nibabel\n"
+    assert run(COMMAND, ["info", "broken.gii"], folder) == (3, b"", message)
 
 
 def test_starts_without_numpy(folder):

@@ -6,6 +6,7 @@ import os
 import resource
 import subprocess
 import sys
+from pathlib import Path
 
 import meshes
 import meshhood
@@ -265,17 +266,28 @@ def test_a_mesh_file_is_not_an_index_file(tmp_path):
             meshhood.load(path, mmap=mmap)
 
 
+def read_file_of(content):
+    Path("mesh").write_bytes(content)
+    meshhood.read_mesh("mesh")
+
+
 @pytest.mark.parametrize(
     ("library", "call"),
     (
         ("nibabel", lambda: meshhood.write_mesh("left.surf.gii", *meshes.two_plates(5))),
+        ("nibabel", lambda: read_file_of(b"<GIFTI")),
+        ("pyvista", lambda: read_file_of(b"<VTKFile")),
+        ("meshio", lambda: read_file_of(b"$MeshFormat")),
+        ("trimesh", lambda: read_file_of(b"glTF")),
+        ("trimesh", lambda: read_file_of(b"PK\x03\x04")),
         ("scipy", lambda: INDEX.radius_neighbors_graph(1.0)),
         ("scipy", lambda: INDEX.smoothing_matrix(1.0)),
         ("pyvista", lambda: meshhood.plot_neighborhood(INDEX, 3, 1.0)),
         ("dask", lambda: meshhood.distributed.map_meshes(["hand.ply"], len)),
     ),
 )
-def test_a_library_that_is_missing_is_named_with_its_installation(monkeypatch, library, call):
+def test_a_library_that_is_missing_is_named_with_its_installation(monkeypatch, tmp_path, library, call):
+    monkeypatch.chdir(tmp_path)
     for name in [name for name in sys.modules if name.partition(".")[0] == library]:
         monkeypatch.delitem(sys.modules, name)
 

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Mesh files that other libraries read and write, and those of other programs that the C++ library reads."""
 
+import json
+import os
 import struct
+import threading
 import warnings
 from pathlib import Path
 
@@ -103,6 +106,32 @@ def test_a_scene_is_transformed(tmp_path, kind):
     both = [V, there] if read.vertices[0, 0] == 0 else [there, V]  # in any order
     expect(read, np.concatenate([F, F + len(V)]), np.concatenate(both))
     assert meshhood.read_mesh(renamed(file)).vertices.dtype == np.float64
+
+
+def test_the_word_that_tells_gltf_may_come_late(tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    files = trimesh.Scene([trimesh.Trimesh(V, F, process=False)]).export(file_type="gltf")
+    scene = json.loads(files["model.gltf"])
+    scene["accessors"] *= 30
+    files["model.gltf"] = json.dumps(scene, sort_keys=True).encode()
+    assert files["model.gltf"].index(b'"asset"') > 4096
+    for name, data in files.items():
+        (tmp_path / name).write_bytes(data)
+    expect(meshhood.read_mesh(tmp_path / "model.gltf", dtype=np.float32))
+
+
+def test_a_comment_tells_no_format(tmp_path):
+    (tmp_path / "a.obj").write_text('# an "asset", no <GIFTI\nv 0 0 0\n')
+    assert len(meshhood.read_mesh(tmp_path / "a.obj").vertices) == 1
+
+
+def test_a_pipe_is_refused_with_what_to_do(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    writer = threading.Thread(target=(tmp_path / "pipe").write_bytes, args=(b"glTF",))
+    writer.start()
+    with pytest.raises(ValueError, match="pipe: is GLB, which only the Python package reads, from a file: write it to one"):
+        meshhood.read_mesh(tmp_path / "pipe")
+    writer.join()
 
 
 def test_3mf(tmp_path):

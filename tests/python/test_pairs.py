@@ -124,7 +124,9 @@ class Call:
 
     def parameters(self):
         method = getattr(meshhood.MeshIndex, self.name)
-        return [name for name in inspect.signature(method).parameters if name not in ("self", "values")]
+        parameters = inspect.signature(method).parameters.items()
+        one_choice = 'Literal["straight"]'
+        return [name for name, it in parameters if name not in ("self", "values") and it.annotation != one_choice]
 
     def words(self, *options):
         words = dict(itertools.chain.from_iterable(WITH.get(name, {}).items() for name, _ in options))

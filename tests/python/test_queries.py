@@ -111,7 +111,7 @@ def test_rim_of_polygons_on_a_sheet_is_one_loop():
         (lambda i: i.neighborhood(0, -1), r"r: radius -1"),
         (lambda i: i.neighborhood(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
         (lambda i: i.neighborhood([0.0, 0.0, 0.0], 1, metric="rings"), r"start: expected a vertex with metric='rings'"),
-        (lambda i: i.neighborhood(0, 1, walls=np.zeros(36)), r"walls: expected integers, not float64"),
+        (lambda i: i.neighborhood(0, 1, walls=np.full(36, 0.5)), r"walls: expected integers, not float64"),
         (lambda i: i.neighborhood(0, 1, ignored=np.zeros(35, bool)), r"ignored: a bool mask of shape \(35,\)"),
         (lambda i: i.stroke([[0, 0, 0]], 1, seeds=[[0], [1]]), r"seeds: expected \(1,\) or \(1, k\)"),
         (lambda i: i.stroke([[0, 0, 0]], [1, 2]), r"r: expected one number, or one for each of 1 rows"),

@@ -99,7 +99,7 @@ def test_faces_beyond_the_vertices_are_refused():
 def test_the_error_for_a_missing_page_says_how_to_build_it(monkeypatch, stand_in):
     monkeypatch.delenv("MESHHOOD_VIEWER")
     monkeypatch.setattr(meshhood._view, "__file__", str(stand_in.parent / "nowhere" / "_view.py"))
-    with pytest.raises(FileNotFoundError, match="make view"):
+    with pytest.raises(FileNotFoundError, match=r"run 'make view && pip install \.' in the sources"):
         meshhood.view(*meshes.two_plates(5))
     monkeypatch.setenv("MESHHOOD_VIEWER", meshes.__file__)
     with pytest.raises(ValueError, match="not the page"):

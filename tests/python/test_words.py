@@ -116,13 +116,15 @@ def test_errors_blame_the_argument_at_fault():
         INDEX.counts(1.0, walls=[COUNT])
 
 
-@pytest.mark.parametrize("number", (int, np.uint8))
+@pytest.mark.parametrize("number", (int, np.uint8, float))
 @pytest.mark.parametrize("argument", ("vertices", "walls", "ignored"))
 def test_a_mask_of_numbers_is_refused(argument, number):
     for mask in (WALLS, np.zeros(COUNT, bool), np.ones(COUNT, bool)):
         with pytest.raises(TypeError, match=f"{argument}: {COUNT} numbers 0 or 1, .* a bool mask: {argument} == 1"):
             INDEX.counts(1.0, **{argument: mask.astype(number)})
     assert len(INDEX.counts(1.0, [0, 1] * COUNT)) == 2 * COUNT
+    with pytest.raises(TypeError, match=f"{argument}: {COUNT} numbers 0 or 255, .* a bool mask: {argument} == 255"):
+        INDEX.counts(1.0, **{argument: WALLS * number(255)})
     with pytest.raises(TypeError, match="ids: .* a bool mask"):
         INDEX.submesh(WALLS.astype(number))
 

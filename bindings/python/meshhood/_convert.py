@@ -16,10 +16,17 @@ _MOST_THREADS = 1024
 def vertices(v, count, name="vertices"):
     """`v` as a new int32 array in C order, each value in [0, count). `v` may be a bool mask of `count` values; a mask of
     numbers is refused."""
-    ids = vertex_rows(v, count, name)
-    if len(ids) == count > 2 and ids.max() <= 1:
-        raise TypeError(f"{name}: {count} numbers 0 or 1, expected vertices, or a bool mask: {name} == 1")
-    return ids
+    _refuse_mask_of_numbers(as_array(v, name), count, name)
+    return vertex_rows(v, count, name)
+
+
+def _refuse_mask_of_numbers(array, count, name):
+    """Numbers for all vertices that are 0, or one other: as images and files have masks."""
+    if array.dtype.kind not in "iuf" or array.shape != (count,) or count <= 2:
+        return
+    most = max(array.max(), 1)
+    if (most == 1 or array.min() == 0) and np.all((array == 0) | (array == most)):
+        raise TypeError(f"{name}: {count} numbers 0 or {most:g}, expected vertices, or a bool mask: {name} == {most:g}")
 
 
 def vertex_rows(v, count, name):

@@ -11,7 +11,8 @@ from typing import Any, Callable, NamedTuple, Optional
 
 import numpy as np
 
-from ._mesh import mesh_arrays
+from . import _core
+from ._mesh import face_arrays, mesh_arrays
 from ._optional import optional
 from ._poly_data import poly_data
 
@@ -20,6 +21,7 @@ _Read = tuple[Any, Any, list[str]]
 
 
 _GZIP = b"\x1f\x8b"
+_HEAD = 1 << 16  # as in `io/detect_format.cpp`
 
 
 class _Format(NamedTuple):
@@ -53,17 +55,34 @@ def read_other(path: str) -> Optional[_Read]:
     return positions, (offsets.astype(np.int64, copy=False), corners), notes
 
 
+def as_ply(path: str) -> Optional[tuple[bytes, list[str]]]:
+    """The mesh of such a file as a PLY file, and the warnings."""
+    read = read_other(path)
+    if read is None:
+        return None
+    V, F, notes = read
+    corners, offsets = face_arrays(F)
+    with tempfile.TemporaryDirectory() as folder:  # the C++ library writes only to a path
+        file = os.path.join(folder, "mesh.ply")
+        try:
+            _core.write_mesh(file, V, corners, offsets=offsets, values=[], colors=None, vtk=False)
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from None
+        with open(file, "rb") as written:
+            return written.read(), notes
+
+
 def _head(path: str) -> bytes:
     """The first bytes of a regular file: others can be read only once."""
     if not os.path.isfile(path):
         return b""
     with open(path, "rb") as file:
-        head = file.read(4096)
+        head = file.read(_HEAD)
     if not head.startswith(_GZIP):
         return head
     try:
         with gzip.open(path) as unpacked:
-            return b"<GIFTI" if b"<GIFTI" in unpacked.read(4096) else head
+            return b"<GIFTI" if b"<GIFTI" in unpacked.read(_HEAD) else head
     except (OSError, EOFError):
         return head
 
@@ -73,6 +92,8 @@ def _format_of(head: bytes) -> Optional[_Format]:
     for mark, form in _FIRST.items():
         if head.startswith(mark):
             return form
+    if not head.lstrip(b"\xef\xbb\xbf\t\n\r ").startswith((b"<", b"{")):  # also behind a byte-order mark
+        return None
     return next((form for mark, form in _WITHIN.items() if mark in head), None)
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Optional, Union
+from typing import Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -88,6 +88,7 @@ class Patches(Held):
         F: Any = None,
         walls: Mask = None,
         ignored: Mask = None,
+        metric: Literal["straight"] = "straight",
         unit: Unit = "mesh",
         workers: int = -1,
         progress: Progress = None,
@@ -98,6 +99,7 @@ class Patches(Held):
 
         r : one radius, or one for each row. A point at exactly `r` counts.
         vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`. Ignored vertices have no effect.
+        metric : "straight" alone, as a patch is in a ball.
         F : other faces than those that the index keeps. What is made of the faces is kept for the next call with the
             same faces.
 
@@ -108,7 +110,8 @@ class Patches(Held):
         >>> index.invariants(scales=[0.2, 0.4]).volume.shape
         (2, 642)
         """
-        rows = read_rows(self, vertices, r, scales, "straight", walls, ignored, unit, workers, progress)
+        metric = _convert.choice(metric, "metric", ("straight",))
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         patches = rows.index._patches(F)
         found = rows.for_each_scale(
             "invariants",
@@ -125,6 +128,7 @@ class Patches(Held):
         F: Any = None,
         walls: Mask = None,
         ignored: Mask = None,
+        metric: Literal["straight"] = "straight",
         unit: Unit = "mesh",
         workers: int = -1,
         progress: Progress = None,
@@ -139,7 +143,8 @@ class Patches(Held):
         >>> bool(np.isinf(index.gaps(0.3).distance).all())  # a sphere has no gap
         True
         """
-        rows = read_rows(self, vertices, r, scales, "straight", walls, ignored, unit, workers, progress)
+        metric = _convert.choice(metric, "metric", ("straight",))
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         patches = rows.index._patches(F)
         found = rows.for_each_scale(
             "gaps", lambda radius, report: patches.gaps(rows.vertices, radius, threads=rows.threads, progress=report)

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _convert, _core
 from ._aggregate import area_weights
@@ -31,8 +31,8 @@ class Unconnected(NamedTuple):
     >>> vertices, distances = meshhood.MeshIndex(V, F).nearest_unconnected(0.5)
     """
 
-    vertices: Any
-    distances: Any
+    vertices: Union[int, Ids]
+    distances: Union[float, Reals]
 
 
 @shown_in_a_line
@@ -43,7 +43,7 @@ class ClosestPoint(NamedTuple):
     (5,)
     """
 
-    face: Any
+    face: Union[int, NDArray[np.int64]]
     barycentric: Reals
     point: Reals
 
@@ -56,10 +56,10 @@ class FirstHit(NamedTuple):
     (3,)
     """
 
-    face: Any
+    face: Union[int, NDArray[np.int64]]
     barycentric: Reals
     point: Reals
-    distance: Any
+    distance: Union[float, Reals]
 
 
 @shown_in_a_line
@@ -252,7 +252,7 @@ class SurfaceQueries(Held):
         F: Any = None,
         workers: int = -1,
         progress: Progress = None,
-    ) -> Any:
+    ) -> Union[float, Reals]:
         """The thickness of the wall at each vertex, in the unit of V: (#rows,) float64, or a float for a single vertex.
 
         vertices, workers, progress : see `MeshIndex`.

@@ -108,8 +108,8 @@ def _built_page() -> str:
     path = Path(named) if named else Path(__file__).with_name("viewer.html")
     if not path.exists():
         raise FileNotFoundError(
-            f"{path}: the viewer is not built: run 'make view' in the sources of meshhood, then install the package "
-            "again, or name its viewer.html in MESHHOOD_VIEWER"
+            f"{path}: the viewer is not built: run 'make view && pip install .' in the sources of meshhood, or name "
+            "its viewer.html in MESHHOOD_VIEWER"
         )
     text = path.read_text(encoding="utf-8")
     if _PLACE not in text:
