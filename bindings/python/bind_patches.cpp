@@ -30,6 +30,36 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
+/// Columns of gaps.
+class GapColumns {
+ public:
+  explicit GapColumns(const std::vector<SurfacePoint>& gaps) {
+    for (const SurfacePoint& gap : gaps) {
+      distances_.push_back(gap.distance);
+      faces_.push_back(static_cast<std::int64_t>(gap.face));
+      corners_.push_back(gap.vertices);
+      barycentric_.push_back(gap.barycentric);
+      points_.push_back(gap.point);
+    }
+  }
+
+  /// Distances, faces, the vertices of their triangles, barycentric coordinates and points.
+  auto arrays() && {
+    static_assert(static_cast<std::int64_t>(kNoFace) == -1);
+    const std::size_t rows = distances_.size();
+    return std::tuple(owned<double>(std::move(distances_)), owned<std::int64_t>(std::move(faces_)),
+                      owned<std::int32_t>(std::move(corners_), {rows, 3}),
+                      owned<double>(std::move(barycentric_), {rows, 3}), owned<double>(std::move(points_), {rows, 3}));
+  }
+
+ private:
+  std::vector<double> distances_;
+  std::vector<std::int64_t> faces_;
+  std::vector<std::array<VertexId, 3>> corners_;
+  std::vector<std::array<double, 3>> barycentric_;
+  std::vector<SpacePoint> points_;
+};
+
 /// The surface of an index, with searchers for single starts.
 class Patches {
   /// Calls `f(searcher, start)` for a vertex, or a point of a face.
@@ -43,37 +73,19 @@ class Patches {
  public:
   explicit Patches(Surface surface) : surface_(std::move(surface)) {}
 
-  auto measure(const std::optional<Rows>& vertices, const Radius& radius, unsigned threads, nb::handle progress) const {
+  auto measure_rows(const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
+                    nb::handle progress) const {
     const BatchQuery query = query_of(vertices, radius);
     const Run run{.threads = threads, .progress = progress_to(progress)};
     Invariants found = without_lock([&] { return invariants(surface_, query, run); });
     return std::pair(owned<double>(std::move(found.area)), owned<double>(std::move(found.volume)));
   }
 
-  /// Distances, faces, the vertices of their triangles, barycentric coordinates and points.
   auto find_gaps(const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
                  nb::handle progress) const {
     const BatchQuery query = query_of(vertices, radius);
     const Run run{.threads = threads, .progress = progress_to(progress)};
-    std::vector<double> distances;
-    std::vector<std::int64_t> faces;
-    std::vector<std::array<VertexId, 3>> corners;
-    std::vector<std::array<double, 3>> barycentric;
-    std::vector<SpacePoint> points;
-    without_lock([&] {
-      for (const SurfacePoint& gap : gaps(surface_, query, run)) {
-        distances.push_back(gap.distance);
-        faces.push_back(static_cast<std::int64_t>(gap.face));
-        corners.push_back(gap.vertices);
-        barycentric.push_back(gap.barycentric);
-        points.push_back(gap.point);
-      }
-    });
-    static_assert(static_cast<std::int64_t>(kNoFace) == -1);
-    const std::size_t rows = distances.size();
-    return std::tuple(owned<double>(std::move(distances)), owned<std::int64_t>(std::move(faces)),
-                      owned<std::int32_t>(std::move(corners), {rows, 3}),
-                      owned<double>(std::move(barycentric), {rows, 3}), owned<double>(std::move(points), {rows, 3}));
+    return without_lock([&] { return GapColumns(gaps(surface_, query, run)); }).arrays();
   }
 
   auto faces(VertexId vertex, std::optional<std::size_t> face, const SpacePoint& point, double radius) {
@@ -97,6 +109,21 @@ class Patches {
                       owned<std::int32_t>(std::move(part.triangles), {triangles, 3}), part.area);
   }
 
+  auto measure(VertexId vertex, std::optional<std::size_t> face, const SpacePoint& point, double radius) {
+    const PatchMeasure found = ask(vertex, face, point, [&](PatchSearcher& searcher, const PatchStart& start) {
+      return searcher.measure(start, radius);
+    });
+    return std::pair(found.area, found.volume);
+  }
+
+  /// One row of `find_gaps`.
+  auto find_gap(VertexId vertex, std::optional<std::size_t> face, const SpacePoint& point, double radius) {
+    const SurfacePoint found = ask(vertex, face, point, [&](PatchSearcher& searcher, const PatchStart& start) {
+      return searcher.gap(start, radius);
+    });
+    return GapColumns({found}).arrays();
+  }
+
  private:
   Surface surface_;
   Pool<PatchSearcher> searchers_;
@@ -110,11 +137,14 @@ auto make_patches(const ExactMethod& method, const Surface& surface) {
 
 void bind_patches(nb::module_& module) {
   nb::class_<Patches>(module, "Patches")
-      .def("invariants", &Patches::measure, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
+      .def("invariants", &Patches::measure_rows, nb::arg().none(), nb::arg(), nb::arg("threads"),
+           nb::arg("progress").none())
       .def("gaps", &Patches::find_gaps, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("faces", &Patches::faces, nb::arg("vertex"), nb::arg("face").none(), nb::arg("point"), nb::arg("radius"))
       .def("clip", &Patches::clip, nb::arg("vertex"), nb::arg("face").none(), nb::arg("point"), nb::arg("radius"),
-           nb::arg("tolerance"));
+           nb::arg("tolerance"))
+      .def("measure", &Patches::measure, nb::arg("vertex"), nb::arg("face").none(), nb::arg("point"), nb::arg("radius"))
+      .def("gap", &Patches::find_gap, nb::arg("vertex"), nb::arg("face").none(), nb::arg("point"), nb::arg("radius"));
   module.def("patches", &make_patches);
 }
 

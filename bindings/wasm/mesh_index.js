@@ -253,8 +253,7 @@ export class MeshIndex extends Owner {
     expectPoint(direction, 'direction');
     useFaces(this.instance, faces);
     this.instance.call('first_hit', ...origin, ...direction);
-    const hit = this.#takeSurfacePoint();
-    return hit.distance === Infinity ? null : hit;
+    return this.#takeSurfacePointOrNull();
   }
 
   #takeSurfacePoint() {
@@ -263,6 +262,11 @@ export class MeshIndex extends Owner {
       face: this.instance.takeCounts()[0], vertices: this.instance.takeIds(), barycentric: numbers.slice(0, 3),
       point: numbers.slice(3, 6), distance: numbers[6],
     };
+  }
+
+  #takeSurfacePointOrNull() {
+    const found = this.#takeSurfacePoint();
+    return found.distance === Infinity ? null : found;
   }
 
   /** Once for each index: a pointer that leaves the mesh would cause many. */
@@ -399,6 +403,17 @@ export class MeshIndex extends Owner {
       positions: numbers.slice(0, values), corners: ids.slice(values), faces, vertices: ids.slice(0, values),
       weights: numbers.slice(values, 2 * values), area: numbers[2 * values],
     };
+  }
+
+  measure(start, r, options = {}) {
+    this.#callOnPatch('measure', start, r, withDefaults(options, PATCH));
+    const [area, volume] = this.instance.takeReals();
+    return { area, volume };
+  }
+
+  gap(start, r, options = {}) {
+    this.#callOnPatch('gap', start, r, withDefaults(options, PATCH));
+    return this.#takeSurfacePointOrNull();
   }
 
   #callOnPatch(name, start, r, given, ...values) {

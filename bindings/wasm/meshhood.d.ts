@@ -626,6 +626,12 @@ export class MeshIndex {
   /** A patch as a mesh of triangles that end at the sphere. Throws likewise. */
   clip(start: Start, r: number, options: PatchOptions & { tolerance?: number }): ClippedMesh;
 
+  /** Area and volume of one patch: a row of `invariants`, but for rounding, also of a point. Throws likewise. */
+  measure(start: Start, r: number, options: PatchOptions): { area: number; volume: number };
+
+  /** The gap of one patch: a row of `gaps`, but for rounding, also of a point; null if there is none. Throws likewise. */
+  gap(start: Start, r: number, options: PatchOptions): SurfacePoint | null;
+
   /**
    * A sum, a mean or another aggregate of values over the neighborhood of each vertex. No ids are listed.
    *

@@ -726,7 +726,7 @@ CALLS_ELSE = {
 # Calls without options, and those of which other tests ask for all that they have.
 WITHOUT_PAIRS = {
     "nearest", "quality", "stroke", "rim", "geometric_radii", "open_parts", "persistence", "show_config",
-    "smoothing_radius", "plot_neighborhood", "view", "open", "ids", "masked", "patch", "clip", "padded",
+    "smoothing_radius", "plot_neighborhood", "view", "open", "ids", "masked", "patch", "clip", "measure", "gap", "padded",
 }  # fmt: skip
 
 

@@ -94,6 +94,48 @@ def test_the_gap_of_a_plate_is_its_thickness_whatever_its_triangles():
     np.testing.assert_array_equal(np.sort(gaps.vertices[inner]), np.sort(F[gaps.face[inner]]))
 
 
+def test_points_of_a_plate_of_twelve_triangles_have_area_volume_and_gap():
+    V, F = box((1, 1, 1))
+    V *= [100, 100, 1]
+    index = meshhood.MeshIndex(V, F)
+    for r in (0.5, 1, 3):
+        for q in ([30, 60, 2.0], [50, 50, 2.0], [71, 4, -1.0]):  # the second is on a side that two faces share
+            face, _, point = index.closest_point(q)
+            area, volume = index.measure(point, r, face=face)
+            assert area == pytest.approx(PI * r**2, rel=1e-12)
+            assert volume == pytest.approx(2 / 3 * PI * r**3, rel=1e-12)
+            gap = index.gap(point, r, face=face)
+            if r < 1:
+                assert (gap.distance, gap.face, list(gap.vertices)) == (np.inf, -1, [-1, -1, -1])
+                assert np.isnan(gap.barycentric).all() and np.isnan(gap.point).all()
+                continue
+            assert gap.distance == 1  # at exactly r, too
+            np.testing.assert_array_equal(gap.point, [*q[:2], 1 - point[2]])
+            np.testing.assert_array_equal(np.sort(gap.vertices), np.sort(F[gap.face]))
+            np.testing.assert_allclose(gap.barycentric @ V[gap.vertices], gap.point, rtol=1e-14)
+    assert index.measure(point, 3 / index.mean_edge_length, face=face, unit="edge") == pytest.approx(tuple(index.measure(point, 3, face=face)))
+    assert repr(index.measure(point, 3, face=face)).startswith("<meshhood.Measure: area 28.27")
+    assert repr(gap).startswith(f"<meshhood.Gap: distance 1.0, face {gap.face}, vertices [")
+
+
+def test_area_volume_and_gap_of_a_vertex_are_rows_of_all():
+    V, F = box((4, 3, 1), 0.5)
+    index = meshhood.MeshIndex(V, F)
+    walls = [7]
+    rows, gaps = index.invariants(0.6, walls=walls), index.gaps(0.6, walls=walls)
+    assert np.isfinite(gaps.distance).any() and np.isinf(gaps.distance).any() and np.isnan(rows.volume).any()
+    for v in range(len(V)):
+        area, volume = index.measure(v, 0.6, walls=walls)
+        assert [type(area), type(volume)] == [float, float]
+        assert (area, volume) == pytest.approx((rows.area[v], rows.volume[v]), rel=1e-12, nan_ok=True)
+        gap = index.gap(v, 0.6, walls=walls)
+        assert [type(gap.distance), type(gap.face)] == [float, int]
+        for name, value in gap._asdict().items():
+            np.testing.assert_allclose(value, getattr(gaps, name)[v], rtol=1e-14, atol=1e-15)
+    assert tuple(index.measure(7, 0.6, walls=walls)) == pytest.approx((0, np.nan), nan_ok=True)
+    assert index.gap(7, 0.6, walls=walls).face == -1
+
+
 def test_rows_without_a_gap():
     V, F = box((2, 2, 2))
     gaps = meshhood.MeshIndex(V, F).gaps(0.5, [0, 3])
@@ -148,7 +190,8 @@ def test_a_clip_is_the_disc_and_carries_values(size):
     ids, before = index.neighborhood(40, r), 0
     for tolerance in (1e-2, 1e-4, 1e-6):
         part = index.clip(40, r, tolerance=tolerance)
-        assert part.area == index.invariants(r, 40).area == pytest.approx(PI * r * r)
+        assert part.area == index.measure(40, r).area == pytest.approx(PI * r * r)
+        assert np.isclose(part.area, index.invariants(r, 40).area, rtol=1e-12, atol=0)  # whose sums have another order
         triangles = meshhood.vertex_areas(part.V, part.F).sum()
         assert part.area - tolerance * r * 2 * PI * r <= triangles < part.area
         assert triangles > before
@@ -251,6 +294,10 @@ def test_areas_of_facets_and_volumes_of_convex_pieces_are_those_of_overlap(kind)
         (lambda index: index.patch(0, 1, face=0), TypeError, "start"),
         (lambda index: index.clip([2, 2, 0.0], 1), TypeError, "start: a point, expected its face, too: face="),
         (lambda index: index.clip(99, 1), ValueError, "start: vertex 99"),
+        (lambda index: index.measure([2, 2, 0.0], 1), TypeError, "start: a point, expected its face, too: face="),
+        (lambda index: index.measure(99, 1), ValueError, "start: vertex 99"),
+        (lambda index: index.gap([0.0, 0.0, 0.0], 1, face=99), ValueError, "face 99"),
+        (lambda index: index.gap(0, -1), ValueError, "radius"),
         (lambda index: index.clip(0, 1, tolerance=0), ValueError, "tolerance: 0.0, expected a finite number > 0"),
         (lambda index: index.clip(0, 1, tolerance=2), ValueError, "tolerance 2, expected one from 1e-12 to 1"),
         (lambda index: index.gaps(1, F=[[0, 1, 99]]), ValueError, "F"),

@@ -48,6 +48,8 @@ CALLS = {
     "first hits": "index.first_hit(V + 9, -V - 1)",
     "thickness": "index.thickness(method='sphere')",
     "clipped patch": "index.clip(7, 4.0)",
+    "measured patch": "index.measure(7, 4.0)",
+    "gap of a patch": "index.gap(7, 4.0)",
     "rim": "index.rim(index.neighborhood(7, 4.0), 7, 4.0)",
     "aggregate": "index.aggregate(values, scales=[2.0, 4.0], reduce='var', progress=lambda done, total: None)",
     "aggregate along edges": "index.aggregate(values, 2.0, metric='path', walls=walls)",

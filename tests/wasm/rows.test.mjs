@@ -221,7 +221,7 @@ test('a clipped patch ends at the sphere, and its points lie on the faces', () =
   const two = build(corners);
   const { area } = two.invariants(0.4, { faces: corners, vertices: Uint32Array.of(0) });
   const disc = two.clip(0, 0.4, { faces: corners });
-  assert.equal(disc.area, area[0]);
+  near(disc.area, area[0]);
   assert.deepEqual([...new Set(disc.faces)], [...two.patch(0, 0.4, { faces: corners })]);
   assert.equal(disc.corners.length, 3 * disc.faces.length);
   assert.deepEqual([...disc.vertices.subarray(0, 3)], [0, 0, 0]);
@@ -238,6 +238,51 @@ test('a clipped patch ends at the sphere, and its points lie on the faces', () =
   assert.throws(() => two.clip(0, 1, { faces: corners, tolerance: 0 }), { code: 'InvalidOption', message: /^tolerance/ });
   assert.throws(() => two.clip(0, 1, { faces: corners, tolerance: '1' }), { name: 'TypeError', message: /^tolerance/ });
   two.dispose();
+});
+
+test('area, volume and gap of a vertex are a row of all, and so of a point', () => {
+  const two = build(corners);
+  const options = { faces: corners };
+  const all = two.invariants(0.4, options);
+  const gaps = two.gaps(0.4, options);
+  for (let v = 0; v < two.vertexCount; ++v) {
+    const { area, volume } = two.measure(v, 0.4, options);
+    near(area, all.area[v]);
+    near(volume, all.volume[v]);
+    const gap = two.gap(v, 0.4, options);
+    assert.equal(gap?.face ?? 2 ** 32 - 1, gaps.face[v]);
+    if (gap === null) continue;
+    near(gap.distance, gaps.distance[v]);
+    assert.deepEqual(gap.vertices, gaps.vertices.slice(3 * v, 3 * v + 3));
+  }
+  const point = [0.3, 0.3, 0.2];
+  near(two.measure(point, 0.1, { faces: corners, face: 4 }).area, Math.PI * 0.01);
+  near(two.measure(point, 0.1, { faces: corners, face: 4 }).volume, (2 / 3) * Math.PI * 0.001);
+  assert.equal(two.gap(point, 0.1, { faces: corners, face: 4 }), null);
+  const gap = two.gap(point, 0.25, { faces: corners, face: 4 });
+  assert.equal(gap.face, 0);
+  near(gap.distance, 0.2);
+  [0.3, 0.3, 0].forEach((x, axis) => near(gap.point[axis], x));
+  const walls = Uint8Array.of(1, 0, 0, 0, 0, 0, 0, 0);
+  assert.deepEqual(two.measure(0, 0.4, { faces: corners, walls }), { area: 0, volume: NaN });
+  assert.equal(two.gap(0, 0.4, { faces: corners, walls }), null);
+  assert.throws(() => two.measure(point, 1, options), { name: 'TypeError', message: /^face: null/ });
+  assert.throws(() => two.gap(8, 1, options), { code: 'VertexOutOfRange' });
+  assert.throws(() => two.gap(0, -1, options), { code: 'InvalidRadius' });
+  two.dispose();
+});
+
+test('the plate of twelve triangles has a gap of its thickness', () => {
+  const positions = Float64Array.from({ length: 24 }, (_, i) => [100, 100, 1][i % 3] * ((Math.floor(i / 3) >> (i % 3)) & 1));
+  const quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+  const plate = { positions, corners: Uint32Array.from(quads.flatMap(([a, b, c, d]) => [a, b, c, a, c, d])), offsets: null };
+  const index = build(plate);
+  const { face, point } = index.closestPoint([30, 60, 2], { faces: plate });
+  for (const r of [1, 3]) {
+    assert.ok(Math.abs(index.measure(point, r, { faces: plate, face }).area / (Math.PI * r * r) - 1) < 1e-12);
+    assert.equal(index.gap(point, r, { faces: plate, face }).distance, 1);
+  }
+  index.dispose();
 });
 
 test('gaps at scales are those of each', () => {

@@ -45,6 +45,7 @@ const USE = `
   const between: Float64Array = index.gaps(scales, { faces, vertices: near, unit: 'edge' }).distance;
   const patch: Uint32Array = index.patch(point, 2, { faces, face });
   const clipped: Float64Array = index.clip(point, 2, { faces, face, tolerance: 1e-4 }).positions;
+  const measured: number = index.measure(42, 2, { faces, walls }).volume + (index.gap(point, 2, { faces, face })?.distance ?? 0);
   index.neighborhood(point, 2, { seeds: vertices, sort: 'id' });
   const hit: SurfacePoint | null = index.firstHit(point, [0, 0, -1], { faces });
   const across: Float64Array = index.thickness({ faces, vertices, method: 'sphere' });
@@ -54,7 +55,7 @@ const USE = `
   index.refitInPlace(mesh.positions, { changed: near });
   const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
   const codes: string[] = [new MeshhoodError().code];
-  export const used = [besides, hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, other.vertices, rows.offsets, curvature.mean, part.vertices, codes, volume, between, patch, clipped];
+  export const used = [besides, hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, other.vertices, rows.offsets, curvature.mean, part.vertices, codes, volume, between, patch, clipped, measured];
 `;
 
 for (const [name, options] of Object.entries({

@@ -26,7 +26,7 @@ from ._moments import (
 )
 from ._padded import padded
 from ._partition import partition
-from ._patches import Gaps, Invariants
+from ._patches import Gap, Gaps, Invariants, Measure
 from ._plot import plot_neighborhood
 from ._queries import Connected, Nested
 from ._region_mesh import RegionMesh, RimLine, Submesh
@@ -57,8 +57,10 @@ __all__ = [
     "Curvature",
     "Discs",
     "FirstHit",
+    "Gap",
     "Gaps",
     "Invariants",
+    "Measure",
     "Mesh",
     "MeshIndex",
     "Nearest",

@@ -71,6 +71,18 @@ extern "C" {
   answer.reals.push_back(mesh.area);
 }
 
+/// The reals are the area and the volume.
+[[clang::export_name("measure")]] void measure(double radius) {
+  const PatchMeasure found = workspace.patch_searcher().measure(patch_start, radius);
+  answer.reals = {found.area, found.volume};
+}
+
+/// See `append_point`; the distance is infinite if there is none.
+[[clang::export_name("gap")]] void gap(double radius) {
+  answer = {};
+  append_point(workspace.patch_searcher().gap(patch_start, radius));
+}
+
 }  // extern "C"
 
 }  // namespace meshhood::wasm
