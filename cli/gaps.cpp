@@ -30,18 +30,29 @@ class GapsQuantity : public Quantity {
     std::vector<double> distances;
     std::vector<std::int64_t> faces;  // -1 where there is none
     std::vector<double> points;
+    std::vector<std::int64_t> corners;
+    std::vector<double> barycentric;
     std::size_t found = 0;
     for (const SurfacePoint& one : all) {
       distances.push_back(one.distance);
       faces.push_back(one.face == kNoFace ? -1 : static_cast<std::int64_t>(one.face));
       points.insert(points.end(), one.point.begin(), one.point.end());
+      for (const VertexId v : one.vertices) corners.push_back(v == kNoVertex ? -1 : std::int64_t{v});
+      barycentric.insert(barycentric.end(), one.barycentric.begin(), one.barycentric.end());
       found += one.face == kNoFace ? 0 : 1;
     }
     const std::size_t none = faces.size() - found;
-    table.columns = {{"gap", std::move(distances), table.scales},
-                     {"face", std::move(faces), table.scales},
-                     {"point", std::move(points), table.scales, 3}};
-    table.add_properties({"gap", "face", "point"});
+    table.columns = {
+        {"gap", std::move(distances), table.scales},
+        {"face", std::move(faces), table.scales},
+        {"point", std::move(points), table.scales, 3},
+        {.name = "corners", .numbers = std::move(corners), .scales = table.scales, .channels = 3, .of_triangle = true},
+        {.name = "barycentric",
+         .numbers = std::move(barycentric),
+         .scales = table.scales,
+         .channels = 3,
+         .of_triangle = true}};
+    table.add_properties({"gap", "face", "point", "corners", "barycentric"});
     table.shown = fmt::format("gap_{}", table.scales - 1);
     table.summary = {{"found", found}, {"none", none}};
     table.text = fmt::format("{} with a gap, {} without", found, none);

@@ -95,8 +95,11 @@ PatchStart patch_start(const QueryStart& start, const Surface& surface) {
 }
 
 void clip(const RegionCommand& options, const QueryStart& start, double radius, const Surface& surface) {
-  const ClippedMesh part =
-      PatchSearcher(surface).clip(patch_start(start, surface), radius, options.tolerance.value_or(1e-3));
+  const PatchStart from = patch_start(start, surface);
+  PatchSearcher searcher(surface);
+  const ClippedMesh part = searcher.clip(from, radius, options.tolerance.value_or(1e-3));
+  const double volume = searcher.measure(from, radius).volume;
+  const double gap = searcher.gap(from, radius).distance;
   write_mesh(options.output, part.view());
   if (!options.arrays.empty()) {
     io::NpzWriter npz(options.arrays);
@@ -105,13 +108,16 @@ void clip(const RegionCommand& options, const QueryStart& start, double radius, 
     add_numbers_of(npz, "faces", part.faces);
     npz.commit();
   }
-  print_result(options.json,
-               {{"output", options.output},
-                {"vertices", part.points.size()},
-                {"faces", part.triangles.size()},
-                {"area", part.area}},
-               fmt::format("{}: {} vertices, {} triangles; area {:.6g}\n", printable_name(options.output),
-                           part.points.size(), part.triangles.size(), part.area));
+  print_result(
+      options.json,
+      {{"output", options.output},
+       {"vertices", part.points.size()},
+       {"faces", part.triangles.size()},
+       {"area", part.area},
+       {"volume", volume},
+       {"gap", gap}},
+      fmt::format("{}: {} vertices, {} triangles; area {:.6g}, volume {:.6g}, gap {:.6g}\n",
+                  printable_name(options.output), part.points.size(), part.triangles.size(), part.area, volume, gap));
 }
 
 void region(const RegionCommand& options) {

@@ -2,6 +2,7 @@
 #include "row_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -87,7 +88,8 @@ void write_csv(const std::string& file, const RowTable& table) {
   for (const Property& property : table.properties) {
     const std::string& name = property.csv_name.empty() ? property.name : property.csv_name;
     if (property.width == 1) names.push_back(name);
-    for (const char* axis : {"x", "y", "z"}) {
+    const bool of_triangle = table.columns[property.column].of_triangle;
+    for (const char* axis : of_triangle ? std::array{"0", "1", "2"} : std::array{"x", "y", "z"}) {
       if (property.width == 3) names.push_back(fmt::format("{}_{}", name, axis));
     }
   }
@@ -124,8 +126,10 @@ std::vector<float> values_of(const RowTable& table, const Property& property) {
 std::vector<Property> mesh_properties(const RowTable& table) {
   std::vector<Property> properties = table.properties;
   const auto is_long = []<class T>(const std::vector<T>&) { return std::is_integral_v<T> && sizeof(T) == 8; };
-  std::erase_if(properties,
-                [&](const Property& property) { return std::visit(is_long, table.columns[property.column].numbers); });
+  std::erase_if(properties, [&](const Property& property) {
+    const Column& column = table.columns[property.column];
+    return column.of_triangle || std::visit(is_long, column.numbers);
+  });
   const auto shown = std::ranges::find(properties, table.shown, &Property::name);
   std::rotate(properties.begin(), shown, std::next(shown));
   return properties;

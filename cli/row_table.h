@@ -45,6 +45,7 @@ struct Column {
   std::size_t channels = 0;  ///< 0: the array has no axis of channels
   bool is_array = true;      ///< of the .npz; otherwise only of text and meshes
   std::size_t kinds = 0;     ///< of the numbers of each channel; 0: the array has no axis of kinds
+  bool of_triangle = false;  ///< three channels are of its corners, no vector: text numbers them, and no mesh has them
 };
 
 /// One number of each row, or a vector of three: of a table of text, and unless its numbers have 64 bits, which float

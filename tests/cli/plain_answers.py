@@ -139,10 +139,10 @@ def table_of_rows(run):
         arrays["features"] = np.stack(list(columns.values())).reshape(len(kinds), -1, len(arrays["vertices"]))
         arrays["features"] = np.moveaxis(arrays["features"], 0, 2)
         return arrays
-    for name in dict.fromkeys(re.sub(r"_r?[^_]+(_[xyz])?$", "", name) for name in columns):
+    for name in dict.fromkeys(re.sub(r"_r?[^_]+(_[xyz012])?$", "", name) for name in columns):
         of_name = [column for key, column in columns.items() if re.fullmatch(rf"{name}_r?[^_]+", key)]
         if not of_name:
-            of_name = [column for key, column in columns.items() if re.fullmatch(rf"{name}_r?[^_]+_[xyz]", key)]
+            of_name = [column for key, column in columns.items() if re.fullmatch(rf"{name}_r?[^_]+_[xyz012]", key)]
             of_name = np.stack(of_name).reshape(-1, 3, len(arrays["vertices"])).swapaxes(1, 2)
         arrays[name] = np.stack(list(of_name))
     return arrays
@@ -271,8 +271,11 @@ def clip(run, wrong):
     crossed = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     expect(wrong, "triangles", len(crossed), len(arrays["faces"]))
     if "--json" in run.asked:
-        area, chords = json.loads(run.done.stdout)["area"], np.linalg.norm(crossed, axis=1).sum() / 2
+        document, chords = json.loads(run.done.stdout), np.linalg.norm(crossed, axis=1).sum() / 2
+        area, volume, gap = (document[name] for name in ("area", "volume", "gap"))
         expect(wrong, "area of chords", bool(0.9 * area < chords < area * (1 + 1e-12)), True)
+        expect(wrong, "volume in the ball", volume is None or 0 <= volume <= 4 / 3 * math.pi * r**3 * (1 + 1e-12), True)
+        expect(wrong, "gap in the ball", gap is None or 0 <= gap <= r, True)
     if start is None:
         return 1
     whole = (vertices == vertices[:, :1]).all(axis=1)
@@ -536,6 +539,11 @@ def fits(run, wrong):
     shown = {"features": lambda: arrays["features"][-1, :, 0], "invariants": lambda: arrays["volume"][-1],
              "gaps": lambda: arrays["gap"][-1], "curvature": lambda: (arrays["k1"][-1] + arrays["k2"][-1]) / 2}
     check_mesh_files(run, wrong, shown[run.command]())
+    if run.command == "gaps":
+        found = arrays["face"] >= 0
+        corners = question.mesh.V[arrays["corners"][found].astype(int)].astype(np.float64)
+        points = np.einsum("ij,ijk->ik", arrays["barycentric"][found], corners)
+        expect(wrong, "points of gaps", points, arrays["point"][found])
     return len(sample(len(rows))[::20])
 
 
