@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Ownership of memory and the times at which it may change (reliability rows P2 to P4)."""
+"""Ownership of memory and the times at which it may change (reliability rows P2 and P3)."""
 
 import gc
 import multiprocessing

@@ -271,6 +271,8 @@ def test_a_submesh_is_handed_to_pyvista_and_trimesh():
             drawn, made = part.to_pyvista(), part.to_trimesh()
             assert isinstance(drawn, pyvista.PolyData) and isinstance(made, trimesh.Trimesh)
             np.testing.assert_array_equal(drawn.cell_data["faces"], part.faces)
+            if not len(part.corners):
+                np.testing.assert_array_equal(drawn.point_data["vertices"], part.vertices)
             for found in (drawn.points, made.vertices):
                 np.testing.assert_array_equal(found, part.V)
             for area in (drawn.area, made.area):

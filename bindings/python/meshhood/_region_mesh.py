@@ -64,13 +64,16 @@ class Submesh(NamedTuple):
         return np.concatenate([whole[self.vertices], between.astype(whole.dtype)])
 
     def to_pyvista(self) -> Any:
-        """A pyvista.PolyData with the same vertices and polygons, and its array of cells `faces`. Needs PyVista.
+        """A pyvista.PolyData with the same vertices and polygons, its array of cells `faces`, and unless faces are
+        clipped that of points `vertices`. Needs PyVista.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> mesh = index.submesh(index.neighborhood(42, 0.5)).to_pyvista()
         """
         mesh = poly_data(optional("pyvista", "to_pyvista"), self.V, *self._corners())
         mesh.cell_data["faces"] = self.faces
+        if not len(self.corners):
+            mesh.point_data["vertices"] = self.vertices
         return mesh
 
     def to_trimesh(self) -> Any:
