@@ -22,10 +22,10 @@ constexpr std::array<Point, 6> kPoles{{{0.48, 0.6, 0.64},
 
 double squared_size(const Complex& z) { return z.real() * z.real() + z.imag() * z.imag(); }
 
-/// Only the argument of a product counts.
+/// Only the argument of a product counts. One is 0 if the rim meets the point where the potential is singular.
 Complex rescaled(const Complex& z) {
   const double size = squared_size(z);
-  return size > 1e-100 && size < 1e100 ? z : (1 / std::sqrt(size)) * z;
+  return size == 0 || (size > 1e-100 && size < 1e100) ? z : (1 / std::sqrt(size)) * z;
 }
 
 /// A number whose argument is half the signed area of a spherical triangle.
