@@ -207,6 +207,7 @@ class KernelSumReducer final : public PacketReducer {
       const double size = static_cast<double>(reduction_->tree().sphere(node).radius) * from_frame(unit);
       for_each_lane(rows, [&](unsigned row) {
         const double most = radius_[row] * (1 - kRim) - size;
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): the checker loses the binding `unit`
         const bool is_inside = unit == 0 || (most > 0 && offsets_.square[row] <= most * most);
         word |= QueryWord{is_inside} << row;
       });

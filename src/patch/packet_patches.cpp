@@ -219,6 +219,7 @@ void PacketPatches::add_section(TriangleId t, std::size_t query) {
 
 /// In the order in which they were found, which may find more.
 void PacketPatches::follow_dips() {
+  // NOLINTNEXTLINE(modernize-loop-convert): the list grows meanwhile
   for (std::size_t next = 0; next < dips_.size(); ++next) follow(Dip(dips_[next]));
 }
 

@@ -178,7 +178,7 @@ Section::Arc Section::arc_from(std::size_t i) const {
 
 Section::Measure Section::measure(RimArcs& rim) {
   find_outline();
-  const auto& [normal, distance] = plane_.circle;
+  const double distance = plane_.circle.distance;
   if (has_disc()) {
     rim.add_circle(distance);
     return {kPi * (1 - distance) * (1 + distance), distance};
@@ -191,9 +191,9 @@ Section::Measure Section::measure(RimArcs& rim) {
   }
   for (std::size_t i = 0; i < 3; ++i) {
     if (!has_arc(i)) continue;
-    const auto [to, angle] = arc_from(i);
-    doubled += disc * angle;
-    rim.add(plane_.circle, angle, exit(i), entry(to));
+    const Arc arc = arc_from(i);
+    doubled += disc * arc.angle;
+    rim.add(plane_.circle, arc.angle, exit(i), entry(arc.to));
   }
   return {doubled / 2, distance};
 }
