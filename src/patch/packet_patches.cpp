@@ -55,7 +55,7 @@ void PacketPatches::set_balls(const PacketAnswer& packet) {
   for_each_query(packet.queries, [&](std::size_t q) {
     const std::uint32_t place = index.place(packet.vertices[q]);
     balls_[q] = patch_ball(index.position(place), packet.radii[q], index.frame.scale);
-    if (!std::isfinite(balls_[q].unit) || !std::isfinite(balls_[q].radius)) queries_ &= ~(QueryWord{1} << q);
+    if (!std::isfinite(balls_[q].unit) || !std::isfinite(balls_[q].radius)) leave(q);
     centers_.set(q, balls_[q].center);
     sums_[q].clear(state_->triangles.normal_of(index, state_->triangles.fan(place)));
   });
@@ -164,7 +164,7 @@ void PacketPatches::add_whole(const WholeTriangles& triangles, QueryWord queries
 void PacketPatches::add_cut(TriangleId t, const std::array<Point, 3>& corners, std::size_t first, QueryWord queries) {
   const std::array<std::uint32_t, 3>& places = state_->triangles.corners[t];
   const QueryWord inside = words_[places[first]];
-  if (!measures_) queries &= inside;  // of two corners in a ball, no side dips
+  if (!measures_) queries &= inside;  // if two corners are in a ball, no side dips
   if (queries == 0) return;
   const std::array<std::size_t, 4> order{first, after(first), after(after(first)), first};
   const auto direction = [&](std::size_t k) { return places[order[k + 1]] < places[order[k]] ? -1.0 : 1.0; };

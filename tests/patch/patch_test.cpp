@@ -373,6 +373,8 @@ TEST(Patch, IsWholeInABallOfAnySize) {
   EXPECT_NEAR(whole.volume, 4 * kPi / 3, 0.2);
   EXPECT_EQ(outward.searcher.patch(0, kInfinity).size(), mesh.face_count());
   for (const double r : {2.5, 1e6}) {
+    EXPECT_EQ(outward.searcher.measure(0, r).area, whole.area);
+    EXPECT_EQ(outward.searcher.measure(0, r).volume, whole.volume);
     EXPECT_NEAR(outward.measure(0, r).area, whole.area, 1e-13);
     EXPECT_NEAR(outward.measure(0, r).volume, whole.volume, 1e-13);
   }

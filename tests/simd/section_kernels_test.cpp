@@ -60,6 +60,13 @@ class EverySectionKernel : public testing::TestWithParam<Isa> {
     }
   }
 
+  /// Sets `cuts` and what is given to the kernels. Returns how many there are.
+  std::size_t draw_some() {
+    const std::size_t count = 1 + random.below(kPacketCapacity);
+    for (std::size_t i = 0; i < count; ++i) set(i, cuts[i] = draw());
+    return count;
+  }
+
   void set(std::size_t lane, const Cut& cut) {
     std::size_t corner = cut.first;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -92,6 +99,7 @@ class EverySectionKernel : public testing::TestWithParam<Isa> {
   }
 
   Random random{91};
+  std::array<Cut, kPacketCapacity> cuts;
   std::unique_ptr<CutTriangles> given = std::make_unique<CutTriangles>();
   std::unique_ptr<CutParts> parts = std::make_unique<CutParts>();
 };
@@ -100,9 +108,7 @@ TEST_P(EverySectionKernel, MeasuresAsASection) {
   std::size_t drawn = 0;
   std::size_t measured_count = 0;
   for (std::size_t round = 0; round < scaled(4000, 400); ++round) {
-    std::array<Cut, kPacketCapacity> cuts;
-    const std::size_t count = 1 + random.below(kPacketCapacity);
-    for (std::size_t i = 0; i < count; ++i) set(i, cuts[i] = draw());
+    const std::size_t count = draw_some();
     const LaneMask measured = section_kernels(GetParam()).measure(*given, count, *parts);
     ASSERT_EQ(measured & ~first_lanes(static_cast<unsigned>(count)), 0U);
     drawn += count;
@@ -134,9 +140,7 @@ TEST_P(EverySectionKernel, FindsSidesThatMayDip) {
   std::size_t dips = 0;
   std::size_t others = 0;
   for (std::size_t round = 0; round < scaled(4000, 400); ++round) {
-    std::array<Cut, kPacketCapacity> cuts;
-    const std::size_t count = 1 + random.below(kPacketCapacity);
-    for (std::size_t i = 0; i < count; ++i) set(i, cuts[i] = draw());
+    const std::size_t count = draw_some();
     const LaneMask found = section_kernels(GetParam()).may_dip(*given, count);
     ASSERT_EQ(found & ~first_lanes(static_cast<unsigned>(count)), 0U);
     ASSERT_EQ(found, section_kernels(Isa{}).may_dip(*given, count));
