@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compares `invariants` and `gaps` for all vertices with the plain search of the tests, in double, for a sample of
-// them. Microseconds of a thread for each vertex, the ratio, and the largest deviation in units of pi r^2 and of the
-// ball.
+// them. Microseconds of the first thread for each vertex, so that the ratio is of one thread only if THREADS is 1, and
+// the largest deviation in units of pi r^2 and of the ball.
 //
 //   bench_patches MESH THREADS [RADIUS IN MEAN EDGES...]
 #include <algorithm>
