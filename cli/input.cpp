@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +24,7 @@
 
 #include "output.h"
 #include "parts/manifest.h"
+#include "program.h"
 #include "task.h"
 
 namespace meshhood::cli {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,12 +24,6 @@ struct Reading {
   std::string precision = {};
   bool by_others = true;  ///< also by the reader that `read_others_by` has set
 };
-
-/// Reads a mesh file whose format `io::read_mesh` refuses; nothing if `file` is none that it knows. Throws Error.
-using OtherReader = std::function<std::optional<io::Mesh>(const std::string& file, const io::ReadOptions& options)>;
-
-/// Sets what reads the files that `io::read_mesh` refuses. Before the first command.
-void read_others_by(OtherReader reader);
 
 /// The masks of --walls and --ignored, and of vertices without a position: each empty, or #V.
 struct OwnedMasks {

@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <span>
+#include <string>
+
+#include "io/mesh_io.h"
 
 namespace meshhood::cli {
+
+/// Reads a mesh file whose format `io::read_mesh` refuses; nothing if `file` is none that it knows. Throws Error.
+using OtherReader = std::function<std::optional<io::Mesh>(const std::string& file, const io::ReadOptions& options)>;
+
+/// Sets what reads the files that `io::read_mesh` refuses. Before the first command.
+void read_others_by(OtherReader reader);
 
 /// The program as a function: runs the command that `arguments` name, without the name of the program, and returns its
 /// exit code, an error of the command included. Once in a process, which should then end: standard output is closed,

@@ -16,7 +16,6 @@
 #include "meshhood/error.h"
 
 #include "bindings.h"
-#include "cli/input.h"
 #include "cli/program.h"
 #include "interpreter.h"
 #include "io/mesh_io.h"

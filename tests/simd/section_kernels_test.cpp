@@ -17,6 +17,7 @@
 #include "patch/rim.h"
 #include "patch/section.h"
 #include "simd/sections.h"
+#include "support/exact_answer.h"
 #include "support/random.h"
 #include "support/scale.h"
 
