@@ -347,6 +347,76 @@ TEST(Patch, OfNeedlesIsExact) {
   }
 }
 
+/// Divides the face `f` around its point of these weights into rings of triangles, each half as large as the one
+/// before.
+void divide_towards(TestMesh& mesh, std::size_t f, const std::array<double, 3>& weights, int rings) {
+  const std::array<std::uint32_t, 3> outer{mesh.corners[3 * f], mesh.corners[3 * f + 1], mesh.corners[3 * f + 2]};
+  std::array<std::uint32_t, 3> last = outer;
+  for (int ring = 1; ring <= rings; ++ring) {
+    std::array<std::uint32_t, 3> next{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::array<double, 3> place{};
+      for (std::size_t j = 0; j < 3; ++j) {
+        const double weight = std::exp2(-ring) * (i == j ? 1 : 0) + (1 - std::exp2(-ring)) * weights[j];
+        for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += weight * mesh.positions[3 * outer[j] + axis];
+      }
+      next[i] = mesh.add_vertex(place[0], place[1], place[2]);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      mesh.add_face({last[i], last[j], next[j]});
+      mesh.add_face({last[i], next[j], next[i]});
+    }
+    last = next;
+  }
+  std::ranges::copy(last, mesh.corners.begin() + static_cast<std::ptrdiff_t>(3 * f));
+}
+
+/// The sphere cuts faces a millionth of its radius, on the fine mesh and not on the coarse one.
+TEST(Patch, OfTinyFacesAtTheRimIsThatOfLargeOnes) {
+  Random random(13);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < scaled(40, 8); ++i) {
+    TestMesh mesh = make_ball(1);
+    for (double& x : mesh.positions) x += random.uniform(-0.1, 0.1);
+    const auto v = static_cast<std::uint32_t>(random.below(mesh.size()));
+    const double r = random.uniform(0.3, 1.2);
+    TestMesh divided_mesh = mesh;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+      const auto far = [&](const std::array<double, 3>& weights) {
+        double sum = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          double x = -mesh.positions[3 * v + axis];
+          for (std::size_t j = 0; j < 3; ++j) x += weights[j] * mesh.positions[3 * mesh.corners[3 * f + j] + axis];
+          sum += x * x;
+        }
+        return std::sqrt(sum) > r;
+      };
+      const double share = random.uniform(0.2, 0.8);
+      const auto at = [share](double t) { return std::array{1 - t, share * t, (1 - share) * t}; };
+      if (far(at(0.05)) == far(at(0.95))) continue;
+      double near_end = 0.05;
+      double far_end = 0.95;
+      for (int step = 0; step < 60; ++step) {
+        const double middle = (near_end + far_end) / 2;
+        (far(at(middle)) == far(at(0.05)) ? near_end : far_end) = middle;
+      }
+      divide_towards(divided_mesh, f, at(near_end), 22);
+      ++count;
+    }
+    SCOPED_TRACE(std::to_string(i) + ", radius " + std::to_string(r));
+    Case coarse(mesh.finish(false));
+    Case fine(divided_mesh.finish(false));
+    const PatchMeasure expected = coarse.measure(v, r);
+    const PatchMeasure found = fine.measure(v, r);
+    EXPECT_NEAR(found.area, expected.area, 1e-12 * kPi * r * r);
+    EXPECT_NEAR(found.volume, expected.volume, 1e-12 * 4 * kPi / 3 * r * r * r);
+    fine.expect_same(v, fine.reference.around_vertex(v, r), r);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(count, 10);
+}
+
 TEST(Patch, DoesNotChangeWhereFacesAreDivided) {
   Random random(3);
   TestMesh mesh = make_ball(2);
