@@ -75,11 +75,7 @@ std::size_t Triangles::bytes() const {
 }
 
 Triangles::Triangles(const IndexView& index, const StoredFaces& faces) {
-  const std::vector<Triangle> all = triangles_in_index_order(index, faces);
-  if (all.size() > std::numeric_limits<std::uint32_t>::max() / 3) {
-    raise(ErrorCode::TooLarge, std::to_string(all.size()) + " triangles, expected at most 2^32 / 3");
-  }
-  cluster(index, all);
+  cluster(index, triangles_in_index_order(index, faces));
   if (size() == 0) raise(ErrorCode::InvalidMesh, "every face of the mesh has a wall, expected one without");
   make_fans(index.vertex_count());
   join_sides(index);
@@ -95,7 +91,13 @@ Point Triangles::normal_of(const IndexView& index, std::span<const TriangleId> s
 }
 
 /// Triangles in index order are in the order of the leaves already.
-void Triangles::cluster(const IndexView& index, std::span<const Triangle> all) {
+void Triangles::cluster(const IndexView& index, const std::vector<Triangle>& all) {
+  if (all.size() > std::numeric_limits<std::uint32_t>::max() / 3) {
+    raise(ErrorCode::TooLarge, std::to_string(all.size()) + " triangles, expected at most 2^32 / 3");
+  }
+  corners.reserve(all.size());
+  face.reserve(all.size());
+  flags.reserve(all.size());
   LeafParts parts;
   std::vector<GivenTriangle> given;  // of one leaf
   LeafId leaf = 0;

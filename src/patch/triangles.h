@@ -58,7 +58,7 @@ struct Triangles {
   [[nodiscard]] bool has_border(TriangleId t) const { return (flags[t] & 7U) != 0; }
 
  private:
-  void cluster(const IndexView& index, std::span<const Triangle> all);
+  void cluster(const IndexView& index, const std::vector<Triangle>& all);
   void make_fans(std::size_t places);
   void join_sides(const IndexView& index);
 };
