@@ -31,7 +31,7 @@
 /// as sides do. A face with a wall (see masks.h), or with fewer than three corners, is not there. Vertices at the same
 /// place are not one: weld a mesh that has such.
 ///
-/// A surface makes what all searches share at the first of them, and again after a refit: about 53 bytes a triangle, in
+/// A surface makes what all searches share at the first of them, and again after a refit: about 41 bytes a triangle, in
 /// O(#V + #corners log #corners). Error{InvalidMesh} if no face is there.
 namespace meshhood MESHHOOD_API {
 

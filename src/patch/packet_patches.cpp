@@ -226,16 +226,14 @@ void PacketPatches::follow_dips() {
 void PacketPatches::follow(const Dip& dip) {
   constexpr std::size_t kMostExtras = 64;  // so that a list is searched in little time
   const Triangles& all = state_->triangles;
-  const std::uint32_t begin = 3 * dip.triangle + static_cast<std::uint32_t>(dip.side);
-  for (std::uint32_t side = all.ring[begin]; side != begin && is_found(dip.query); side = all.ring[side]) {
-    const TriangleId t = side / 3;
-    if (has(dip.query, t)) continue;
+  all.for_each_beside(dip.triangle, dip.side, [&](TriangleId t) {
+    if (!is_found(dip.query) || has(dip.query, t)) return;
     const std::array<Point, 3> corners = corners_of(*state_->index, all.corners[t]);
     const auto is_inside = [&](const Point& corner) { return balls_[dip.query].contains(corner); };
     if (extras_[dip.query].size() == kMostExtras || std::ranges::any_of(corners, is_inside)) return leave(dip.query);
     extras_[dip.query].push_back(t);
     add_section(t, dip.query);
-  }
+  });
 }
 
 }  // namespace meshhood

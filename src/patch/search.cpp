@@ -123,11 +123,6 @@ void PatchSearch::leave(ClusterId cluster) {
   }
 }
 
-void PatchSearch::visit_ring(TriangleId t, std::size_t side) {
-  const std::uint32_t begin = 3 * t + static_cast<std::uint32_t>(side);
-  for (std::uint32_t i = state_->triangles.ring[begin]; i != begin; i = state_->triangles.ring[i]) visit(i / 3);
-}
-
 void PatchSearch::add_whole(TriangleId t, const PatchTriangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
   const Point area = 0.5 * cross(ball_.scale * (b - a), ball_.scale * (c - a));
@@ -145,7 +140,7 @@ void PatchSearch::add_cut(TriangleId t, const PatchTriangle& triangle) {
   }
   Section section(ball_, triangle);
   for (std::size_t i = 0; i < 3; ++i) {
-    if (section.dips(i)) visit_ring(t, i);
+    if (section.dips(i)) state_->triangles.for_each_beside(t, i, [&](TriangleId other) { visit(other); });
     add_side(i, section.meets(i));
   }
   if (measures_) sums_.add_cut(section, ball_);

@@ -51,7 +51,6 @@ class PatchSearch {
   void take(ClusterId cluster);
   void leave(ClusterId cluster);
   void visit_fan(std::uint32_t place);
-  void visit_ring(TriangleId t, std::size_t side);
   void add_whole(TriangleId t, const PatchTriangle& triangle);
   void add_cut(TriangleId t, const PatchTriangle& triangle);
 

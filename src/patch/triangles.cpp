@@ -71,14 +71,14 @@ std::size_t bytes_of(const Arrays&... arrays) {
 }  // namespace
 
 std::size_t Triangles::bytes() const {
-  return bytes_of(corners, face, flags, ring, first_fan, fans, first_of_cluster, loose);
+  return bytes_of(corners, face, flags, first_fan, fans, first_of_cluster, loose);
 }
 
 Triangles::Triangles(const IndexView& index, const StoredFaces& faces) {
   cluster(index, triangles_in_index_order(index, faces));
   if (size() == 0) raise(ErrorCode::InvalidMesh, "every face of the mesh has a wall, expected one without");
   make_fans(index.vertex_count());
-  join_sides(index);
+  find_borders(index);
 }
 
 Point Triangles::normal_of(const IndexView& index, std::span<const TriangleId> some) const {
@@ -150,16 +150,6 @@ void Triangles::make_fans(std::size_t places) {
 
 namespace {
 
-/// A side of a triangle, seen from the end that comes first.
-struct TriangleSide {
-  std::uint32_t last;    // its other end
-  std::uint32_t owner;   // the face of a diagonal
-  std::uint32_t number;  // three times its triangle, plus its number there
-  bool is_reversed;
-
-  [[nodiscard]] bool is_of(const TriangleSide& other) const { return last == other.last && owner == other.owner; }
-};
-
 /// The neighbors of a vertex that come after it in index order, ascending; no walls.
 void later_neighbors(const IndexView& index, std::uint32_t place, std::vector<std::uint32_t>& neighbors) {
   neighbors.clear();
@@ -173,41 +163,39 @@ void later_neighbors(const IndexView& index, std::uint32_t place, std::vector<st
 
 }  // namespace
 
-/// The sides whose first end is a place, sorted so that those of a ring follow each other.
-void Triangles::join_sides(const IndexView& index) {
-  constexpr std::uint32_t kSharedSide = std::numeric_limits<std::uint32_t>::max();
-  ring.resize(3 * size());
-  std::vector<TriangleSide> sides;
+/// The sides whose first end is a place, sorted so that the same ones follow each other.
+void Triangles::find_borders(const IndexView& index) {
+  struct Given {
+    Side side;
+    TriangleId triangle;
+    std::uint32_t number;  // of the side there
+  };
+  std::vector<Given> sides;
   std::vector<std::uint32_t> ends;       // of sides that are no diagonals
   std::vector<std::uint32_t> neighbors;  // the ends of edges
   for (std::uint32_t first = 0; first < index.vertex_count(); ++first) {
     sides.clear();
     for (const TriangleId t : fan(first)) {
       for (std::uint32_t i = 0; i < 3; ++i) {
-        const std::uint32_t a = corners[t][i];
-        const std::uint32_t b = corners[t][(i + 1) % 3];
-        if (std::min(a, b) != first) continue;
-        sides.push_back({std::max(a, b), (flags[t] >> (3 + i) & 1U) != 0 ? face[t] : kSharedSide, 3 * t + i, a > b});
+        if (const Side side = side_of(t, i); side.first == first) sides.push_back({side, t, i});
       }
     }
-    std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
-      return std::tie(a.last, a.owner, a.number) < std::tie(b.last, b.owner, b.number);
+    std::sort(sides.begin(), sides.end(), [](const Given& a, const Given& b) {
+      return std::tie(a.side.last, a.side.owner) < std::tie(b.side.last, b.side.owner);
     });
     for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
       std::int64_t balance = 0;
-      for (end = begin; end < sides.size() && sides[end].is_of(sides[begin]); ++end) {
-        balance += sides[end].is_reversed ? -1 : 1;
+      for (end = begin; end < sides.size() && sides[end].side == sides[begin].side; ++end) {
+        balance += corners[sides[end].triangle][sides[end].number] == first ? 1 : -1;
       }
-      if (sides[begin].last == first) balance = 0;  // a corner that is listed twice is no side
-      for (std::size_t i = begin; i < end; ++i) {
-        const std::uint32_t side = sides[i].number;
-        ring[side] = sides[i + 1 < end ? i + 1 : begin].number;
-        if (balance != 0) flags[side / 3] |= static_cast<std::uint8_t>(1U << side % 3);
+      if (sides[begin].side.last == first) balance = 0;  // a corner that is listed twice is no side
+      for (std::size_t i = begin; i < end && balance != 0; ++i) {
+        flags[sides[i].triangle] |= static_cast<std::uint8_t>(1U << sides[i].number);
       }
     }
     ends.clear();
-    for (const TriangleSide& side : sides) {
-      if (side.owner == kSharedSide && side.last != first) ends.push_back(side.last);
+    for (const auto& [side, triangle, number] : sides) {
+      if (side.owner == Side::kShared && side.last != first) ends.push_back(side.last);
     }
     later_neighbors(index, first, neighbors);
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
