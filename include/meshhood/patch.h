@@ -81,7 +81,7 @@ struct ClippedMesh {
   [[nodiscard]] MeshView view() const&& = delete;
 };
 
-/// Answers one start at a time; one for each thread. Owns 8 bytes for each vertex and triangle. Shares the memory of
+/// Answers one start at a time; one for each thread. Owns 8 bytes a vertex and 4 a triangle. Shares the memory of
 /// the surface, which may be moved or destroyed. After a refit, make a new one. One that has been moved from can be
 /// assigned and destroyed.
 ///
@@ -140,7 +140,7 @@ struct Invariants {
 /// The patches of a leaf are found together, from the neighborhoods of its vertices. Of an index with ignored vertices,
 /// and where a neighborhood is joined by an edge that is no side of a face without walls, each is searched alone. A row
 /// depends on surface, vertex and radius alone, bit for bit. Each thread owns 5 bytes a vertex and, if it searches
-/// alone, 8 more for each vertex and triangle. Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled},
+/// alone, 8 more and 4 a triangle. Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled},
 /// naming the row.
 [[nodiscard]] Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run = {});
 

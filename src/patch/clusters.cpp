@@ -40,7 +40,9 @@ Cluster add_up(const IndexView& index, const Triangles& triangles, TriangleId be
 
 Clusters::Clusters(const IndexView& index, const Triangles& triangles) : of_triangle(triangles.size()) {
   const std::size_t count = triangles.first_of_cluster.size() - 1;
+  clusters.reserve(count + 1);
   for (ClusterId cluster = 0; cluster < count; ++cluster) add(index, triangles, cluster);
+  corners.shrink_to_fit();
   clusters.push_back({});
   clusters.back().first_corner = static_cast<std::uint32_t>(corners.size());
   list_by_leaf(index);
@@ -74,6 +76,7 @@ void Clusters::list_by_leaf(const IndexView& index) {
   }
   std::sort(all.begin(), all.end());
   first_of_leaf.assign(index.leaf_count() + 1, 0);
+  of_leaf.reserve(all.size());
   for (const auto& [leaf, cluster] : all) {
     ++first_of_leaf[leaf + std::size_t{1}];
     of_leaf.push_back(cluster);

@@ -14,8 +14,7 @@ PatchSearch::PatchSearch(const PatchState& state)
     : state_(&state),
       inside_(state.index->vertex_count()),
       seen_(state.triangles.size()),
-      kinds_(state.clusters.size()),
-      triangles_(state.triangles.size() + 1) {}
+      kinds_(state.clusters.size()) {}
 
 std::vector<TriangleId> PatchSearch::triangles() const {
   const Triangles& all = state_->triangles;
@@ -46,8 +45,9 @@ inline PatchSearch::Kind PatchSearch::kind_of(ClusterId cluster) {
   return kinds_.set(cluster, is_whole ? Kind::Whole : Kind::Partial);
 }
 
-/// Without a branch, because it is seldom clear what was seen before.
+/// Without a branch on what was seen before, which is seldom clear.
 inline void PatchSearch::visit(TriangleId t) {
+  if (seen_count_ == triangles_.size()) triangles_.resize(2 * seen_count_ + 64);
   triangles_[seen_count_] = t;
   seen_count_ += static_cast<std::size_t>(seen_[t] != epoch_);
   seen_[t] = epoch_;

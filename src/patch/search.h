@@ -59,7 +59,7 @@ class PatchSearch {
   std::vector<std::uint32_t> seen_;    // by triangle: the last run that has seen it
   EpochArray<Kind> kinds_;             // by cluster
   std::uint32_t epoch_ = 0;            // the number of the run
-  std::vector<TriangleId> triangles_;  // seen, in this order; and room for one more than all
+  std::vector<TriangleId> triangles_;  // seen, in this order; and room
   std::size_t seen_count_ = 0;
   std::vector<ClusterId> clusters_;  // taken
   PatchSums sums_;
