@@ -137,11 +137,10 @@ struct Invariants {
 /// outward normals, (2 pi / 3 r^3 - volume) 4 / (pi r^4) is its mean curvature.
 ///
 /// query  as of a batch. Error{InvalidOption} unless its metric is `Straight`.
-/// The patches of a leaf are found together, from the neighborhoods of its vertices. Of an index with ignored vertices,
-/// and where a neighborhood is joined by an edge that is no side of a face without walls, each is searched alone. A row
-/// depends on surface, vertex and radius alone, bit for bit. Each thread owns 5 bytes a vertex and, if it searches
-/// alone, 8 more and 4 a triangle. Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled},
-/// naming the row.
+/// The patches of a leaf are found together, from the neighborhoods of its vertices. Where a neighborhood is joined by
+/// an edge that is no side of a face without walls, each is searched alone. A row depends on surface, vertex and radius
+/// alone, bit for bit. Each thread owns 5 bytes a vertex and, if it searches alone, 8 more and 4 a triangle. Throws
+/// Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run = {});
 
 /// `PatchSearcher::gap` of many vertices, one for each row; #radii by #rows if the query has scales. Throws as

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -83,6 +84,24 @@ void Clusters::list_by_leaf(const IndexView& index) {
   }
   std::partial_sum(first_of_leaf.begin(), first_of_leaf.end(), first_of_leaf.begin());
 }
+
+namespace {
+
+Index without_ignored(const Index& given) {
+  if (IndexAccess::view(given).ignored.empty()) return IndexAccess::alias(given);
+  auto view = std::make_shared<IndexView>(IndexAccess::view(given));
+  view->ignored = {};
+  return IndexAccess::make(std::move(view), IndexAccess::share_graph(given));
+}
+
+}  // namespace
+
+PatchState::PatchState(const Index& given, const StoredFaces& all)
+    : searched(without_ignored(given)),
+      index(&IndexAccess::view(searched)),
+      faces(&all),
+      triangles(*index, all),
+      clusters(*index, triangles) {}
 
 std::size_t Clusters::bytes() const {
   const auto bytes_of = [](const auto& array) { return array.size() * sizeof(array[0]); };

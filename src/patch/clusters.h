@@ -8,6 +8,7 @@
 
 #include "base/frame.h"
 #include "base/vector.h"
+#include "exact/index_access.h"
 #include "exact/layout.h"
 #include "exact/stored_faces.h"
 #include "patch/triangles.h"
@@ -62,10 +63,10 @@ struct Clusters {
 
 /// What all searches of the patches of a surface share. The walls of the index are left out.
 struct PatchState {
-  /// Borrows the index and the faces.
-  PatchState(const IndexView& given, const StoredFaces& all)
-      : index(&given), faces(&all), triangles(given, all), clusters(given, triangles) {}
+  /// Borrows the faces.
+  PatchState(const Index& given, const StoredFaces& all);
 
+  Index searched;  // answers with ignored vertices, too, which are on the surface as others are
   const IndexView* index;
   const StoredFaces* faces;
   Triangles triangles;
@@ -73,7 +74,7 @@ struct PatchState {
 
   /// Whether the vertices of a patch that are in its ball are the neighborhood of its center, but for loose edges,
   /// diagonals, and sides that dip into the ball.
-  [[nodiscard]] bool follows_neighborhoods() const { return triangles.are_of_index && index->ignored.empty(); }
+  [[nodiscard]] bool follows_neighborhoods() const { return triangles.are_of_index; }
 
   [[nodiscard]] std::size_t bytes() const { return triangles.bytes() + clusters.bytes(); }
 };

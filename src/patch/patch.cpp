@@ -157,11 +157,10 @@ class PacketVisit {
 
 void for_each_patch(const Surface& surface, const BatchQuery& query, bool measures, const Run& run,
                     const std::function<void(std::size_t place, const FoundPatch& patch)>& visit) {
-  const SurfaceState& all = SurfaceAccess::state(surface);
-  const PatchState& state = all.patches();
+  const PatchState& state = SurfaceAccess::state(surface).patches();
   check_metric(query);
   for_each_packet(
-      all.searched, query,
+      state.searched, query,
       [&](unsigned /*thread*/) -> PacketVisitor {
         const auto visits = std::make_shared<PacketVisit>(state, measures, visit);
         return [visits](const PacketAnswer& answer) { visits->run(answer); };

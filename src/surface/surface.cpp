@@ -113,7 +113,7 @@ const Normals& Surface::State::normals(TaskContext& task) const {
 }
 
 const PatchState& Surface::State::patches() const {
-  return made_patches.get([&] { return PatchState(*index, faces()); });
+  return made_patches.get([&] { return PatchState(searched, faces()); });
 }
 
 // Of the positions in index order, for the sums and the bits of `vertex_areas`.
