@@ -9,6 +9,7 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -230,9 +231,9 @@ class Aggregation {
       const std::size_t count = std::min(together_, signal_.channels - first);
       const Reduction reduction = make_reductions(first, count);
       if (shares_search()) {
-        reduce_scales(reduction, first, count);
+        reduce_scales(reduction, passes_, first, count);
       } else {
-        for (const std::size_t i : passes_) reduce_radius(reduction, i, first, count);
+        for (const std::size_t& i : passes_) reduce_scales(reduction, std::span(&i, 1), first, count);
       }
     }
   }
@@ -258,47 +259,33 @@ class Aggregation {
                next_pass(blocks_));
   }
 
-  void reduce_radius(const Reduction& reduction, std::size_t radius, std::size_t first, std::size_t count) {
-    for_each_packet(
-        index_, query_of(radii_[radius]),
-        [&](unsigned /*thread*/) -> PacketVisitor {
-          const std::shared_ptr<PacketReducer> reducer = reduction();
-          const auto nodes = std::make_shared<MaximalNodes>(tree_);
-          return [nodes, reducer, to = destination(radius, first, count)](const PacketAnswer& packet) {
-            nodes->reduce(packet, *reducer);
-            to.write(packet, *reducer);
-          };
-        },
-        {.lengths = needs_lengths()}, next_pass());
-  }
-
-  /// One search for all scales: what belongs to a smaller one is cut from what was found at the largest.
-  void reduce_scales(const Reduction& reduction, std::size_t first, std::size_t count) {
+  /// Reduces what one search finds at each of some scales. What belongs to a smaller one is cut from the largest.
+  void reduce_scales(const Reduction& reduction, std::span<const std::size_t> scales, std::size_t first,
+                     std::size_t count) {
     struct Cut {
-      PatchCutter cutter;
+      std::optional<PatchCutter> cutter;
       std::unique_ptr<PacketReducer> reducer;
       Destination to;
     };
+    const auto radius_of = [&](std::size_t scale) { return radii_[scale].common(); };
+    const std::size_t largest = *std::ranges::max_element(scales, {}, radius_of);
     for_each_packet(
-        index_, query_of(*std::ranges::max_element(radii_, {}, &BatchRadius::common)),
+        index_, {.vertices = query_.vertices, .radius = radii_[largest], .metric = query_.metric},
         [&](unsigned /*thread*/) -> PacketVisitor {
           const auto cuts = std::make_shared<std::vector<Cut>>();
-          for (const std::size_t i : passes_) {
-            cuts->push_back({PatchCutter(view_, tree_, radii_[i].common()), reduction(), destination(i, first, count)});
+          for (const std::size_t i : scales) {
+            cuts->push_back({{}, reduction(), destination(i, first, count)});
+            if (shares_search()) cuts->back().cutter.emplace(view_, tree_, radius_of(i));
           }
           const auto nodes = std::make_shared<MaximalNodes>(tree_);
           return [nodes, cuts](const PacketAnswer& packet) {
             for (Cut& cut : *cuts) {
-              nodes->reduce(cut.cutter.cut(packet), *cut.reducer);
+              nodes->reduce(cut.cutter ? cut.cutter->cut(packet) : packet, *cut.reducer);
               cut.to.write(packet, *cut.reducer);
             }
           };
         },
         {.lengths = needs_lengths()}, next_pass());
-  }
-
-  [[nodiscard]] BatchQuery query_of(const BatchRadius& radius) const {
-    return {.vertices = query_.vertices, .radius = radius, .metric = query_.metric};
   }
 
   /// Whether one search serves all scales. By rings, each has its own: their rows have lengths only one by one.
