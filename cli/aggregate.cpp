@@ -22,7 +22,6 @@
 #include "options.h"
 #include "row_table.h"
 #include "size_limit.h"
-#include "task.h"
 #include "vertex_files.h"
 
 namespace meshhood::cli {
@@ -128,8 +127,8 @@ class AggregateQuantity : public Quantity {
     const double least_bytes = task.files.table.is_csv() ? 2 : 8;  // of a number: a digit and a comma
     SizeLimit(task.files.first(), max_bytes_)
         .check({task.rows.size(), numbers}, least_bytes * static_cast<double>(numbers));
-    Task shown("computing", {"rows", static_cast<double>(task.options.scale_count())});
-    return aggregate(index, signal, query, {.threads = task.options.threads, .progress = shown.progress()});
+    return task.while_shown("computing", task.options.scale_count(),
+                            [&](const Run& run) { return aggregate(index, signal, query, run); });
   }
 
   /// Of several channels, the names of the properties end in the number of the channel.

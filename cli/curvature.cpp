@@ -32,12 +32,6 @@ constexpr std::array kStates{StateName{CurvatureState::Fitted, "fitted", "fitted
                              StateName{CurvatureState::TooFew, "too_few", "of too few vertices"},
                              StateName{CurvatureState::NoNormal, "no_normal", "without a normal"}};
 
-/// Radius after radius.
-template <class T>
-void append(std::vector<T>& all, const std::vector<T>& some) {
-  all.insert(all.end(), some.begin(), some.end());
-}
-
 class CurvatureQuantity : public Quantity {
  public:
   void add_options(CLI::App& command) override {
@@ -51,16 +45,9 @@ class CurvatureQuantity : public Quantity {
     const Surface surface(task.input.exact_index(task.options.threads), task.input.surface());
     CurvatureOptions settings = like_libigl_ ? like_libigl() : CurvatureOptions{};
     settings.filter = !no_filter_;
-    Curvatures all;
-    task.for_each_scale("fitting", [&](const BatchQuery& query, const Run& run) {
-      const Curvatures found = curvatures(surface, query, settings, run);
-      append(all.k1, found.k1);
-      append(all.k2, found.k2);
-      append(all.d1, found.d1);
-      append(all.d2, found.d2);
-      append(all.state, found.state);
-    });
-    return table_of(task, std::move(all));
+    return table_of(task, task.while_shown("fitting", task.options.scale_count(), [&](const Run& run) {
+      return curvatures(surface, task.rows.query(), settings, run);
+    }));
   }
 
  private:

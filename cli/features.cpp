@@ -24,7 +24,6 @@
 #include "names.h"
 #include "options.h"
 #include "row_table.h"
-#include "task.h"
 
 namespace meshhood::cli {
 namespace {
@@ -143,10 +142,10 @@ class FeaturesQuantity : public Quantity {
     for (const std::string& name : kinds_) kinds.push_back(value_of(kKinds, name));
     const Surface surface(task.input.exact_index(task.options.threads), task.input.surface());
     const bool has_rows = !task.options.row_radii.empty();
-    Task shown("measuring", {"rows", static_cast<double>(scales.size())});
-    return features(surface, has_rows ? task.rows.query() : task.rows.query(BatchRadius::scales(scales)),
-                    {.kinds = kinds, .filter = !no_filter_},
-                    {.threads = task.options.threads, .progress = shown.progress()});
+    const BatchQuery query = has_rows ? task.rows.query() : task.rows.query(BatchRadius::scales(scales));
+    return task.while_shown("measuring", scales.size(), [&](const Run& run) {
+      return features(surface, query, {.kinds = kinds, .filter = !no_filter_}, run);
+    });
   }
 
   void add_features(RowTable& table, std::vector<double> values, std::size_t scales) const {

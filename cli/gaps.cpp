@@ -13,7 +13,6 @@
 
 #include "commands.h"
 #include "row_table.h"
-#include "task.h"
 
 namespace meshhood::cli {
 namespace {
@@ -23,10 +22,8 @@ class GapsQuantity : public Quantity {
   RowTable compute(const RowTask& task) override {
     const Surface surface(task.input.exact_index(task.options.threads), task.input.surface());
     RowTable table = task.table();
-    const std::vector<SurfacePoint> all = [&] {
-      Task shown("searching", {"rows", static_cast<double>(table.scales)});
-      return gaps(surface, task.rows.query(), {.threads = task.options.threads, .progress = shown.progress()});
-    }();
+    const std::vector<SurfacePoint> all = task.while_shown(
+        "searching", table.scales, [&](const Run& run) { return gaps(surface, task.rows.query(), run); });
     std::vector<double> distances;
     std::vector<std::int64_t> faces;  // -1 where there is none
     std::vector<double> points;

@@ -12,7 +12,6 @@
 
 #include "commands.h"
 #include "row_table.h"
-#include "task.h"
 
 namespace meshhood::cli {
 namespace {
@@ -22,10 +21,8 @@ class InvariantsQuantity : public Quantity {
   RowTable compute(const RowTask& task) override {
     const Surface surface(task.input.exact_index(task.options.threads), task.input.surface());
     RowTable table = task.table();
-    Invariants found = [&] {
-      Task shown("measuring", {"rows", static_cast<double>(table.scales)});
-      return invariants(surface, task.rows.query(), {.threads = task.options.threads, .progress = shown.progress()});
-    }();
+    Invariants found = task.while_shown("measuring", table.scales,
+                                        [&](const Run& run) { return invariants(surface, task.rows.query(), run); });
     const auto none = std::ranges::count_if(found.volume, [](double volume) { return std::isnan(volume); });
     table.columns = {{"area", std::move(found.area), table.scales}, {"volume", std::move(found.volume), table.scales}};
     table.add_properties({"area", "volume"});

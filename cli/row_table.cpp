@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -16,7 +17,6 @@
 #include "io/mesh_io.h"
 #include "methods.h"
 #include "options.h"
-#include "task.h"
 
 namespace meshhood::cli {
 namespace {
@@ -223,15 +223,6 @@ void RowTable::add_properties(std::initializer_list<std::string_view> names) {
       const std::size_t channels = std::ranges::find(columns, name, &Column::name)->channels;
       add_property_of_scale(name, name, scale, 0, std::max<std::size_t>(1, channels));
     }
-  }
-}
-
-void RowTask::for_each_scale(std::string_view description,
-                             const std::function<void(const BatchQuery&, const Run&)>& compute) const {
-  const std::size_t scales = options.scale_count();
-  Task task(description, {"rows", static_cast<double>(scales)});
-  for (std::size_t i = 0; i < scales; ++i) {
-    compute(rows.query_of_scale(i), {.threads = options.threads, .progress = task.progress(i, scales)});
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -21,6 +20,7 @@
 #include "output.h"
 #include "row_query.h"
 #include "table_file.h"
+#include "task.h"
 
 /// The commands that compute a quantity of each row: numbers of a vertex at one or several radii. What is read, which
 /// rows, the files and what is printed are one for all; a new command is a `Quantity`.
@@ -108,9 +108,12 @@ struct RowTask {
             .scale_names = options.radii.values};
   }
 
-  /// Calls `compute(query, run)` for each scale. `description` is for the display of the progress.
-  void for_each_scale(std::string_view description,
-                      const std::function<void(const BatchQuery&, const Run&)>& compute) const;
+  /// What `find(run)` returns, which finds all scales. `description` is for the display of the progress.
+  template <class F>
+  auto while_shown(std::string_view description, std::size_t scales, const F& find) const {
+    Task shown(description, {"rows", static_cast<double>(scales)});
+    return find(Run{.threads = options.threads, .progress = shown.progress()});
+  }
 };
 
 /// A command that writes a table.

@@ -22,17 +22,14 @@ class UnconnectedQuantity : public Quantity {
   RowTable compute(const RowTask& task) override {
     task.input.ignore_welded();
     const Index& index = task.input.exact_index(task.options.threads);
+    RowTable table = task.table();
+    Unconnected all = task.while_shown(
+        "searching", table.scales, [&](const Run& run) { return nearest_unconnected(index, task.rows.query(), run); });
     std::vector<std::int64_t> others;  // -1 where there is none
-    std::vector<double> distances;
-    task.for_each_scale("searching", [&](const BatchQuery& query, const Run& run) {
-      const Unconnected found = nearest_unconnected(index, query, run);
-      for (const VertexId v : found.vertices) others.push_back(v == kNoVertex ? -1 : std::int64_t{v});
-      distances.insert(distances.end(), found.distances.begin(), found.distances.end());
-    });
+    for (const VertexId v : all.vertices) others.push_back(v == kNoVertex ? -1 : std::int64_t{v});
     const auto none = static_cast<std::size_t>(std::count(others.begin(), others.end(), -1));
     const std::size_t found = others.size() - none;
-    RowTable table = task.table();
-    table.columns = {{"other", std::move(others), table.scales}, {"distance", std::move(distances), table.scales}};
+    table.columns = {{"other", std::move(others), table.scales}, {"distance", std::move(all.distances), table.scales}};
     table.add_properties({"other", "distance"});
     table.shown = fmt::format("distance_{}", table.scales - 1);
     table.summary = {{"found", found}, {"none", none}};

@@ -121,8 +121,7 @@ class BatchRadius {
   BatchRadius(Range&& radii) : list_(std::span<const double>(radii)) {}
 
   /// Several radii, at least one, in any order, each for all rows: the result then has a leading axis, radius after
-  /// radius. For `counts`, `aggregate`, `corrected_curvatures`, `features`, `invariants` and `gaps`; other
-  /// calls throw Error{InvalidRadius}.
+  /// radius, and what is meant by #rows is #radii by #rows. Calls that list neighborhoods throw Error{InvalidRadius}.
   [[nodiscard]] static BatchRadius scales(std::vector<double> radii) {
     BatchRadius result;
     result.scales_ = std::move(radii);

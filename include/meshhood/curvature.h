@@ -114,7 +114,7 @@ struct CurvatureMemory {
 /// principal curvatures at that vertex.
 /// A neighborhood of fewer than six vertices is extended by the nearest vertex that an edge joins to it, until it has
 /// six.
-/// query    as for a batch: one radius for all rows, or one for each row.
+/// query    as for `counts`: one radius for all rows, or one for each, or scales.
 /// A row depends on surface, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls,
 /// threads or the processor. O(size of the neighborhoods) in the worst case; the common part of the neighborhoods of a
 /// leaf is summed once.

@@ -25,10 +25,10 @@ struct Unconnected {
 /// So the edge of a sheet that bends back into the ball counts as well as another component, and a larger radius may
 /// connect what was not. With an infinite radius, only other components count.
 ///
-/// query    as for a batch: one radius for all rows, or one for each row. By paths, the neighborhood has the vertices
-///          within `r` along the edges, and the ball is that of radius `r` in space. A number of edges is no radius in
-///          space: by rings, the nearest of all other vertices is found. Walls and ignored vertices are never the
-///          nearest, and for a wall there is none. Not by `Metric::Space`, in which nothing is connected.
+/// query    as for `counts`: one radius for all rows, or one for each, or scales. By paths, the neighborhood has the
+///          vertices within `r` along the edges, and the ball is that of radius `r` in space. A number of edges is no
+///          radius in space: by rings, the nearest of all other vertices is found. Walls and ignored vertices are never
+///          the nearest, and for a wall there is none. Not by `Metric::Space`, in which nothing is connected.
 ///
 /// The neighborhoods are found as by `counts`; what the tree of the index has in the balls besides them is searched,
 /// the nearest first. So far away from any other sheet, all leaves that the surface of a ball meets are compared with

@@ -9,23 +9,19 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "meshhood/error.h"
 
-#include "aggregate/kernel_sums.h"
 #include "aggregate/listed_sums.h"
 #include "aggregate/maximal_nodes.h"
-#include "aggregate/minima.h"
 #include "aggregate/node_tree.h"
 #include "aggregate/patch_cutter.h"
-#include "aggregate/quantiles.h"
+#include "aggregate/reductions.h"
 #include "aggregate/signal_block.h"
-#include "aggregate/sums.h"
-#include "aggregate/variances.h"
-#include "aggregate/weighted_sums.h"
 #include "batch/packets.h"
 #include "batch/rows.h"
 #include "exact/index_access.h"
@@ -126,84 +122,62 @@ SignalBlock make_block(const IndexView& index, SignalView signal, std::size_t fi
   return {index, signal, first, count, compares ? MissingValues::Propagate : missing, !compares};
 }
 
-std::unique_ptr<Reduction> make_reduction(const IndexView& index, const NodeTree& tree, SignalBlock block,
-                                          Reduce reduce, const AggregateQuery& query) {
-  const AggregateKernels& kernels = aggregate_kernels(best_isa());
+Reduction make_reduction(const IndexView& index, const NodeTree& tree, SignalBlock block, Reduce reduce,
+                         const AggregateQuery& query) {
   switch (reduce) {
     case Reduce::Minimum:
-    case Reduce::Maximum:
-      return std::make_unique<MinimumReduction>(tree, kernels, std::move(block), reduce == Reduce::Maximum,
-                                                query.missing);
+    case Reduce::Maximum: return minimum_reduction(tree, std::move(block), reduce == Reduce::Maximum, query.missing);
     case Reduce::Variance:
     case Reduce::StandardDeviation:
-      return std::make_unique<VarianceReduction>(
-          tree, kernels, std::move(block),
-          VarianceOptions{.root = reduce == Reduce::StandardDeviation, .ddof = query.ddof});
-    case Reduce::Median: return std::make_unique<QuantileReduction>(tree, std::move(block), 0.5, query.missing);
-    case Reduce::Quantile:
-      return std::make_unique<QuantileReduction>(tree, std::move(block), query.quantile, query.missing);
+      return variance_reduction(tree, std::move(block), {reduce == Reduce::StandardDeviation, query.ddof});
+    case Reduce::Median: return quantile_reduction(tree, std::move(block), 0.5, query.missing);
+    case Reduce::Quantile: return quantile_reduction(tree, std::move(block), query.quantile, query.missing);
     case Reduce::Sum:
     case Reduce::Mean:
     case Reduce::Count: break;
   }
   SumColumns columns(std::move(block), reduce);
-  if (query.kernel == SmoothingKernel::Box) {
-    return std::make_unique<SumReduction>(tree, kernels, std::move(columns));
-  }
+  if (query.kernel == SmoothingKernel::Box) return sum_reduction(tree, std::move(columns));
   const bool has_lengths = is_along_edges(query.metric);
   if (has_lengths || query.kernel == SmoothingKernel::Gaussian) {
-    return std::make_unique<WeightedReduction>(index, kernels, std::move(columns), query.kernel, has_lengths);
+    return weighted_reduction(index, std::move(columns), query.kernel, has_lengths);
   }
-  return std::make_unique<KernelSumReduction>(index, tree, kernels, std::move(columns),
-                                              query.kernel == SmoothingKernel::Biweight);
+  return kernel_sum_reduction(index, tree, std::move(columns), query.kernel == SmoothingKernel::Biweight);
 }
 
 /// Several reductions of the same packets: the numbers of a channel side by side.
-class Reductions final : public Reduction {
+class Reducers final : public PacketReducer {
  public:
-  explicit Reductions(std::vector<std::unique_ptr<Reduction>> all) : all_(std::move(all)) {}
+  explicit Reducers(const std::vector<Reduction>& reductions) {
+    for (const Reduction& make_reducer : reductions) all_.push_back(make_reducer());
+  }
 
-  [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer() const override {
-    std::vector<std::unique_ptr<PacketReducer>> reducers;
-    reducers.reserve(all_.size());
-    for (const auto& reduction : all_) reducers.push_back(reduction->make_reducer());
-    return std::make_unique<Reducers>(std::move(reducers));
+  void begin(const PacketAnswer& packet) override {
+    for (const auto& reducer : all_) reducer->begin(packet);
+  }
+
+  /// The same for all: it follows from metric and kernel.
+  [[nodiscard]] bool takes_nodes() const override { return all_.front()->takes_nodes(); }
+
+  void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) override {
+    for (const auto& reducer : all_) reducer->add_nodes(nodes, queries);
+  }
+
+  void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
+    for (const auto& reducer : all_) reducer->add_leaf(vertices, queries);
+  }
+
+  void write(std::size_t row, std::span<double> numbers) override {
+    std::array<double, kChannelsOfAGaussian> channels;
+    const std::size_t count = numbers.size() / all_.size();
+    for (std::size_t k = 0; k < all_.size(); ++k) {
+      all_[k]->write(row, std::span(channels).first(count));
+      for (std::size_t i = 0; i < count; ++i) numbers[i * all_.size() + k] = channels[i];
+    }
   }
 
  private:
-  class Reducers final : public PacketReducer {
-   public:
-    explicit Reducers(std::vector<std::unique_ptr<PacketReducer>> all) : all_(std::move(all)) {}
-
-    void begin(const PacketAnswer& packet) override {
-      for (const auto& reducer : all_) reducer->begin(packet);
-    }
-
-    /// The same for all: it follows from metric and kernel.
-    [[nodiscard]] bool takes_nodes() const override { return all_.front()->takes_nodes(); }
-
-    void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) override {
-      for (const auto& reducer : all_) reducer->add_nodes(nodes, queries);
-    }
-
-    void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
-      for (const auto& reducer : all_) reducer->add_leaf(vertices, queries);
-    }
-
-    void write(std::size_t row, std::span<double> numbers) override {
-      std::array<double, kChannelsOfAGaussian> channels;
-      const std::size_t count = numbers.size() / all_.size();
-      for (std::size_t k = 0; k < all_.size(); ++k) {
-        all_[k]->write(row, std::span(channels).first(count));
-        for (std::size_t i = 0; i < count; ++i) numbers[i * all_.size() + k] = channels[i];
-      }
-    }
-
-   private:
-    std::vector<std::unique_ptr<PacketReducer>> all_;
-  };
-
-  std::vector<std::unique_ptr<Reduction>> all_;
+  std::vector<std::unique_ptr<PacketReducer>> all_;
 };
 
 /// The destination of the results of one radius and some channels.
@@ -255,23 +229,23 @@ class Aggregation {
     if (passes_.empty()) return;
     for (std::size_t first = 0; first < signal_.channels; first += together_) {
       const std::size_t count = std::min(together_, signal_.channels - first);
-      const Reductions reductions = make_reductions(first, count);
+      const Reduction reduction = make_reductions(first, count);
       if (shares_search()) {
-        reduce_scales(reductions, first, count);
+        reduce_scales(reduction, passes_, first, count);
       } else {
-        for (const std::size_t i : passes_) reduce_radius(reductions, i, first, count);
+        for (const std::size_t& i : passes_) reduce_scales(reduction, std::span(&i, 1), first, count);
       }
     }
   }
 
  private:
-  [[nodiscard]] Reductions make_reductions(std::size_t first, std::size_t count) const {
-    std::vector<std::unique_ptr<Reduction>> all;
+  [[nodiscard]] Reduction make_reductions(std::size_t first, std::size_t count) const {
+    std::vector<Reduction> all;
     for (const Reduce reduce : query_.reduce) {
       SignalBlock block = make_block(view_, signal_, first, count, reduce, query_.missing);
       all.push_back(make_reduction(view_, tree_, std::move(block), reduce, query_));
     }
-    return Reductions(std::move(all));
+    return reduction_of<Reducers>(std::move(all));
   }
 
   [[nodiscard]] bool is_listed(const BatchRadius& radius) const {
@@ -285,48 +259,33 @@ class Aggregation {
                next_pass(blocks_));
   }
 
-  void reduce_radius(const Reduction& reduction, std::size_t radius, std::size_t first, std::size_t count) {
-    for_each_packet(
-        index_, query_of(radii_[radius]),
-        [&](unsigned /*thread*/) -> PacketVisitor {
-          const std::shared_ptr<PacketReducer> reducer = reduction.make_reducer();
-          const auto nodes = std::make_shared<MaximalNodes>(tree_);
-          return [nodes, reducer, to = destination(radius, first, count)](const PacketAnswer& packet) {
-            nodes->reduce(packet, *reducer);
-            to.write(packet, *reducer);
-          };
-        },
-        {.lengths = needs_lengths()}, next_pass());
-  }
-
-  /// One search for all scales: what belongs to a smaller one is cut from what was found at the largest.
-  void reduce_scales(const Reduction& reduction, std::size_t first, std::size_t count) {
+  /// Reduces what one search finds at each of some scales. What belongs to a smaller one is cut from the largest.
+  void reduce_scales(const Reduction& reduction, std::span<const std::size_t> scales, std::size_t first,
+                     std::size_t count) {
     struct Cut {
-      PatchCutter cutter;
+      std::optional<PatchCutter> cutter;
       std::unique_ptr<PacketReducer> reducer;
       Destination to;
     };
+    const auto radius_of = [&](std::size_t scale) { return radii_[scale].common(); };
+    const std::size_t largest = *std::ranges::max_element(scales, {}, radius_of);
     for_each_packet(
-        index_, query_of(*std::ranges::max_element(radii_, {}, &BatchRadius::common)),
+        index_, {.vertices = query_.vertices, .radius = radii_[largest], .metric = query_.metric},
         [&](unsigned /*thread*/) -> PacketVisitor {
           const auto cuts = std::make_shared<std::vector<Cut>>();
-          for (const std::size_t i : passes_) {
-            cuts->push_back({PatchCutter(view_, tree_, radii_[i].common()), reduction.make_reducer(),
-                             destination(i, first, count)});
+          for (const std::size_t i : scales) {
+            cuts->push_back({{}, reduction(), destination(i, first, count)});
+            if (shares_search()) cuts->back().cutter.emplace(view_, tree_, radius_of(i));
           }
           const auto nodes = std::make_shared<MaximalNodes>(tree_);
           return [nodes, cuts](const PacketAnswer& packet) {
             for (Cut& cut : *cuts) {
-              nodes->reduce(cut.cutter.cut(packet), *cut.reducer);
+              nodes->reduce(cut.cutter ? cut.cutter->cut(packet) : packet, *cut.reducer);
               cut.to.write(packet, *cut.reducer);
             }
           };
         },
         {.lengths = needs_lengths()}, next_pass());
-  }
-
-  [[nodiscard]] BatchQuery query_of(const BatchRadius& radius) const {
-    return {.vertices = query_.vertices, .radius = radius, .metric = query_.metric};
   }
 
   /// Whether one search serves all scales. By rings, each has its own: their rows have lengths only one by one.

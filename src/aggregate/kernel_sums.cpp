@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "aggregate/kernel_sums.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <variant>
+#include <vector>
 
+#include "aggregate/reductions.h"
 #include "base/vector.h"
 #include "shared/distance.h"
+#include "simd/aggregate.h"
 #include "simd/gaussian.h"
 
 namespace meshhood {
@@ -115,14 +116,40 @@ PerLane<double> filled(double number) {
   return row;
 }
 
+/// These weights are polynomials of the square of the distance, so the sum over a node follows from moments of the
+/// values over the node (see `AggregateKernels::add_moments`).
+struct KernelSums {
+  /// Marks the nodes of which few values are much larger than the others.
+  void mark_uneven(const Column& column);
+
+  const IndexView* index;
+  const NodeTree* tree;
+  SumColumns columns;
+  bool squared;
+  std::vector<std::vector<Moments>> moments = {};  // by column, then by node
+  std::vector<bool> uneven = {};                   // by node, in one of the columns
+};
+
+void KernelSums::mark_uneven(const Column& column) {
+  uneven.resize(tree->size());
+  for (NodeTree::Node node = 0; node < tree->size(); ++node) {
+    const VertexRange vertices = tree->vertices(node);
+    const auto values = std::span(column).subspan(vertices.begin, vertices.size());
+    double largest = 0;
+    for (const double value : values) largest = std::max(largest, std::abs(value));
+    std::size_t small = 0;
+    for (const double value : values) small += static_cast<std::size_t>(std::abs(value) < largest / kUneven);
+    if (2 * small > values.size()) uneven[node] = true;
+  }
+}
+
 class KernelSumReducer final : public PacketReducer {
  public:
-  explicit KernelSumReducer(const KernelSumReduction& reduction)
-      : reduction_(&reduction), sums_(reduction.columns().size()) {}
+  explicit KernelSumReducer(const KernelSums& tables) : tables_(&tables), sums_(tables.columns.size()) {}
 
   void begin(const PacketAnswer& packet) override {
     for (RowSums& sums : sums_) sums = {};
-    const IndexView& index = reduction_->index();
+    const IndexView& index = *tables_->index;
     for (std::size_t row = 0; row < packet.vertices.size(); ++row) {
       const std::uint32_t slot = index.slot[packet.vertices[row]];
       centers_.set(row, index.position(leaf_of(slot), lane_of(slot)));
@@ -137,22 +164,19 @@ class KernelSumReducer final : public PacketReducer {
   }
 
   void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
-    const AggregateKernels& kernels = reduction_->kernels();
     std::visit(
         [&](auto xyz) {
           for (std::size_t k = 0; k < vertices.size(); ++k) {
             if (queries[k] == 0) continue;
-            kernels.set_offsets(point(xyz, vertices.begin + k), centers_, offsets_);
-            kernels.set_weights(offsets_, squares_, reduction_->squared(), weights_[k]);
+            kernels_->set_offsets(point(xyz, vertices.begin + k), centers_, offsets_);
+            kernels_->set_weights(offsets_, squares_, tables_->squared, weights_[k]);
           }
         },
-        reduction_->index().positions);
-    reduction_->columns().add_weighted(kernels, vertices, queries, weights_, sums_);
+        tables_->index->positions);
+    tables_->columns.add_weighted(*kernels_, vertices, queries, weights_, sums_);
   }
 
-  void write(std::size_t row, std::span<double> channels) override {
-    reduction_->columns().write(sums_, row, channels);
-  }
+  void write(std::size_t row, std::span<double> channels) override { tables_->columns.write(sums_, row, channels); }
 
  private:
   /// The rows whose radius has one unit.
@@ -177,7 +201,7 @@ class KernelSumReducer final : public PacketReducer {
   void set_radius(std::size_t row, double radius) {
     if (radius == given_[row]) return;  // nearly all rows of a call have one radius
     given_[row] = radius;
-    in_frame_[row] = radius * reduction_->index().frame.scale;
+    in_frame_[row] = radius * tables_->index->frame.scale;
     const bool has_square = radius > 0 && std::isfinite(radius);
     centers_.unit[row] = has_square ? std::ldexp(1.0, std::min(-std::ilogb(radius), 1000)) : 0;
     radius_[row] = has_square ? radius * centers_.unit[row] : 1;  // for weights of 1, all offsets are 0
@@ -193,8 +217,8 @@ class KernelSumReducer final : public PacketReducer {
   void add_node(NodeTree::Node node, QueryWord queries) {
     QueryWord inner = queries & with_moments_for(node);
     if (inner != 0) {
-      reduction_->kernels().set_offsets(reduction_->tree().center(node), centers_, offsets_);
-      if (reduction_->is_uneven(node)) inner &= inside_the_rim(node);
+      kernels_->set_offsets(tables_->tree->center(node), centers_, offsets_);
+      if (tables_->uneven[node]) inner &= inside_the_rim(node);
     }
     if (inner != 0) add_moments(node, inner);
     if (inner != queries) add_parts(node, queries & ~inner);
@@ -204,7 +228,7 @@ class KernelSumReducer final : public PacketReducer {
   [[nodiscard]] QueryWord inside_the_rim(NodeTree::Node node) const {
     QueryWord word = 0;
     for (const auto& [unit, rows] : units_) {
-      const double size = static_cast<double>(reduction_->tree().sphere(node).radius) * from_frame(unit);
+      const double size = static_cast<double>(tables_->tree->sphere(node).radius) * from_frame(unit);
       for_each_lane(rows, [&](unsigned row) {
         const double most = radius_[row] * (1 - kRim) - size;
         // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): the checker loses the binding `unit`
@@ -220,18 +244,18 @@ class KernelSumReducer final : public PacketReducer {
     for (const auto& [unit, rows] : units_) {
       if ((rows & inner) == 0) continue;
       for (std::size_t i = 0; i < sums_.size(); ++i) {
-        const Moments moments = rescaled(reduction_->moments(i, node), from_frame(unit));
-        reduction_->kernels().add_moments(moments, offsets_, squares_, reduction_->squared(), rows & inner, sums_[i]);
+        const Moments moments = rescaled(tables_->moments[i][node], from_frame(unit));
+        kernels_->add_moments(moments, offsets_, squares_, tables_->squared, rows & inner, sums_[i]);
       }
     }
   }
 
-  [[nodiscard]] double from_frame(double unit) const { return unit / reduction_->index().frame.scale; }
+  [[nodiscard]] double from_frame(double unit) const { return unit / tables_->index->frame.scale; }
 
   /// The vertices of a node that is added lie in the ball, but its sphere, whose center is rounded to floats, may be
   /// larger. Then offsets from the center are longer than the radius, and their sums would cancel.
   [[nodiscard]] QueryWord with_moments_for(NodeTree::Node node) const {
-    const double least = std::max(static_cast<double>(reduction_->tree().sphere(node).radius), kLeastRadius);
+    const double least = std::max(static_cast<double>(tables_->tree->sphere(node).radius), kLeastRadius);
     if (least_in_frame_ >= least) return ~QueryWord{0};
     QueryWord word = 0;
     for (const auto& [unit, rows] : units_) {
@@ -241,7 +265,7 @@ class KernelSumReducer final : public PacketReducer {
   }
 
   void add_parts(NodeTree::Node node, QueryWord queries) {
-    const NodeTree& tree = reduction_->tree();
+    const NodeTree& tree = *tables_->tree;
     if (tree.is_leaf(node)) {
       PerLane<QueryWord> words;
       words.fill(queries);
@@ -252,7 +276,8 @@ class KernelSumReducer final : public PacketReducer {
     }
   }
 
-  const KernelSumReduction* reduction_;
+  const KernelSums* tables_;
+  const AggregateKernels* kernels_ = &aggregate_kernels(best_isa());
   PerLane<double> given_ = filled(std::numeric_limits<double>::quiet_NaN());  // the radius of each row, NaN if unknown
   PerLane<double> in_frame_{};
   PerLane<double> radius_ = filled(1);  // in the unit of the row
@@ -267,30 +292,13 @@ class KernelSumReducer final : public PacketReducer {
 
 }  // namespace
 
-KernelSumReduction::KernelSumReduction(const IndexView& index, const NodeTree& tree, const AggregateKernels& kernels,
-                                       SumColumns columns, bool squared)
-    : index_(&index), tree_(&tree), kernels_(&kernels), columns_(std::move(columns)), squared_(squared) {
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    moments_.push_back(moments_by_node(index, tree, columns_.column(i)));
-    mark_uneven(columns_.column(i));
+Reduction kernel_sum_reduction(const IndexView& index, const NodeTree& tree, SumColumns columns, bool squared) {
+  KernelSums tables{&index, &tree, std::move(columns), squared};
+  for (std::size_t i = 0; i < tables.columns.size(); ++i) {
+    tables.moments.push_back(moments_by_node(index, tree, tables.columns.column(i)));
+    tables.mark_uneven(tables.columns.column(i));
   }
-}
-
-void KernelSumReduction::mark_uneven(const Column& column) {
-  uneven_.resize(tree_->size());
-  for (NodeTree::Node node = 0; node < tree_->size(); ++node) {
-    const VertexRange vertices = tree_->vertices(node);
-    const auto values = std::span(column).subspan(vertices.begin, vertices.size());
-    double largest = 0;
-    for (const double value : values) largest = std::max(largest, std::abs(value));
-    std::size_t small = 0;
-    for (const double value : values) small += static_cast<std::size_t>(std::abs(value) < largest / kUneven);
-    if (2 * small > values.size()) uneven_[node] = true;
-  }
-}
-
-std::unique_ptr<PacketReducer> KernelSumReduction::make_reducer() const {
-  return std::make_unique<KernelSumReducer>(*this);
+  return reduction_of<KernelSumReducer>(std::move(tables));
 }
 
 double smoothing_radius(double fwhm) {

@@ -1,22 +1,66 @@
 // SPDX-License-Identifier: MIT
-#include "aggregate/minima.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "aggregate/reductions.h"
 #include "shared/distance.h"
+#include "simd/aggregate.h"
 
 namespace meshhood {
 namespace {
 
 constexpr double kAboveAll = std::numeric_limits<double>::infinity();
 
+/// Of negated values for the maximum.
+struct Minima {
+  struct Channel {
+    Column values;
+    bool has_nan;
+    std::vector<double> of_nodes;
+  };
+
+  Minima(const NodeTree& tree, SignalBlock block, bool maximum, MissingValues missing);
+
+  /// NaN if a NaN propagates, or if there is nothing else.
+  [[nodiscard]] double minimum_of(std::span<const double> values) const;
+
+  bool maximum;
+  bool propagates;
+  std::vector<Channel> channels;
+};
+
+Minima::Minima(const NodeTree& tree, SignalBlock block, bool is_maximum, MissingValues missing)
+    : maximum(is_maximum), propagates(missing == MissingValues::Propagate) {
+  for (Column& values : block.values()) {
+    if (maximum) {
+      for (double& value : values) value = -value;
+    }
+    std::vector<double> minima =
+        reduced_by_node(tree, values, [&](std::span<const double> some) { return minimum_of(some); });
+    const bool has_nan = std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
+    channels.push_back({std::move(values), has_nan, std::move(minima)});
+  }
+}
+
+double Minima::minimum_of(std::span<const double> values) const {
+  double least = kNan;
+  for (const double value : values) {
+    if (std::isnan(value)) {
+      if (propagates) return kNan;
+    } else if (!(least <= value)) {
+      least = value;
+    }
+  }
+  return least;
+}
+
 class MinimumReducer final : public PacketReducer {
  public:
-  explicit MinimumReducer(const MinimumReduction& reduction)
-      : reduction_(&reduction), rows_(reduction.channels().size()) {}
+  explicit MinimumReducer(const Minima& minima) : minima_(&minima), rows_(minima.channels.size()) {}
 
   void begin(const PacketAnswer& /*packet*/) override {
     for (Rows& rows : rows_) {
@@ -28,13 +72,13 @@ class MinimumReducer final : public PacketReducer {
 
   void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) override {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      lower(i, std::span(reduction_->channels()[i].node_minima).subspan(nodes.begin, nodes.size()), queries);
+      lower(i, std::span(minima_->channels[i].of_nodes).subspan(nodes.begin, nodes.size()), queries);
     }
   }
 
   void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const auto values = std::span(reduction_->channels()[i].values).subspan(vertices.begin, vertices.size());
+      const auto values = std::span(minima_->channels[i].values).subspan(vertices.begin, vertices.size());
       lower(i, values, queries);
     }
   }
@@ -42,9 +86,9 @@ class MinimumReducer final : public PacketReducer {
   void write(std::size_t row, std::span<double> channels) override {
     for (std::size_t i = 0; i < channels.size(); ++i) {
       const Rows& rows = rows_[i];
-      const QueryWord nan = ~rows.with_number | (reduction_->propagates() ? rows.with_nan : 0);
+      const QueryWord nan = ~rows.with_number | (minima_->propagates ? rows.with_nan : 0);
       const bool is_nan = (nan >> row & 1U) != 0;
-      channels[i] = is_nan ? kNan : reduction_->is_maximum() ? -rows.minima[row] : rows.minima[row];
+      channels[i] = is_nan ? kNan : minima_->maximum ? -rows.minima[row] : rows.minima[row];
     }
   }
 
@@ -59,7 +103,7 @@ class MinimumReducer final : public PacketReducer {
     Rows& rows = rows_[channel];
     PerLane<double> numbers{};
     PerLane<QueryWord> words{};
-    if (reduction_->channels()[channel].has_nan) {
+    if (minima_->channels[channel].has_nan) {
       for (std::size_t k = 0; k < values.size(); ++k) {
         const bool is_nan = std::isnan(values[k]);
         (is_nan ? rows.with_nan : rows.with_number) |= queries[k];
@@ -71,52 +115,18 @@ class MinimumReducer final : public PacketReducer {
     } else {
       for (std::size_t k = 0; k < values.size(); ++k) rows.with_number |= queries[k];
     }
-    reduction_->kernels().lower_minima(values, queries, rows.minima);
+    kernels_->lower_minima(values, queries, rows.minima);
   }
 
-  const MinimumReduction* reduction_;
+  const Minima* minima_;
+  const AggregateKernels* kernels_ = &aggregate_kernels(best_isa());
   std::vector<Rows> rows_;  // by channel
 };
 
 }  // namespace
 
-MinimumReduction::MinimumReduction(const NodeTree& tree, const AggregateKernels& kernels, SignalBlock block,
-                                   bool maximum, MissingValues missing)
-    : kernels_(&kernels), maximum_(maximum), missing_(missing) {
-  for (Column& values : block.values()) {
-    if (maximum) {
-      for (double& value : values) value = -value;
-    }
-    std::vector<double> minima(tree.size());
-    for (NodeTree::Node node = 0; node < tree.size(); ++node) {
-      if (tree.is_leaf(node)) {
-        const VertexRange vertices = tree.vertices(node);
-        minima[node] = minimum_of(std::span(values).subspan(vertices.begin, vertices.size()));
-      } else {
-        const auto [begin, end] = tree.children(node);
-        minima[node] = minimum_of(std::span(minima).subspan(begin, end - begin));
-      }
-    }
-    const bool has_nan = std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
-    channels_.push_back({std::move(values), has_nan, std::move(minima)});
-  }
-}
-
-/// NaN if a NaN propagates, or if there is nothing else.
-double MinimumReduction::minimum_of(std::span<const double> values) const {
-  double least = kNan;
-  for (const double value : values) {
-    if (std::isnan(value)) {
-      if (propagates()) return kNan;
-    } else if (!(least <= value)) {
-      least = value;
-    }
-  }
-  return least;
-}
-
-std::unique_ptr<PacketReducer> MinimumReduction::make_reducer() const {
-  return std::make_unique<MinimumReducer>(*this);
+Reduction minimum_reduction(const NodeTree& tree, SignalBlock block, bool maximum, MissingValues missing) {
+  return reduction_of<MinimumReducer>(Minima(tree, std::move(block), maximum, missing));
 }
 
 }  // namespace meshhood

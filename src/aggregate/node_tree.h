@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "meshhood/search.h"
 
@@ -73,5 +75,21 @@ class NodeTree {
 
   const IndexView* index_;
 };
+
+/// Of each node, `reduce` of the values of its vertices, or of what this gave for its children.
+template <class F>
+[[nodiscard]] std::vector<double> reduced_by_node(const NodeTree& tree, std::span<const double> values, F&& reduce) {
+  std::vector<double> result(tree.size());
+  for (NodeTree::Node node = 0; node < tree.size(); ++node) {
+    if (tree.is_leaf(node)) {
+      const VertexRange vertices = tree.vertices(node);
+      result[node] = reduce(values.subspan(vertices.begin, vertices.size()));
+    } else {
+      const auto [begin, end] = tree.children(node);
+      result[node] = reduce(std::span(result).subspan(begin, end - begin));
+    }
+  }
+  return result;
+}
 
 }  // namespace meshhood

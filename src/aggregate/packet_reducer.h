@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "aggregate/node_tree.h"
 #include "exact/joint/packet_answer.h"
@@ -36,16 +38,13 @@ class PacketReducer {
   virtual void write(std::size_t row, std::span<double> channels) = 0;
 };
 
-/// The tables that reducers of one kind share. Immutable.
-class Reduction {
- public:
-  Reduction() = default;
-  Reduction(const Reduction&) = delete;
-  Reduction& operator=(const Reduction&) = delete;
-  virtual ~Reduction() = default;
+/// Makes the reducer of a thread. Any thread may call it.
+using Reduction = std::function<std::unique_ptr<PacketReducer>()>;
 
-  /// Any thread.
-  [[nodiscard]] virtual std::unique_ptr<PacketReducer> make_reducer() const = 0;
-};
+/// Makes reducers of one kind, which share tables.
+template <class Reducer, class Tables>
+[[nodiscard]] Reduction reduction_of(Tables tables) {
+  return [shared = std::make_shared<const Tables>(std::move(tables))] { return std::make_unique<Reducer>(*shared); };
+}
 
 }  // namespace meshhood

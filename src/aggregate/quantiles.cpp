@@ -1,18 +1,51 @@
 // SPDX-License-Identifier: MIT
-#include "aggregate/quantiles.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <utility>
+#include <vector>
 
+#include "aggregate/reductions.h"
 #include "base/number_set.h"
 #include "shared/distance.h"
 
 namespace meshhood {
 namespace {
+
+/// A vertex has a rank by its value, so that the vertices of a packet are read in order without sorting them, once for
+/// all of its rows.
+struct Ranks {
+  struct Channel {
+    std::vector<std::uint32_t> ranks;  // by place; those of NaN are the last
+    std::vector<double> values;        // by rank; no NaN
+  };
+
+  const NodeTree* tree;
+  double quantile;
+  bool propagates;  // NaN
+  std::vector<Channel> channels;
+};
+
+std::vector<Ranks::Channel> rank(const std::vector<Column>& block) {
+  std::vector<Ranks::Channel> channels;
+  for (const Column& values : block) {
+    std::vector<std::uint32_t> places(values.size() - kLeafCapacity);
+    std::iota(places.begin(), places.end(), 0U);
+    const auto numbers =
+        std::partition(places.begin(), places.end(), [&](std::uint32_t place) { return !std::isnan(values[place]); });
+    // Equal values by place, so that the sign of a zero depends on the row alone.
+    std::sort(places.begin(), numbers,
+              [&](std::uint32_t a, std::uint32_t b) { return std::pair(values[a], a) < std::pair(values[b], b); });
+    Ranks::Channel channel{std::vector<std::uint32_t>(places.size()), {}};
+    for (std::uint32_t rank = 0; rank < places.size(); ++rank) channel.ranks[places[rank]] = rank;
+    for (auto place = places.begin(); place != numbers; ++place) channel.values.push_back(values[*place]);
+    channels.push_back(std::move(channel));
+  }
+  return channels;
+}
 
 /// The vertices of a packet in the order of their values, each with the word of its rows.
 class OrderedRows {
@@ -67,10 +100,10 @@ class OrderedRows {
 
 class QuantileReducer final : public PacketReducer {
  public:
-  explicit QuantileReducer(const QuantileReduction& reduction)
-      : reduction_(&reduction),
-        results_(reduction.channels().size()),
-        words_of_rank_(reduction.channels().front().ranks.size()),
+  explicit QuantileReducer(const Ranks& ranks)
+      : of_all_(&ranks),
+        results_(ranks.channels.size()),
+        words_of_rank_(ranks.channels.front().ranks.size()),
         ranks_(words_of_rank_.size()) {}
 
   void begin(const PacketAnswer& packet) override {
@@ -83,7 +116,7 @@ class QuantileReducer final : public PacketReducer {
   void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) override {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (queries[k] == 0) continue;
-      parts_.push_back({reduction_->tree().vertices(nodes.begin + static_cast<NodeTree::Node>(k)), queries[k], 0});
+      parts_.push_back({of_all_->tree->vertices(nodes.begin + static_cast<NodeTree::Node>(k)), queries[k], 0});
     }
   }
 
@@ -94,7 +127,7 @@ class QuantileReducer final : public PacketReducer {
 
   void write(std::size_t row, std::span<double> channels) override {
     if (!are_found_) {
-      for (std::size_t i = 0; i < channels.size(); ++i) find(reduction_->channels()[i], results_[i]);
+      for (std::size_t i = 0; i < channels.size(); ++i) find(of_all_->channels[i], results_[i]);
       are_found_ = true;
     }
     for (std::size_t i = 0; i < channels.size(); ++i) channels[i] = results_[i][row];
@@ -108,7 +141,7 @@ class QuantileReducer final : public PacketReducer {
     std::size_t first;  // of `words_`
   };
 
-  void find(const QuantileReduction::Channel& channel, PerLane<double>& results) {
+  void find(const Ranks::Channel& channel, PerLane<double>& results) {
     for (const Part& part : parts_) {
       for (std::size_t k = 0; k < part.vertices.size(); ++k) {
         const QueryWord word = part.word != 0 ? part.word : words_[part.first + k];
@@ -126,16 +159,16 @@ class QuantileReducer final : public PacketReducer {
       with_nan |= word;
     });
     for (std::size_t row = 0; row < rows_; ++row) {
-      const bool is_nan = reduction_->propagates() && (with_nan >> row & 1U) != 0;
+      const bool is_nan = of_all_->propagates && (with_nan >> row & 1U) != 0;
       results[row] = is_nan ? kNan : result(channel, row);
     }
   }
 
   /// Between two values by linear interpolation, as in NumPy.
-  double result(const QuantileReduction::Channel& channel, std::size_t row) {
+  double result(const Ranks::Channel& channel, std::size_t row) {
     const std::size_t count = ordered_.count(row);
     if (count == 0) return kNan;
-    const double place = reduction_->quantile() * static_cast<double>(count - 1);
+    const double place = of_all_->quantile * static_cast<double>(count - 1);
     const double share = place - std::floor(place);
     const std::size_t at = ordered_.place_of(row, static_cast<std::size_t>(place));
     const double lower = channel.values[ordered_.rank(at)];
@@ -144,7 +177,7 @@ class QuantileReducer final : public PacketReducer {
     return lower == upper ? lower : (1 - share) * lower + share * upper;
   }
 
-  const QuantileReduction* reduction_;
+  const Ranks* of_all_;
   std::size_t rows_ = 0;
   std::vector<Part> parts_;
   std::vector<QueryWord> words_;
@@ -157,25 +190,9 @@ class QuantileReducer final : public PacketReducer {
 
 }  // namespace
 
-QuantileReduction::QuantileReduction(const NodeTree& tree, SignalBlock block, double quantile, MissingValues missing)
-    : tree_(&tree), quantile_(quantile), missing_(missing) {
-  for (const Column& values : block.values()) {
-    std::vector<std::uint32_t> places(values.size() - kLeafCapacity);
-    std::iota(places.begin(), places.end(), 0U);
-    const auto numbers =
-        std::partition(places.begin(), places.end(), [&](std::uint32_t place) { return !std::isnan(values[place]); });
-    // Equal values by place, so that the sign of a zero depends on the row alone.
-    std::sort(places.begin(), numbers,
-              [&](std::uint32_t a, std::uint32_t b) { return std::pair(values[a], a) < std::pair(values[b], b); });
-    Channel channel{std::vector<std::uint32_t>(places.size()), {}};
-    for (std::uint32_t rank = 0; rank < places.size(); ++rank) channel.ranks[places[rank]] = rank;
-    for (auto place = places.begin(); place != numbers; ++place) channel.values.push_back(values[*place]);
-    channels_.push_back(std::move(channel));
-  }
-}
-
-std::unique_ptr<PacketReducer> QuantileReduction::make_reducer() const {
-  return std::make_unique<QuantileReducer>(*this);
+Reduction quantile_reduction(const NodeTree& tree, SignalBlock block, double quantile, MissingValues missing) {
+  return reduction_of<QuantileReducer>(
+      Ranks{&tree, quantile, missing == MissingValues::Propagate, rank(block.values())});
 }
 
 }  // namespace meshhood

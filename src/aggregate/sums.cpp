@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "aggregate/compensated.h"
+#include "aggregate/reductions.h"
 
 namespace meshhood {
 namespace {
@@ -17,23 +17,14 @@ double sum_of(std::span<const double> values) {
   return sum.value();
 }
 
-std::vector<double> sums_by_node(const NodeTree& tree, const Column& column) {
-  std::vector<double> sums(tree.size());
-  for (NodeTree::Node node = 0; node < tree.size(); ++node) {
-    if (tree.is_leaf(node)) {
-      const VertexRange vertices = tree.vertices(node);
-      sums[node] = sum_of(std::span(column).subspan(vertices.begin, vertices.size()));
-    } else {
-      const auto [begin, end] = tree.children(node);
-      sums[node] = sum_of(std::span(sums).subspan(begin, end - begin));
-    }
-  }
-  return sums;
-}
+struct SumTables {
+  SumColumns columns;
+  std::vector<std::vector<double>> of_nodes;  // by column
+};
 
 class SumReducer final : public PacketReducer {
  public:
-  explicit SumReducer(const SumReduction& reduction) : reduction_(&reduction), sums_(reduction.columns().size()) {}
+  explicit SumReducer(const SumTables& tables) : tables_(&tables), sums_(tables.columns.size()) {}
 
   void begin(const PacketAnswer& /*packet*/) override {
     for (RowSums& sums : sums_) sums = {};
@@ -41,24 +32,23 @@ class SumReducer final : public PacketReducer {
 
   void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) override {
     for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const auto values = std::span(reduction_->node_sums(i)).subspan(nodes.begin, nodes.size());
-      reduction_->kernels().add_values(values, queries, sums_[i]);
+      const auto values = std::span(tables_->of_nodes[i]).subspan(nodes.begin, nodes.size());
+      kernels_->add_values(values, queries, sums_[i]);
     }
   }
 
   void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
     for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const auto values = std::span(reduction_->columns().column(i)).subspan(vertices.begin, vertices.size());
-      reduction_->kernels().add_values(values, queries, sums_[i]);
+      const auto values = std::span(tables_->columns.column(i)).subspan(vertices.begin, vertices.size());
+      kernels_->add_values(values, queries, sums_[i]);
     }
   }
 
-  void write(std::size_t row, std::span<double> channels) override {
-    reduction_->columns().write(sums_, row, channels);
-  }
+  void write(std::size_t row, std::span<double> channels) override { tables_->columns.write(sums_, row, channels); }
 
  private:
-  const SumReduction* reduction_;
+  const SumTables* tables_;
+  const AggregateKernels* kernels_ = &aggregate_kernels(best_isa());
   std::vector<RowSums> sums_;  // by column
 };
 
@@ -113,11 +103,10 @@ double SumColumns::result(const Channel& channel, std::span<const RowSums> sums,
   return std::ldexp(sum(values) / weights, exponent);
 }
 
-SumReduction::SumReduction(const NodeTree& tree, const AggregateKernels& kernels, SumColumns columns)
-    : kernels_(&kernels), columns_(std::move(columns)) {
-  for (std::size_t i = 0; i < columns_.size(); ++i) node_sums_.push_back(sums_by_node(tree, columns_.column(i)));
+Reduction sum_reduction(const NodeTree& tree, SumColumns columns) {
+  std::vector<std::vector<double>> of_nodes;
+  for (std::size_t i = 0; i < columns.size(); ++i) of_nodes.push_back(reduced_by_node(tree, columns.column(i), sum_of));
+  return reduction_of<SumReducer>(SumTables{std::move(columns), std::move(of_nodes)});
 }
-
-std::unique_ptr<PacketReducer> SumReduction::make_reducer() const { return std::make_unique<SumReducer>(*this); }
 
 }  // namespace meshhood

@@ -1,16 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
+#include <cmath>
 #include <span>
 #include <vector>
 
-#include "aggregate/node_tree.h"
-#include "aggregate/packet_reducer.h"
 #include "aggregate/signal_block.h"
 #include "simd/aggregate.h"
 
 namespace meshhood {
+
+/// A sum as `high + low`; see `RowSums`.
+struct CompensatedSum {
+  double high = 0;
+  double low = 0;
+
+  void add(double addend) {
+    const double sum = high + addend;
+    const double rounded = sum - high;
+    low += (high - (sum - rounded)) + (addend - rounded);
+    high = sum;
+  }
+
+  /// The sum, rounded. Where it is infinite, `low` is NaN.
+  [[nodiscard]] double value() const { return std::isfinite(low) ? high + low : high; }
+};
 
 /// The columns that are added up for a sum, a mean or a count, and how the result follows from their sums.
 class SumColumns {
@@ -45,23 +59,6 @@ class SumColumns {
   Reduce reduce_;
   std::vector<Column> columns_;
   std::vector<Channel> channels_;
-};
-
-/// Sum, mean and count with the weight of a vertex alone.
-class SumReduction final : public Reduction {
- public:
-  SumReduction(const NodeTree& tree, const AggregateKernels& kernels, SumColumns columns);
-
-  [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer() const override;
-
-  [[nodiscard]] const AggregateKernels& kernels() const { return *kernels_; }
-  [[nodiscard]] const SumColumns& columns() const { return columns_; }
-  [[nodiscard]] const std::vector<double>& node_sums(std::size_t column) const { return node_sums_[column]; }
-
- private:
-  const AggregateKernels* kernels_;
-  SumColumns columns_;
-  std::vector<std::vector<double>> node_sums_;  // by column, then by node
 };
 
 }  // namespace meshhood

@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: MIT
-#include "aggregate/weighted_sums.h"
-
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
+
+#include "aggregate/reductions.h"
+#include "exact/layout.h"
+#include "simd/aggregate.h"
 
 namespace meshhood {
 namespace {
 
+struct WeightedSums {
+  const IndexView* index;
+  SumColumns columns;
+  SmoothingKernel kernel;
+};
+
 class WeightedReducer : public PacketReducer {
  public:
-  explicit WeightedReducer(const WeightedReduction& reduction)
-      : reduction_(&reduction), sums_(reduction.columns().size()) {}
+  explicit WeightedReducer(const WeightedSums& asked) : asked_(&asked), sums_(asked.columns.size()) {}
 
   [[nodiscard]] bool takes_nodes() const override { return false; }
 
@@ -25,15 +33,14 @@ class WeightedReducer : public PacketReducer {
 
   void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
     set_weights(vertices, queries, weights_);
-    reduction_->columns().add_weighted(reduction_->kernels(), vertices, queries, weights_, sums_);
+    asked_->columns.add_weighted(kernels(), vertices, queries, weights_, sums_);
   }
 
-  void write(std::size_t row, std::span<double> channels) override {
-    reduction_->columns().write(sums_, row, channels);
-  }
+  void write(std::size_t row, std::span<double> channels) override { asked_->columns.write(sums_, row, channels); }
 
  protected:
-  [[nodiscard]] const WeightedReduction& reduction() const { return *reduction_; }
+  [[nodiscard]] const WeightedSums& asked() const { return *asked_; }
+  [[nodiscard]] const AggregateKernels& kernels() const { return *kernels_; }
 
  private:
   virtual void set_packet(const PacketAnswer& packet) = 0;
@@ -41,7 +48,8 @@ class WeightedReducer : public PacketReducer {
   /// Of the vertices of a leaf, in the rows of their words.
   virtual void set_weights(const VertexRange& vertices, const QueryWord* queries, RowWeights& weights) = 0;
 
-  const WeightedReduction* reduction_;
+  const WeightedSums* asked_;
+  const AggregateKernels* kernels_ = &aggregate_kernels(best_isa());
   RowWeights weights_{};
   std::vector<RowSums> sums_;  // by column
 };
@@ -52,7 +60,7 @@ class WeightedByDistance final : public WeightedReducer {
 
  private:
   void set_packet(const PacketAnswer& packet) override {
-    const IndexView& index = reduction().index();
+    const IndexView& index = *asked().index;
     for (std::size_t row = 0; row < packet.vertices.size(); ++row) {
       const std::uint32_t slot = index.slot[packet.vertices[row]];
       centers_.set(row, index.position(leaf_of(slot), lane_of(slot)));
@@ -67,8 +75,8 @@ class WeightedByDistance final : public WeightedReducer {
         [&](auto xyz) {
           for (std::size_t k = 0; k < vertices.size(); ++k) points_[k] = point(xyz, vertices.begin + k);
         },
-        reduction().index().positions);
-    reduction().kernels().set_gaussians(std::span(points_).first(vertices.size()), queries, centers_, weights);
+        asked().index->positions);
+    kernels().set_gaussians(std::span(points_).first(vertices.size()), queries, centers_, weights);
   }
 
   PacketCenters centers_{};
@@ -90,10 +98,10 @@ class WeightedByLength final : public WeightedReducer {
   }
 
   void set_weights(const VertexRange& vertices, const QueryWord* queries, RowWeights& weights) override {
-    lengths_->select(leaf_of(reduction().index().slot_at(vertices.begin)));
+    lengths_->select(leaf_of(asked().index->slot_at(vertices.begin)));
     for (unsigned lane = 0; lane < vertices.size(); ++lane) {
       if (queries[lane] == 0) continue;
-      reduction().kernels().set_path_weights(lengths_->at(lane), divisors_, reduction().kernel(), weights[lane]);
+      kernels().set_path_weights(lengths_->at(lane), divisors_, asked().kernel, weights[lane]);
     }
   }
 
@@ -103,9 +111,10 @@ class WeightedByLength final : public WeightedReducer {
 
 }  // namespace
 
-std::unique_ptr<PacketReducer> WeightedReduction::make_reducer() const {
-  if (has_lengths_) return std::make_unique<WeightedByLength>(*this);
-  return std::make_unique<WeightedByDistance>(*this);
+Reduction weighted_reduction(const IndexView& index, SumColumns columns, SmoothingKernel kernel, bool has_lengths) {
+  WeightedSums sums{&index, std::move(columns), kernel};
+  return has_lengths ? reduction_of<WeightedByLength>(std::move(sums))
+                     : reduction_of<WeightedByDistance>(std::move(sums));
 }
 
 }  // namespace meshhood

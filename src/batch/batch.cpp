@@ -110,7 +110,7 @@ void Batch::cut_into_chunks(std::span<const std::uint64_t> in_order) {
 void for_each_packet(const Index& index, const BatchQuery& query, const PacketVisitorFactory& make_visitor,
                      const PacketOptions& options, const Run& run) {
   if (!make_visitor) raise(ErrorCode::InvalidOption, "make_visitor is empty, expected a function");
-  const std::vector<BatchRadius> passes = options.scales ? radius_of_passes(query.radius) : std::vector{query.radius};
+  const std::vector<BatchRadius> passes = radius_of_passes(query.radius);
   Batch batch(index, {query.vertices, passes.front(), query.metric}, {}, run, passes.size());
   std::vector<PacketVisitor> visitors(batch.task().threads());
   for (std::size_t i = 0; i < passes.size(); ++i) {

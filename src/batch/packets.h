@@ -22,12 +22,10 @@ using PacketVisitorFactory = std::function<PacketVisitor(unsigned thread)>;
 struct PacketOptions {
   /// Whether packets have lengths, by paths and by rings. Rings are then searched row by row.
   bool lengths = false;
-
-  /// Whether the query may have scales: all rows are then visited for each, and numbered as a result #radii by #rows.
-  bool scales = false;
 };
 
 /// Visits the neighborhoods of all rows of `query` by its metric, each row in one packet, packets in no stated order.
+/// With scales, all rows are visited for each, and numbered as a result #radii by #rows.
 ///
 /// The visitors run on the worker threads, one for each thread, so that each may have scratch memory of its own. They
 /// must not write to the same memory, except that each row belongs to one packet: `result[rows[i]] = ...` is safe.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meshhood/curvature.h"
@@ -13,6 +14,7 @@
 
 #include "base/prefetch.h"
 #include "base/vector.h"
+#include "batch/rows.h"
 #include "curvature/direct_fit.h"
 #include "curvature/jet.h"
 #include "curvature/packet_moments.h"
@@ -131,13 +133,21 @@ void check_sizes(const CurvatureMemory& memory, std::size_t rows) {
   check("count", memory.count.size(), rows);
 }
 
+/// The radii of the closed balls that have the vertices nearer than `radius`; a ball of radius 0 has its vertex. What
+/// is no radius stays so. A list is written into `memory`.
+BatchRadius opened(const BatchRadius& radius, std::vector<double>& memory) {
+  const auto open = [](double r) { return r > 0 ? std::nextafter(r, 0.0) : r; };
+  if (!radius.list() && !radius.scales()) return open(radius.common());
+  const auto radii = radius.list() ? *radius.list() : std::span<const double>(*radius.scales());
+  for (const double r : radii) memory.push_back(open(r));
+  return radius.list() ? BatchRadius(memory) : BatchRadius::scales(std::move(memory));
+}
+
 }  // namespace
 
 CurvatureOptions like_libigl() { return {.filter = true, .open_ball = true, .shape_operator = ShapeOperator::Libigl}; }
 
-Curvatures curvatures(const Surface& surface, const BatchQuery& query, const CurvatureOptions& options,
-                      const Run& run) {
-  const std::size_t rows = query.vertices.count(surface.vertex_count());
+Curvatures make_curvatures(std::size_t rows) {
   Curvatures result;
   result.k1.resize(rows);
   result.k2.resize(rows);
@@ -145,7 +155,25 @@ Curvatures curvatures(const Surface& surface, const BatchQuery& query, const Cur
   result.d2.resize(3 * rows);
   result.state.resize(rows);
   result.count.resize(rows);
-  curvatures(surface, query, {result.k1, result.k2, result.d1, result.d2, result.state, result.count}, options, run);
+  return result;
+}
+
+CurvatureMemory memory_of(Curvatures& curvatures) {
+  return {curvatures.k1, curvatures.k2, curvatures.d1, curvatures.d2, curvatures.state, curvatures.count};
+}
+
+PacketVisitor curvature_visitor(const OrientedIndex& surface, Metric metric, const CurvatureOptions& options,
+                                const CurvatureMemory& out) {
+  const MomentSource source{.index = surface.index, .filter = options.filter ? &surface : nullptr, .metric = metric};
+  const auto fitter = std::make_shared<CurvatureFitter>(surface, metric, options, out);
+  return moment_visitor(source, [fitter](const MomentRows& packet, const PacketMoments& sums,
+                                         const QueryMoments& moments) { fitter->fit(packet, sums, moments); });
+}
+
+Curvatures curvatures(const Surface& surface, const BatchQuery& query, const CurvatureOptions& options,
+                      const Run& run) {
+  Curvatures result = make_curvatures(result_rows(query, surface.vertex_count()));
+  curvatures(surface, query, memory_of(result), options, run);
   return result;
 }
 
@@ -155,14 +183,13 @@ void curvatures(const Surface& surface, const BatchQuery& query, const Curvature
     raise(ErrorCode::InvalidOption, "libigl's shape operator requires the quadric, not the jet");
   }
   const OrientedIndex state = SurfaceAccess::oriented(surface, run.threads);
-  check_sizes(out, query.vertices.count(surface.vertex_count()));
-  const MomentSource source{.index = state.index, .filter = options.filter ? &state : nullptr, .metric = query.metric};
-  visit_moments(*state.searched, query, options.open_ball, source, run, [&] {
-    auto fitter = std::make_shared<CurvatureFitter>(state, query.metric, options, out);
-    return [fitter](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
-      fitter->fit(packet, sums, moments);
-    };
-  });
+  check_sizes(out, result_rows(query, surface.vertex_count()));
+  BatchQuery closed = query;
+  std::vector<double> radii;
+  if (options.open_ball && query.metric != Metric::Rings) closed.radius = opened(query.radius, radii);
+  for_each_packet(
+      *state.searched, closed,
+      [&](unsigned /*thread*/) { return curvature_visitor(state, query.metric, options, out); }, {}, run);
 }
 
 double shape_index(double k1, double k2) {

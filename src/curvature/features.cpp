@@ -5,7 +5,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +18,7 @@
 
 #include "base/vector.h"
 #include "batch/rows.h"
+#include "curvature/visit_moments.h"
 #include "patch/patches.h"
 #include "shared/distance.h"
 #include "shared/text.h"
@@ -27,7 +31,6 @@ constexpr double kNoFeature = std::numeric_limits<double>::quiet_NaN();
 
 /// What a kind follows from.
 enum class Source : std::uint8_t { Curvatures, Moments, Patches };
-constexpr std::array kSources{Source::Curvatures, Source::Moments, Source::Patches};
 
 Source source_of(Feature kind) {
   switch (kind) {
@@ -79,159 +82,145 @@ double patch_feature(Feature kind, const FoundPatch& patch, double radius) {
   return patch.volume() / radius / radius / radius / (4 * std::numbers::pi / 3);
 }
 
-/// What one call of `features` computes, radius by radius.
+bool is_length(double radius) { return radius > 0 && std::isfinite(radius); }
+
+void check_is_length(double radius, const std::string& where) {
+  if (is_length(radius)) return;
+  raise(ErrorCode::InvalidRadius, where + to_text(radius) + ", expected a finite number > 0");
+}
+
+void check_radii(const BatchRadius& radius) {
+  const std::vector<BatchRadius> passes = radius_of_passes(radius);
+  const std::size_t size = radius.list() ? radius.list()->size() : passes.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    const double r = radius.list() ? (*radius.list())[i] : passes[i].common();
+    if (is_length(r)) continue;
+    check_is_length(
+        r, radius.list() ? "row " + std::to_string(i) + ": the radius is " : "radius " + std::to_string(i) + ": ");
+  }
+}
+
+/// The same packet, whose rows are numbered from 0.
+PacketAnswer numbered_by_query(PacketAnswer packet) {
+  static constexpr auto kQueries = [] {
+    std::array<std::size_t, kPacketCapacity> queries{};
+    std::iota(queries.begin(), queries.end(), std::size_t{0});
+    return queries;
+  }();
+  packet.rows = std::span(kQueries).first(packet.rows.size());
+  return packet;
+}
+
+/// What one call of `features` computes. What the kinds follow from is found of one packet at a time.
 class FeatureExtraction {
  public:
-  FeatureExtraction(const Surface& surface, const BatchQuery& query, FeatureOptions options, const Run& run)
-      : surface_(surface),
-        state_(SurfaceAccess::oriented(surface, run.threads)),
-        radii_(radius_of_passes(query.radius)),
+  FeatureExtraction(const Surface& surface, const BatchQuery& query, const FeatureOptions& options, unsigned threads)
+      : surface_(SurfaceAccess::oriented(surface, threads)),
+        kinds_(options.kinds),
         metric_(query.metric),
-        options_(std::move(options)),
-        run_(run),
-        rows_(surface.vertex_count()) {
-    if (const auto& list = query.vertices.list()) {
-      listed_.assign(list->begin(), list->end());
-      rows_ = listed_.size();
-      vertices_ = listed_;
+        curvature_options_{.filter = options.filter} {
+    if (kinds_.empty()) raise(ErrorCode::InvalidOption, "there are no kinds of features, expected at least one");
+    check_radii(query.radius);
+    const bool has_faces = surface.face_count() > 0 || surface.vertex_count() == 0;
+    if (needs(Source::Patches)) {
+      check_patches(has_faces);
+      patches_ = &SurfaceAccess::state(surface).patches();
     }
-    if (const auto& list = query.radius.list()) {
-      radius_of_row_.assign(list->begin(), list->end());
-      radii_ = {BatchRadius(radius_of_row_)};
+    if (needs(Source::Moments)) {
+      if (options.areas.empty() && !has_faces) {
+        raise(ErrorCode::InvalidOption, "height and variation of a surface without faces need `areas`");
+      }
+      const std::span<const double> given = options.areas;
+      weights_.emplace(*surface_.index, given.empty() ? surface.vertex_areas() : given);
     }
-    check();
-    if (metric_ == Metric::Rings) unit_ = mean_edge_length(*state_.searched);
+    if (metric_ == Metric::Rings) unit_ = mean_edge_length(*surface_.searched);
+    values_.resize(result_rows(query, surface.vertex_count()) * kinds_.size());
   }
 
-  std::vector<double> run() {
-    const std::size_t of_radius = rows_ * options_.kinds.size();
-    std::vector<double> result(radii_.size() * of_radius);
-    for (std::size_t i = 0; i < radii_.size(); ++i) {
-      const auto values = std::span(result).subspan(i * of_radius, of_radius);
-      if (needs(Source::Curvatures)) write_curvatures(radii_[i], values);
-      if (needs(Source::Moments)) write_moments(radii_[i], values);
-      if (needs(Source::Patches)) write_patches(radii_[i], values);
-    }
-    return result;
+  std::vector<double> run(const BatchQuery& query, const Run& run) {
+    for_each_packet(
+        *surface_.searched, query,
+        [&](unsigned /*thread*/) -> PacketVisitor {
+          std::vector<PacketVisitor> writers;
+          if (needs(Source::Curvatures)) writers.push_back(curvature_writer());
+          if (needs(Source::Moments)) writers.push_back(moment_writer());
+          if (needs(Source::Patches)) writers.push_back(patch_writer());
+          return [writers](const PacketAnswer& packet) {
+            for (const PacketVisitor& write : writers) write(packet);
+          };
+        },
+        {}, run);
+    return std::move(values_);
   }
 
  private:
   [[nodiscard]] bool needs(Source source) const {
-    return std::ranges::any_of(options_.kinds, [&](Feature kind) { return source_of(kind) == source; });
+    return std::ranges::any_of(kinds_, [&](Feature kind) { return source_of(kind) == source; });
   }
 
-  /// In the unit of the positions. A ring is as wide as an edge is long.
-  [[nodiscard]] double radius_at(const BatchRadius& radius, std::size_t row) const {
-    return unit_ * (radius.list() ? radius_of_row_[row] : radius.common());
-  }
-
-  static void check(double radius, const std::string& where) {
-    if (radius > 0 && std::isfinite(radius)) return;
-    raise(ErrorCode::InvalidRadius, where + to_text(radius) + ", expected a finite number > 0");
-  }
-
-  void check() {
-    if (options_.kinds.empty())
-      raise(ErrorCode::InvalidOption, "there are no kinds of features, expected at least one");
-    for (std::size_t i = 0; i < radius_of_row_.size(); ++i) {
-      check(radius_of_row_[i], "row " + std::to_string(i) + ": the radius is ");
-    }
-    for (std::size_t i = 0; i < radii_.size(); ++i) {
-      if (!radii_[i].list()) check(radii_[i].common(), "radius " + std::to_string(i) + ": ");
-    }
-    check_patches();
-    if (!needs(Source::Moments) || !options_.areas.empty()) return;
-    if (!has_faces()) raise(ErrorCode::InvalidOption, "height and variation of a surface without faces need `areas`");
-    options_.areas = surface_.vertex_areas();
-  }
-
-  void check_patches() const {
-    if (!needs(Source::Patches)) return;
+  void check_patches(bool has_faces) const {
     const std::string kinds = "area, volume and gap are of the surface in a ball: ";
     if (metric_ != Metric::Straight) raise(ErrorCode::InvalidOption, kinds + "expected the straight metric");
-    if (!has_faces()) raise(ErrorCode::InvalidOption, kinds + "expected a surface with faces");
+    if (!has_faces) raise(ErrorCode::InvalidOption, kinds + "expected a surface with faces");
   }
 
-  [[nodiscard]] bool has_faces() const { return surface_.face_count() > 0 || surface_.vertex_count() == 0; }
-
-  [[nodiscard]] BatchQuery query_of(const BatchRadius& radius) const {
-    return {.vertices = vertices_, .radius = radius, .metric = metric_};
-  }
-
-  /// `value(kind, row, radius)` for the kinds of a source.
+  /// `value(kind)` for the kinds of a source.
   template <class F>
-  void write(Source source, const BatchRadius& radius_of_rows, std::span<double> values, const F& value) const {
-    for (std::size_t row = 0; row < rows_; ++row) {
-      const double radius = radius_at(radius_of_rows, row);
-      write_row(source, row, values, [&](Feature kind) { return value(kind, row, radius); });
+  void write_row(Source source, std::size_t row, const F& value) {
+    for (std::size_t i = 0; i < kinds_.size(); ++i) {
+      if (source_of(kinds_[i]) == source) values_[row * kinds_.size() + i] = value(kinds_[i]);
     }
   }
 
-  /// `value(kind)`.
+  /// `value(kind, query, radius)` for the rows of a packet. A ring is as wide as an edge is long.
   template <class F>
-  void write_row(Source source, std::size_t row, std::span<double> values, const F& value) const {
-    const std::size_t kinds = options_.kinds.size();
-    for (std::size_t i = 0; i < kinds; ++i) {
-      const Feature kind = options_.kinds[i];
-      if (source_of(kind) == source) values[row * kinds + i] = value(kind);
+  void write(Source source, const PacketAnswer& packet, const F& value) {
+    for (std::size_t q = 0; q < packet.rows.size(); ++q) {
+      const double radius = unit_ * packet.radii[q];
+      write_row(source, packet.rows[q], [&](Feature kind) { return value(kind, q, radius); });
     }
   }
 
-  void write_curvatures(const BatchRadius& radii, std::span<double> values) {
-    const Curvatures k = curvatures(surface_, query_of(radii), {.filter = options_.filter}, next_pass());
-    write(Source::Curvatures, radii, values, [&](Feature kind, std::size_t row, double radius) {
-      const bool has_fit = k.state[row] != CurvatureState::TooFew && k.state[row] != CurvatureState::NoNormal;
-      return has_fit ? curvature_feature(kind, radius * k.k1[row], radius * k.k2[row]) : kNoFeature;
-    });
-  }
-
-  void write_moments(const BatchRadius& radii, std::span<double> values) {
-    const PrincipalComponents found =
-        principal_components(*state_.searched, query_of(radii), {.weights = options_.areas}, next_pass());
-    write(Source::Moments, radii, values, [&](Feature kind, std::size_t row, double radius) {
-      return moment_feature(kind, found, row, state_.normal(state_.index->place(vertices_[row])), radius);
-    });
-  }
-
-  void write_patches(const BatchRadius& radii, std::span<double> values) {
-    const bool measures = std::ranges::any_of(
-        options_.kinds, [](Feature kind) { return kind == Feature::Area || kind == Feature::Volume; });
-    for_each_patch(surface_, query_of(radii), measures, next_pass(), [&](std::size_t row, const FoundPatch& patch) {
-      write_row(Source::Patches, row, values, [&](Feature kind) { return patch_feature(kind, patch, patch.radius()); });
-    });
-  }
-
-  Run next_pass() {
-    Run pass{.threads = run_.threads};
-    if (!run_.progress) return pass;
-    std::size_t passes = 0;
-    for (const Source source : kSources) {
-      if (needs(source)) passes += radii_.size();
-    }
-    pass.progress = [this, passes, before = passes_begun_++ * rows_](std::size_t done, std::size_t /*total*/) {
-      return run_.progress(before + done, passes * rows_);
+  PacketVisitor curvature_writer() {
+    const auto k = std::make_shared<Curvatures>(make_curvatures(kPacketCapacity));
+    const PacketVisitor fit = curvature_visitor(surface_, metric_, curvature_options_, memory_of(*k));
+    return [this, k, fit](const PacketAnswer& packet) {
+      fit(numbered_by_query(packet));
+      write(Source::Curvatures, packet, [&](Feature kind, std::size_t q, double radius) {
+        const bool has_fit = k->state[q] != CurvatureState::TooFew && k->state[q] != CurvatureState::NoNormal;
+        return has_fit ? curvature_feature(kind, radius * k->k1[q], radius * k->k2[q]) : kNoFeature;
+      });
     };
-    return pass;
   }
 
-  const Surface& surface_;
-  OrientedIndex state_;
-  std::vector<BatchRadius> radii_;  // of the passes
+  PacketVisitor moment_writer() {
+    const auto found = std::make_shared<PrincipalComponents>(make_components(kPacketCapacity));
+    const PacketVisitor find = component_visitor(*surface_.searched, metric_, *weights_, *found);
+    return [this, found, find](const PacketAnswer& packet) {
+      find(numbered_by_query(packet));
+      write(Source::Moments, packet, [&](Feature kind, std::size_t q, double radius) {
+        return moment_feature(kind, *found, q, surface_.normal(surface_.index->place(packet.vertices[q])), radius);
+      });
+    };
+  }
+
+  PacketVisitor patch_writer() {
+    const bool measures =
+        std::ranges::any_of(kinds_, [](Feature kind) { return kind == Feature::Area || kind == Feature::Volume; });
+    return patch_visitor(*patches_, *surface_.index, measures, [this](std::size_t row, const FoundPatch& patch) {
+      write_row(Source::Patches, row, [&](Feature kind) { return patch_feature(kind, patch, patch.radius()); });
+    });
+  }
+
+  OrientedIndex surface_;
+  std::vector<Feature> kinds_;
   Metric metric_;
   double unit_ = 1;  // of the radii
-  FeatureOptions options_;
-  const Run& run_;
-  std::vector<VertexId> listed_;
-  BatchVertices vertices_;
-  std::vector<double> radius_of_row_;  // if there is one for each
-  std::size_t rows_;
-  std::size_t passes_begun_ = 0;
+  CurvatureOptions curvature_options_;
+  std::optional<MomentWeights> weights_;  // if a kind needs them
+  const PatchState* patches_ = nullptr;   // likewise
+  std::vector<double> values_;
 };
-
-void check_largest(double radius) {
-  if (radius > 0 && std::isfinite(radius)) return;
-  raise(ErrorCode::InvalidRadius, "radius " + to_text(radius) + ", expected a finite number > 0");
-}
 
 void check_count(std::size_t count) {
   constexpr std::size_t kMost = 1000;
@@ -265,12 +254,12 @@ Streak longest_streak(std::size_t radii, double threshold, const ValueAt& value)
 
 std::vector<double> features(const Surface& surface, const BatchQuery& query, const FeatureOptions& options,
                              const Run& run) {
-  return FeatureExtraction(surface, query, options, run).run();
+  return FeatureExtraction(surface, query, options, run.threads).run(query, run);
 }
 
 std::vector<double> geometric_radii(double smallest, double largest, std::size_t count) {
-  check_largest(smallest);
-  check_largest(largest);
+  check_is_length(smallest, "radius ");
+  check_is_length(largest, "radius ");
   check_count(count);
   if (smallest > largest) {
     raise(ErrorCode::InvalidRadius,

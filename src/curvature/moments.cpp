@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "meshhood/error.h"
 
+#include "batch/rows.h"
 #include "curvature/direct_moments.h"
 #include "curvature/packet_moments.h"
 #include "curvature/symmetric.h"
@@ -23,34 +23,17 @@
 namespace meshhood {
 namespace {
 
-/// Weights in index order, times a power of two that brings the largest to where no sum overflows and weights 2^1300
-/// times smaller are sums without loss.
-struct MomentWeights {
-  std::vector<double> values;
-  int exponent = 0;
-
-  MomentWeights(const IndexView& index, std::span<const double> given) {
-    if (given.empty()) return;
-    check(index, given);
-    const double largest = *std::max_element(given.begin(), given.end());
-    if (largest > 0) exponent = 500 - std::ilogb(largest);
-    values.reserve(given.size());
-    for (std::size_t i = 0; i < given.size(); ++i) values.push_back(std::ldexp(given[index.id(i)], exponent));
+void check_weights(const IndexView& index, std::span<const double> given) {
+  if (given.size() != index.vertex_count()) {
+    raise(ErrorCode::InvalidOption, std::to_string(given.size()) + " weights, expected one for each of " +
+                                        std::to_string(index.vertex_count()) + " vertices");
   }
-
- private:
-  static void check(const IndexView& index, std::span<const double> given) {
-    if (given.size() != index.vertex_count()) {
-      raise(ErrorCode::InvalidOption, std::to_string(given.size()) + " weights, expected one for each of " +
-                                          std::to_string(index.vertex_count()) + " vertices");
-    }
-    for (std::size_t v = 0; v < given.size(); ++v) {
-      if (given[v] >= 0 && std::isfinite(given[v])) continue;
-      raise(ErrorCode::InvalidOption,
-            "vertex " + std::to_string(v) + ": the weight is " + to_text(given[v]) + ", expected a finite number >= 0");
-    }
+  for (std::size_t v = 0; v < given.size(); ++v) {
+    if (given[v] >= 0 && std::isfinite(given[v])) continue;
+    raise(ErrorCode::InvalidOption,
+          "vertex " + std::to_string(v) + ": the weight is " + to_text(given[v]) + ", expected a finite number >= 0");
   }
-};
+}
 
 /// The moments of one row about its query vertex, as `PacketMoments` has them.
 struct RowMoments {
@@ -66,21 +49,18 @@ struct RowMoments {
   }
 };
 
-/// Calls `take` with each row, on any of the threads.
-void for_each_row(const Index& index, const BatchQuery& query, const MomentOptions& options, const Run& run,
-                  const std::function<void(std::size_t row, const RowMoments&)>& take) {
-  const IndexView& view = IndexAccess::view(index);
-  const MomentWeights weights(view, options.weights);
-  const MomentSource source{.index = &view, .weights = weights.values, .metric = query.metric};
-  visit_moments(index, query, false, source, run, [&] {
-    const auto direct = std::make_shared<DirectMoments>(index, source);
-    return [&, direct](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
-      for_each_query(packet.queries, [&](std::size_t q) {
-        if (sums.is_accurate(q)) return take(packet.rows[q], {moments, q, sums.scale(), weights.exponent});
-        direct->sum(packet.places[q], packet.radii[q]);
-        take(packet.rows[q], {direct->moments(), 0, direct->scale(), weights.exponent + direct->weight_exponent()});
-      });
-    };
+/// Calls `take(row, moments)` with each row.
+template <class F>
+PacketVisitor row_visitor(const Index& index, Metric metric, const MomentWeights& weights, F take) {
+  const MomentSource source{.index = &IndexAccess::view(index), .weights = weights.values, .metric = metric};
+  const auto direct = std::make_shared<DirectMoments>(index, source);
+  return moment_visitor(source, [take, direct, exponent = weights.exponent](
+                                    const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
+    for_each_query(packet.queries, [&](std::size_t q) {
+      if (sums.is_accurate(q)) return take(packet.rows[q], RowMoments{moments, q, sums.scale(), exponent});
+      direct->sum(packet.places[q], packet.radii[q]);
+      take(packet.rows[q], RowMoments{direct->moments(), 0, direct->scale(), exponent + direct->weight_exponent()});
+    });
   });
 }
 
@@ -96,6 +76,15 @@ void write_row(PrincipalComponents& out, std::size_t row, const RowMoments& m) {
 }
 
 }  // namespace
+
+MomentWeights::MomentWeights(const IndexView& index, std::span<const double> given) {
+  if (given.empty()) return;
+  check_weights(index, given);
+  const double largest = *std::max_element(given.begin(), given.end());
+  if (largest > 0) exponent = 500 - std::ilogb(largest);
+  values.reserve(given.size());
+  for (std::size_t i = 0; i < given.size(); ++i) values.push_back(std::ldexp(given[index.id(i)], exponent));
+}
 
 PointDistribution distribution_of(const QueryMoments& moments, std::size_t query) {
   const double weight = moments.at[moment_index(0, 0, 0)][query];
@@ -115,8 +104,9 @@ std::vector<double> moments(const Index& index, const BatchQuery& query, const M
           "degree is " + std::to_string(options.degree) + ", expected at most " + std::to_string(kLargestMomentDegree));
   }
   const std::size_t columns = moment_count(options.degree);
-  std::vector<double> result(columns * query.vertices.count(index.vertex_count()));
-  for_each_row(index, query, options, run, [&](std::size_t row, const RowMoments& m) {
+  std::vector<double> result(columns * result_rows(query, index.vertex_count()));
+  const MomentWeights weights(IndexAccess::view(index), options.weights);
+  const auto write = [&](std::size_t row, const RowMoments& m) {
     for (unsigned i = 0; i <= options.degree; ++i) {
       for (unsigned j = 0; i + j <= options.degree; ++j) {
         for (unsigned k = 0; i + j + k <= options.degree; ++k) {
@@ -124,19 +114,33 @@ std::vector<double> moments(const Index& index, const BatchQuery& query, const M
         }
       }
     }
-  });
+  };
+  for_each_packet(
+      index, query, [&](unsigned /*thread*/) { return row_visitor(index, query.metric, weights, write); }, {}, run);
   return result;
 }
 
-PrincipalComponents principal_components(const Index& index, const BatchQuery& query, const MomentOptions& options,
-                                         const Run& run) {
-  const std::size_t rows = query.vertices.count(index.vertex_count());
+PacketVisitor component_visitor(const Index& index, Metric metric, const MomentWeights& weights,
+                                PrincipalComponents& out) {
+  return row_visitor(index, metric, weights, [&out](std::size_t row, const RowMoments& m) { write_row(out, row, m); });
+}
+
+PrincipalComponents make_components(std::size_t rows) {
   PrincipalComponents result;
   result.weight.resize(rows);
   result.center.resize(3 * rows);
   result.variances.resize(3 * rows);
   result.axes.resize(9 * rows);
-  for_each_row(index, query, options, run, [&](std::size_t row, const RowMoments& m) { write_row(result, row, m); });
+  return result;
+}
+
+PrincipalComponents principal_components(const Index& index, const BatchQuery& query, const MomentOptions& options,
+                                         const Run& run) {
+  const MomentWeights weights(IndexAccess::view(index), options.weights);
+  PrincipalComponents result = make_components(result_rows(query, index.vertex_count()));
+  for_each_packet(
+      index, query, [&](unsigned /*thread*/) { return component_visitor(index, query.metric, weights, result); }, {},
+      run);
   return result;
 }
 

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "curvature/visit_moments.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "simd/kernels.h"
 
 namespace meshhood {
 namespace {
-
-/// The largest double below `radius`: its closed ball has the vertices nearer than `radius`. Returns NaN and negative
-/// radii unchanged; the batch rejects them.
-double open_radius(double radius) { return radius > 0 ? std::nextafter(radius, 0.0) : radius; }
 
 /// The state of a thread that sums the moments of packets.
 class PacketSummer {
@@ -51,24 +44,9 @@ class PacketSummer {
 
 }  // namespace
 
-void visit_moments(const Index& index, const BatchQuery& query, bool open_ball, const MomentSource& source,
-                   const Run& run, const std::function<MomentVisitor()>& make_visitor) {
-  BatchQuery closed = query;
-  std::vector<double> radii;
-  const bool opens = open_ball && query.metric != Metric::Rings;
-  if (opens && query.radius.list()) {
-    for (const double radius : *query.radius.list()) radii.push_back(open_radius(radius));
-    closed.radius = radii;
-  } else if (opens) {
-    closed.radius = open_radius(query.radius.common());
-  }
-  for_each_packet(
-      index, closed,
-      [&](unsigned) -> PacketVisitor {
-        auto summer = std::make_shared<PacketSummer>(source, make_visitor());
-        return [summer](const PacketAnswer& packet) { summer->visit(packet); };
-      },
-      {}, run);
+PacketVisitor moment_visitor(const MomentSource& source, MomentVisitor visit) {
+  const auto summer = std::make_shared<PacketSummer>(source, std::move(visit));
+  return [summer](const PacketAnswer& packet) { summer->visit(packet); };
 }
 
 }  // namespace meshhood

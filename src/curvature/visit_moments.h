@@ -5,12 +5,16 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
-#include "meshhood/batch.h"
+#include "meshhood/curvature.h"
+#include "meshhood/moments.h"
 
 #include "batch/packets.h"
 #include "curvature/packet_moments.h"
 
+/// The visitors of packets that sum moments, and what is made of these. Each is for one thread, and borrows its
+/// arguments.
 namespace meshhood {
 
 /// The rows of a packet. Row i is query i of the moments.
@@ -25,12 +29,34 @@ struct MomentRows {
 using MomentVisitor =
     std::function<void(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments)>;
 
-/// Calls a visitor with each packet of the query, on the threads of `for_each_packet`, once for the rows of each unit.
-/// `make_visitor` is called once by each thread. `open_ball`: a vertex at exactly the radius does not count; a ball of
-/// radius 0 has its vertex. Rings are counted as they are.
+/// Calls `visit` with each packet, once for the rows of each unit.
 ///
 /// The moments of a row depend on index, source, vertex and radius alone, bit for bit: see `PacketMoments`.
-void visit_moments(const Index& index, const BatchQuery& query, bool open_ball, const MomentSource& source,
-                   const Run& run, const std::function<MomentVisitor()>& make_visitor);
+[[nodiscard]] PacketVisitor moment_visitor(const MomentSource& source, MomentVisitor visit);
+
+/// Weights in index order, times a power of two that brings the largest to where no sum overflows and weights 2^1300
+/// times smaller are sums without loss.
+struct MomentWeights {
+  std::vector<double> values;
+  int exponent = 0;
+
+  /// Throws Error{InvalidOption}.
+  MomentWeights(const IndexView& index, std::span<const double> given);
+};
+
+/// Writes the principal components of each row.
+[[nodiscard]] PacketVisitor component_visitor(const Index& index, Metric metric, const MomentWeights& weights,
+                                              PrincipalComponents& out);
+
+/// Memory for as many rows.
+[[nodiscard]] PrincipalComponents make_components(std::size_t rows);
+
+/// Writes the curvatures of each row.
+[[nodiscard]] PacketVisitor curvature_visitor(const OrientedIndex& surface, Metric metric,
+                                              const CurvatureOptions& options, const CurvatureMemory& out);
+
+/// Memory for as many rows.
+[[nodiscard]] Curvatures make_curvatures(std::size_t rows);
+[[nodiscard]] CurvatureMemory memory_of(Curvatures& curvatures);
 
 }  // namespace meshhood

@@ -2,16 +2,17 @@
 #include "meshhood/patch.h"
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "meshhood/error.h"
 
 #include "base/validate.h"
 #include "batch/packets.h"
+#include "batch/rows.h"
 #include "exact/query/arguments.h"
 #include "patch/clusters.h"
 #include "patch/packet_patches.h"
@@ -36,12 +37,6 @@ bool run_at(const PatchState& state, PatchSearch& search, VertexId v, double rad
 void check_metric(const BatchQuery& query) {
   if (query.metric == Metric::Straight) return;
   raise(ErrorCode::InvalidOption, "a patch by another metric, expected the straight one");
-}
-
-/// Of an array #radii by #rows.
-std::size_t result_size(const Surface& surface, const BatchQuery& query) {
-  const auto& scales = query.radius.scales();
-  return (scales ? scales->size() : 1) * query.vertices.count(surface.vertex_count());
 }
 
 }  // namespace
@@ -126,21 +121,19 @@ namespace {
 /// Visits the patches of packets, on one thread.
 class PacketVisit {
  public:
-  using Visit = std::function<void(std::size_t place, const FoundPatch& patch)>;
-
-  PacketVisit(const PatchState& state, bool measures, const Visit& visit)
-      : state_(&state), packet_(state), measures_(measures), visit_(&visit) {}
+  PacketVisit(const PatchState& state, const IndexView& searched, bool measures, RowPatchVisitor visit)
+      : state_(&state), packet_(state, searched), measures_(measures), visit_(std::move(visit)) {}
 
   void run(const PacketAnswer& answer) {
     const QueryWord found = packet_.find(answer, measures_);
     for (std::size_t q = 0; q < answer.rows.size(); ++q) {  // walls, too, which are no queries of a packet
       const double radius = answer.radii[q];
       if ((found >> q & 1U) != 0) {
-        (*visit_)(answer.rows[q], FoundPatch(*state_, packet_, q, radius));
+        visit_(answer.rows[q], FoundPatch(*state_, packet_, q, radius));
       } else {
         if (!search_) search_.emplace(*state_);
         const bool exists = run_at(*state_, *search_, answer.vertices[q], radius, measures_);
-        (*visit_)(answer.rows[q], FoundPatch(*state_, *search_, radius, exists));
+        visit_(answer.rows[q], FoundPatch(*state_, *search_, radius, exists));
       }
     }
   }
@@ -150,38 +143,39 @@ class PacketVisit {
   PacketPatches packet_;
   std::optional<PatchSearch> search_;  // of those that are not found in packets
   bool measures_;
-  const Visit* visit_;
+  RowPatchVisitor visit_;
 };
+
+/// Calls `visit` with the patch of each row, on any thread.
+void for_each_patch(const Surface& surface, const BatchQuery& query, bool measures, const Run& run,
+                    const RowPatchVisitor& visit) {
+  const PatchState& state = SurfaceAccess::state(surface).patches();
+  check_metric(query);
+  const auto make_visitor = [&](unsigned /*thread*/) { return patch_visitor(state, *state.index, measures, visit); };
+  for_each_packet(state.searched, query, make_visitor, {}, run);
+}
 
 }  // namespace
 
-void for_each_patch(const Surface& surface, const BatchQuery& query, bool measures, const Run& run,
-                    const std::function<void(std::size_t place, const FoundPatch& patch)>& visit) {
-  const PatchState& state = SurfaceAccess::state(surface).patches();
-  check_metric(query);
-  for_each_packet(
-      state.searched, query,
-      [&](unsigned /*thread*/) -> PacketVisitor {
-        const auto visits = std::make_shared<PacketVisit>(state, measures, visit);
-        return [visits](const PacketAnswer& answer) { visits->run(answer); };
-      },
-      {.scales = true}, run);
+PacketVisitor patch_visitor(const PatchState& state, const IndexView& searched, bool measures, RowPatchVisitor visit) {
+  const auto visits = std::make_shared<PacketVisit>(state, searched, measures, std::move(visit));
+  return [visits](const PacketAnswer& answer) { visits->run(answer); };
 }
 
 Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run) {
-  const std::size_t size = result_size(surface, query);
+  const std::size_t size = result_rows(query, surface.vertex_count());
   Invariants result{std::vector<double>(size), std::vector<double>(size)};
-  for_each_patch(surface, query, true, run, [&](std::size_t place, const FoundPatch& patch) {
-    result.area[place] = patch.area();
-    result.volume[place] = patch.volume();
+  for_each_patch(surface, query, true, run, [&](std::size_t row, const FoundPatch& patch) {
+    result.area[row] = patch.area();
+    result.volume[row] = patch.volume();
   });
   return result;
 }
 
 std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, const Run& run) {
-  std::vector<SurfacePoint> result(result_size(surface, query));
+  std::vector<SurfacePoint> result(result_rows(query, surface.vertex_count()));
   for_each_patch(surface, query, false, run,
-                 [&](std::size_t place, const FoundPatch& patch) { result[place] = patch.gap(); });
+                 [&](std::size_t row, const FoundPatch& patch) { result[row] = patch.gap(); });
   return result;
 }
 

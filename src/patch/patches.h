@@ -4,10 +4,9 @@
 #include <cstddef>
 #include <functional>
 
-#include "meshhood/batch.h"
 #include "meshhood/patch.h"
-#include "meshhood/run.h"
 
+#include "batch/packets.h"
 #include "patch/packet_patches.h"
 #include "patch/search.h"
 
@@ -50,9 +49,10 @@ class FoundPatch {
   bool exists_;
 };
 
-/// Calls `visit` with the patch of each row, on any thread; `place` is that of the row in a result #radii by #rows.
-/// Throws as `invariants`.
-void for_each_patch(const Surface& surface, const BatchQuery& query, bool measures, const Run& run,
-                    const std::function<void(std::size_t place, const FoundPatch& patch)>& visit);
+using RowPatchVisitor = std::function<void(std::size_t row, const FoundPatch& patch)>;
+
+/// A visitor of packets of the index `searched`, for one thread, that calls `visit` with the patch of each row.
+[[nodiscard]] PacketVisitor patch_visitor(const PatchState& state, const IndexView& searched, bool measures,
+                                          RowPatchVisitor visit);
 
 }  // namespace meshhood

@@ -81,13 +81,13 @@ TEST(Unconnected, OfAFoldedSheetAreThoseOfAScan) {
   const TestMesh mesh = make_folded_sheet(24);
   const Index index = build(mesh.view());
   const Oracle oracle(mesh);
-  for (const double radius : {3.0, 8.0, 10.0, 12.0}) {
-    const Unconnected result = nearest_unconnected(index, {.radius = radius});
-    for (VertexId v = 0; v < mesh.size(); ++v) {
-      const NearestVertex expected = scan(oracle, v, radius);
-      ASSERT_EQ(result.vertices[v], expected.vertex) << v;
-      ASSERT_EQ(result.distances[v], expected.distance) << v;
-    }
+  const std::vector<double> radii{3.0, 8.0, 10.0, 12.0};
+  const Unconnected result = nearest_unconnected(index, {.radius = BatchRadius::scales(radii)});
+  for (std::size_t row = 0; row < radii.size() * mesh.size(); ++row) {
+    const auto v = static_cast<VertexId>(row % mesh.size());
+    const NearestVertex expected = scan(oracle, v, radii[row / mesh.size()]);
+    ASSERT_EQ(result.vertices[row], expected.vertex) << v;
+    ASSERT_EQ(result.distances[row], expected.distance) << v;
   }
 }
 

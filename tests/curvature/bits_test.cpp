@@ -44,7 +44,8 @@ void append(std::vector<double>& out, const std::vector<double>& values, std::si
 
 /// All results of each row, one after the other.
 std::vector<std::vector<double>> results(const Subject& s, const BatchQuery& query, unsigned threads) {
-  const std::size_t rows = query.vertices.count(s.mesh.size());
+  const auto& scales = query.radius.scales();
+  const std::size_t rows = (scales ? scales->size() : 1) * query.vertices.count(s.mesh.size());
   std::vector<std::vector<double>> out(rows);
   const auto sums = moments(s.index, query, {.degree = 4, .weights = s.areas}, {.threads = threads});
   const PrincipalComponents patch = principal_components(s.index, query, {}, {.threads = threads});
@@ -101,8 +102,8 @@ Rows random_rows(const Subject& s, std::span<const double> radii, Random& random
   return rows;
 }
 
-/// Compares rows of different radii with themselves: by several threads, some of them, each alone, and in a call of one
-/// radius for all vertices.
+/// Compares rows of different radii with themselves: by several threads, some of them, each alone, and in calls of one
+/// radius and of scales for all vertices.
 void expect_equal_bits_of(const Subject& s, const Rows& rows, Random& random) {
   const auto all = results(s, rows.query(), 1);
   const auto by_threads = results(s, rows.query(), 3);
@@ -128,6 +129,11 @@ void expect_equal_bits_of(const Subject& s, const Rows& rows, Random& random) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool is_common = rows.radii[i] == radius;
     EXPECT_TRUE(!is_common || same_bits(all[i], common[rows.vertices[i]])) << "one radius, row " << i;
+  }
+  const auto scales = results(s, {.radius = BatchRadius::scales({rows.radii.back(), radius})}, 2);
+  ASSERT_EQ(scales.size(), 2 * common.size());
+  for (std::size_t v = 0; v < common.size(); ++v) {
+    EXPECT_TRUE(same_bits(scales[common.size() + v], common[v])) << "scales, vertex " << v;
   }
 }
 

@@ -123,7 +123,7 @@ TEST(Features, OfPatchesAreInvariantsAndGapsWithoutUnit) {
   EXPECT_TRUE(std::isnan(by_row[4]));
   EXPECT_EQ(by_row[2], found[10]);
   EXPECT_EQ(by_row[7], found[7]);
-  EXPECT_THAT(totals, testing::Each(4U)) << "curvatures, and patches";
+  EXPECT_THAT(totals, testing::Each(2U)) << "curvatures and patches share a search";
 }
 
 TEST(Features, OfPatchesHaveNoVolumeAtABorderAndNoFacesBehindWalls) {
