@@ -60,6 +60,8 @@ cli::OtherReader reader_by(nb::handle reader) {
     if (!file) return mesh;
     mesh = io::read_mesh(std::as_bytes(std::span(file->ply)), name, options);
     mesh->format = io::Format::Other;
+    // Those with a place in the PLY file are among the notes.
+    std::erase_if(mesh->warnings, [](const io::Warning& warning) { return !warning.first_place.empty(); });
     std::ranges::transform(file->notes, std::back_inserter(mesh->warnings),
                            [](const std::string& note) { return io::Warning{.what = note}; });
     return mesh;

@@ -63,7 +63,7 @@ def read_mesh(
         for note in notes:
             warnings.warn(f"{os.fsdecode(path)}: {note}", stacklevel=2)
         single = np.asarray(vertices, np.float32)  # as these files have them, though a library may return float64
-        if np.array_equal(single, vertices):
+        if np.array_equal(single, vertices, equal_nan=True):
             corners, offsets = face_arrays(faces)
             warn_if_coarse(single, corners, offsets, 3)
         return Mesh(vertices.astype(real or vertices.dtype, copy=False), faces)
