@@ -69,6 +69,19 @@ def test_quads_stay_quads(tmp_path):
     np.testing.assert_array_equal(corners, quads.ravel())
 
 
+@pytest.mark.parametrize("end", ("vtk", "vtp"))
+@pytest.mark.parametrize("kind", ("strips", "lines"))
+def test_values_are_left_out_and_strips_and_lines_refused(tmp_path, end, kind):
+    pyvista = pytest.importorskip("pyvista")
+    mesh = pyvista.PolyData.from_regular_faces(V, F)
+    mesh.point_data["height"] = mesh.points[:, 2]
+    mesh.save(tmp_path / f"values.{end}")
+    expect(meshhood.read_mesh(tmp_path / f"values.{end}"))
+    pyvista.PolyData(V, **{kind: np.array([4, 0, 1, 6, 7])}).save(tmp_path / f"{kind}.{end}")
+    with pytest.raises(ValueError, match=rf"{kind}\.{end}.*{kind}.*expected only polygons|{kind}.*expected only POLYGONS"):
+        meshhood.read_mesh(tmp_path / f"{kind}.{end}")
+
+
 def test_cells_that_are_no_faces_are_refused(tmp_path):
     pyvista = pytest.importorskip("pyvista")
     file = tmp_path / "a.vtu"
