@@ -40,7 +40,7 @@ class GapsQuantity : public Quantity {
     }
     const std::size_t none = faces.size() - found;
     table.columns = {
-        {"gap", std::move(distances), table.scales},
+        {"distance", std::move(distances), table.scales},
         {"face", std::move(faces), table.scales},
         {"point", std::move(points), table.scales, 3},
         {.name = "corners", .numbers = std::move(corners), .scales = table.scales, .channels = 3, .of_triangle = true},
@@ -49,8 +49,8 @@ class GapsQuantity : public Quantity {
          .scales = table.scales,
          .channels = 3,
          .of_triangle = true}};
-    table.add_properties({"gap", "face", "point", "corners", "barycentric"});
-    table.shown = fmt::format("gap_{}", table.scales - 1);
+    table.add_properties({"distance", "face", "point", "corners", "barycentric"});
+    table.shown = fmt::format("distance_{}", table.scales - 1);
     table.summary = {{"found", found}, {"none", none}};
     table.text = fmt::format("{} with a gap, {} without", found, none);
     return table;

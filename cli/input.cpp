@@ -53,6 +53,15 @@ io::Precision precision_of(const Reading& reading) {
 
 OtherReader other_reader;
 
+io::Mesh mesh_of(const OtherFile& other, const std::string& file, const io::ReadOptions& options) {
+  io::Mesh mesh = io::read_mesh(std::as_bytes(std::span(other.ply)), file, options);
+  mesh.format = io::Format::Other;
+  // Those with a place in the PLY file are among the notes.
+  std::erase_if(mesh.warnings, [](const io::Warning& warning) { return !warning.first_place.empty(); });
+  for (const std::string& note : other.notes) mesh.warnings.push_back({.what = note, .first_place = {}});
+  return mesh;
+}
+
 /// Calls `read`, and for a file that it refuses the other reader.
 template <class Content>
 Content read_with(Content (*read)(const std::filesystem::path&, const io::ReadOptions&), const std::string& file,
@@ -61,10 +70,10 @@ Content read_with(Content (*read)(const std::filesystem::path&, const io::ReadOp
   try {
     return read(file, options);
   } catch (const Error& refusal) {
-    if (refusal.code() != ErrorCode::UnsupportedFormat || !reading.by_others || !other_reader) throw;
-    std::optional<io::Mesh> mesh = other_reader(file, options);
-    if (!mesh) throw;
-    return *std::move(mesh);
+    if (refusal.code() != ErrorCode::UnsupportedFormat || !other_reader) throw;
+    const std::optional<OtherFile> other = other_reader(file);
+    if (!other) throw;
+    return mesh_of(*other, file, options);
   }
 }
 
@@ -121,6 +130,12 @@ Input::Input(std::string file, const Reading& reading, unsigned threads) : name_
   header_ = loaded.header;
   if (auto* exact = std::get_if<Index>(&loaded.index)) exact_ = std::move(*exact);
   if (auto* paper = std::get_if<paper::Index>(&loaded.index)) paper_ = std::move(*paper);
+}
+
+std::string Input::other_as_ply() const {
+  if (!mesh_ || mesh_->format != io::Format::Other) return {};
+  const std::optional<OtherFile> other = other_reader(name_);
+  return other ? other->ply : "";
 }
 
 std::size_t Input::vertex_count() const {

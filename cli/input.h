@@ -22,7 +22,6 @@ namespace meshhood::cli {
 struct Reading {
   std::string weld = {};
   std::string precision = {};
-  bool by_others = true;  ///< also by the reader that `read_others_by` has set
 };
 
 /// The masks of --walls and --ignored, and of vertices without a position: each empty, or #V.
@@ -46,6 +45,10 @@ class Input {
 
   /// The mesh; null if the file is an index.
   [[nodiscard]] const io::Mesh* mesh() const { return mesh_ ? &*mesh_ : nullptr; }
+
+  /// The content of the file as PLY, if the reader that `read_others_by` has set has read it, which reads it again;
+  /// otherwise empty.
+  [[nodiscard]] std::string other_as_ply() const;
 
   /// The header of the index. The file must be an index.
   [[nodiscard]] const IndexHeader& header() const { return *header_; }

@@ -83,9 +83,8 @@ fs::path folder_of_program() {
   return fs::read_symlink("/proc/self/exe", unknown).parent_path();
 }
 
-/// Writes the file in base 64, in pieces whose size is a multiple of three.
-void write_base64(io::FileWriter& output, const fs::path& mesh, Task& task) {
-  io::FileSource source(mesh);
+/// Writes `source`, the content of `mesh`, in base 64, in pieces whose size is a multiple of three.
+void write_base64(io::FileWriter& output, const fs::path& mesh, io::ByteSource& source, Task& task) {
   const auto total = static_cast<std::size_t>(source.size().value_or(0));
   const Progress progress = task.progress();
   std::vector<char> piece(std::size_t{3} << 16);
@@ -99,7 +98,7 @@ void write_base64(io::FileWriter& output, const fs::path& mesh, Task& task) {
     }
     output.write(base64(std::span(piece).first(filled)));
     done += filled;
-    if (done > kMostBytes) io::raise_io(mesh, 0, "has grown beyond what a page holds while it was read");
+    if (done > kMostBytes) io::raise_io(mesh, 0, "is more than a page holds");
     io::report(progress, done, std::max(done, total), mesh.string());
   }
 }
@@ -127,7 +126,7 @@ fs::path find_page() {
         "viewer.html");
 }
 
-void write_page(const fs::path& output, const fs::path& mesh, const PageSettings& settings) {
+void write_page(const fs::path& output, const fs::path& mesh, const std::string& ply, const PageSettings& settings) {
   check_mesh_of_page(mesh);
   const fs::path page = find_page();
   const std::string text = read_text(page);
@@ -141,7 +140,9 @@ void write_page(const fs::path& output, const fs::path& mesh, const PageSettings
   file.write(
       fmt::format("<script type=\"application/json\" id=\"meshhood-settings\">{}</script>\n", to_script(settings)));
   file.write(R"(<script type="text/plain" id="meshhood-mesh">)");
-  write_base64(file, mesh, task);
+  io::FileSource read(mesh);
+  io::MemorySource converted(std::as_bytes(std::span(ply)));
+  write_base64(file, mesh, ply.empty() ? static_cast<io::ByteSource&>(read) : converted, task);
   file.write("</script>\n");
   file.write(std::string_view(text).substr(place + kPlace.size()));
   file.commit();

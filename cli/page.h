@@ -33,9 +33,11 @@ struct PageSettings {
 /// a page.
 void check_mesh_of_page(const std::filesystem::path& mesh);
 
-/// Writes a copy of the page that holds `mesh`, a mesh or index file. The file appears whole or not at all.
+/// Writes a copy of the page that holds `mesh`, a mesh or index file, or `ply` unless it is empty, the content of the
+/// same mesh as PLY. The file appears whole or not at all.
 ///
 /// Throws as `check_mesh_of_page`; Error{IoFailure, Cancelled}.
-void write_page(const std::filesystem::path& output, const std::filesystem::path& mesh, const PageSettings& settings);
+void write_page(const std::filesystem::path& output, const std::filesystem::path& mesh, const std::string& ply,
+                const PageSettings& settings);
 
 }  // namespace meshhood::cli

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -42,8 +43,14 @@ std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const 
   // A mesh that is read into memory takes several times the bytes of its file.
   constexpr std::uint64_t kMemoryPerByte = 4;
   const std::uint64_t most = options.memory / kMemoryPerByte;
-  if (options.reading.weld.empty() && options.reading.precision.empty())
-    return parts::open_mesh(options.mesh, most, progress);
+  if (options.reading.weld.empty() && options.reading.precision.empty()) {
+    try {
+      return parts::open_mesh(options.mesh, most, progress);
+    } catch (const Error& refusal) {
+      // Such a file may be for another reader, which reads it from the beginning.
+      if (refusal.code() != ErrorCode::UnsupportedFormat || !std::filesystem::is_regular_file(options.mesh)) throw;
+    }
+  }
   io::Mesh mesh = read_mesh(options.mesh, options.reading, options.threads, most);
   static_cast<void>(Welding(mesh, options.reading.weld, options.mesh));
   return parts::chunked(std::move(mesh), printable_name(options.mesh));

@@ -5,13 +5,18 @@
 #include <optional>
 #include <span>
 #include <string>
-
-#include "io/mesh_io.h"
+#include <vector>
 
 namespace meshhood::cli {
 
+/// A mesh file of another library.
+struct OtherFile {
+  std::string ply;                 ///< its content as PLY
+  std::vector<std::string> notes;  ///< what there is to say of it, vertices without a position included
+};
+
 /// Reads a mesh file whose format `io::read_mesh` refuses; nothing if `file` is none that it knows. Throws Error.
-using OtherReader = std::function<std::optional<io::Mesh>(const std::string& file, const io::ReadOptions& options)>;
+using OtherReader = std::function<std::optional<OtherFile>(const std::string& file)>;
 
 /// Sets what reads the files that `io::read_mesh` refuses. Before the first command.
 void read_others_by(OtherReader reader);

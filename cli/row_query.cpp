@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,10 @@ namespace {
 
 std::optional<std::vector<VertexId>> list_of(const std::string& file, const Input& input) {
   if (file.empty()) return std::nullopt;
+  if (file.find_first_not_of("0123456789,") == std::string::npos && !std::filesystem::exists(file)) {
+    raise(ErrorCode::InvalidOption,
+          fmt::format("--vertices {}: expected a file that lists vertices, or - for standard input", file));
+  }
   std::vector<VertexId> list = read_vertex_list(file, input.vertex_count());
   for (VertexId& v : list) v = input.welding().kept(v);
   return list;
@@ -51,7 +56,7 @@ void add_rows(CLI::App& command, RowOptions& options) {
                   "instead of --radius, one for each row: text with a number per line, or an array of NumPy (.npy)",
                   options.row_radii)
       ->excludes(radius);
-  add_file_option(command, "--vertices", "text file with the query vertices, one per line (default: all)",
+  add_file_option(command, "-v,--vertices", "text file with the query vertices, one per line (default: all)",
                   options.vertices);
   add_masks(command, options.masks);
   add_threads(command, options.threads);

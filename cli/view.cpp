@@ -33,7 +33,7 @@ namespace {
 
 struct ViewCommand {
   std::string file;
-  Reading reading{.by_others = false};  // the page holds the file and reads it itself
+  Reading reading;
   std::optional<std::uint64_t> vertex;
   Radius radius;
   std::string answer;
@@ -107,7 +107,7 @@ void view(const ViewCommand& options) {
   static_cast<void>(find_page());  // before the work begins
   Input input(options.file, options.reading);
   input.need_edges("view");
-  write_page(output, options.file, settings_of(options, input));
+  write_page(output, options.file, input.other_as_ply(), settings_of(options, input));
   print_text(output + "\n");
   if (options.open) open_in_browser(output);
 }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <csignal>
-#include <iterator>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,7 +15,6 @@
 #include "bindings.h"
 #include "cli/program.h"
 #include "interpreter.h"
-#include "io/mesh_io.h"
 
 namespace nb = nanobind;
 
@@ -35,18 +31,12 @@ ErrorCode code_of(const nb::python_error& error) {
   return error.matches(PyExc_OSError) ? ErrorCode::IoFailure : ErrorCode::UnsupportedFormat;
 }
 
-/// A mesh file of another library.
-struct OtherFile {
-  std::string ply;                 ///< its content as PLY
-  std::vector<std::string> notes;  ///< what there is to say of it
-};
-
-std::optional<OtherFile> other_file(nb::handle reader, const std::string& file) {
+std::optional<cli::OtherFile> other_file(nb::handle reader, const std::string& file) {
   try {
     const nb::object read = reader(nb::bytes(file.data(), file.size()));
     if (read.is_none()) return std::nullopt;
     auto [ply, notes] = nb::cast<std::pair<nb::bytes, std::vector<std::string>>>(read);
-    return OtherFile{{ply.c_str(), ply.size()}, std::move(notes)};
+    return cli::OtherFile{{ply.c_str(), ply.size()}, std::move(notes)};
   } catch (const nb::python_error& error) {
     raise(code_of(error), nb::str(error.value()).c_str());
   }
@@ -54,15 +44,8 @@ std::optional<OtherFile> other_file(nb::handle reader, const std::string& file) 
 
 /// `reader` takes the bytes of a name. It returns the file as PLY and a list of notes, or None.
 cli::OtherReader reader_by(nb::handle reader) {
-  return [reader, state = PyThreadState_Get()](const std::string& name, const io::ReadOptions& options) {
-    std::optional<io::Mesh> mesh;
-    const std::optional<OtherFile> file = with_lock(state, [&] { return other_file(reader, name); });
-    if (!file) return mesh;
-    mesh = io::read_mesh(std::as_bytes(std::span(file->ply)), name, options);
-    mesh->format = io::Format::Other;
-    std::ranges::transform(file->notes, std::back_inserter(mesh->warnings),
-                           [](const std::string& note) { return io::Warning{.what = note}; });
-    return mesh;
+  return [reader, state = PyThreadState_Get()](const std::string& name) {
+    return with_lock(state, [&] { return other_file(reader, name); });
   };
 }
 

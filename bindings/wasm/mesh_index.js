@@ -355,7 +355,7 @@ export class MeshIndex extends Owner {
     const given = withDefaults(options, ROWS);
     withRows(this.instance, r, given, this.#scale(given.unit), (...rows) =>
       this.instance.call('nearest_unconnected', ...rows));
-    const found = { vertices: this.instance.takeIds(), distances: this.instance.takeReals() };
+    const found = { vertex: this.instance.takeIds(), distance: this.instance.takeReals() };
     this.instance.releaseAnswer();
     return found;
   }

@@ -602,7 +602,7 @@ export class MeshIndex {
    * side of a wall. Of several at the same distance, the one with the smallest id. Walls and ignored vertices are never
    * the nearest. Where there is none, as for a wall, the distance is Infinity and the vertex 2^32 - 1.
    */
-  nearestUnconnected(r: Radii, options?: RowOptions): { vertices: Uint32Array; distances: Float64Array };
+  nearestUnconnected(r: Radii, options?: RowOptions): { vertex: Uint32Array; distance: Float64Array };
 
   /**
    * The area of the patch of each vertex, the connected surface in the ball, and the volume of the part of the ball

@@ -15,7 +15,7 @@ plotter = pyvista.Plotter(shape=(2, 2), window_size=(900, 1000))
 for column, splits in enumerate((0, 2)):
     V, F, pin = pin_in_a_cup(splits)
     index = meshhood.MeshIndex(V, F)
-    found = index.nearest_unconnected(np.inf, pin).distances, index.gaps(np.inf, pin).distance
+    found = index.nearest_unconnected(np.inf, pin).distance, index.gaps(np.inf, pin).distance
     print("{:.6f} mm to a vertex, a gap of {:.6f} mm, in the mean".format(*(distance.mean() for distance in found)))
     for row, distance in enumerate(found):
         plotter.subplot(row, column)

@@ -2,9 +2,9 @@
 """Learning on a surface
 ======================
 
-What networks take: ``edge_index`` of neighborhoods, patches of equal length with a mask, ragged rows. What
-scikit-learn takes: features at 16 scales, by which vertices in grooves (dark) are told from the others, on the half of
-the surface that was not learned from.
+What networks take: ``edge_index`` from each neighbor to its vertex, the nearest 64 as patches of equal length with a
+mask, ragged rows. What scikit-learn takes: features at 16 scales, a row for each vertex, by which vertices in grooves
+(dark) are told from the others, on the half of the surface that was not learned from.
 """
 
 import meshhood
@@ -15,10 +15,10 @@ from sklearn.linear_model import LogisticRegression
 
 V, F = cortex(5)
 index = meshhood.MeshIndex(V, F)
-indptr, indices = index.neighborhoods(6.0)  # ragged: tf.RaggedTensor.from_row_splits(indices, indptr)
+indptr, indices = index.neighborhoods(6.0, sort="distance")  # ragged: tf.RaggedTensor.from_row_splits(indices, indptr)
 edge_index = np.stack([indices, np.repeat(np.arange(len(V)), np.diff(indptr))]).astype(np.int64)
 without_self = edge_index[:, edge_index[0] != edge_index[1]]  # torch.from_numpy takes it without a copy
-ids, mask = meshhood.padded(indptr, indices, width=64)
+ids, mask = meshhood.padded(indptr, indices, width=64, truncate=True)
 patches = np.where(mask[..., None], V[ids] - V[:, None], 0)  # (#V, 64, 3), around each vertex
 
 features = index.features(scales=np.geomspace(3, 12, 16), kinds=("mean", "shape_index", "area"))

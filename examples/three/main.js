@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// meshhood in a scene of three.js: a click colors the neighborhood of the vertex under the pointer, and a brush paints
-// what is within a way along the surface, but not the strands of the knot behind. `npm install && npm start`, after
-// `make view`.
+// meshhood in a scene of three.js: a click colors the neighborhood of the vertex under the pointer and makes a mesh of
+// the patch there, and a brush paints what is within a way along the surface, but not the strands of the knot behind.
+// `npm install && npm start`, after `make view`.
 import { MeshIndex, initialize } from 'meshhood';
 import wasm from 'meshhood/meshhood.wasm?url';
 import * as THREE from 'three';
@@ -9,9 +9,12 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { mergeVertices } from 'three/addons/utils/BufferGeometryUtils.js';
 
 const RADIUS = 2;
+const PATCH_RADIUS = 1;
+const LIFT = 0.02; // of the patch above the surface, to be seen
 const BRUSH_RADIUS = 0.5;
 const SURFACE = new THREE.Color('#d9dbe0');
 const NEAR = new THREE.Color('#009e73');
+const PATCH = new THREE.Color('#cc79a7');
 const PAINT = new THREE.Color('#d55e00');
 
 /** A knot whose triangles share vertices: three.js repeats them along a seam, which no search would cross. */
@@ -39,7 +42,9 @@ const light = new THREE.DirectionalLight('#ffffff', 2);
 camera.add(light);
 const scene = new THREE.Scene();
 const mesh = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ vertexColors: true }));
-scene.add(mesh, camera, new THREE.HemisphereLight('#ffffff', '#9aa3b5', 1.5));
+const patch = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshStandardMaterial({ color: PATCH }));
+patch.visible = false;
+scene.add(mesh, patch, camera, new THREE.HemisphereLight('#ffffff', '#9aa3b5', 1.5));
 const controls = new OrbitControls(camera, canvas);
 
 function draw() {
@@ -73,8 +78,32 @@ function showNeighborhood({ point }) {
   document.getElementById('result').textContent = `Vertex ${vertex}: ${near.length} vertices.`;
 }
 
+/** Three numbers of each vertex, at the points of a patch: each has three vertices, and their weights. */
+function carry(values, { vertices, weights }) {
+  const carried = new Float32Array(vertices.length);
+  for (let i = 0; i < vertices.length; ++i) {
+    for (let axis = 0; axis < 3; ++axis) carried[i - (i % 3) + axis] += weights[i] * values[3 * vertices[i] + axis];
+  }
+  return carried;
+}
+
+/** The surface in the ball as a mesh of its own, with the normals of the whole. */
+function showPatch({ point, face }) {
+  const clipped = index.clip(point, PATCH_RADIUS, { faces, face });
+  const normals = carry(geometry.attributes.normal.array, clipped);
+  const points = Float32Array.from(clipped.positions, (x, i) => x + LIFT * normals[i]);
+  patch.geometry.dispose();
+  patch.geometry = new THREE.BufferGeometry()
+    .setAttribute('position', new THREE.BufferAttribute(points, 3))
+    .setAttribute('normal', new THREE.BufferAttribute(normals, 3))
+    .setIndex(new THREE.BufferAttribute(clipped.corners, 1));
+  patch.visible = true;
+  draw();
+}
+
 /** One dab: the vertices within the radius along the surface; paths begin at the point in the triangle that was hit. */
 function brush({ point, vertices }) {
+  patch.visible = false;
   paint(index.neighborhood(point, BRUSH_RADIUS, { seeds: vertices, metric: 'surface', faces }), PAINT);
 }
 
@@ -91,7 +120,10 @@ canvas.addEventListener('pointerup', (event) => {
   if (pressed === null) return; // it went down elsewhere
   const isClick = !pressed.isBrush && Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < 5;
   const hit = isClick ? hitOf(event) : null;
-  if (hit) showNeighborhood(hit);
+  if (hit) {
+    showNeighborhood(hit);
+    showPatch(hit);
+  }
   pressed = null;
 });
 controls.addEventListener('change', draw);

@@ -537,7 +537,7 @@ def fits(run, wrong):
                 what = f"{name} of row {row}, vertex {rows[row]}"
                 wrong.append(f"{what}: expected {one[name].ravel()}, got {found.ravel()}")
     shown = {"features": lambda: arrays["features"][-1, :, 0], "invariants": lambda: arrays["volume"][-1],
-             "gaps": lambda: arrays["gap"][-1], "curvature": lambda: (arrays["k1"][-1] + arrays["k2"][-1]) / 2}
+             "gaps": lambda: arrays["distance"][-1], "curvature": lambda: (arrays["k1"][-1] + arrays["k2"][-1]) / 2}
     check_mesh_files(run, wrong, shown[run.command]())
     if run.command == "gaps":
         found = arrays["face"] >= 0

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT
 """The command line of a wheel says and writes what the program does, in all its streams, errors and signals."""
+import base64
 import os
+import re
 import shlex
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import meshhood
@@ -118,6 +121,45 @@ def test_warns_of_files_of_other_libraries_as_the_package(folder):
         meshhood.read_mesh(folder / "moved.gii")
     done = run(COMMAND, ["query", "moved.gii", "-v", "7", "-r", "3"], folder)
     assert done[2].decode() == f"meshhood: warning: {noted[0].message}\n".replace(f"{folder}/", "")
+
+
+def test_vertices_of_nan_keep_their_ids_and_are_walls(folder, tmp_path):
+    pytest.importorskip("pyvista")
+    V, F = meshhood.read_mesh(folder / "scroll.ply")
+    holes = np.concatenate([np.full((2, 3), np.nan, V.dtype), V])
+    meshhood.write_mesh(tmp_path / "scan.vtp", holes, F + 2)
+    with pytest.warns(UserWarning, match="scan.vtp: 2 vertices without a position") as noted:
+        meshhood.read_mesh(tmp_path / "scan.vtp")
+    code, ids, messages = run(COMMAND, ["query", "scan.vtp", "-v", "9", "-r", "3"], tmp_path)
+    assert messages.decode() == f"meshhood: warning: {noted[0].message}\n".replace(f"{tmp_path}/", "")
+    assert (code, sorted(map(int, ids.split()))) == (0, sorted(2 + meshhood.MeshIndex(V, F).neighborhood(7, 3)))
+    assert run(COMMAND, ["query", "scan.vtp", "-v", "1", "-r", "3"], tmp_path) == (0, b"", messages)
+    meshhood.write_mesh(tmp_path / "scan.vtp", holes, F + 1)
+    message = b"meshhood: scan.vtp: vertex 1 has no position (NaN), but face "
+    code, _, messages = run(COMMAND, ["info", "scan.vtp"], tmp_path)
+    assert code == 3 and messages.startswith(message)
+
+
+def test_shows_and_cuts_what_the_package_reads(folder, tmp_path, monkeypatch):
+    pytest.importorskip("pyvista")
+    V, F = meshhood.read_mesh(folder / "scroll.ply")
+    meshhood.write_mesh(tmp_path / "scroll.vtp", V, F)
+    (tmp_path / "viewer.html").write_text("<!-- meshhood:page -->\n")
+    monkeypatch.setenv("MESHHOOD_VIEWER", "viewer.html")
+    assert run(COMMAND, ["view", "scroll.vtp", "-v", "7"], tmp_path) == (0, b"scroll.html\n", b"")
+    page = (tmp_path / "scroll.html").read_text()
+    assert '{"name":"scroll.vtp","vertex":7}' in page
+    (tmp_path / "page.ply").write_bytes(base64.b64decode(re.search(r'id="meshhood-mesh">(.*)</script>', page)[1]))
+    for shown, given in zip(meshhood.read_mesh(tmp_path / "page.ply"), (V, F)):
+        np.testing.assert_array_equal(shown, given)
+    meshhood.write_mesh(tmp_path / "scroll.ply", V, F)
+    for end, cut in (("vtp", COMMAND), ("ply", PROGRAM)):
+        words = ["partition", f"scroll.{end}", "-o", end, "--parts", "2", "--halo", "3"]
+        assert run(cut, words, tmp_path)[::2] == (0, b"")
+    for part in ("part-00000", "part-00001"):
+        assert (tmp_path / "vtp" / part / "index.mhi").read_bytes() == (tmp_path / "ply" / part / "index.mhi").read_bytes()
+    code, _, message = run(PROGRAM, ["partition", "scroll.vtp", "-o", "no", "--parts", "2", "--halo", "3"], tmp_path)
+    assert code == 3 and b"converts it" in message
 
 
 def test_names_a_file_that_another_library_cannot_read(folder, monkeypatch):

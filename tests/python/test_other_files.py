@@ -69,6 +69,19 @@ def test_quads_stay_quads(tmp_path):
     np.testing.assert_array_equal(corners, quads.ravel())
 
 
+@pytest.mark.parametrize("end", ("vtk", "vtp"))
+@pytest.mark.parametrize("kind", ("strips", "lines"))
+def test_values_are_left_out_and_strips_and_lines_refused(tmp_path, end, kind):
+    pyvista = pytest.importorskip("pyvista")
+    mesh = pyvista.PolyData.from_regular_faces(V, F)
+    mesh.point_data["height"] = mesh.points[:, 2]
+    mesh.save(tmp_path / f"values.{end}")
+    expect(meshhood.read_mesh(tmp_path / f"values.{end}"))
+    pyvista.PolyData(V, **{kind: np.array([4, 0, 1, 6, 7])}).save(tmp_path / f"{kind}.{end}")
+    with pytest.raises(ValueError, match=rf"{kind}\.{end}.*{kind}.*expected only polygons|{kind}.*expected only POLYGONS"):
+        meshhood.read_mesh(tmp_path / f"{kind}.{end}")
+
+
 def test_cells_that_are_no_faces_are_refused(tmp_path):
     pyvista = pytest.importorskip("pyvista")
     file = tmp_path / "a.vtu"
@@ -182,6 +195,48 @@ def test_surfaces_of_freesurfer(tmp_path):
     read = meshhood.read_mesh(file)
     np.testing.assert_array_equal(read.vertices, [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
     assert len(read.faces) == 2
+
+
+def write_with(library, file, points):
+    if library == "meshio":
+        pytest.importorskip("meshio").write_points_cells(file, points.astype(float), [("triangle", F + 2)], file_format="gmsh")
+    elif file.suffix == ".vtu":
+        pytest.importorskip(library).UnstructuredGrid({5: F + 2}, points).save(file)
+    elif file.suffix == ".3mf":
+        pytest.importorskip("lxml")
+        pytest.importorskip("networkx")
+        pytest.importorskip(library).Trimesh(points, F + 2, process=False).export(file)
+    else:
+        pytest.importorskip(library)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            meshhood.write_mesh(file, points, F + 2)
+
+
+HOLED_FILES = (("vtp", "pyvista"), ("vtu", "pyvista"), ("msh", "meshio"), ("glb", "trimesh"), ("3mf", "trimesh"), ("gii", "nibabel"))
+
+
+@pytest.mark.parametrize(("end", "library"), HOLED_FILES)
+def test_vertices_of_nan_are_walls_if_no_face_has_them(tmp_path, end, library):
+    points = np.concatenate([np.full((2, 3), np.nan, np.float32), V])
+    file = tmp_path / f"a.{end}"
+    write_with(library, file, points)
+    with pytest.warns(UserWarning, match=f"a.{end}: 2 vertices without a position .*, the first of which is 0, are walls"):
+        read = meshhood.read_mesh(file)
+    np.testing.assert_allclose(read.vertices, points, atol=1e-6)
+    np.testing.assert_array_equal(read.faces, F + 2)
+    with pytest.warns(UserWarning, match="V: 2 vertices without a position"):
+        index = meshhood.MeshIndex(read)
+    np.testing.assert_array_equal(index.counts(1.5), [0, 0, *meshhood.MeshIndex(V, F).counts(1.5)])
+
+
+@pytest.mark.parametrize(("end", "library"), HOLED_FILES)
+def test_a_vertex_of_nan_in_a_face_is_refused(tmp_path, end, library):
+    points = np.concatenate([np.full((2, 3), np.nan, np.float32), V])
+    points[2 + F[7, 1]] = np.nan
+    write_with(library, tmp_path / f"a.{end}", points)
+    with pytest.raises(ValueError, match=rf"a.{end}: vertex {2 + F[7, 1]} has no position \(NaN\), but face \d+ has it as corner \d"):
+        meshhood.read_mesh(tmp_path / f"a.{end}")
 
 
 @pytest.mark.parametrize("content", (b"<VTKFile>", b"<GIFTI", b"glTF", b'{"asset": 1', b"PK\x03\x04", b"$MeshFormat"))

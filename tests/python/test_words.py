@@ -307,7 +307,7 @@ def test_free_memory_is_what_a_control_group_leaves(tmp_path, monkeypatch):
 def test_results_are_described_in_a_line():
     assert repr(INDEX.k_nearest(3)) == f"<meshhood.Nearest: ids {COUNT} by 3, distances {COUNT} by 3>"
     assert repr(INDEX.nested(3, [0.1, 0.2])) == "<meshhood.Nested: counts 2, ids 1>"
-    assert repr(INDEX.nearest_unconnected(0.1, 3)) == "<meshhood.Unconnected: vertices -1, distances inf>"
+    assert repr(INDEX.nearest_unconnected(0.1, 3)) == "<meshhood.Unconnected: vertex -1, distance inf>"
     assert repr(meshhood.Mesh(V, F)).startswith(f"<meshhood.Mesh: vertices {COUNT} by 3")
     polygons = meshhood.Mesh(V, (np.array([0, 4]), np.arange(4)))
     assert repr(polygons) == f"<meshhood.Mesh: vertices {COUNT} by 3, faces (2, 4)>"

@@ -118,24 +118,28 @@ test('webpack', async () => {
   await expectAnswer(await serve('webpack/dist'));
 });
 
-test('the example with three.js: a click colors the neighborhood, a brush paints', async () => {
+test('the example with three.js: a click colors the neighborhood and makes a patch, a brush paints', async () => {
   cpSync(process.env.MESHHOOD_EXAMPLE, path('example'), { recursive: true, filter: (file) => !/node_modules/.test(file) });
   await vite.build(viteOptions(path('example')));
   const page = await browser.newPage({ viewport: { width: 900, height: 700 } });
   page.on('pageerror', (error) => { throw error; });
   await page.goto(await serve('example/dist'));
   await page.waitForFunction(() => document.body.dataset.ready === 'true');
-  const [green, orange] = [[0, 158, 115], [213, 94, 0]];
+  const [green, orange, pink] = [[0, 158, 115], [213, 94, 0], [204, 121, 167]];
   const seen = async (color) => {
     const pixels = await countPixels(page, color);
     console.log(`${pixels} pixels of ${color}`);
     return pixels > 500;
   };
-  assert.ok(!(await seen(green)) && !(await seen(orange)));
+  assert.ok(!(await seen(green)) && !(await seen(orange)) && !(await seen(pink)));
   const [x, y] = [450, 500];
   await page.mouse.click(x, y);
   await page.waitForFunction(() => /^Vertex \d+: \d+ vertices\.$/.test(document.getElementById('result').textContent));
   assert.ok(await seen(green), 'the neighborhood');
+  assert.ok(await seen(pink), 'the patch');
+  const picture = (name) => process.env.MESHHOOD_PICTURES
+    && page.screenshot({ path: join(process.env.MESHHOOD_PICTURES, name) });
+  await picture('three_patch.png');
   await page.keyboard.down('Shift');
   await page.mouse.move(x - 40, y);
   await page.mouse.down();
@@ -143,6 +147,6 @@ test('the example with three.js: a click colors the neighborhood, a brush paints
   await page.mouse.up();
   await page.keyboard.up('Shift');
   assert.ok(await seen(orange), 'the brush');
-  if (process.env.MESHHOOD_PICTURES) await page.screenshot({ path: join(process.env.MESHHOOD_PICTURES, 'three.png') });
+  await picture('three.png');
   await page.close();
 });

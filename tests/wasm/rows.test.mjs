@@ -143,18 +143,18 @@ test('the nearest unconnected vertices are those of the command line and of a sc
   write('plates.ply', toPly(sheets));
   const index = build(sheets);
   const expected = ofCommandLine('unconnected', 'plates.ply', '-r', '1.5');
-  const { vertices, distances } = index.nearestUnconnected(1.5);
-  assert.deepEqual(distances, expected.distance);
-  assert.deepEqual(numbers(vertices).map((v) => (v === 2 ** 32 - 1 ? -1 : v)), numbers(expected.other));
+  const found = index.nearestUnconnected(1.5);
+  assert.deepEqual(found.distance, expected.distance);
+  assert.deepEqual(numbers(found.vertex).map((v) => (v === 2 ** 32 - 1 ? -1 : v)), numbers(expected.other));
   const rows = neighbors(sheets);
   const near = new Set(neighborhood(sheets.positions, rows, 5, 1.5));
   let least = Infinity;
   for (let w = 0; w < index.vertexCount; ++w) if (!near.has(w)) least = Math.min(least, distance(sheets.positions, 5, w));
-  assert.equal(distances[5], least <= 1.5 ? least : Infinity);
-  assert.ok(distances.some(Number.isFinite));
+  assert.equal(found.distance[5], least <= 1.5 ? least : Infinity);
+  assert.ok(found.distance.some(Number.isFinite));
   const other = new Uint8Array(index.vertexCount);
-  other[vertices[5]] = 1;
-  assert.ok(index.nearestUnconnected(1.5, { vertices: Uint32Array.of(5), ignored: other }).vertices[0] !== vertices[5]);
+  other[found.vertex[5]] = 1;
+  assert.ok(index.nearestUnconnected(1.5, { vertices: Uint32Array.of(5), ignored: other }).vertex[0] !== found.vertex[5]);
 });
 
 test('features with masks and scales are those of the command line', () => {

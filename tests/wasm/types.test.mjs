@@ -36,7 +36,7 @@ const USE = `
   const far: Rows & { distances: Float64Array } = index.neighborhoods(2, { vertices: near, sort: 'distance', walls, distances: true });
   const holes: Uint8Array | null = mesh.walls;
   const besides: number = index.nearest([0, 0, 1], { walls: holes }).vertex + index.count(42, 2, { metric: 'surface', faces });
-  const other: { vertices: Uint32Array; distances: Float64Array } = index.nearestUnconnected(scales, { vertices: near, walls });
+  const other: { vertex: Uint32Array; distance: Float64Array } = index.nearestUnconnected(scales, { vertices: near, walls });
   const lengths: Float64Array = index.kNearest(9, { vertices: near, metric: 'path', walls }).distances;
   const discs: Rows = index.discs(2, { faces });
   const creases: Float64Array = index.features(null, { faces, scales, kinds: ['crease', 'area'] });
@@ -55,7 +55,7 @@ const USE = `
   index.refitInPlace(mesh.positions, { changed: near });
   const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
   const codes: string[] = [new MeshhoodError().code];
-  export const used = [besides, hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, other.vertices, rows.offsets, curvature.mean, part.vertices, codes, volume, between, patch, clipped, measured];
+  export const used = [besides, hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, other.vertex, rows.offsets, curvature.mean, part.vertices, codes, volume, between, patch, clipped, measured];
 `;
 
 for (const [name, options] of Object.entries({

@@ -45,7 +45,8 @@ def read_mesh(
 
     Returns `Mesh(vertices, faces)`: positions (#V, 3); triangles (#F, 3) int32, or polygons as a tuple (offsets int64,
     corners int32). A vertex without a position in the file is NaN, with a warning; one of a face is refused.
-    Vertices and faces are in the order of the file; STL corners with equal positions become one vertex.
+    Vertices and faces are in the order of the file; STL corners with equal positions become one vertex. Values and colors
+    are left out; triangle strips and lines of VTK are refused.
     The meshes of a scene (GLB, glTF, 3MF) are one, transformed as the scene says. Irregularities that could be read cause
     a warning, such as more numbers in a line of a PLY file than its header declares, and so do a transform that is not
     applied (GIFTI, FreeSurfer) and float32 where the mesh is too fine for it. `workers` and `progress` are for files that
@@ -63,7 +64,7 @@ def read_mesh(
         for note in notes:
             warnings.warn(f"{os.fsdecode(path)}: {note}", stacklevel=2)
         single = np.asarray(vertices, np.float32)  # as these files have them, though a library may return float64
-        if np.array_equal(single, vertices):
+        if np.array_equal(single, vertices, equal_nan=True):
             corners, offsets = face_arrays(faces)
             warn_if_coarse(single, corners, offsets, 3)
         return Mesh(vertices.astype(real or vertices.dtype, copy=False), faces)

@@ -385,11 +385,14 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         mode : "connectivity", 1.0 for each vertex of the neighborhood; or "distance", the distances, with zeros stored.
             Both are float64, as in scikit-learn, unless `dtype` says otherwise.
         The other arguments are those of `neighborhoods`; the ids of a row ascend. The matrix is not quite symmetric: what
-        connects two vertices in the ball around one may leave that around the other. Needs SciPy.
+        connects two vertices in the ball around one may leave that around the other. Needs SciPy. As `edge_index` of
+        PyTorch Geometric, (2, #edges), from each neighbor (column) to the vertex of its row: see the second example.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> index.radius_neighbors_graph(0.3, [42, 43], mode="distance").shape
         (2, 642)
+        >>> graph = index.radius_neighbors_graph(0.3).tocoo()
+        >>> edge_index = np.stack([graph.col, graph.row]).astype(np.int64)
         """
         csr_array = optional("scipy.sparse", "radius_neighbors_graph").csr_array
         with_distances = _convert.choice(mode, "mode", ("connectivity", "distance")) == "distance"

@@ -355,12 +355,13 @@ def placed(positions, corners, offsets, stacklevel):
     if found is None:
         return positions, None
     positions, walls = found
-    warnings.warn(
-        f"V: {np.count_nonzero(walls)} vertices without a position (NaN), the first of which is {walls.argmax()}, are "
-        "walls",
-        stacklevel=stacklevel,
-    )
+    warnings.warn(f"V: {text_of_walls(walls)}", stacklevel=stacklevel)
     return positions, walls
+
+
+def text_of_walls(walls):
+    count, first = np.count_nonzero(walls), walls.argmax()
+    return f"{count} vertices without a position (NaN), the first of which is {first}, are walls"
 
 
 def warn_if_no_faces(positions, corners, stacklevel):

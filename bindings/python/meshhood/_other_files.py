@@ -12,7 +12,7 @@ from typing import Any, Callable, NamedTuple, Optional
 import numpy as np
 
 from . import _core
-from ._mesh import face_arrays, mesh_arrays
+from ._mesh import face_arrays, mesh_arrays, text_of_walls
 from ._optional import optional
 from ._poly_data import poly_data
 
@@ -49,6 +49,12 @@ def read_other(path: str) -> Optional[_Read]:
             raise
         library = form.module.partition(".")[0]
         raise ValueError(f"{path}: {form.name} that {library} cannot read: {str(error) or type(error).__name__}") from error
+    try:
+        found = _core.place(positions, corners, offsets=offsets)
+    except ValueError as error:
+        raise ValueError(f"{path}: {str(error).removeprefix('V: ')}") from None
+    if found is not None:
+        notes.append(text_of_walls(found[1]))
     corners = corners.astype(np.int32, copy=False)
     if offsets is None or np.all(np.diff(offsets) == 3):
         return positions, corners.reshape(-1, 3), notes
@@ -61,15 +67,28 @@ def as_ply(path: str) -> Optional[tuple[bytes, list[str]]]:
     if read is None:
         return None
     V, F, notes = read
-    corners, offsets = face_arrays(F)
-    with tempfile.TemporaryDirectory() as folder:  # the C++ library writes only to a path
-        file = os.path.join(folder, "mesh.ply")
-        try:
-            _core.write_mesh(file, V, corners, offsets=offsets, values=[], colors=None, vtk=False)
-        except ValueError as error:
-            raise ValueError(f"{path}: {error}") from None
-        with open(file, "rb") as written:
-            return written.read(), notes
+    try:
+        return binary_ply(V, *face_arrays(F)), notes
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+
+
+def binary_ply(positions: Any, corners: Any, offsets: Any) -> bytes:
+    """A PLY file, also of vertices without a position."""
+    real = "double" if positions.dtype == np.float64 else "float"
+    sides = np.full(len(corners) // 3, 3) if offsets is None else np.diff(offsets)
+    starts = np.cumsum(sides) - sides
+    wide = corners.astype(np.int64, copy=False)
+    wrong = np.flatnonzero((wide < 0) | (wide >= len(positions)))
+    if wrong.size:
+        raise ValueError(f"F: corner {wide[wrong[0]]}, but there are {len(positions)} vertices")
+    header = (
+        "ply\nformat binary_little_endian 1.0\n"
+        f"element vertex {len(positions)}\nproperty {real} x\nproperty {real} y\nproperty {real} z\n"
+        f"element face {len(sides)}\nproperty list int int vertex_indices\nend_header\n"
+    )
+    coordinates = positions.astype(positions.dtype.newbyteorder("<"), copy=False)
+    return header.encode("ascii") + coordinates.tobytes() + np.insert(wide, starts, sides).astype("<i4").tobytes()
 
 
 def _head(path: str) -> bytes:

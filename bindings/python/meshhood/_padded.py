@@ -14,18 +14,27 @@ from ._rows import check_size
 
 
 def padded(
-    indptr: ArrayLike, values: ArrayLike, *, width: Optional[int] = None, fill: Any = 0, max_bytes: Optional[int] = None
+    indptr: ArrayLike,
+    values: ArrayLike,
+    *,
+    width: Optional[int] = None,
+    truncate: bool = False,
+    fill: Any = 0,
+    max_bytes: Optional[int] = None,
 ) -> tuple[NDArray[Any], NDArray[np.bool_]]:
     """The rows of a result as one array, (#rows, width, ...), and which of its entries belong to a row: bool, (#rows,
     width).
 
     indptr, values : as `MeshIndex.neighborhoods` and `discs` return them: row i is values[indptr[i]:indptr[i + 1]].
         `values` are the ids, the distances, or an array of such rows, as features[indices].
-    width : the length of each row; longer ones are cut. By default, that of the longest.
+    width : the length of each row. By default, that of the longest.
+    truncate : keep the first `width` entries of longer rows, the nearest if rows are in order of distance (`discs`, or
+        neighborhoods with sort="distance"). By default, a longer row is an error.
     fill : what the other entries hold. 0 is an id of every mesh, so that such rows can be used as indices.
     max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
 
-    The arrays are new; the first has the dtype of `values`. Cost: O(#rows width + #values).
+    The arrays are new; the first has the dtype of `values`. Cost: O(#rows width + #values). Raises ValueError, naming the
+    argument, and MemoryError.
 
     >>> indptr, indices = meshhood.MeshIndex(V, F).neighborhoods(0.3)
     >>> ids, mask = meshhood.padded(indptr, indices)
@@ -45,6 +54,9 @@ def padded(
     if width is None:
         width = int(lengths.max(initial=0))
     width = _convert.integer(width, "width", 0, 2**31 - 1)
+    if not truncate and (lengths > width).any():
+        row = int(np.argmax(lengths > width))
+        raise ValueError(f"width: {width}, but row {row} has {lengths[row]} values; truncate=True keeps the first of them")
     with np.errstate(invalid="ignore"):
         filler = one.astype(rows.dtype)
     if one.ndim or (rows.dtype.kind != "f" and filler != one):

@@ -230,11 +230,13 @@ class Shape(Held):
 
         Returns (#scales, #rows, #kinds), without the first axis if there is one `r`, and without the last if
         `kinds` is one name. NaN where there is no result. `persistence` finds over how many scales a feature lasts. As
-        for `curvature`, a row does not depend on the others.
+        for `curvature`, a row does not depend on the others. scikit-learn and networks take vertices first, (#rows,
+        #scales * #kinds), as in the example.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> index.features(scales=meshhood.geometric_radii(0.2, 0.8, 3), kinds=("crease", "area")).shape
-        (3, 642, 2)
+        >>> found = index.features(scales=meshhood.geometric_radii(0.2, 0.8, 3), kinds=("crease", "area"))
+        >>> found.shape, found.transpose(1, 0, 2).reshape(len(V), -1).shape
+        ((3, 642, 2), (642, 6))
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options = {

@@ -28,11 +28,11 @@ _BYTES_OF_EDGE = 64
 class Unconnected(NamedTuple):
     """What is near but not connected (see `MeshIndex.nearest_unconnected`).
 
-    >>> vertices, distances = meshhood.MeshIndex(V, F).nearest_unconnected(0.5)
+    >>> vertex, distance = meshhood.MeshIndex(V, F).nearest_unconnected(0.5)
     """
 
-    vertices: Union[int, Ids]
-    distances: Union[float, Reals]
+    vertex: Union[int, Ids]
+    distance: Union[float, Reals]
 
 
 @shown_in_a_line
@@ -145,7 +145,7 @@ class SurfaceQueries(Held):
         progress: Progress = None,
     ) -> Unconnected:
         """The nearest vertex within `r` in space that is not in the neighborhood with radius `r`, and its distance:
-        `Unconnected(vertices, distances)`, both (#rows,), or an int and a float for a single vertex; -1 and inf where
+        `Unconnected(vertex, distance)`, both (#rows,), or an int and a float for a single vertex; -1 and inf where
         there is none. Of several at the same distance, the one with the smallest id.
 
         r : one radius, or one for each row. A vertex at exactly `r` counts.
@@ -160,7 +160,7 @@ class SurfaceQueries(Held):
         r=inf only other components count.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> other, distance = index.nearest_unconnected(0.5)
+        >>> vertex, distance = index.nearest_unconnected(0.5)
         >>> thin = distance < 0.1
         """
         rows = read_rows(self, vertices, r, None, metric, walls, ignored, unit, workers, progress)

@@ -16,6 +16,7 @@ import numpy as np
 from . import _convert
 from ._atomic_file import atomic_file
 from ._mesh import mesh_arrays, placed
+from ._other_files import binary_ply
 from ._types import Number, Unit, Vertex, Vertices
 
 _PLACE = "<!-- meshhood:page -->"  # replaced by the mesh
@@ -95,7 +96,7 @@ def view(
     positions, corners, offsets = _surface(V, F)
     settings = _settings(len(positions), v, r, unit, ids, values, name)
     script = json.dumps(settings).replace("<", "\\u003c")
-    mesh = base64.b64encode(_ply(positions, corners, offsets)).decode("ascii")
+    mesh = base64.b64encode(binary_ply(positions, corners, offsets)).decode("ascii")
     data = (
         f'<script type="application/json" id="meshhood-settings">{script}</script>\n'
         f'<script type="text/plain" id="meshhood-mesh">{mesh}</script>\n'
@@ -152,21 +153,3 @@ def _encode(values: Any, count: int) -> str:
         v = beyond[0]
         raise ValueError(f"values: vertex {v}: {array[v]}, but a page holds numbers of at most {most:.3g}")
     return base64.b64encode(array.astype("<f4").tobytes()).decode("ascii")
-
-
-def _ply(positions: Any, corners: Any, offsets: Any) -> bytes:
-    """A binary PLY file."""
-    real = "double" if positions.dtype == np.float64 else "float"
-    sides = np.full(len(corners) // 3, 3) if offsets is None else np.diff(offsets)
-    starts = np.cumsum(sides) - sides
-    wide = corners.astype(np.int64, copy=False)
-    wrong = np.flatnonzero((wide < 0) | (wide >= len(positions)))
-    if wrong.size:
-        raise ValueError(f"F: corner {wide[wrong[0]]}, but there are {len(positions)} vertices")
-    header = (
-        "ply\nformat binary_little_endian 1.0\n"
-        f"element vertex {len(positions)}\nproperty {real} x\nproperty {real} y\nproperty {real} z\n"
-        f"element face {len(sides)}\nproperty list int int vertex_indices\nend_header\n"
-    )
-    coordinates = positions.astype(positions.dtype.newbyteorder("<"), copy=False)
-    return header.encode("ascii") + coordinates.tobytes() + np.insert(wide, starts, sides).astype("<i4").tobytes()
