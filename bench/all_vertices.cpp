@@ -20,7 +20,7 @@
 #include "meshhood/meshhood.h"
 #include "meshhood/reorder.h"
 
-#include "batch/straight_rows.h"
+#include "batch/row_search.h"
 #include "batch/worker.h"
 #include "exact/index_access.h"
 #include "io/index_io.h"
@@ -244,9 +244,9 @@ class AllVertices {
 
   /// One worker, which receives the batch group by group.
   std::uint64_t counts_of_worker(Isa isa, std::span<const VertexId> rows, double radius) {
-    BatchWorker worker(std::make_unique<StraightRows>(mesh_.index, Metric::Straight, isa));
+    BatchWorker worker(make_straight_rows(mesh_.index, Metric::Straight, isa));
     const auto position_of = [&](VertexId v) { return IndexAccess::view(mesh_.index).slot[v]; };
-    const auto group_of = [&](VertexId v) { return position_of(v) / StraightRows::kGroupPositions; };
+    const auto group_of = [&](VertexId v) { return position_of(v) / kGroupPositions; };
     std::vector<BatchItem> chunk;
     std::uint64_t ids = 0;
     for (std::size_t row = 0; row < rows.size(); ++row) {

@@ -23,4 +23,12 @@ template <class T>
   return true;
 }
 
+/// The bytes of a value in a binary file.
+template <class T>
+[[nodiscard]] std::array<char, sizeof(T)> stored(std::endian order, T value) {
+  auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  if (order != std::endian::native) std::reverse(raw.begin(), raw.end());
+  return raw;
+}
+
 }  // namespace meshhood::io

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "meshhood/error.h"
 #include "meshhood/run.h"
@@ -37,6 +38,27 @@ struct Location {
 
 /// Calls `progress` if it is set. Throws Error{Cancelled}, naming the file, if it returns false.
 void report(const Progress& progress, std::size_t done, std::size_t total, const std::string& file);
+
+/// The same for a file, row after row.
+class RowProgress {
+ public:
+  /// Borrows `progress`.
+  RowProgress(const Progress& progress, std::size_t total, std::string file)
+      : progress_(progress), file_(std::move(file)), total_(total) {}
+
+  void report() const { io::report(progress_, done_, total_, file_); }
+
+  void add_row() {
+    constexpr std::size_t kRows = 4096;
+    if (++done_ % kRows == 0) report();
+  }
+
+ private:
+  const Progress& progress_;
+  std::string file_;
+  std::size_t total_;
+  std::size_t done_ = 0;
+};
 
 /// A file name for a message, on one line and safe for a terminal: control characters (C0, C1, line separators,
 /// changes of the writing direction) and bytes that are not UTF-8 are written as `\xNN`.

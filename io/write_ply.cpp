@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <span>
@@ -18,6 +17,7 @@
 
 #include "meshhood/error.h"
 
+#include "io/binary.h"
 #include "io/file_writer.h"
 #include "io/mesh_io.h"
 #include "io/messages.h"
@@ -72,26 +72,6 @@ std::size_t largest_face(const FacesView& faces) {
   return largest;
 }
 
-// Counts the rows written.
-class RowProgress {
- public:
-  RowProgress(const Progress& progress, const MeshView& mesh, const std::filesystem::path& path)
-      : progress_(progress), file_(path.string()), total_(mesh.positions.size() + mesh.faces.size()) {}
-
-  void report() const { io::report(progress_, done_, total_, file_); }
-
-  void add_row() {
-    constexpr std::size_t kRows = 4096;
-    if (++done_ % kRows == 0) report();
-  }
-
- private:
-  const Progress& progress_;
-  std::string file_;
-  std::size_t total_;
-  std::size_t done_ = 0;
-};
-
 // Writes rows of values as lines of text or as little-endian bytes.
 class Rows {
  public:
@@ -105,9 +85,7 @@ class Rows {
       if (!row_.empty()) row_ += ' ';
       row_ += fmt::format("{}", value);
     } else {
-      std::array<char, sizeof(T)> bytes;
-      std::memcpy(bytes.data(), &value, sizeof(T));
-      if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
+      const auto bytes = stored(std::endian::little, value);
       row_.append(bytes.data(), bytes.size());
     }
   }
@@ -201,7 +179,7 @@ class PlyWriter {
 void write_ply(const std::filesystem::path& path, const MeshView& mesh, const PlyOptions& options) {
   validate(mesh);
   check(options, mesh.positions.size());
-  RowProgress progress(options.progress, mesh, path);
+  RowProgress progress(options.progress, mesh.positions.size() + mesh.faces.size(), path.string());
   progress.report();
   const WhileWaiting waiting([&] { progress.report(); });
   FileWriter file(path);

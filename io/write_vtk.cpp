@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <span>
@@ -16,6 +14,7 @@
 
 #include "meshhood/error.h"
 
+#include "io/binary.h"
 #include "io/file_writer.h"
 #include "io/mesh_io.h"
 #include "io/messages.h"
@@ -33,8 +32,8 @@ std::size_t numbers_of(const FacesView& faces) { return faces.size() + faces.cor
 /// Writes numbers as the format has them: big-endian.
 class VtkWriter {
  public:
-  VtkWriter(FileWriter& file, const MeshView& mesh, const VtkOptions& options, const std::string& name)
-      : file_(file), mesh_(mesh), options_(options), name_(name) {}
+  VtkWriter(FileWriter& file, RowProgress& progress, const MeshView& mesh, const VtkOptions& options)
+      : file_(file), progress_(progress), mesh_(mesh), options_(options) {}
 
   void write() {
     file_.write("# vtk DataFile Version 4.2\nmeshhood\nBINARY\nDATASET POLYDATA\n");
@@ -43,21 +42,10 @@ class VtkWriter {
     write_properties();
   }
 
-  void report() const { io::report(options_.progress, done_, total(), name_); }
-
  private:
-  [[nodiscard]] std::size_t total() const { return mesh_.positions.size() + mesh_.faces.size(); }
-
-  void add_row() {
-    constexpr std::size_t kRows = 4096;
-    if (++done_ % kRows == 0) report();
-  }
-
   template <class T>
   void number(T value) {
-    std::array<char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), &value, sizeof(T));
-    if constexpr (std::endian::native == std::endian::little) std::reverse(bytes.begin(), bytes.end());
+    const auto bytes = stored(std::endian::big, value);
     file_.write({bytes.data(), bytes.size()});
   }
 
@@ -66,7 +54,7 @@ class VtkWriter {
     file_.write(fmt::format("POINTS {} {}\n", xyz.size(), std::is_same_v<Real, double> ? "double" : "float"));
     for (std::size_t v = 0; v < xyz.size(); ++v) {
       for (std::size_t axis = 0; axis < 3; ++axis) number(xyz(v, axis));
-      add_row();
+      progress_.add_row();
     }
   }
 
@@ -75,7 +63,7 @@ class VtkWriter {
     mesh_.faces.for_each([this](std::size_t, std::span<const VertexId> corners) {
       number(static_cast<std::int32_t>(corners.size()));
       for (const VertexId v : corners) number(static_cast<std::int32_t>(v));
-      add_row();
+      progress_.add_row();
     });
   }
 
@@ -100,14 +88,13 @@ class VtkWriter {
   void write_values(const VertexProperty& property) {
     for (const float value : property.values) number(value);
     file_.write("\n");
-    report();
+    progress_.report();
   }
 
   FileWriter& file_;
+  RowProgress& progress_;
   const MeshView& mesh_;
   const VtkOptions& options_;
-  const std::string& name_;
-  std::size_t done_ = 0;
 };
 
 }  // namespace
@@ -121,12 +108,12 @@ void write_vtk(const std::filesystem::path& path, const MeshView& mesh, const Vt
     raise(ErrorCode::TooLarge, fmt::format("{}: {} vertices, or faces and corners, but the format has at most {}",
                                            printable_name(name), numbers, kMostNumbers));
   }
-  const WhileWaiting waiting([&] { io::report(options.progress, 0, 0, name); });
+  RowProgress progress(options.progress, mesh.positions.size() + mesh.faces.size(), name);
+  progress.report();
+  const WhileWaiting waiting([&] { progress.report(); });
   FileWriter file(path);
-  VtkWriter writer(file, mesh, options, name);
-  writer.report();
-  writer.write();
-  file.commit([&] { writer.report(); });
+  VtkWriter(file, progress, mesh, options).write();
+  file.commit([&] { progress.report(); });
 }
 
 }  // namespace meshhood::io

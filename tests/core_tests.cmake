@@ -12,11 +12,11 @@ target_compile_options(meshhood_families PRIVATE $<$<CONFIG:Release>:-O1>)
 
 set(parts
   base/adjacency base/frame base/mesh base/triangulate shared/coarse_float shared/distance base/sphere base/reference base/error shared/helper_threads shared/parallel shared/raw_vector
-  base/cut_edges base/epoch_array base/number_set base/packed_positions base/face_graph
+  base/cut_edges base/epoch_array base/number_set base/packed_positions base/face_graph base/kd_order
   aggregate/aggregate aggregate/listed_sums aggregate/smoothing
   batch/batch batch/packets batch/path_rows batch/position_sort batch/kept_packets batch/ring_rows batch/k_nearest batch/unconnected
   exact/build_threads exact/collect_rows exact/edge_buckets exact/edge_source exact/masked exact/link_points
-  exact/kd_order exact/nearest_packet exact/node_parts exact/path_packet exact/quality exact/refit exact/check exact/damage exact/file exact/index exact/verify
+  exact/nearest_packet exact/node_parts exact/path_packet exact/quality exact/refit exact/check exact/damage exact/file exact/index exact/verify
   exact/search_differential exact/search_order exact/search_rare exact/search_traps exact/threads
   exact/query/any_center exact/query/length_queries exact/query/nearest exact/query/path_order exact/query/path_queue exact/query/path_search exact/query/space_search exact/query/straight_queries
   exact/search/component exact/search/group_states exact/search/leaf_bfs exact/search/leaf_bits

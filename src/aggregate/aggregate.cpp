@@ -44,18 +44,7 @@ void check_signal(const SignalView& signal, std::size_t vertices) {
                                         std::to_string(signal.channels) + " for each of " + std::to_string(vertices) +
                                         " vertices");
   }
-  if (signal.weights.empty()) return;
-  if (signal.weights.size() != vertices) {
-    raise(ErrorCode::InvalidOption, std::to_string(signal.weights.size()) + " weights, expected one for each of " +
-                                        std::to_string(vertices) + " vertices");
-  }
-  for (std::size_t v = 0; v < vertices; ++v) {
-    if (signal.weights[v] >= 0 && std::isfinite(signal.weights[v])) [[likely]] {
-      continue;
-    }
-    raise(ErrorCode::InvalidOption, "vertex " + std::to_string(v) + ": the weight is " + to_text(signal.weights[v]) +
-                                        ", expected a finite number >= 0");
-  }
+  if (!signal.weights.empty()) check_weights(signal.weights, vertices);
 }
 
 void check_reduction(const SignalView& signal, const AggregateQuery& query) {

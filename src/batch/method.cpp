@@ -13,10 +13,7 @@
 #include "meshhood/reference.h"
 #include "meshhood/search.h"
 
-#include "batch/path_rows.h"
-#include "batch/ring_rows.h"
 #include "batch/searcher_factory.h"
-#include "batch/straight_rows.h"
 #include "exact/index_access.h"
 #include "exact/search/vertex_bfs.h"
 #include "paper/hierarchy.h"
@@ -82,12 +79,12 @@ std::uint32_t position_in_paper_index(const paper::Index& index, VertexId v) {
 
 std::unique_ptr<RowSearch> make_rows(const Index& index, Metric metric) {
   switch (metric) {
-    case Metric::Path: return std::make_unique<PathRows>(index);
-    case Metric::Rings: return std::make_unique<RingRows>(index);
+    case Metric::Path: return make_path_rows(index);
+    case Metric::Rings: return make_ring_rows(index);
     case Metric::Straight:
     case Metric::Space: break;
   }
-  return std::make_unique<StraightRows>(index, metric);
+  return make_straight_rows(index, metric);
 }
 
 /// The index must outlive all that use it.
@@ -97,7 +94,7 @@ SearcherFactory exact_factory(const Index& index, Metric metric) {
           .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; },
           .of_slots = &index,
           .is_count_cheap = true,
-          .positions_together = metric == Metric::Straight ? StraightRows::kGroupPositions : kLeafCapacity,
+          .positions_together = metric == Metric::Straight ? kGroupPositions : kLeafCapacity,
           .make_joint_search = [&index, metric] { return make_rows(index, metric); }};
 }
 

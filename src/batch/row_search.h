@@ -4,12 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 
 #include "meshhood/batch.h"
 #include "meshhood/mesh.h"
 
 #include "exact/joint/packet_answer.h"
+#include "exact/joint/row_writer.h"
+#include "exact/layout.h"
 #include "simd/joint.h"
 
 namespace meshhood {
@@ -90,5 +93,17 @@ class RowSearch {
   virtual bool write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
                      RowReceiver& receiver) = 0;
 };
+
+/// Writes rows from their pieces.
+bool write_pieces(RowWriter& writer, std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
+                  RowReceiver& receiver);
+
+/// The positions of a group: rows by straight lines that lie between two multiples of it should come in one chunk.
+inline constexpr std::uint32_t kGroupPositions = kFanOut * kLeafCapacity;
+
+/// Of straight lines, or in space. The index must outlive this search and the others.
+[[nodiscard]] std::unique_ptr<RowSearch> make_straight_rows(const Index& index, Metric metric, Isa isa = best_isa());
+[[nodiscard]] std::unique_ptr<RowSearch> make_path_rows(const Index& index);
+[[nodiscard]] std::unique_ptr<RowSearch> make_ring_rows(const Index& index);
 
 }  // namespace meshhood

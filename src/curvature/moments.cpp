@@ -17,23 +17,11 @@
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
 #include "exact/index_access.h"
+#include "exact/query/arguments.h"
 #include "shared/distance.h"
-#include "shared/text.h"
 
 namespace meshhood {
 namespace {
-
-void check_weights(const IndexView& index, std::span<const double> given) {
-  if (given.size() != index.vertex_count()) {
-    raise(ErrorCode::InvalidOption, std::to_string(given.size()) + " weights, expected one for each of " +
-                                        std::to_string(index.vertex_count()) + " vertices");
-  }
-  for (std::size_t v = 0; v < given.size(); ++v) {
-    if (given[v] >= 0 && std::isfinite(given[v])) continue;
-    raise(ErrorCode::InvalidOption,
-          "vertex " + std::to_string(v) + ": the weight is " + to_text(given[v]) + ", expected a finite number >= 0");
-  }
-}
 
 /// The moments of one row about its query vertex, as `PacketMoments` has them.
 struct RowMoments {
@@ -79,7 +67,7 @@ void write_row(PrincipalComponents& out, std::size_t row, const RowMoments& m) {
 
 MomentWeights::MomentWeights(const IndexView& index, std::span<const double> given) {
   if (given.empty()) return;
-  check_weights(index, given);
+  check_weights(given, index.vertex_count());
   const double largest = *std::max_element(given.begin(), given.end());
   if (largest > 0) exponent = 500 - std::ilogb(largest);
   values.reserve(given.size());

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/kd_order.h"
 #include "base/vector.h"
-#include "exact/build/kd_order.h"
 #include "shared/parallel.h"
 
 namespace meshhood {
@@ -18,9 +18,7 @@ std::vector<KdPoint> centers_of(const IndexView& index, const StoredFaces& faces
     if (triangle_count(faces[face].size()) == 0) continue;
     BoundingBox box;
     for (const VertexId v : faces[face]) box.add(index.in_frame(index.place(v)));
-    const Point center = 0.5 * (box.low + box.high);
-    centers.push_back({{static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z)},
-                       static_cast<std::uint32_t>(face)});
+    centers.push_back(kd_point(0.5 * (box.low + box.high), face));
   }
   return centers;
 }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Batches along the edges have the rows of `Searcher`, on every instruction set.
-#include "batch/path_rows.h"
-
 #include <cstdint>
 #include <cstdio>
 #include <vector>

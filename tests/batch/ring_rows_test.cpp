@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Batches by the number of edges have the rings of a search over the vertices by the oracle, on every instruction set.
-#include "batch/ring_rows.h"
-
 #include <cstdint>
 #include <cstdio>
 #include <vector>

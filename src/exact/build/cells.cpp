@@ -14,10 +14,7 @@ RawVector<KdPoint> make_points(const PositionsView& positions, const Frame& fram
   return positions.visit([&](const auto& xyz) {
     RawVector<KdPoint> points(xyz.size());
     task.parallel_for(points.size(), kPointGrain, [&](unsigned, std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        const FramePoint p = frame.round(point(xyz, v));
-        points[v] = {{p.x, p.y, p.z}, static_cast<std::uint32_t>(v)};
-      }
+      for (std::size_t v = begin; v < end; ++v) points[v] = kd_point(frame.to_frame(point(xyz, v)), v);
     });
     return points;
   });

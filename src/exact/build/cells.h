@@ -9,7 +9,7 @@
 #include "meshhood/mesh.h"
 
 #include "base/frame.h"
-#include "exact/build/kd_order.h"
+#include "base/kd_order.h"
 #include "exact/layout.h"
 #include "shared/parallel.h"
 #include "shared/raw_vector.h"

@@ -23,8 +23,7 @@ std::vector<KdPoint> order_nodes(const NodeGraph& graph, bool with_links, TaskCo
   std::vector<KdPoint> points;
   for (std::uint32_t node = 0; node < graph.size(); ++node) {
     if (graph[node].empty() == with_links) continue;
-    const Point& p = graph.balls[node].center;
-    points.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, node});
+    points.push_back(kd_point(graph.balls[node].center, node));
   }
   kd_order(points, kFanOut, task);
   return points;

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "exact/build/kd_order.h"
+#include "base/kd_order.h"
 #include "exact/build/node_groups.h"
 #include "simd/node_group.h"
 

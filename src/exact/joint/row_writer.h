@@ -24,8 +24,8 @@ class RowWriter {
   /// Writes the ids of a row. `ids` has as many places as the row has vertices.
   void write_ids(unsigned query, std::span<VertexId> ids) const;
 
-  /// Writes the distances from `center` in the order of the ids.
-  void write_distances(unsigned query, const Point& center, std::span<double> distances) const;
+  /// Writes the distances from the vertex at a slot in the order of the ids.
+  void write_distances(unsigned query, std::uint32_t slot, std::span<double> distances) const;
 
  private:
   const IndexView* index_;
@@ -38,7 +38,8 @@ inline void RowWriter::write_ids(unsigned query, std::span<VertexId> ids) const 
   kernels_->write_row(pieces_, index_->leaf_begin.data(), query, permutation, ids);
 }
 
-inline void RowWriter::write_distances(unsigned query, const Point& center, std::span<double> distances) const {
+inline void RowWriter::write_distances(unsigned query, std::uint32_t slot, std::span<double> distances) const {
+  const Point center = index_->position(leaf_of(slot), lane_of(slot));
   double* next = distances.data();
   std::visit(
       [&](auto xyz) {

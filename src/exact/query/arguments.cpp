@@ -49,6 +49,20 @@ void check_connects(Metric metric) {
   raise(ErrorCode::InvalidOption, "metric: expected another than space, in which nothing is connected");
 }
 
+void check_weights(std::span<const double> weights, std::size_t vertices) {
+  if (weights.size() != vertices) {
+    raise(ErrorCode::InvalidOption, std::to_string(weights.size()) + " weights, expected one for each of " +
+                                        std::to_string(vertices) + " vertices");
+  }
+  for (std::size_t v = 0; v < vertices; ++v) {
+    if (weights[v] >= 0 && std::isfinite(weights[v])) [[likely]] {
+      continue;
+    }
+    raise(ErrorCode::InvalidOption,
+          "vertex " + std::to_string(v) + ": the weight is " + to_text(weights[v]) + ", expected a finite number >= 0");
+  }
+}
+
 Point position_of(const IndexView& index, VertexId v) {
   const std::uint32_t slot = index.slot[v];
   return index.position(leaf_of(slot), lane_of(slot));

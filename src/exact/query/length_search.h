@@ -55,4 +55,8 @@ class LengthSearch {
 [[nodiscard]] std::unique_ptr<LengthSearch> make_length_search(const IndexView& index, KeptGraph& graph, Metric metric,
                                                                const Kernels& kernels);
 
+/// The same by the number of edges.
+[[nodiscard]] std::unique_ptr<LengthSearch> make_ring_search(const IndexView& index, KeptGraph& graph,
+                                                             const Kernels& kernels);
+
 }  // namespace meshhood

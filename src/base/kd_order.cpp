@@ -3,7 +3,7 @@
 // the intervals before the one with the cut, that interval, and those after it. Then it moves the points there, from
 // one array into another, and divides the one interval with `std::nth_element`. Both passes are without branches, and
 // several threads can share them by chunks of the points.
-#include "exact/build/kd_order.h"
+#include "base/kd_order.h"
 
 #include <algorithm>
 #include <bit>

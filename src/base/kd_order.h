@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "shared/distance.h"
 #include "shared/parallel.h"
 
 namespace meshhood {
@@ -14,6 +15,11 @@ struct KdPoint {
   std::array<float, 3> at;
   std::uint32_t id;
 };
+
+/// At the nearest floats.
+[[nodiscard]] inline KdPoint kd_point(const Point& p, std::size_t id) {
+  return {{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, static_cast<std::uint32_t>(id)};
+}
 
 /// Where a set of n points is cut.
 enum class KdCut {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "exact/build/kd_order.h"
+#include "base/kd_order.h"
 
 #include <algorithm>
 #include <array>
