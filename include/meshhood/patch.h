@@ -87,7 +87,7 @@ struct ClippedMesh {
 ///
 /// radius  >= 0 or infinite. A point at exactly `radius` counts.
 /// All throw Error{VertexOutOfRange, InvalidRadius, InvalidOption}: InvalidOption for a face or point that is not of
-/// the mesh, and after a refit in place. O(k) for k triangles near the surface of the ball, and clusters inside.
+/// the mesh, and after a refit in place. O(k) for k triangles near the surface of the ball, and meshlets inside.
 class PatchSearcher {
  public:
   explicit PatchSearcher(const Surface& surface);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The boxes of the clusters, the nearest first, but those that the patch has as a whole.
+// The boxes of the meshlets, the nearest first, but those that the patch has as a whole.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,9 +54,9 @@ class GapSearch {
   }
 
   SurfacePoint run() {
-    state_->clusters.boxes.search(
+    state_->meshlets.boxes.search(
         state_->index->frame.to_frame(ball_.center), [&] { return reach_; },
-        [&](std::size_t cluster) { visit(static_cast<ClusterId>(cluster)); });
+        [&](std::size_t meshlet) { visit(static_cast<MeshletId>(meshlet)); });
     if (nearest_.distance == kInfinity) return {};
     return surface_point(*state_->index, *state_->faces, state_->triangles.face[triangle_],
                          state_->triangles.corners[triangle_], nearest_);
@@ -69,10 +69,10 @@ class GapSearch {
     squared_limit_ = limit * limit;
   }
 
-  void visit(ClusterId cluster) {
-    if (patch_->has_all(cluster)) return;
-    const std::vector<TriangleId>& first = state_->triangles.first_of_cluster;
-    for (TriangleId t = first[cluster]; t < first[cluster + std::size_t{1}]; ++t) {
+  void visit(MeshletId meshlet) {
+    if (patch_->has_all(meshlet)) return;
+    const std::vector<TriangleId>& first = state_->triangles.first_of_meshlet;
+    for (TriangleId t = first[meshlet]; t < first[meshlet + std::size_t{1}]; ++t) {
       if (!patch_->has(t)) offer(t);
     }
   }

@@ -14,7 +14,7 @@ PacketPatches::PacketPatches(const PatchState& state, const IndexView& searched)
       follows_neighborhoods_(state.triangles.are_of_index && searched.ignored.empty()),
       kernels_(&section_kernels(best_isa())),
       words_(state.index->vertex_count()),
-      all_(state.clusters.size()) {}
+      all_(state.meshlets.size()) {}
 
 QueryWord PacketPatches::find(const PacketAnswer& packet, bool measures) {
   measures_ = measures;
@@ -23,8 +23,8 @@ QueryWord PacketPatches::find(const PacketAnswer& packet, bool measures) {
   set_balls(packet);
   set_words(packet);
   leave_loose();
-  std::ranges::sort(clusters_);
-  for (const ClusterId cluster : clusters_) add_cluster(cluster);
+  std::ranges::sort(meshlets_);
+  for (const MeshletId meshlet : meshlets_) add_meshlet(meshlet);
   measure_cut();
   follow_dips();
   for_each_query(queries_, [&](std::size_t q) { sums_[q].add_whole(whole_.area[q], whole_.moment[q]); });
@@ -42,7 +42,7 @@ void PacketPatches::clear() {
     std::fill(&words_[index.leaf_begin[leaf]], words_.data() + index.leaf_begin[leaf + std::size_t{1}], QueryWord{0});
   }
   leaves_.clear();
-  clusters_.clear();
+  meshlets_.clear();
   all_.forget();
   met_ = 0;
   dips_.clear();
@@ -89,31 +89,31 @@ void PacketPatches::leave_loose() {
 
 void PacketPatches::touch(LeafId leaf) {
   leaves_.push_back(leaf);
-  for (const ClusterId cluster : state_->clusters.at_leaf(leaf)) {
-    if (all_.is_known(cluster)) continue;
-    all_.set(cluster, 0);
-    clusters_.push_back(cluster);
+  for (const MeshletId meshlet : state_->meshlets.at_leaf(leaf)) {
+    if (all_.is_known(meshlet)) continue;
+    all_.set(meshlet, 0);
+    meshlets_.push_back(meshlet);
   }
 }
 
-void PacketPatches::add_cluster(ClusterId cluster) {
+void PacketPatches::add_meshlet(MeshletId meshlet) {
   QueryWord all = queries_;
   QueryWord some = 0;
-  for (const std::uint32_t place : state_->clusters.corners_of(cluster)) {
+  for (const std::uint32_t place : state_->meshlets.corners_of(meshlet)) {
     all &= words_[place];
     some |= words_[place];
   }
   some &= queries_;
-  all_[cluster] = all;
+  all_[meshlet] = all;
   met_ |= some;
-  const Cluster& sums = state_->clusters.clusters[cluster];
+  const Meshlet& sums = state_->meshlets.meshlets[meshlet];
   if (sums.has_border) for_each_query(all, [&](std::size_t q) { sums_[q].meet_border(); });
   if (all != 0) {
     add_whole({.area = sums.area, .vector = sums.vector_area, .point = sums.center(), .moment = sums.moment}, all);
   }
   if (some == all) return;
-  const std::vector<TriangleId>& first = state_->triangles.first_of_cluster;
-  for (TriangleId t = first[cluster]; t < first[cluster + std::size_t{1}]; ++t) add_triangle(t, some & ~all);
+  const std::vector<TriangleId>& first = state_->triangles.first_of_meshlet;
+  for (TriangleId t = first[meshlet]; t < first[meshlet + std::size_t{1}]; ++t) add_triangle(t, some & ~all);
 }
 
 void PacketPatches::add_triangle(TriangleId t, QueryWord queries) {

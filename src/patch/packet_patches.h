@@ -8,7 +8,7 @@
 
 #include "base/epoch_array.h"
 #include "exact/joint/packet_answer.h"
-#include "patch/clusters.h"
+#include "patch/meshlets.h"
 #include "patch/section.h"
 #include "patch/sums.h"
 #include "simd/sections.h"
@@ -22,7 +22,7 @@ namespace meshhood {
 /// lies in the ball of the queries that have all three, and is cut by the sphere of those that have some. Cut triangles
 /// are measured by vectors of queries.
 ///
-/// What is added for a query, and in which order, depends on the query alone: clusters and triangles ascend, and sums
+/// What is added for a query, and in which order, depends on the query alone: meshlets and triangles ascend, and sums
 /// over whole ones are apart from those over cut ones, which wait until a vector is full.
 class PacketPatches {
  public:
@@ -42,8 +42,8 @@ class PacketPatches {
     return exists(query) ? sums_[query].volume(balls_[query]) : kNan;
   }
   [[nodiscard]] bool has(std::size_t query, TriangleId t) const;
-  [[nodiscard]] bool has_all(std::size_t query, ClusterId cluster) const {
-    return all_.is_known(cluster) && (all_[cluster] >> query & 1U) != 0;
+  [[nodiscard]] bool has_all(std::size_t query, MeshletId meshlet) const {
+    return all_.is_known(meshlet) && (all_[meshlet] >> query & 1U) != 0;
   }
 
  private:
@@ -59,7 +59,7 @@ class PacketPatches {
   void set_words(const PacketAnswer& packet);
   void leave_loose();
   void touch(LeafId leaf);
-  void add_cluster(ClusterId cluster);
+  void add_meshlet(MeshletId meshlet);
   void add_triangle(TriangleId t, QueryWord queries);
   void meet_borders(TriangleId t, const std::array<QueryWord, 3>& words);
   void leave_at_diagonals(TriangleId t, const std::array<QueryWord, 3>& words);
@@ -89,8 +89,8 @@ class PacketPatches {
   PointPerLane<double> centers_{};  // of the balls
   std::vector<QueryWord> words_;    // by place: the queries that have the vertex
   std::vector<LeafId> leaves_;      // with words
-  EpochArray<QueryWord> all_;       // by cluster: the queries that have all of it
-  std::vector<ClusterId> clusters_;
+  EpochArray<QueryWord> all_;       // by meshlet: the queries that have all of it
+  std::vector<MeshletId> meshlets_;
   QueryWord met_ = 0;  // that have a triangle
 
   std::size_t cut_count_ = 0;  // waiting

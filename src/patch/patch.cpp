@@ -14,7 +14,7 @@
 #include "batch/packets.h"
 #include "batch/rows.h"
 #include "exact/query/arguments.h"
-#include "patch/clusters.h"
+#include "patch/meshlets.h"
 #include "patch/packet_patches.h"
 #include "patch/patches.h"
 #include "patch/search.h"

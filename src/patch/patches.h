@@ -33,8 +33,8 @@ class FoundPatch {
   [[nodiscard]] double volume() const { return search_ ? search_->volume() : packet_->volume(query_); }
 
   [[nodiscard]] bool has(TriangleId t) const { return search_ ? search_->has_seen(t) : packet_->has(query_, t); }
-  [[nodiscard]] bool has_all(ClusterId cluster) const {
-    return search_ ? search_->has_taken(cluster) : packet_->has_all(query_, cluster);
+  [[nodiscard]] bool has_all(MeshletId meshlet) const {
+    return search_ ? search_->has_taken(meshlet) : packet_->has_all(query_, meshlet);
   }
 
   /// The nearest point of a triangle in the ball that it does not have.

@@ -14,25 +14,25 @@ PatchSearch::PatchSearch(const PatchState& state)
     : state_(&state),
       inside_(state.index->vertex_count()),
       seen_(state.triangles.size()),
-      kinds_(state.clusters.size()) {}
+      kinds_(state.meshlets.size()) {}
 
 std::vector<TriangleId> PatchSearch::triangles() const {
   const Triangles& all = state_->triangles;
   const auto seen = std::span(triangles_).first(seen_count_);
   std::vector<TriangleId> result(seen.begin(), seen.end());
-  for (const ClusterId c : clusters_) {
-    for (TriangleId t = all.first_of_cluster[c]; t < all.first_of_cluster[c + std::size_t{1}]; ++t) result.push_back(t);
+  for (const MeshletId c : meshlets_) {
+    for (TriangleId t = all.first_of_meshlet[c]; t < all.first_of_meshlet[c + std::size_t{1}]; ++t) result.push_back(t);
   }
   std::ranges::sort(result, {}, [&](TriangleId t) { return std::pair(all.face[t], t); });
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 
-/// Whole if the bounding sphere of a cluster lies in the ball, or its box.
-inline PatchSearch::Kind PatchSearch::kind_of(ClusterId cluster) {
+/// Whole if the bounding sphere of a meshlet lies in the ball, or its box.
+inline PatchSearch::Kind PatchSearch::kind_of(MeshletId meshlet) {
   constexpr double kDipSlack = 0x1p-46;
-  if (kinds_.is_known(cluster)) return kinds_[cluster];
-  const Cluster& sums = state_->clusters.clusters[cluster];
+  if (kinds_.is_known(meshlet)) return kinds_[meshlet];
+  const Meshlet& sums = state_->meshlets.meshlets[meshlet];
   const double distance = ball_.scale * length(sums.center() - ball_.center);
   const double inner = ball_.radius * (1 - kDipSlack);
   bool is_whole = distance + sums.radius <= inner;
@@ -42,7 +42,7 @@ inline PatchSearch::Kind PatchSearch::kind_of(ClusterId cluster) {
     const Point far{std::max(low.x, high.x), std::max(low.y, high.y), std::max(low.z, high.z)};
     is_whole = ball_.scale * length(far) <= inner;
   }
-  return kinds_.set(cluster, is_whole ? Kind::Whole : Kind::Partial);
+  return kinds_.set(meshlet, is_whole ? Kind::Whole : Kind::Partial);
 }
 
 /// Without a branch on what was seen before, which is seldom clear.
@@ -57,19 +57,19 @@ inline void PatchSearch::visit_fan(std::uint32_t place) {
   for (const TriangleId t : state_->triangles.fan(place)) visit(t);
 }
 
-/// Steps from the triangles seen and the clusters taken until there are no more.
+/// Steps from the triangles seen and the meshlets taken until there are no more.
 template <class Real>
 void PatchSearch::spread(std::span<const Real> xyz) {
-  std::size_t next_cluster = 0;
-  for (std::size_t next = 0; next < seen_count_ || next_cluster < clusters_.size();) {
+  std::size_t next_meshlet = 0;
+  for (std::size_t next = 0; next < seen_count_ || next_meshlet < meshlets_.size();) {
     if (next == seen_count_) {
-      leave(clusters_[next_cluster++]);
+      leave(meshlets_[next_meshlet++]);
       continue;
     }
     const TriangleId t = triangles_[next++];
-    const ClusterId cluster = state_->clusters.of_triangle[t];
-    const Kind kind = kind_of(cluster);
-    if (kind == Kind::Whole) take(cluster);
+    const MeshletId meshlet = state_->meshlets.of_triangle[t];
+    const Kind kind = kind_of(meshlet);
+    if (kind == Kind::Whole) take(meshlet);
     if (kind != Kind::Partial) continue;
     PatchTriangle triangle{{}, state_->triangles.corners[t], {}};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -99,24 +99,24 @@ void PatchSearch::run(const Point& center, double radius, std::span<const Triang
     epoch_ = 1;
   }
   seen_count_ = 0;
-  clusters_.clear();
+  meshlets_.clear();
   sums_.clear(state_->triangles.normal_of(*state_->index, starts));
   for (const TriangleId t : starts) visit(t);
   std::visit([&](auto xyz) { spread(xyz); }, state_->index->positions);
 }
 
-void PatchSearch::take(ClusterId cluster) {
-  kinds_[cluster] = Kind::Taken;
-  clusters_.push_back(cluster);
-  const Cluster& sums = state_->clusters.clusters[cluster];
+void PatchSearch::take(MeshletId meshlet) {
+  kinds_[meshlet] = Kind::Taken;
+  meshlets_.push_back(meshlet);
+  const Meshlet& sums = state_->meshlets.meshlets[meshlet];
   const Point offset = ball_.scale * (sums.center() - ball_.center);
   sums_.add_whole(sums.area, sums.moment + dot(sums.vector_area, offset));
   if (sums.has_border) sums_.meet_border();
 }
 
-/// All corners of a cluster that is taken are in the ball.
-void PatchSearch::leave(ClusterId cluster) {
-  for (const std::uint32_t place : state_->clusters.corners_of(cluster)) {
+/// All corners of a meshlet that is taken are in the ball.
+void PatchSearch::leave(MeshletId meshlet) {
+  for (const std::uint32_t place : state_->meshlets.corners_of(meshlet)) {
     if (inside_.is_known(place)) continue;
     inside_.set(place, true);
     visit_fan(place);

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "base/epoch_array.h"
-#include "patch/clusters.h"
+#include "patch/meshlets.h"
 #include "patch/section.h"
 #include "patch/sums.h"
 #include "shared/distance.h"
 
 namespace meshhood {
 
-/// A search over triangles from a start, for one thread. A cluster inside the ball is one step.
+/// A search over triangles from a start, for one thread. A meshlet inside the ball is one step.
 ///
 /// The triangles of a patch are joined by the corners and sides that they share, where these have a point in the ball.
 /// A side has one if an end has; then its triangles share a corner in the ball. So a search steps from a triangle to
@@ -33,9 +33,9 @@ class PatchSearch {
   [[nodiscard]] double volume() const { return seen_count_ == 0 ? kNan : sums_.volume(ball_); }
 
   [[nodiscard]] const PatchBall& ball() const { return ball_; }
-  /// A triangle is of the patch if it was seen, or its cluster taken.
+  /// A triangle is of the patch if it was seen, or its meshlet taken.
   [[nodiscard]] bool has_seen(TriangleId t) const { return seen_[t] == epoch_; }
-  [[nodiscard]] bool has_taken(ClusterId c) const { return kinds_.is_known(c) && kinds_[c] == Kind::Taken; }
+  [[nodiscard]] bool has_taken(MeshletId c) const { return kinds_.is_known(c) && kinds_[c] == Kind::Taken; }
 
   /// By the numbers of their faces.
   [[nodiscard]] std::vector<TriangleId> triangles() const;
@@ -47,9 +47,9 @@ class PatchSearch {
   template <class Real>
   void spread(std::span<const Real> xyz);
   void visit(TriangleId t);
-  [[nodiscard]] Kind kind_of(ClusterId cluster);
-  void take(ClusterId cluster);
-  void leave(ClusterId cluster);
+  [[nodiscard]] Kind kind_of(MeshletId meshlet);
+  void take(MeshletId meshlet);
+  void leave(MeshletId meshlet);
   void visit_fan(std::uint32_t place);
   void add_whole(TriangleId t, const PatchTriangle& triangle);
   void add_cut(TriangleId t, const PatchTriangle& triangle);
@@ -57,11 +57,11 @@ class PatchSearch {
   const PatchState* state_;
   EpochArray<bool> inside_;            // by place
   std::vector<std::uint32_t> seen_;    // by triangle: the last run that has seen it
-  EpochArray<Kind> kinds_;             // by cluster
+  EpochArray<Kind> kinds_;             // by meshlet
   std::uint32_t epoch_ = 0;            // the number of the run
   std::vector<TriangleId> triangles_;  // seen, in this order; and room
   std::size_t seen_count_ = 0;
-  std::vector<ClusterId> clusters_;  // taken
+  std::vector<MeshletId> meshlets_;  // taken
   PatchSums sums_;
   PatchBall ball_{};
   bool measures_ = false;

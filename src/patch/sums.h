@@ -11,7 +11,7 @@ namespace meshhood {
 ///
 /// The volume behind a patch is (sum of d A + r S) / 3, by the divergence theorem: d is the distance of a triangle's
 /// plane from the center, along its normal, A the area of its part in the ball, S that of the part of the sphere
-/// behind. The sum of d A over a cluster is linear in the center.
+/// behind. The sum of d A over a meshlet is linear in the center.
 class PatchSums {
  public:
   /// Begins with a patch whose normal is about this one, of any length.

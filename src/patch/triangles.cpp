@@ -71,11 +71,11 @@ std::size_t bytes_of(const Arrays&... arrays) {
 }  // namespace
 
 std::size_t Triangles::bytes() const {
-  return bytes_of(corners, face, flags, first_fan, fans, first_of_cluster, loose);
+  return bytes_of(corners, face, flags, first_fan, fans, first_of_meshlet, loose);
 }
 
 Triangles::Triangles(const IndexView& index, const StoredFaces& faces) {
-  cluster(index, triangles_in_index_order(index, faces));
+  make_meshlets(index, triangles_in_index_order(index, faces));
   if (size() == 0) raise(ErrorCode::InvalidMesh, "every face of the mesh has a wall, expected one without");
   make_fans(index.vertex_count());
   find_borders(index);
@@ -91,7 +91,7 @@ Point Triangles::normal_of(const IndexView& index, std::span<const TriangleId> s
 }
 
 /// Triangles in index order are in the order of the leaves already.
-void Triangles::cluster(const IndexView& index, const std::vector<Triangle>& all) {
+void Triangles::make_meshlets(const IndexView& index, const std::vector<Triangle>& all) {
   if (all.size() > std::numeric_limits<std::uint32_t>::max() / 3) {
     raise(ErrorCode::TooLarge, std::to_string(all.size()) + " triangles, expected at most 2^32 / 3");
   }
@@ -101,7 +101,7 @@ void Triangles::cluster(const IndexView& index, const std::vector<Triangle>& all
   LeafParts parts;
   std::vector<GivenTriangle> given;  // of one leaf
   LeafId leaf = 0;
-  first_of_cluster.push_back(0);
+  first_of_meshlet.push_back(0);
   const auto end_leaf = [&] {
     parts.sort(given);
     for (std::size_t i = 0; i < given.size(); ++i) {
@@ -109,7 +109,7 @@ void Triangles::cluster(const IndexView& index, const std::vector<Triangle>& all
       face.push_back(given[i].triangle.face);
       flags.push_back(static_cast<std::uint8_t>(given[i].triangle.diagonals << 3U));
       const bool is_last = i + 1 == given.size() || given[i + 1].part != given[i].part;
-      if (is_last) first_of_cluster.push_back(static_cast<TriangleId>(size()));
+      if (is_last) first_of_meshlet.push_back(static_cast<TriangleId>(size()));
     }
     given.clear();
   };

@@ -14,13 +14,13 @@
 
 namespace meshhood {
 
-/// A triangle by its number. Those of a cluster follow each other.
+/// A triangle by its number. Those of a meshlet follow each other.
 using TriangleId = std::uint32_t;
 
 /// The triangles of the faces of a mesh, and which of them meet.
 ///
 /// A face with a wall, or with fewer than three corners, has none. A *side* joins two corners. A diagonal of a polygon
-/// is a side of its own, even where another face has the same corners. A *cluster* has the triangles of faces whose
+/// is a side of its own, even where another face has the same corners. A *meshlet* has the triangles of faces whose
 /// corners that come first in index order are in one leaf, as far as corners join them.
 struct Triangles {
   std::vector<std::array<std::uint32_t, 3>> corners;  // places in index order
@@ -28,7 +28,7 @@ struct Triangles {
   std::vector<std::uint8_t> flags;                    // bits 0 to 2: the sides at borders; 3 to 5: diagonals
   std::vector<std::uint32_t> first_fan;               // by place, and one more: in `fans`
   std::vector<TriangleId> fans;                       // the triangles at each place
-  std::vector<TriangleId> first_of_cluster;           // by cluster, and one more
+  std::vector<TriangleId> first_of_meshlet;           // by meshlet, and one more
   bool are_of_index = true;                           // whether each side that is no diagonal is an edge of the index
 
   /// An edge of the index that is no side: between two faces with walls, or of a face with two corners. By places.
@@ -87,7 +87,7 @@ struct Triangles {
     return {first, last, is_diagonal(t, static_cast<unsigned>(i)) ? face[t] : Side::kShared};
   }
 
-  void cluster(const IndexView& index, const std::vector<Triangle>& all);
+  void make_meshlets(const IndexView& index, const std::vector<Triangle>& all);
   void make_fans(std::size_t places);
   void find_borders(const IndexView& index);
 };

@@ -13,7 +13,7 @@
 #include "exact/bound_index.h"
 #include "exact/layout.h"
 #include "exact/stored_faces.h"
-#include "patch/clusters.h"
+#include "patch/meshlets.h"
 #include "shared/distance.h"
 #include "shared/kept.h"
 #include "shared/raw_vector.h"

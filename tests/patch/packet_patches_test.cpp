@@ -68,9 +68,9 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
     }
     std::ranges::sort(triangles, {}, [&](TriangleId t) { return std::pair(state.triangles.face[t], t); });
     ASSERT_EQ(triangles, search.triangles());
-    for (ClusterId cluster = 0; cluster < state.clusters.size(); ++cluster) {
-      if (!packets.has_all(q, cluster)) continue;
-      const auto first = state.triangles.first_of_cluster.begin() + cluster;
+    for (MeshletId meshlet = 0; meshlet < state.meshlets.size(); ++meshlet) {
+      if (!packets.has_all(q, meshlet)) continue;
+      const auto first = state.triangles.first_of_meshlet.begin() + meshlet;
       for (TriangleId t = first[0]; t < first[1]; ++t) EXPECT_TRUE(packets.has(q, t));
     }
     EXPECT_EQ(packets.exists(q), !triangles.empty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "patch/clusters.h"
+#include "patch/meshlets.h"
 
 #include <algorithm>
 #include <array>
@@ -16,12 +16,12 @@ namespace {
 
 /// The sums over the triangles `begin .. end - 1`, and their box. Corners are seen from the center of the sphere, so
 /// that the moment is as accurate far from the origin.
-Cluster add_up(const IndexView& index, const Triangles& triangles, TriangleId begin, TriangleId end) {
+Meshlet add_up(const IndexView& index, const Triangles& triangles, TriangleId begin, TriangleId end) {
   BoundingBox box;
   for (TriangleId t = begin; t < end; ++t) {
     for (const Point& corner : corners_of(index, triangles.corners[t])) box.add(corner);
   }
-  Cluster sums{box, 0, 0, {0, 0, 0}, 0, 0, false};
+  Meshlet sums{box, 0, 0, {0, 0, 0}, 0, 0, false};
   for (TriangleId t = begin; t < end; ++t) {
     std::array<Point, 3> corners = corners_of(index, triangles.corners[t]);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -39,48 +39,48 @@ Cluster add_up(const IndexView& index, const Triangles& triangles, TriangleId be
 
 }  // namespace
 
-Clusters::Clusters(const IndexView& index, const Triangles& triangles) : of_triangle(triangles.size()) {
-  const std::size_t count = triangles.first_of_cluster.size() - 1;
-  clusters.reserve(count + 1);
-  for (ClusterId cluster = 0; cluster < count; ++cluster) add(index, triangles, cluster);
+Meshlets::Meshlets(const IndexView& index, const Triangles& triangles) : of_triangle(triangles.size()) {
+  const std::size_t count = triangles.first_of_meshlet.size() - 1;
+  meshlets.reserve(count + 1);
+  for (MeshletId meshlet = 0; meshlet < count; ++meshlet) add(index, triangles, meshlet);
   corners.shrink_to_fit();
-  clusters.push_back({});
-  clusters.back().first_corner = static_cast<std::uint32_t>(corners.size());
+  meshlets.push_back({});
+  meshlets.back().first_corner = static_cast<std::uint32_t>(corners.size());
   list_by_leaf(index);
   boxes.build(count, [&](std::size_t i) {
-    const BoundingBox& box = clusters[i].box;
+    const BoundingBox& box = meshlets[i].box;
     return BoundingBox{index.frame.to_frame(box.low), index.frame.to_frame(box.high)};
   });
 }
 
-void Clusters::add(const IndexView& index, const Triangles& triangles, ClusterId cluster) {
-  const TriangleId begin = triangles.first_of_cluster[cluster];
-  const TriangleId end = triangles.first_of_cluster[cluster + std::size_t{1}];
+void Meshlets::add(const IndexView& index, const Triangles& triangles, MeshletId meshlet) {
+  const TriangleId begin = triangles.first_of_meshlet[meshlet];
+  const TriangleId end = triangles.first_of_meshlet[meshlet + std::size_t{1}];
   const auto first = static_cast<std::ptrdiff_t>(corners.size());
   for (TriangleId t = begin; t < end; ++t) {
-    of_triangle[t] = cluster;
+    of_triangle[t] = meshlet;
     corners.insert(corners.end(), triangles.corners[t].begin(), triangles.corners[t].end());
   }
   std::sort(corners.begin() + first, corners.end());
   corners.erase(std::unique(corners.begin() + first, corners.end()), corners.end());
-  clusters.push_back(add_up(index, triangles, begin, end));
-  clusters.back().first_corner = static_cast<std::uint32_t>(first);
+  meshlets.push_back(add_up(index, triangles, begin, end));
+  meshlets.back().first_corner = static_cast<std::uint32_t>(first);
 }
 
-void Clusters::list_by_leaf(const IndexView& index) {
-  std::vector<std::pair<LeafId, ClusterId>> all;
-  for (ClusterId cluster = 0; cluster < size(); ++cluster) {
-    for (const std::uint32_t place : corners_of(cluster)) {
-      const std::pair next(leaf_of(index.slot_at(place)), cluster);
+void Meshlets::list_by_leaf(const IndexView& index) {
+  std::vector<std::pair<LeafId, MeshletId>> all;
+  for (MeshletId meshlet = 0; meshlet < size(); ++meshlet) {
+    for (const std::uint32_t place : corners_of(meshlet)) {
+      const std::pair next(leaf_of(index.slot_at(place)), meshlet);
       if (all.empty() || all.back() != next) all.push_back(next);  // places of a leaf follow each other
     }
   }
   std::sort(all.begin(), all.end());
   first_of_leaf.assign(index.leaf_count() + 1, 0);
   of_leaf.reserve(all.size());
-  for (const auto& [leaf, cluster] : all) {
+  for (const auto& [leaf, meshlet] : all) {
     ++first_of_leaf[leaf + std::size_t{1}];
-    of_leaf.push_back(cluster);
+    of_leaf.push_back(meshlet);
   }
   std::partial_sum(first_of_leaf.begin(), first_of_leaf.end(), first_of_leaf.begin());
 }
@@ -101,11 +101,11 @@ PatchState::PatchState(const Index& given, const StoredFaces& all)
       index(&IndexAccess::view(searched)),
       faces(&all),
       triangles(*index, all),
-      clusters(*index, triangles) {}
+      meshlets(*index, triangles) {}
 
-std::size_t Clusters::bytes() const {
+std::size_t Meshlets::bytes() const {
   const auto bytes_of = [](const auto& array) { return array.size() * sizeof(array[0]); };
-  return bytes_of(clusters) + bytes_of(corners) + bytes_of(of_triangle) + bytes_of(first_of_leaf) + bytes_of(of_leaf) +
+  return bytes_of(meshlets) + bytes_of(corners) + bytes_of(of_triangle) + bytes_of(first_of_leaf) + bytes_of(of_leaf) +
          boxes.bytes();
 }
 

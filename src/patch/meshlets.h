@@ -17,47 +17,47 @@
 
 namespace meshhood {
 
-using ClusterId = std::uint32_t;
+using MeshletId = std::uint32_t;
 
-/// Sums over the triangles of a cluster. Lengths are in the frame, points in the unit of the mesh.
-struct Cluster {
+/// Sums over the triangles of a meshlet. Lengths are in the frame, points in the unit of the mesh.
+struct Meshlet {
   BoundingBox box;
   double radius;  // of a bounding sphere about the center
   double area;
   Point vector_area;           // the sum of area times normal
   double moment;               // the sum of area times the distance of the plane from `center`, along the normal
-  std::uint32_t first_corner;  // in `Clusters::corners`
+  std::uint32_t first_corner;  // in `Meshlets::corners`
   bool has_border;
 
   [[nodiscard]] Point center() const { return 0.5 * box.low + 0.5 * box.high; }
 };
 
 /// What a search takes at once where it lies inside a ball, and finds at once where it lies far away.
-struct Clusters {
-  std::vector<Cluster> clusters;             // and one more, for the end of the last corners
-  std::vector<std::uint32_t> corners;        // the places at each cluster, ascending
-  std::vector<ClusterId> of_triangle;        // the cluster of each
+struct Meshlets {
+  std::vector<Meshlet> meshlets;             // and one more, for the end of the last corners
+  std::vector<std::uint32_t> corners;        // the places at each meshlet, ascending
+  std::vector<MeshletId> of_triangle;        // the meshlet of each
   std::vector<std::uint32_t> first_of_leaf;  // by leaf, and one more: in `of_leaf`
-  std::vector<ClusterId> of_leaf;            // those with a corner in it, ascending
-  BoxTree boxes;                             // of the clusters
+  std::vector<MeshletId> of_leaf;            // those with a corner in it, ascending
+  BoxTree boxes;                             // of the meshlets
 
-  Clusters(const IndexView& index, const Triangles& triangles);
+  Meshlets(const IndexView& index, const Triangles& triangles);
 
   [[nodiscard]] std::size_t bytes() const;
 
-  [[nodiscard]] std::size_t size() const { return clusters.size() - 1; }
+  [[nodiscard]] std::size_t size() const { return meshlets.size() - 1; }
 
-  [[nodiscard]] std::span<const std::uint32_t> corners_of(ClusterId cluster) const {
-    return std::span(corners).subspan(clusters[cluster].first_corner,
-                                      clusters[cluster + std::size_t{1}].first_corner - clusters[cluster].first_corner);
+  [[nodiscard]] std::span<const std::uint32_t> corners_of(MeshletId meshlet) const {
+    return std::span(corners).subspan(meshlets[meshlet].first_corner,
+                                      meshlets[meshlet + std::size_t{1}].first_corner - meshlets[meshlet].first_corner);
   }
 
-  [[nodiscard]] std::span<const ClusterId> at_leaf(LeafId leaf) const {
+  [[nodiscard]] std::span<const MeshletId> at_leaf(LeafId leaf) const {
     return std::span(of_leaf).subspan(first_of_leaf[leaf], first_of_leaf[leaf + std::size_t{1}] - first_of_leaf[leaf]);
   }
 
  private:
-  void add(const IndexView& index, const Triangles& triangles, ClusterId cluster);
+  void add(const IndexView& index, const Triangles& triangles, MeshletId meshlet);
   void list_by_leaf(const IndexView& index);
 };
 
@@ -70,9 +70,9 @@ struct PatchState {
   const IndexView* index;
   const StoredFaces* faces;
   Triangles triangles;
-  Clusters clusters;
+  Meshlets meshlets;
 
-  [[nodiscard]] std::size_t bytes() const { return triangles.bytes() + clusters.bytes(); }
+  [[nodiscard]] std::size_t bytes() const { return triangles.bytes() + meshlets.bytes(); }
 };
 
 }  // namespace meshhood
