@@ -82,7 +82,7 @@ void paint(const std::string& file, Input& input, VertexId v, const std::vector<
   painting.paint(rows[2].vertices, kPaperColor);
   painting.paint(rows[0].vertices, kExactColor);
   painting.paint(std::span(&v, 1), kQueryColor);
-  painting.write(file, input.surface());
+  painting.write(file, input);
 }
 
 void compare(const CompareCommand& options) {

@@ -211,6 +211,10 @@ void Input::ignore_welded() {
   }
 }
 
+std::span<const std::uint8_t> Input::unplaced() const {
+  return mesh_ ? std::span<const std::uint8_t>(mesh_->walls) : std::span<const std::uint8_t>();
+}
+
 void Input::search_along_surface() {
   need_faces("--metric surface");
   is_along_surface_ = true;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,6 +75,9 @@ class Input {
 
   /// The mesh; of an index without faces only the vertices, with a warning that a picture has only these.
   [[nodiscard]] MeshView surface();
+
+  /// #V, or empty: the vertices without a position, which `surface` has where another vertex is.
+  [[nodiscard]] std::span<const std::uint8_t> unplaced() const;
 
   /// What all searches leave out, beside vertices without a position. Before the first use of the index.
   void set_masks(OwnedMasks masks);

@@ -21,9 +21,10 @@ void Painting::paint(std::span<const VertexId> vertices, const Color& color) {
   }
 }
 
-void Painting::write(const std::string& file, const MeshView& mesh) const {
+void Painting::write(const std::string& file, Input& input) const {
   Task task("writing " + file);
-  io::write_ply(file, mesh, {.colors = colors_, .properties = {}, .progress = task.progress()});
+  io::write_ply(file, input.surface(),
+                {.colors = colors_, .properties = {}, .walls = input.unplaced(), .progress = task.progress()});
 }
 
 }  // namespace meshhood::cli

@@ -10,6 +10,8 @@
 
 #include "meshhood/mesh.h"
 
+#include "input.h"
+
 namespace meshhood::cli {
 
 using Color = std::array<std::uint8_t, 3>;
@@ -29,8 +31,8 @@ class Painting {
 
   void paint(std::span<const VertexId> vertices, const Color& color);
 
-  /// Writes the colored mesh as PLY. Throws as `io::write_ply`.
-  void write(const std::string& file, const MeshView& mesh) const;
+  /// Writes the colored surface as PLY. Throws as `io::write_ply`.
+  void write(const std::string& file, Input& input) const;
 
  private:
   std::vector<std::uint8_t> colors_;  // #V by 3

@@ -200,7 +200,7 @@ void paint(const QueryCommand& options, Input& input, const std::vector<Answer>&
   for (const Answer& answer : answers) {
     if (answer.vertex) painting.paint(std::span(&*answer.vertex, 1), kQueryColor);
   }
-  painting.write(options.output.name, input.surface());
+  painting.write(options.output.name, input);
 }
 
 std::vector<Answer> answers_of_method(const QueryCommand& options, const StartQuery& query, double radius,

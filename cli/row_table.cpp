@@ -135,7 +135,9 @@ std::vector<Property> mesh_properties(const RowTable& table) {
   return properties;
 }
 
-void write_meshes(const ValueFiles& files, const RowTable& table, const MeshView& mesh) {
+void write_meshes(const ValueFiles& files, const RowTable& table, Input& input) {
+  const MeshView mesh = input.surface();
+  const std::span<const std::uint8_t> walls = input.unplaced();
   const std::vector<Property> of_mesh = mesh_properties(table);
   std::vector<std::vector<float>> values;
   for (const Property& property : of_mesh) values.push_back(values_of(table, property));
@@ -143,12 +145,13 @@ void write_meshes(const ValueFiles& files, const RowTable& table, const MeshView
   for (std::size_t i = 0; i < values.size(); ++i) properties.push_back({of_mesh[i].name, values[i]});
   if (!files.vtk.empty()) {
     Task task("writing " + files.vtk);
-    io::write_vtk(files.vtk, mesh, {.properties = properties, .progress = task.progress()});
+    io::write_vtk(files.vtk, mesh, {.properties = properties, .walls = walls, .progress = task.progress()});
   }
   if (!files.ply.empty()) {
     Task task("writing " + files.ply);
     properties.insert(properties.begin(), {"quality", values.front()});
-    io::write_ply(files.ply, mesh, {.colors = table.colors, .properties = properties, .progress = task.progress()});
+    io::write_ply(files.ply, mesh,
+                  {.colors = table.colors, .properties = properties, .walls = walls, .progress = task.progress()});
   }
 }
 
@@ -170,7 +173,7 @@ void run(const TableCommand& options, const QuantityName& name, Quantity& quanti
   if (options.rows.row_radii.empty()) document["radii"] = table.radii;
   document.update(table.summary);
   const std::string text = fmt::format("{}: {} rows, radii: {}; {}\n", names, table.rows, table.scales, table.text);
-  if (options.files.has_mesh()) write_meshes(options.files, table, input.surface());
+  if (options.files.has_mesh()) write_meshes(options.files, table, input);
   if (!options.files.table.name.empty()) {
     const BatchRadius radius =
         options.rows.row_radii.empty() ? BatchRadius::scales(table.radii) : BatchRadius(table.radii);

@@ -119,7 +119,8 @@ struct VertexProperty {
 struct PlyOptions {
   Borrowed<std::uint8_t> colors = {};  ///< #V by 3 (red, green, blue), or empty
   std::vector<VertexProperty> properties = {};
-  bool ascii = false;  ///< binary little-endian otherwise
+  Borrowed<std::uint8_t> walls = {};  ///< #V, or empty: not 0 for vertices to be written as NaN (see `Mesh::walls`)
+  bool ascii = false;                 ///< binary little-endian otherwise
 
   /// Called every few thousand rows, and once more when the data is on the disk, just before the rename. Counts
   /// vertices and faces.
@@ -135,7 +136,8 @@ void write_ply(const std::filesystem::path& path, const MeshView& mesh, const Pl
 struct VtkOptions {
   std::vector<VertexProperty> properties = {};  ///< ParaView and PyVista show the first at once, if it is a scalar
 
-  /// As in `PlyOptions`.
+  // As in `PlyOptions`.
+  Borrowed<std::uint8_t> walls = {};
   Progress progress = {};
 };
 

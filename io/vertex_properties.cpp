@@ -9,6 +9,7 @@
 #include "meshhood/error.h"
 
 #include "io/messages.h"
+#include "shared/unplaced.h"
 
 namespace meshhood::io {
 namespace {
@@ -35,6 +36,15 @@ void check_properties(std::span<const VertexProperty> properties, std::size_t ve
     if (values == vertices || values == 3 * vertices) continue;
     refuse(property, fmt::format(" has {} values, expected one or three for each of {} vertices", values, vertices));
   }
+}
+
+void check_walls(std::span<const std::uint8_t> walls, const MeshView& mesh) {
+  if (walls.empty()) return;
+  if (walls.size() != mesh.positions.size()) {
+    raise(ErrorCode::InvalidOption,
+          fmt::format("{} walls, expected one for each of {} vertices", walls.size(), mesh.positions.size()));
+  }
+  if (const auto used = first_corner_of(mesh.faces, walls)) raise(ErrorCode::InvalidMesh, used->text());
 }
 
 }  // namespace meshhood::io

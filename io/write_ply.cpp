@@ -145,7 +145,7 @@ class PlyWriter {
   template <class Real>
   void write_vertices(const StridedPositions<Real>& xyz) {
     for (std::size_t vertex = 0; vertex < xyz.size(); ++vertex) {
-      for (std::size_t axis = 0; axis < 3; ++axis) rows_.value(xyz(vertex, axis));
+      for (std::size_t axis = 0; axis < 3; ++axis) rows_.value(written(xyz, vertex, axis, options_.walls));
       if (!options_.colors.empty()) {
         for (const auto channel : options_.colors.subspan(3 * vertex, 3)) rows_.value(channel);
       }
@@ -178,6 +178,7 @@ class PlyWriter {
 
 void write_ply(const std::filesystem::path& path, const MeshView& mesh, const PlyOptions& options) {
   validate(mesh);
+  check_walls(options.walls, mesh);
   check(options, mesh.positions.size());
   RowProgress progress(options.progress, mesh.positions.size() + mesh.faces.size(), path.string());
   progress.report();

@@ -53,7 +53,7 @@ class VtkWriter {
   void write_points(const StridedPositions<Real>& xyz) {
     file_.write(fmt::format("POINTS {} {}\n", xyz.size(), std::is_same_v<Real, double> ? "double" : "float"));
     for (std::size_t v = 0; v < xyz.size(); ++v) {
-      for (std::size_t axis = 0; axis < 3; ++axis) number(xyz(v, axis));
+      for (std::size_t axis = 0; axis < 3; ++axis) number(written(xyz, v, axis, options_.walls));
       progress_.add_row();
     }
   }
@@ -101,6 +101,7 @@ class VtkWriter {
 
 void write_vtk(const std::filesystem::path& path, const MeshView& mesh, const VtkOptions& options) {
   validate(mesh);
+  check_walls(options.walls, mesh);
   check_properties(options.properties, mesh.positions.size());
   const std::uint64_t numbers = std::max(mesh.positions.size(), numbers_of(mesh.faces));
   const std::string name = path.string();

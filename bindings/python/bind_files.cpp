@@ -74,19 +74,20 @@ auto read(const std::filesystem::path& path, std::size_t scalar_bytes, unsigned 
 using Scalars = nb::ndarray<const float, nb::c_contig, nb::device::cpu>;
 using Colors = nb::ndarray<const std::uint8_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
-/// `values`: named scalars (#V) or vectors (#V by 3).
+/// `values`: named scalars (#V) or vectors (#V by 3). `walls`: of those without a position, as `place` returns them.
 void write(const std::filesystem::path& path, const Input& positions, const Input& corners,
            const std::optional<Input>& offsets, const std::vector<std::pair<std::string, Scalars>>& values,
-           const std::optional<Colors>& colors, bool vtk) {
+           const std::optional<Colors>& colors, const std::optional<Bytes>& walls, bool vtk) {
   const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
   std::vector<io::VertexProperty> properties;
   for (const auto& [name, numbers] : values) {
     properties.push_back({name, std::span(numbers.data(), numbers.size())});
   }
   const Progress progress = progress_to(nb::handle(Py_None));
+  const auto unplaced = walls ? std::span(walls->data(), walls->size()) : std::span<const std::uint8_t>();
   without_lock([&] {
-    if (vtk) return io::write_vtk(path, mesh, {.properties = properties, .progress = progress});
-    io::PlyOptions options{.properties = properties, .progress = progress};
+    if (vtk) return io::write_vtk(path, mesh, {.properties = properties, .walls = unplaced, .progress = progress});
+    io::PlyOptions options{.properties = properties, .walls = unplaced, .progress = progress};
     if (colors) options.colors = std::span(colors->data(), colors->size());
     io::write_ply(path, mesh, options);
   });
@@ -162,7 +163,7 @@ std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
 
 void bind_files(nb::module_& module) {
   module.def("write_mesh", &write, nb::arg(), nb::arg("V"), nb::arg("F"), nb::arg("offsets").none(), nb::arg("values"),
-             nb::arg("colors").none(), nb::arg("vtk"));
+             nb::arg("colors").none(), nb::arg("walls").none(), nb::arg("vtk"));
   module.def("read_mesh", &read, nb::arg("path"), nb::arg("scalar_bytes"), nb::arg("threads"),
              nb::arg("progress").none());
   module.def("save", &save_file, nb::arg(), nb::arg("path"), nb::arg("faces").none(), nb::arg("progress").none());

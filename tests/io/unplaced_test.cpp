@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "support/hostile.h"
+#include "support/refusal.h"
+#include "support/scratch.h"
 
 namespace meshhood::test {
 namespace {
@@ -82,6 +84,32 @@ TEST(VertexWithoutPosition, OfAFaceIsRefusedWithFaceCornerVertexAndPlace) {
     const std::string vertex = scan.first == "0" ? "vertex 2 has no position" : "vertex 3 has no position";
     expect_refused(scan.name, scan.content, ErrorCode::MalformedFile, scan.place, vertex, scan.corner);
   }
+}
+
+TEST(VertexWithoutPosition, IsWrittenAsOneAndReadAgain) {
+  const io::Mesh mesh = read("a.off", "OFF\n4 1 0\nnan 1 2\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3\n");
+  const Scratch scratch;
+  const auto expect_same = [&](const char* name) {
+    const io::Mesh again = io::read_mesh(scratch.path() / name);
+    EXPECT_EQ(again.walls, mesh.walls) << name;
+    EXPECT_EQ(again.positions, mesh.positions) << name;
+    EXPECT_EQ(again.corners, mesh.corners) << name;
+  };
+  io::write_ply(scratch.path() / "binary.ply", mesh.view(), {.walls = mesh.walls});
+  io::write_ply(scratch.path() / "text.ply", mesh.view(), {.walls = mesh.walls, .ascii = true});
+  io::write_vtk(scratch.path() / "a.vtk", mesh.view(), {.walls = mesh.walls});
+  for (const char* name : {"binary.ply", "text.ply", "a.vtk"}) expect_same(name);
+}
+
+TEST(VertexWithoutPosition, OfAFaceIsNotWritten) {
+  const Scratch scratch;
+  const io::Mesh mesh = read("a.off", "OFF\n4 1 0\n1 1 2\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3\n");
+  const std::vector<std::uint8_t> used{0, 0, 1, 0};
+  const std::vector<std::uint8_t> few{0, 0, 1};
+  expect_refused(ErrorCode::InvalidMesh, "vertex 2 has no position (NaN), but face 0 has it as corner 1",
+                 [&] { io::write_vtk(scratch.path() / "a.vtk", mesh.view(), {.walls = used}); });
+  expect_refused(ErrorCode::InvalidOption, "3 walls, expected one for each of 4 vertices",
+                 [&] { io::write_ply(scratch.path() / "a.ply", mesh.view(), {.walls = few}); });
 }
 
 TEST(VertexWithoutPosition, MayBeEveryVertex) {

@@ -98,3 +98,16 @@ def test_a_file_gives_them_as_it_has_them(tmp_path):
     with pytest.warns(UserWarning, match="walls"):
         index = meshhood.MeshIndex(mesh)
     np.testing.assert_array_equal(index.counts(2.5), scanned().counts(2.5))
+
+
+@pytest.mark.parametrize("extension", (".ply", ".vtk"))
+def test_a_mesh_with_holes_that_was_read_is_written_and_read_again(tmp_path, extension):
+    V, F = scan()
+    path = tmp_path / f"scan{extension}"
+    meshhood.write_mesh(path, V, F, values={"height": np.arange(len(V))})
+    with pytest.warns(UserWarning, match="vertices without a position .* are walls .12 times"):
+        read = meshhood.read_mesh(path)
+    np.testing.assert_array_equal(read.vertices, np.where(np.isnan(V).any(axis=1, keepdims=True), np.nan, V))
+    np.testing.assert_array_equal(read.faces[1], F.ravel())
+    with pytest.raises(ValueError, match=rf"vertex {HOLES[0]} has no position \(NaN\), but face 0 has it as corner 1"):
+        meshhood.write_mesh(path, V, np.array([[IDS[0], HOLES[0], IDS[1]]]))

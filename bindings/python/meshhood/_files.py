@@ -90,7 +90,7 @@ def write_mesh(
     VTP (.vtp, pyvista), GLB (.glb, trimesh), and GIFTI (nibabel): a surface (.gii, .surf.gii), or the values alone as maps
     (.shape.gii, .func.gii).
 
-    V, F : as for `MeshIndex`, but not a graph. GIFTI and GLB have triangles and float32.
+    V, F : as for `MeshIndex`, but not a graph. A vertex of no face may be NaN. GIFTI and GLB have triangles and float32.
     values : by name, numbers (#V,) or vectors (#V, 3), written as float32. A name is printable ASCII without blanks.
         MeshLab shows the one named "quality" as colors.
     colors : (#V, 3) uint8, red, green and blue; not for VTK's legacy format and GIFTI.
@@ -124,7 +124,10 @@ def write_mesh(
         with atomic_file(path) as file:
             file.write(content)
         return
-    _core.write_mesh(path, positions, corners, offsets=offsets, values=named, colors=colors, vtk=extension == ".vtk")
+    positions, walls = _core.place(positions, corners, offsets=offsets) or (positions, None)
+    _core.write_mesh(
+        path, positions, corners, offsets=offsets, values=named, colors=colors, walls=walls, vtk=extension == ".vtk"
+    )
 
 
 def _scalars(numbers: Any, name: str, count: int) -> NDArray[np.float32]:
