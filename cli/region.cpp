@@ -70,19 +70,14 @@ void add_rows(io::NpzWriter& npz, const std::string& name, const std::vector<std
   }
 }
 
-template <class Value>
-void add_numbers_of(io::NpzWriter& npz, const std::string& name, const std::vector<Value>& values) {
-  npz.add<std::int64_t>(name, std::vector<std::int64_t>(values.begin(), values.end()));
-}
-
 void write_arrays(const std::string& file, const Submesh& part, const Rim& rim) {
   io::NpzWriter npz(file);
-  add_numbers_of(npz, "vertices", part.vertices);
-  add_numbers_of(npz, "faces", part.faces);
+  npz.add_converted<std::int64_t>("vertices", part.vertices);
+  npz.add_converted<std::int64_t>("faces", part.faces);
   add_rows<double>(npz, "rim_points", rim.points);
   add_rows<std::int64_t>(npz, "rim_edges", rim.edges);
-  add_numbers_of(npz, "rim_offsets", rim.offsets);
-  add_numbers_of(npz, "rim_closed", rim.closed);
+  npz.add_converted<std::int64_t>("rim_offsets", rim.offsets);
+  npz.add_converted<std::int64_t>("rim_closed", rim.closed);
   npz.commit();
 }
 
@@ -105,7 +100,7 @@ void clip(const RegionCommand& options, const QueryStart& start, double radius, 
     io::NpzWriter npz(options.arrays);
     add_rows<std::int64_t>(npz, "vertices", part.vertices);
     add_rows<double>(npz, "weights", part.weights);
-    add_numbers_of(npz, "faces", part.faces);
+    npz.add_converted<std::int64_t>("faces", part.faces);
     npz.commit();
   }
   print_result(

@@ -84,7 +84,7 @@ BatchQuery RowQuery::query(BatchRadius radius) const {
 
 void write_vertices(io::NpzWriter& npz, const BatchVertices& rows) {
   if (!rows.list()) return;
-  npz.add<std::int64_t>("vertices", std::vector<std::int64_t>(rows.list()->begin(), rows.list()->end()));
+  npz.add_converted<std::int64_t>("vertices", *rows.list());
 }
 
 void write_radii(io::NpzWriter& npz, const BatchRadius& radius) {

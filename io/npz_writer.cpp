@@ -30,11 +30,6 @@ void NpzWriter::begin_member(std::string_view name, std::string_view type, std::
 }
 
 template <class T>
-void NpzWriter::begin(std::string_view name, std::uint64_t count) {
-  begin<T>(name, std::span<const std::uint64_t>(&count, 1));
-}
-
-template <class T>
 void NpzWriter::begin(std::string_view name, std::span<const std::uint64_t> shape) {
   const std::uint64_t count = std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
   const std::string lengths = fmt::format("({}{})", fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
@@ -77,12 +72,9 @@ void NpzWriter::commit() {
   zip_.commit();
 }
 
-template void NpzWriter::begin<std::int32_t>(std::string_view, std::uint64_t);
-template void NpzWriter::begin<std::int64_t>(std::string_view, std::uint64_t);
-template void NpzWriter::begin<std::uint64_t>(std::string_view, std::uint64_t);
-template void NpzWriter::begin<double>(std::string_view, std::uint64_t);
 template void NpzWriter::begin<std::int32_t>(std::string_view, std::span<const std::uint64_t>);
 template void NpzWriter::begin<std::int64_t>(std::string_view, std::span<const std::uint64_t>);
+template void NpzWriter::begin<std::uint64_t>(std::string_view, std::span<const std::uint64_t>);
 template void NpzWriter::begin<double>(std::string_view, std::span<const std::uint64_t>);
 template void NpzWriter::append<std::int32_t>(std::span<const std::int32_t>);
 template void NpzWriter::append<std::int64_t>(std::span<const std::int64_t>);

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/zip_writer.h"
 
@@ -21,7 +22,9 @@ class NpzWriter {
 
   /// Begins a one-dimensional array; exactly `count` values must follow by `append`.
   template <class T>
-  void begin(std::string_view name, std::uint64_t count);
+  void begin(std::string_view name, std::uint64_t count) {
+    begin<T>(name, std::span<const std::uint64_t>(&count, 1));
+  }
 
   /// The same for an array of several dimensions, whose values follow row by row.
   template <class T>
@@ -34,6 +37,12 @@ class NpzWriter {
   void add(std::string_view name, std::span<const T> values) {
     begin<T>(name, values.size());
     append(values);
+  }
+
+  /// The same from numbers of another type.
+  template <class T, class Numbers>
+  void add_converted(std::string_view name, const Numbers& numbers) {
+    add<T>(name, std::vector<T>(numbers.begin(), numbers.end()));
   }
 
   /// Adds an array of `count` values true, which is compressed. Other values are stored, as numbers hardly compress.
