@@ -8,9 +8,12 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
 
 #include "meshhood/batch.h"
 #include "meshhood/error.h"
@@ -20,8 +23,8 @@ namespace meshhood::python {
 using Rows = nanobind::ndarray<const std::int32_t, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>;
 using Radii = nanobind::ndarray<const double, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>;
 
-/// A radius, or one for each row; none if there are scales.
-using Radius = std::optional<std::variant<double, Radii>>;
+/// A number; an array, one for each row; or a list, of scales.
+using Radius = std::variant<double, Radii, std::vector<double>>;
 
 [[nodiscard]] inline std::span<const double> numbers_of(const Radii& array) { return {array.data(), array.size()}; }
 
@@ -30,17 +33,22 @@ using Radius = std::optional<std::variant<double, Radii>>;
   return std::span(reinterpret_cast<const VertexId*>(vertices->data()), vertices->size());
 }
 
-/// Without one, a radius that every call rejects.
 [[nodiscard]] inline BatchRadius radius_of(const Radius& radius) {
-  if (!radius) return {};
-  if (const auto* const radii = std::get_if<Radii>(&*radius)) return numbers_of(*radii);
-  return std::get<double>(*radius);
+  if (const auto* const radii = std::get_if<Radii>(&radius)) return numbers_of(*radii);
+  if (const auto* const scales = std::get_if<std::vector<double>>(&radius)) return BatchRadius::scales(*scales);
+  return std::get<double>(radius);
 }
 
 /// The query of a batch. Borrows the arrays.
 [[nodiscard]] inline BatchQuery query_of(const std::optional<Rows>& vertices, const Radius& radius,
                                          Metric metric = Metric::Straight) {
   return {.vertices = vertices_of(vertices), .radius = radius_of(radius), .metric = metric};
+}
+
+/// The number of rows of a result, of all scales.
+[[nodiscard]] inline std::size_t result_rows(const BatchQuery& query, std::size_t vertex_count) {
+  const auto& scales = query.radius.scales();
+  return (scales ? scales->size() : 1) * query.vertices.count(vertex_count);
 }
 
 /// A result beyond the limit of bytes: a MemoryError in Python.

@@ -34,15 +34,14 @@ SignalView signal_of(const Values& values, const std::optional<Weights>& weights
   return signal;
 }
 
-/// A flat array, #radii by #rows by channels by #reductions. Either `radii`, the scales, or `radius`.
+/// A flat array, #scales by #rows by channels by #reductions.
 nb::object aggregates(const ExactMethod& method, const Values& values, const std::optional<Weights>& weights,
-                      const std::optional<Rows>& vertices, std::vector<double> radii, std::vector<Reduce> reduce,
+                      const std::optional<Rows>& vertices, const Radius& radius, std::vector<Reduce> reduce,
                       SmoothingKernel kernel, MissingValues missing, Nesting nesting, unsigned ddof, double quantile,
-                      unsigned threads, std::uint64_t max_bytes, nb::handle progress, const Radius& radius,
-                      Metric metric) {
+                      unsigned threads, std::uint64_t max_bytes, nb::handle progress, Metric metric) {
   const SignalView signal = signal_of(values, weights);
   const AggregateQuery query{.vertices = vertices_of(vertices),
-                             .radius = radius ? radius_of(radius) : BatchRadius::scales(std::move(radii)),
+                             .radius = radius_of(radius),
                              .metric = metric,
                              .reduce = std::move(reduce),
                              .kernel = kernel,
@@ -103,9 +102,9 @@ void bind_aggregates(nb::module_& module) {
       .value("space", Metric::Space);
   nb::enum_<Nesting>(module, "Nesting").value("own", Nesting::Own).value("patch", Nesting::Patch);
   module.def("aggregate", &aggregates, nb::arg(), nb::arg("values"), nb::arg("weights").none(),
-             nb::arg("vertices").none(), nb::arg("radii"), nb::arg("reduce"), nb::arg("kernel"), nb::arg("missing"),
+             nb::arg("vertices").none(), nb::arg("radius"), nb::arg("reduce"), nb::arg("kernel"), nb::arg("missing"),
              nb::arg("nesting"), nb::arg("ddof"), nb::arg("quantile"), nb::arg("threads"), nb::arg("max_bytes"),
-             nb::arg("progress").none(), nb::arg("radius") = nb::none(), nb::arg("metric") = Metric::Straight);
+             nb::arg("progress").none(), nb::arg("metric") = Metric::Straight);
   module.def("vertex_areas", &areas, nb::arg("V"), nb::arg("F"), nb::arg("offsets").none());
   module.def("smoothing_radius", &smoothing_radius, nb::arg());
   module.def("smoothing_weights", &smoothing_weights, nb::arg("kernel"), nb::arg("distances"), nb::arg("radii"));

@@ -38,7 +38,7 @@ auto curvatures_of(const Surface& surface, const std::optional<Rows>& vertices, 
   options.filter = filter;
   const Run run{.threads = threads, .progress = progress_to(progress)};
   const BatchQuery query = query_of(vertices, radius, metric);
-  const std::size_t rows = query.vertices.count(surface.vertex_count());
+  const std::size_t rows = result_rows(query, surface.vertex_count());
   const nb::object k1 = unset(rows, "float64");
   const nb::object k2 = unset(rows, "float64");
   // In one block: glibc gives memory back to the system, which costs page faults in the next call, as soon as more than
@@ -102,19 +102,16 @@ auto components_of(const ExactMethod& method, const std::optional<Rows>& vertice
                     owned<double>(std::move(found.axes), {rows, 3, 3}));
 }
 
-/// Either `radii`, the scales, or `radius`.
-Output<double> features_of(const Surface& surface, const std::optional<Rows>& vertices, const Radii& radii,
+Output<double> features_of(const Surface& surface, const std::optional<Rows>& vertices, const Radius& radius,
                            std::vector<Feature> kinds, const std::optional<Radii>& areas, bool filter, unsigned threads,
-                           nb::handle progress, Metric metric, const Radius& radius) {
-  BatchQuery query = query_of(vertices, radius, metric);
-  if (!radius) query.radius = BatchRadius::scales({numbers_of(radii).begin(), numbers_of(radii).end()});
+                           nb::handle progress, Metric metric) {
+  const BatchQuery query = query_of(vertices, radius, metric);
   FeatureOptions options{.kinds = std::move(kinds), .areas = {}, .filter = filter};
   const Run run{.threads = threads, .progress = progress_to(progress)};
   if (areas) options.areas = numbers_of(*areas);
   std::vector<double> found = without_lock([&] { return features(surface, query, options, run); });
-  const std::size_t count = radius ? 1 : radii.size();
-  const std::size_t rows = found.size() / count / options.kinds.size();
-  return owned<double>(std::move(found), {count, rows, options.kinds.size()});
+  const std::size_t rows = found.size() / options.kinds.size();
+  return owned<double>(std::move(found), {rows, options.kinds.size()});
 }
 
 auto persistence_of(const Radii& values, const Radii& radii, double threshold) {
@@ -148,11 +145,10 @@ void bind_curvature(nb::module_& module, nb::class_<Surface>& surface) {
   surface
       .def("curvatures", &curvatures_of, nb::arg().none(), nb::arg(), nb::arg("libigl"), nb::arg("jet"),
            nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"))
-      .def("corrected", &corrected_curvatures_of, nb::arg().none(), nb::arg().none(), nb::arg("threads"),
+      .def("corrected", &corrected_curvatures_of, nb::arg().none(), nb::arg(), nb::arg("threads"),
            nb::arg("progress").none(), nb::arg("metric"))
-      .def("features", &features_of, nb::arg().none(), nb::arg("radii"), nb::arg("kinds"), nb::arg("areas").none(),
-           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"),
-           nb::arg("radius") = nb::none());
+      .def("features", &features_of, nb::arg().none(), nb::arg(), nb::arg("kinds"), nb::arg("areas").none(),
+           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"));
   module.def("moments", &moments_of, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("degree"),
              nb::arg("weights").none(), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"));
   module.def("principal_components", &components_of, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("weights").none(),

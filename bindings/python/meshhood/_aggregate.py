@@ -155,15 +155,13 @@ class Aggregates(Held):
         if 0 in given.shape[1:]:
             return np.empty(shape, dtype)
         columns = np.array(given, np.float64, order="C").reshape(self._count, int(np.prod(given.shape[1:])))
-        radii, radius = rows.common_radii
         with rows.reporter("aggregate") as report:
             result = _core.aggregate(
                 rows.index._exact,
                 values=columns,
                 weights=areas,
                 vertices=rows.vertices,
-                radii=radii,
-                radius=radius,
+                radius=rows.radius,
                 threads=rows.threads,
                 max_bytes=2**64 - 1,
                 progress=report,

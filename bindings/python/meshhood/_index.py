@@ -354,12 +354,11 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         searched = rows.index._method(method, metric)
-        counts = rows.shaped(
-            rows.for_each_scale(
-                "counts",
-                lambda radius, report: searched.counts(rows.vertices, radius, threads=rows.threads, progress=report),
-            )
+        found = rows.for_each_scale(
+            "counts",
+            lambda radius, report: searched.counts(rows.vertices, radius, threads=rows.threads, progress=report),
         )
+        counts = rows.shaped(np.concatenate(found))
         return counts if counts.ndim else int(counts)
 
     def radius_neighbors_graph(

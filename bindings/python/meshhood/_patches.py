@@ -139,11 +139,9 @@ class Patches(Held):
         metric = _convert.choice(metric, "metric", ("straight",))
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         patches = rows.index._patches(F)
-        found = rows.for_each_scale(
-            "invariants",
-            lambda radius, report: patches.invariants(rows.vertices, radius, threads=rows.threads, progress=report),
-        )
-        return Invariants(*(rows.shaped(list(arrays)) for arrays in zip(*found)))
+        with rows.reporter("invariants") as report:
+            found = patches.invariants(rows.vertices, rows.radius, threads=rows.threads, progress=report)
+        return Invariants(*map(rows.shaped, found))
 
     def gaps(
         self,
@@ -172,10 +170,9 @@ class Patches(Held):
         metric = _convert.choice(metric, "metric", ("straight",))
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         patches = rows.index._patches(F)
-        found = rows.for_each_scale(
-            "gaps", lambda radius, report: patches.gaps(rows.vertices, radius, threads=rows.threads, progress=report)
-        )
-        return Gaps(*(rows.shaped(list(arrays)) for arrays in zip(*found)))
+        with rows.reporter("gaps") as report:
+            found = patches.gaps(rows.vertices, rows.radius, threads=rows.threads, progress=report)
+        return Gaps(*map(rows.shaped, found))
 
     def patch(
         self,

@@ -34,11 +34,10 @@ class Rows:
     progress: Progress
 
     @property
-    def common_radii(self) -> Any:
-        """The radii as calls of the library take them that compute all scales at once: those of all rows, and one for
-        each row, of which there is one or the other."""
-        first = self.radii[0]
-        return (self.radii, None) if isinstance(first, float) else ([], first)
+    def radius(self) -> Any:
+        """As calls of the library take it that compute all scales at once: a number; an array, one for each row; or a
+        list, of scales."""
+        return self.radii[0] if len(self.radii) == 1 else self.radii
 
     @property
     def core_metric(self) -> Any:
@@ -53,10 +52,9 @@ class Rows:
             reports = in_parts(report, len(self.radii))
             return [compute(radius, each) for radius, each in zip(self.radii, reports)]
 
-    def shaped(self, results: list[Any]) -> Any:
-        """Results of each scale, a row for each vertex, as one array."""
-        array = results[0] if len(results) == 1 else np.stack(results)
-        return array.reshape(self.shape + results[0].shape[1:])
+    def shaped(self, array: Any) -> Any:
+        """A result with a row for each vertex, of one scale after the other."""
+        return array.reshape(self.shape + array.shape[1:])
 
 
 def read_rows(

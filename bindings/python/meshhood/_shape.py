@@ -82,10 +82,9 @@ class Shape(Held):
         options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
         options |= {"filter": bool(filter), "threads": rows.threads, "metric": rows.core_metric}
         surface = rows.index._surface(F, normals)
-        found = rows.for_each_scale(
-            "curvature", lambda radius, report: surface.curvatures(rows.vertices, radius, progress=report, **options)
-        )
-        return Curvature(*(_of_type(rows.shaped(list(arrays)), dtype) for arrays in zip(*found)))
+        with rows.reporter("curvature") as report:
+            found = surface.curvatures(rows.vertices, rows.radius, progress=report, **options)
+        return Curvature(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def corrected_curvature(
         self,
@@ -116,17 +115,10 @@ class Shape(Held):
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         surface = rows.index._surface(F, normals, needs_faces=True)
-        found = rows.for_each_scale(
-            "corrected_curvature",
-            lambda radius, report: surface.corrected(
-                rows.vertices,
-                radius,
-                threads=rows.threads,
-                progress=report,
-                metric=rows.core_metric,
-            ),
-        )
-        return CorrectedCurvature(*(_of_type(rows.shaped(list(arrays)), dtype) for arrays in zip(*found)))
+        options = {"threads": rows.threads, "metric": rows.core_metric}
+        with rows.reporter("corrected_curvature") as report:
+            found = surface.corrected(rows.vertices, rows.radius, progress=report, **options)
+        return CorrectedCurvature(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def moments(
         self,
@@ -161,10 +153,8 @@ class Shape(Held):
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": area_weights(self, weights, F)}
         options |= {"threads": rows.threads, "metric": rows.core_metric}
-        found = rows.for_each_scale(
-            "moments",
-            lambda radius, report: _core.moments(rows.index._exact, rows.vertices, radius, progress=report, **options),
-        )
+        with rows.reporter("moments") as report:
+            found = _core.moments(rows.index._exact, rows.vertices, rows.radius, progress=report, **options)
         return _of_type(rows.shaped(found), dtype)
 
     def principal_components(
@@ -193,13 +183,9 @@ class Shape(Held):
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options = {"weights": area_weights(self, weights, F), "threads": rows.threads, "metric": rows.core_metric}
-        found = rows.for_each_scale(
-            "principal_components",
-            lambda radius, report: _core.principal_components(
-                rows.index._exact, rows.vertices, radius, progress=report, **options
-            ),
-        )
-        return PrincipalComponents(*(_of_type(rows.shaped(list(arrays)), dtype) for arrays in zip(*found)))
+        with rows.reporter("principal_components") as report:
+            found = _core.principal_components(rows.index._exact, rows.vertices, rows.radius, progress=report, **options)
+        return PrincipalComponents(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def features(
         self,
@@ -247,10 +233,9 @@ class Shape(Held):
             "metric": rows.core_metric,
         }
         surface = rows.index._surface(F)
-        radii, radius = rows.common_radii
         with rows.reporter("features") as report:
-            found = surface.features(rows.vertices, radii=np.array(radii), radius=radius, progress=report, **options)
-        found = _of_type(found.reshape(rows.shape + found.shape[2:]), dtype)
+            found = surface.features(rows.vertices, rows.radius, progress=report, **options)
+        found = _of_type(rows.shaped(found), dtype)
         return found[..., 0] if isinstance(kinds, str) else found
 
 
