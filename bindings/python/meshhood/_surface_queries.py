@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._aggregate import area_weights
 from ._held import Held
-from ._mesh import mesh_arrays, positions_of, warn_if_coarse, warn_if_link_is_coarse
+from ._mesh import positions_of, warn_if_coarse, warn_if_link_is_coarse, whole_mesh_arrays
 from ._progress import Progress, reporter
 from ._repr import shown_in_a_line
 from ._rows import Rows, read_rows
@@ -126,7 +126,7 @@ class SurfaceQueries(Held):
         >>> index = meshhood.MeshIndex.of_faces(V, F)
         >>> smooth = index.smooth(index.positions[:, 2], fwhm=0.3)
         """
-        positions, corners, offsets = mesh_arrays(V, F)
+        positions, corners, offsets = whole_mesh_arrays(V, F)
         threads = _convert.threads(workers)
         with reporter(progress, "of_faces") as report:
             exact = _core.exact_of_faces(positions, corners, offsets=offsets, threads=threads, progress=report)
