@@ -124,6 +124,14 @@ def test_thickness_of_a_box_by_both_methods():
         index.thickness(method="cone")
 
 
+def test_a_straight_line_over_two_triangles_needs_all_four_corners():
+    V = np.array([[0, 0, 0], [1, 0, 0], [0.5, 0.5, 0], [0.5, -0.5, 0]])
+    index = meshhood.MeshIndex(V, np.array([[0, 1, 2], [1, 0, 3]]))
+    for walls, expected in ((None, 1.0), ([0], 2 * np.sqrt(0.5))):  # across the side, and along the edges by vertex 1
+        ids, lengths = index.neighborhood(2, 9, metric="surface", walls=walls, return_distance=True)
+        assert lengths[ids == 3][0] == pytest.approx(expected)
+
+
 def test_closest_point_takes_other_faces_and_keeps_what_it_made():
     V, F = folded(8)
     bare = meshhood.MeshIndex(V, F, keep_faces=False)
