@@ -260,6 +260,9 @@ class SurfaceQueries(Held):
             2012).
         F : other faces than those that the index keeps. They are oriented counterclockwise, seen from outside.
 
+        The normal is that of the faces of the vertex, weighted by their areas. With other normals, such as that of one of
+        the faces, which trimesh takes unless given some, the values of uneven meshes differ.
+
         Faces with the vertex as a corner do not count. It is inf where nothing else is met, and NaN for a vertex without
         a normal.
 
