@@ -17,7 +17,7 @@ for path in sys.argv[1:]:
     V, F = meshhood.read_mesh(path)
     index = meshhood.MeshIndex(V, F)
     picks = np.random.default_rng(1).uniform(V.min(axis=0), V.max(axis=0), (POINTS, 3))
-    faces, _, points = index.closest_point(picks)
+    faces, _, points, _ = index.closest_point(picks)
     vertices, _ = index.nearest(picks)
     needed = V[np.column_stack([F[faces], vertices])].astype(np.float64)
     radii = np.linalg.norm(needed - points[:, None], axis=2).max(axis=1)

@@ -112,6 +112,8 @@ PositionsData positions_of(const paper::Index& index) {
 
 void read_others_by(OtherReader reader) { other_reader = std::move(reader); }
 
+bool reads_others() { return other_reader != nullptr; }
+
 Input::Input(std::string file, const Reading& reading, unsigned threads) : name_(std::move(file)) {
   refuse_parts(name_);
   auto content = [&] {

@@ -25,6 +25,9 @@ struct Reading {
   std::string precision = {};
 };
 
+/// Whether `read_others_by` has set a reader of other formats.
+[[nodiscard]] bool reads_others();
+
 /// The masks of --walls and --ignored, and of vertices without a position: each empty, or #V.
 struct OwnedMasks {
   std::vector<std::uint8_t> walls;

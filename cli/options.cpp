@@ -37,6 +37,12 @@ namespace {
 constexpr const char* kEmptyName = "the name is empty";
 constexpr std::string_view kStream = "-";
 
+std::string mesh_formats() {
+  return reads_others() ? "PLY, OBJ, OFF, STL, VTK, FreeSurfer; with meshhood[files] also GIFTI, VTP, VTU, MSH, GLB, "
+                          "glTF, 3MF"
+                        : "PLY, OBJ, OFF, STL, VTK or FreeSurfer";
+}
+
 double edge_unit(Input& input) {
   input.need_edges("--unit edge");
   const double mean = mean_edge_length(input.graph());
@@ -216,19 +222,17 @@ CLI::Option* add_file_option(CLI::App& command, const std::string& name, const s
 }
 
 void add_file(CLI::App& command, std::string& file) {
-  add_file_option(command, "FILE", "mesh (PLY, OBJ, OFF, STL, VTK or FreeSurfer) or index (made by meshhood build)",
-                  file)
+  add_file_option(command, "FILE", fmt::format("mesh ({}) or index (made by meshhood build)", mesh_formats()), file)
       ->required()
       ->type_name("");
 }
 
 void add_mesh(CLI::App& command, std::string& file) {
-  add_file_option(command, "MESH", "PLY, OBJ, OFF, STL, VTK or FreeSurfer", file)->required()->type_name("");
+  add_file_option(command, "MESH", mesh_formats(), file)->required()->type_name("");
 }
 
 void add_surface(CLI::App& command, std::string& file) {
-  add_file_option(command, "MESH", "PLY, OBJ, OFF, STL, VTK or FreeSurfer, or an index that was built with --faces",
-                  file)
+  add_file_option(command, "MESH", fmt::format("mesh ({}) or index that was built with --faces", mesh_formats()), file)
       ->required()
       ->type_name("");
 }

@@ -15,7 +15,7 @@ import pyvista
 subprocess.run(["meshhood", "generate", "knot", "--vertices", "20000", "-o", "knot.ply"], check=True)
 V, F = meshhood.read_mesh("knot.ply")
 index, radius = meshhood.MeshIndex(V, F), 14.0
-face, barycentric, point = index.closest_point(V[F[16495]].mean(axis=0) + (0.3, -0.2, 0.5))
+face, barycentric, point, _ = index.closest_point(V[F[16495]].mean(axis=0) + (0.3, -0.2, 0.5))
 ids = index.neighborhood(point, radius, face=face)
 patch = index.clip(point, radius, face=face)
 

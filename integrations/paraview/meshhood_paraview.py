@@ -326,7 +326,7 @@ def _new_index(mesh: Any, progress: Any) -> Any:
 
 def _corner_at(index: Any, point: tuple[float, float, float]) -> int:
     """The corner nearest to the point of the surface that is nearest to `point`."""
-    face, _, nearest = index.closest_point(point)
+    face, _, nearest, _ = index.closest_point(point)
     faces = index.faces
     corners = faces[1][faces[0][face] : faces[0][face + 1]] if isinstance(faces, tuple) else faces[face]
     return int(corners[np.argmin(np.linalg.norm(index.positions[corners] - nearest, axis=1))])

@@ -135,7 +135,7 @@ class Filters(unittest.TestCase):
                 point = index.positions[vertex] * [0.97, 1.05, 1.0] + [0.01, 0.02, 0.03]
                 found.Point = list(point)
                 self.result(found)
-                face, _, on_surface = index.closest_point(point)
+                face, _, on_surface, _ = index.closest_point(point)
                 corners = corners_of(index.faces, face)
                 nearest = min(corners, key=lambda corner: np.linalg.norm(index.positions[corner] - on_surface))
                 self.assertEqual(self.field.GetArray("start_vertex").GetValue(0), nearest)

@@ -39,7 +39,7 @@ def folder(tmp_path_factory):
         "",
         "--help",
         "--version",
-        "batch --help",
+        "generate --help",
         "generate scroll --vertices 2000 -o -",
         "info scroll.ply",
         "query scroll.ply -v 7 -r 3",
@@ -55,6 +55,16 @@ def folder(tmp_path_factory):
 )
 def test_says_what_the_program_says(folder, words):
     assert run(COMMAND, words.split(), folder) == run(PROGRAM, words.split(), folder)
+
+
+def test_says_what_else_it_reads(folder):
+    others = ["GIFTI", "VTP", "VTU", "MSH", "GLB", "glTF", "3MF"]
+    for words in ("batch --help", "closest --help", "build --help"):
+        (code, ours, _), (_, of_program, _) = run(COMMAND, words.split(), folder), run(PROGRAM, words.split(), folder)
+        assert code == 0 and all(name in ours.decode() for name in others)
+        assert not any(name in of_program.decode() for name in others[1:])
+        options = ours.partition(b"\n  -")[2]
+        assert options and options == of_program.partition(b"\n  -")[2]
 
 
 def test_takes_bytes_that_are_no_text(folder):

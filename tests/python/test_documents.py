@@ -78,8 +78,8 @@ def test_code_runs(name, tmp_path, monkeypatch):
     program = os.environ.get("MESHHOOD_CLI") or shutil.which("meshhood")
     if program is None and any(block.language == "sh" for block in blocks):
         pytest.skip("MESHHOOD_CLI does not name the command line")
-    if program is not None:
-        monkeypatch.setenv("PATH", str(Path(program).parent), prepend=os.pathsep)
+    for tool in filter(None, (sys.executable, program)):
+        monkeypatch.setenv("PATH", str(Path(tool).parent), prepend=os.pathsep)
     monkeypatch.setenv("MESHHOOD_VIEWER", str(PAGE_OF_VIEWER))
     monkeypatch.chdir(tmp_path)
     write_values(write_meshes())

@@ -59,11 +59,39 @@ def test_masked_adds_walls_to_them():
     assert index.count(IDS[0], 99.0) == 80
 
 
-@pytest.mark.parametrize("call", (lambda index: index.save("a.mhi"), pickle.dumps, lambda index: index.refit(scan()[0])))
-def test_what_would_lose_the_walls_is_refused(call, tmp_path, monkeypatch):
+@pytest.mark.parametrize(
+    "done, call",
+    [
+        ("saved", lambda index: index.save("a.mhi")),
+        ("pickled", pickle.dumps),
+        ("refitted", lambda index: index.refit(scan()[0])),
+    ],
+)
+def test_what_would_lose_the_walls_is_refused(done, call, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(ValueError, match="masks"):
+    said = rf"^an index with vertices without a position \(NaN\) is not {done}, expected the mesh without them: `part = index\."
+    with pytest.raises(ValueError, match=said):
         call(scanned())
+
+
+@pytest.mark.parametrize(
+    "call", (meshhood.weld, meshhood.vertex_areas, meshhood.RegionMesh, meshhood.MeshIndex.of_faces)
+)
+def test_the_way_out_that_an_error_names_leads_out(call, tmp_path):
+    V, F = scan()
+    with pytest.raises(ValueError, match=rf"^V: 12 vertices .* \(NaN\), the first of which is {HOLES[0]}, expected") as error:
+        call(V, F)
+    names = {"meshhood": meshhood, "np": np, "V": V, "F": F}
+    with pytest.warns(UserWarning, match="walls"):
+        exec(str(error.value).split("`")[1], names)
+    part = names["part"]
+    np.testing.assert_array_equal(part.V, V[part.vertices])
+    np.testing.assert_array_equal(part.vertices, IDS)
+    np.testing.assert_array_equal(part.vertices[part.F[1]], F.ravel())
+    call(part.V, part.F)
+    index = meshhood.MeshIndex(part.V, part.F)
+    index.save(tmp_path / "scan.mhi")
+    np.testing.assert_array_equal(index.counts(2.5), scanned().counts(2.5)[part.vertices])
 
 
 def test_one_in_a_face_is_an_error():

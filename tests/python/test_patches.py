@@ -81,7 +81,7 @@ def test_the_gap_of_a_plate_is_its_thickness_whatever_its_triangles():
     V, F = box((1, 1, 1))
     V *= [100, 100, 1]
     index = meshhood.MeshIndex(V, F)
-    face, _, point = index.closest_point([30, 60, 2.0])
+    face, _, point, _ = index.closest_point([30, 60, 2.0])
     faces = index.patch(point, 2, face=face)
     assert face in faces
     assert (V[F[faces]][:, :, 2] == 1).all()
@@ -100,7 +100,7 @@ def test_points_of_a_plate_of_twelve_triangles_have_area_volume_and_gap():
     index = meshhood.MeshIndex(V, F)
     for r in (0.5, 1, 3):
         for q in ([30, 60, 2.0], [50, 50, 2.0], [71, 4, -1.0]):  # the second is on a side that two faces share
-            face, _, point = index.closest_point(q)
+            face, _, point, _ = index.closest_point(q)
             area, volume = index.measure(point, r, face=face)
             assert area == pytest.approx(PI * r**2, rel=1e-12)
             assert volume == pytest.approx(2 / 3 * PI * r**3, rel=1e-12)

@@ -44,7 +44,8 @@ def test_closest_point_is_as_near_as_any_sample_of_the_faces(mesh):
     V, F, index, _ = mesh
     random = np.random.default_rng(2)
     q = random.uniform(V.min(0) - 1, V.max(0) + 1, (60, 3))
-    face, barycentric, point = index.closest_point(q)
+    face, barycentric, point, distances = index.closest_point(q)
+    np.testing.assert_allclose(distances, np.linalg.norm(point - q, axis=1), atol=1e-12)
     assert face.shape == (60,) and barycentric.shape == point.shape == (60, 3)
     np.testing.assert_allclose(np.einsum("nc,ncx->nx", barycentric, V[F[face]]), point, atol=1e-12)
     np.testing.assert_allclose(barycentric.sum(axis=1), 1)
@@ -56,7 +57,8 @@ def test_closest_point_is_as_near_as_any_sample_of_the_faces(mesh):
     one = index.closest_point(q[0])
     assert type(one[0]) is int and one[0] == face[0]
     np.testing.assert_array_equal(one[2], point[0])
-    assert [part.shape for part in index.closest_point([])] == [(0,), (0, 3), (0, 3)]
+    assert type(one.distance) is float and one.distance == distances[0]
+    assert [part.shape for part in index.closest_point([])] == [(0,), (0, 3), (0, 3), (0,)]
 
 
 def test_closest_point_of_polygons_has_a_weight_for_each_corner():
@@ -64,7 +66,7 @@ def test_closest_point_of_polygons_has_a_weight_for_each_corner():
     corners = np.concatenate([quads.ravel(), [0, 1, 2]])
     offsets = np.array([*range(0, 4 * len(quads) + 1, 4), 4 * len(quads) + 3])
     index = meshhood.MeshIndex(V, (offsets, corners))
-    face, barycentric, point = index.closest_point([[1.25, 1.5, 3.0], [0.5, 0.0, 0.0]])
+    face, barycentric, point, _ = index.closest_point([[1.25, 1.5, 3.0], [0.5, 0.0, 0.0]])
     assert barycentric.shape == (2, 4)
     assert face[0] == 4
     np.testing.assert_allclose(barycentric @ np.eye(4), barycentric)
@@ -120,6 +122,14 @@ def test_thickness_of_a_box_by_both_methods():
     assert index.thickness().shape == (len(V),)
     with pytest.raises(ValueError, match="method"):
         index.thickness(method="cone")
+
+
+def test_a_straight_line_over_two_triangles_needs_all_four_corners():
+    V = np.array([[0, 0, 0], [1, 0, 0], [0.5, 0.5, 0], [0.5, -0.5, 0]])
+    index = meshhood.MeshIndex(V, np.array([[0, 1, 2], [1, 0, 3]]))
+    for walls, expected in ((None, 1.0), ([0], 2 * np.sqrt(0.5))):  # across the side, and along the edges by vertex 1
+        ids, lengths = index.neighborhood(2, 9, metric="surface", walls=walls, return_distance=True)
+        assert lengths[ids == 3][0] == pytest.approx(expected)
 
 
 def test_closest_point_takes_other_faces_and_keeps_what_it_made():
@@ -284,9 +294,10 @@ def test_a_submesh_is_handed_to_pyvista_and_trimesh():
 def test_a_point_is_described_by_its_coordinates():
     V, quads = grid(9)
     index = meshhood.MeshIndex(V, np.array(quads)[:, :3])
-    face, weights, point = found = index.closest_point([2.0, 3.0, 1.0])
-    assert repr(found) == f"<meshhood.ClosestPoint: face {face}, barycentric {weights}, point {point}>"
-    assert repr(index.closest_point(V[:5])) == "<meshhood.ClosestPoint: face 5, barycentric 5 by 3, point 5 by 3>"
+    face, weights, point, _ = found = index.closest_point([2.0, 3.0, 1.0])
+    assert repr(found) == f"<meshhood.ClosestPoint: face {face}, barycentric {weights}, point {point}, distance 1.0>"
+    shown = "<meshhood.ClosestPoint: face 5, barycentric 5 by 3, point 5 by 3, distance 5>"
+    assert repr(index.closest_point(V[:5])) == shown
 
 
 def test_a_submesh_is_described_in_a_line():

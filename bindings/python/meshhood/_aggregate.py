@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _convert, _core
 from ._held import Held
-from ._mesh import mesh_arrays, only_part
+from ._mesh import only_part, whole_mesh_arrays
 from ._optional import optional
 from ._progress import Progress
 from ._rows import check_one_given, check_size, read_rows, result_dtype
@@ -47,7 +47,7 @@ def vertex_areas(V: Any, F: Any = None) -> NDArray[np.float64]:
     >>> bool(abs(meshhood.vertex_areas(V, F).sum() - 4 * np.pi) < 0.2)
     True
     """
-    positions, corners, offsets = mesh_arrays(V, F)
+    positions, corners, offsets = whole_mesh_arrays(V, F)
     return _core.vertex_areas(positions, corners, offsets=offsets)
 
 

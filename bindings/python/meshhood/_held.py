@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _convert, _core
 from ._curvature import normals_of
-from ._mesh import face_arrays
+from ._mesh import face_arrays, without_them
 from ._methods import Methods, core_metric
 from ._types import METRICS
 
@@ -115,6 +115,12 @@ class Held:
         whole = self._derived(self._exact, None)
         self._hold(self._exact.masked(no_position.view(np.uint8), None), self._faces, whole)
         self._no_position = no_position
+
+    def _placed(self, done: str) -> Any:
+        """What is saved and refitted: an index of vertices that all have a position."""
+        if self._no_position is not None:
+            raise ValueError(f"an index with vertices without a position (NaN) is not {done}, {without_them('index')}")
+        return self._exact
 
     def _all_walls(self, walls: Any) -> Any:
         """`walls`, bytes or None, and the vertices without a position, as a bool mask."""

@@ -189,7 +189,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
     def __reduce_ex__(self, protocol: Any) -> tuple[Any, ...]:
         """The bytes of an index file, which are verified when they are loaded, the faces, and the attributes of a
         subclass. With protocol 5 the bytes may be sent out of band."""
-        saved = _core.to_bytes(self._exact)
+        saved = _core.to_bytes(self._placed("pickled"))
         buffer = pickle.PickleBuffer(saved) if protocol >= 5 else saved.tobytes()
         return _unpickled, (type(self), buffer, self._faces), self.__getstate__()
 
@@ -528,6 +528,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
 
         >>> moved = meshhood.MeshIndex(V, F).refit(2 * V)
         """
+        whole = self._placed("refitted")
         moved = None if changed is None else _convert.vertices(changed, self._count, "changed")
         positions = moved_positions(V)
         if len(positions) != self._count:
@@ -535,7 +536,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         positions = _copied(positions, moved)
         with reporter(progress, "refit") as report:
             exact = _core.refit(
-                self._exact, positions, changed=moved, threads=_convert.threads(workers), progress=report
+                whole, positions, changed=moved, threads=_convert.threads(workers), progress=report
             )
         return self._like_this(exact)
 
@@ -569,8 +570,9 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         """
         path = _convert.path(path)
         arrays = self._own_faces("faces: True, but") if faces else None
+        exact = self._placed("saved")
         with reporter(progress, "save", "bytes") as report:
-            _core.save(self._exact, path, faces=arrays, progress=report)
+            _core.save(exact, path, faces=arrays, progress=report)
 
 def _copied(positions: Any, rows: Any) -> Any:
     """A copy, because another thread may write to `positions` once they are checked. With `rows`, only these are set:

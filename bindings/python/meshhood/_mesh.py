@@ -22,6 +22,15 @@ def mesh_arrays(V, F):
     return positions, *face_arrays(F)
 
 
+def whole_mesh_arrays(V, F):
+    """The same of a mesh whose vertices all have a position: `MeshIndex` alone takes others."""
+    arrays = positions, corners, offsets = mesh_arrays(V, F)
+    found = _core.place(positions, corners, offsets=offsets)
+    if found is not None:
+        raise ValueError(f"V: {_text_of_unplaced(found[1])}, {without_them('meshhood.MeshIndex(V, F)')}")
+    return arrays
+
+
 def face_arrays(F):
     """The corners of faces, or of a mesh, and the offsets of the polygons or None for triangles."""
     if hasattr(F, "tocoo"):
@@ -360,8 +369,20 @@ def placed(positions, corners, offsets, stacklevel):
 
 
 def text_of_walls(walls):
+    return f"{_text_of_unplaced(walls)}, are walls"
+
+
+def _text_of_unplaced(walls):
     count, first = np.count_nonzero(walls), walls.argmax()
-    return f"{count} vertices without a position (NaN), the first of which is {first}, are walls"
+    return f"{count} vertices without a position (NaN), the first of which is {first}"
+
+
+def without_them(index):
+    """What an error for vertices without a position says to do."""
+    return (
+        f"expected the mesh without them: `part = {index}.submesh(np.isfinite(V).all(axis=1))` has part.V, part.F, and "
+        "part.vertices, the row of V of each of its vertices"
+    )
 
 
 def warn_if_no_faces(positions, corners, stacklevel):

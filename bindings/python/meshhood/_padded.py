@@ -25,8 +25,8 @@ def padded(
     """The rows of a result as one array, (#rows, width, ...), and which of its entries belong to a row: bool, (#rows,
     width).
 
-    indptr, values : as `MeshIndex.neighborhoods` and `discs` return them: row i is values[indptr[i]:indptr[i + 1]].
-        `values` are the ids, the distances, or an array of such rows, as features[indices].
+    indptr, values : of the result of `MeshIndex.neighborhoods` or `discs`: row i is values[indptr[i]:indptr[i + 1]].
+        `values` are the ids, the distances, or an array of such rows, as features[indices]: a call for each.
     width : the length of each row. By default, that of the longest.
     truncate : keep the first `width` entries of longer rows, the nearest if rows are in order of distance (`discs`, or
         neighborhoods with sort="distance"). By default, a longer row is an error.
@@ -40,6 +40,10 @@ def padded(
     >>> ids, mask = meshhood.padded(indptr, indices)
     >>> ids.shape == mask.shape, ids.dtype == indices.dtype
     (True, True)
+    >>> indptr, ids, distances = meshhood.MeshIndex(V, F).discs(0.3)
+    >>> (ids, mask), (distances, _) = meshhood.padded(indptr, ids), meshhood.padded(indptr, distances, fill=np.inf)
+    >>> ids.shape == distances.shape == mask.shape
+    True
     """
     ends, rows, one = (_convert.as_array(*each) for each in ((indptr, "indptr"), (values, "values"), (fill, "fill")))
     if ends.ndim != 1 or len(ends) == 0 or ends.dtype.kind not in "iu":

@@ -191,7 +191,7 @@ class Patches(Held):
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> faces = index.patch(42, 0.3)
-        >>> face, _, point = index.closest_point([0, 0, 2.0])
+        >>> face, _, point, _ = index.closest_point([0, 0, 2.0])
         >>> face in index.patch(point, 0.3, face=face)
         True
         """
@@ -258,7 +258,7 @@ class Patches(Held):
         >>> index = meshhood.MeshIndex(V, F)
         >>> bool(np.isclose(index.measure(42, 0.5), index.invariants(0.5, 42)).all())
         True
-        >>> face, _, point = index.closest_point([0, 0, 2.0])
+        >>> face, _, point, _ = index.closest_point([0, 0, 2.0])
         >>> area, volume = index.measure(point, 0.3, face=face)
         """
         patches, words = self._one_patch(start, r, face, F, walls, unit)
@@ -286,7 +286,7 @@ class Patches(Held):
 
         >>> two = np.concatenate([V, 1.25 * V]), np.concatenate([F, F + len(V)])  # a ball in a shell
         >>> index = meshhood.MeshIndex(*two)
-        >>> face, _, point = index.closest_point([0, 0, 0.9])
+        >>> face, _, point, _ = index.closest_point([0, 0, 0.9])
         >>> bool(abs(index.gap(point, 0.4, face=face).distance - 0.25) < 0.02)
         True
         """

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._aggregate import vertex_areas
 from ._held import Held
-from ._mesh import mesh_arrays
+from ._mesh import whole_mesh_arrays
 from ._optional import optional
 from ._poly_data import poly_data
 from ._repr import shown_in_a_line
@@ -134,7 +134,7 @@ class RegionMesh:
     """
 
     def __init__(self, V: Any, F: Any = None) -> None:
-        positions, corners, offsets = mesh_arrays(V, F)
+        positions, corners, offsets = whole_mesh_arrays(V, F)
         self._hold(positions.copy(), _core.surface_of_mesh(positions, corners, offsets), offsets is None)
 
     def _hold(self, positions: Any, surface: Any, is_triangles: bool) -> None:

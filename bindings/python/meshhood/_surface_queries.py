@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._aggregate import area_weights
 from ._held import Held
-from ._mesh import mesh_arrays, positions_of, warn_if_coarse, warn_if_link_is_coarse
+from ._mesh import positions_of, warn_if_coarse, warn_if_link_is_coarse, whole_mesh_arrays
 from ._progress import Progress, reporter
 from ._repr import shown_in_a_line
 from ._rows import Rows, read_rows
@@ -46,6 +46,7 @@ class ClosestPoint(NamedTuple):
     face: Union[int, NDArray[np.int64]]
     barycentric: Reals
     point: Reals
+    distance: Union[float, Reals]
 
 
 @shown_in_a_line
@@ -125,7 +126,7 @@ class SurfaceQueries(Held):
         >>> index = meshhood.MeshIndex.of_faces(V, F)
         >>> smooth = index.smooth(index.positions[:, 2], fwhm=0.3)
         """
-        positions, corners, offsets = mesh_arrays(V, F)
+        positions, corners, offsets = whole_mesh_arrays(V, F)
         threads = _convert.threads(workers)
         with reporter(progress, "of_faces") as report:
             exact = _core.exact_of_faces(positions, corners, offsets=offsets, threads=threads, progress=report)
@@ -178,8 +179,8 @@ class SurfaceQueries(Held):
     def closest_point(
         self, q: ArrayLike, *, F: Any = None, workers: int = -1, progress: Progress = None
     ) -> ClosestPoint:
-        """The point of the surface nearest to a point in space: `ClosestPoint(face, barycentric, point)`. For points
-        (n, 3) or [], three arrays.
+        """The point of the surface nearest to a point in space: `ClosestPoint(face, barycentric, point, distance)`. For
+        points (n, 3) or [], four arrays.
 
         q : 3 numbers, or (n, 3).
         F : other faces than those that the index keeps. What is made of the faces is kept for the next call with the
@@ -193,18 +194,18 @@ class SurfaceQueries(Held):
             A convex polygon is the fan of the triangles of its corners 0, i and i + 1; any other is divided so that
             they cover what it covers. A face with fewer than three corners has no points.
         point : (3,) or (n, 3) float64.
+        distance : a float, or (n,) float64, from `q` to `point`, in the unit of V: it has no sign.
 
         Use it for picks, instead of the nearest vertex, which may lie on another sheet:
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> face, barycentric, point = index.closest_point([0.1, 0.2, 2.0])
+        >>> face, barycentric, point, distance = index.closest_point([0.1, 0.2, 2.0])
         >>> region = index.neighborhood(point, 0.3, face=face)
         """
         points = _convert.points(q, "q")
         with reporter(progress, "closest_point", "points", len(points)) as report:
             found = self._surface_columns("closest", F, workers, report, points)
-        is_one = np.ndim(q) == 1 and len(points) == 1
-        return ClosestPoint(int(found[0][0]), *(part[0] for part in found[1:3])) if is_one else ClosestPoint(*found[:3])
+        return ClosestPoint(*_of_one(q, found))
 
     def first_hit(
         self, origins: ArrayLike, directions: ArrayLike, *, F: Any = None, workers: int = -1, progress: Progress = None
@@ -228,10 +229,7 @@ class SurfaceQueries(Held):
         starts, ways = _convert.points(origins, "origins"), _convert.points(directions, "directions")
         with reporter(progress, "first_hit", "rays", len(starts)) as report:
             found = self._surface_columns("first_hits", F, workers, report, starts, ways)
-        if np.ndim(origins) == 1 and len(starts) == 1:
-            face, barycentric, point, distance = (part[0] for part in found)
-            return FirstHit(int(face), barycentric, point, float(distance))
-        return FirstHit(*found)
+        return FirstHit(*_of_one(origins, found))
 
     def _surface_columns(self, name: str, F: Any, workers: int, report: Any, *points: Any) -> Any:
         """Faces, barycentric coordinates in them, points and distances, as a call of the surface of `F` finds them."""
@@ -261,6 +259,9 @@ class SurfaceQueries(Held):
             whose normal turns from that of the vertex by more than 53 degrees (by a shrinking ball; Ma, Bae, Choi
             2012).
         F : other faces than those that the index keeps. They are oriented counterclockwise, seen from outside.
+
+        The normal is that of the faces of the vertex, weighted by their areas. With other normals, such as that of one of
+        the faces, which trimesh takes unless given some, the values of uneven meshes differ.
 
         Faces with the vertex as a corner do not count. It is inf where nothing else is met, and NaN for a vertex without
         a normal.
@@ -375,3 +376,11 @@ def _of_polygons(places: Any, weights: Any, corners: int) -> Reals:
     wide = np.where(np.isnan(weights[:, :1]), np.nan, np.zeros((len(places), corners)))
     np.put_along_axis(wide, places, weights, axis=1)
     return wide
+
+
+def _of_one(q: ArrayLike, found: Any) -> Any:
+    """Faces, barycentric coordinates, points and distances for `q`: without the axis of rows if it is one point."""
+    if np.ndim(q) != 1 or len(found[0]) != 1:
+        return found
+    face, barycentric, point, distance = (part[0] for part in found)
+    return int(face), barycentric, point, float(distance)

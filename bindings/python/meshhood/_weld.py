@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _convert, _core
-from ._mesh import mesh_arrays
+from ._mesh import whole_mesh_arrays
 from ._repr import shown_in_a_line
 from ._types import Ids, Number
 
@@ -52,7 +52,7 @@ def weld(V: Any, F: Any = None, eps: Number = 0) -> Welded:
     """
     if isinstance(F, (int, float)):
         raise TypeError(f"F: {F}, expected faces; the distance is eps={F}")
-    positions, corners, offsets = mesh_arrays(V, F)
+    positions, corners, offsets = whole_mesh_arrays(V, F)
     distance = _convert.finite(eps, "eps", or_zero=True)
     # A copy, because another thread may write to the array once it is checked.
     vertices, corners, offsets, ids = _core.weld(np.array(positions), corners, offsets=offsets, eps=distance)
