@@ -138,22 +138,48 @@ class FeatureExtraction {
   }
 
   std::vector<double> run(const BatchQuery& query, const Run& run) {
-    for_each_packet(
-        *surface_.searched, query,
-        [&](unsigned /*thread*/) -> PacketVisitor {
-          std::vector<PacketVisitor> writers;
-          if (needs(Source::Curvatures)) writers.push_back(curvature_writer());
-          if (needs(Source::Moments)) writers.push_back(moment_writer());
-          if (needs(Source::Patches)) writers.push_back(patch_writer());
-          return [writers](const PacketAnswer& packet) {
-            for (const PacketVisitor& write : writers) write(packet);
-          };
-        },
-        {}, run);
+    const std::vector<std::vector<Source>> searches = sources_of_searches();
+    for (std::size_t i = 0; i < searches.size(); ++i) {
+      Run part = run;
+      if (run.progress) {
+        part.progress = [&, i](std::size_t done, std::size_t total) {
+          return run.progress(i * total + done, searches.size() * total);
+        };
+      }
+      const bool is_of_patches = searches[i].front() == Source::Patches;
+      const auto make_writer = [&](unsigned /*thread*/) { return writer_of(searches[i]); };
+      for_each_packet(is_of_patches ? patches_->searched : *surface_.searched, query, make_writer, {}, part);
+    }
     return std::move(values_);
   }
 
  private:
+  /// What each search finds. Ignored vertices are in patches, but in no neighborhood: then patches are searched alone.
+  [[nodiscard]] std::vector<std::vector<Source>> sources_of_searches() const {
+    std::vector<std::vector<Source>> searches(1);
+    for (const Source source : {Source::Curvatures, Source::Moments, Source::Patches}) {
+      if (!needs(source)) continue;
+      const bool is_apart = source == Source::Patches && !surface_.index->ignored.empty() && !searches[0].empty();
+      if (is_apart) searches.emplace_back();
+      searches.back().push_back(source);
+    }
+    return searches;
+  }
+
+  PacketVisitor writer_of(const std::vector<Source>& sources) {
+    std::vector<PacketVisitor> writers;
+    for (const Source source : sources) {
+      switch (source) {
+        case Source::Curvatures: writers.push_back(curvature_writer()); break;
+        case Source::Moments: writers.push_back(moment_writer()); break;
+        case Source::Patches: writers.push_back(patch_writer()); break;
+      }
+    }
+    return [writers](const PacketAnswer& packet) {
+      for (const PacketVisitor& write : writers) write(packet);
+    };
+  }
+
   [[nodiscard]] bool needs(Source source) const {
     return std::ranges::any_of(kinds_, [&](Feature kind) { return source_of(kind) == source; });
   }
@@ -207,7 +233,7 @@ class FeatureExtraction {
   PacketVisitor patch_writer() {
     const bool measures =
         std::ranges::any_of(kinds_, [](Feature kind) { return kind == Feature::Area || kind == Feature::Volume; });
-    return patch_visitor(*patches_, *surface_.index, measures, [this](std::size_t row, const FoundPatch& patch) {
+    return patch_visitor(*patches_, measures, [this](std::size_t row, const FoundPatch& patch) {
       write_row(Source::Patches, row, [&](Feature kind) { return patch_feature(kind, patch, patch.radius()); });
     });
   }

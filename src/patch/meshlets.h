@@ -72,6 +72,10 @@ struct PatchState {
   Triangles triangles;
   Meshlets meshlets;
 
+  /// Whether the vertices of a patch that are in its ball are the neighborhood of its center, but for loose edges,
+  /// diagonals, and sides that dip into the ball.
+  [[nodiscard]] bool follows_neighborhoods() const { return triangles.are_of_index; }
+
   [[nodiscard]] std::size_t bytes() const { return triangles.bytes() + meshlets.bytes(); }
 };
 

@@ -9,9 +9,8 @@
 #include "surface/face_triangles.h"
 
 namespace meshhood {
-PacketPatches::PacketPatches(const PatchState& state, const IndexView& searched)
+PacketPatches::PacketPatches(const PatchState& state)
     : state_(&state),
-      follows_neighborhoods_(state.triangles.are_of_index && searched.ignored.empty()),
       kernels_(&section_kernels(best_isa())),
       words_(state.index->vertex_count()),
       all_(state.meshlets.size()) {}
@@ -19,7 +18,7 @@ PacketPatches::PacketPatches(const PatchState& state, const IndexView& searched)
 QueryWord PacketPatches::find(const PacketAnswer& packet, bool measures) {
   measures_ = measures;
   clear();
-  if (!follows_neighborhoods_) return 0;
+  if (!state_->follows_neighborhoods()) return 0;
   set_balls(packet);
   set_words(packet);
   leave_loose();

@@ -26,8 +26,8 @@ namespace meshhood {
 /// over whole ones are apart from those over cut ones, which wait until a vector is full.
 class PacketPatches {
  public:
-  /// Of packets of the index `searched`. Borrows the state.
-  PacketPatches(const PatchState& state, const IndexView& searched);
+  /// Of packets of `state.searched`. Borrows the state.
+  explicit PacketPatches(const PatchState& state);
 
   /// Returns the queries whose patches it has found. Of the others patch and neighborhood may differ, by a loose edge,
   /// a diagonal or what is behind a side that dips into the ball; or much is behind such sides; or the radius is next
@@ -79,9 +79,6 @@ class PacketPatches {
   }
 
   const PatchState* state_;
-  /// Whether the vertices of a patch that are in its ball are the neighborhood of its center, but for loose edges,
-  /// diagonals, and sides that dip into the ball. Those that are ignored are in no neighborhood.
-  bool follows_neighborhoods_;
   const SectionKernels* kernels_;
   bool measures_ = false;
   QueryWord queries_ = 0;  // that are found

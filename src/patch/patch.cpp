@@ -121,8 +121,8 @@ namespace {
 /// Visits the patches of packets, on one thread.
 class PacketVisit {
  public:
-  PacketVisit(const PatchState& state, const IndexView& searched, bool measures, RowPatchVisitor visit)
-      : state_(&state), packet_(state, searched), measures_(measures), visit_(std::move(visit)) {}
+  PacketVisit(const PatchState& state, bool measures, RowPatchVisitor visit)
+      : state_(&state), packet_(state), measures_(measures), visit_(std::move(visit)) {}
 
   void run(const PacketAnswer& answer) {
     const QueryWord found = packet_.find(answer, measures_);
@@ -151,14 +151,14 @@ void for_each_patch(const Surface& surface, const BatchQuery& query, bool measur
                     const RowPatchVisitor& visit) {
   const PatchState& state = SurfaceAccess::state(surface).patches();
   check_metric(query);
-  const auto make_visitor = [&](unsigned /*thread*/) { return patch_visitor(state, *state.index, measures, visit); };
+  const auto make_visitor = [&](unsigned /*thread*/) { return patch_visitor(state, measures, visit); };
   for_each_packet(state.searched, query, make_visitor, {}, run);
 }
 
 }  // namespace
 
-PacketVisitor patch_visitor(const PatchState& state, const IndexView& searched, bool measures, RowPatchVisitor visit) {
-  const auto visits = std::make_shared<PacketVisit>(state, searched, measures, std::move(visit));
+PacketVisitor patch_visitor(const PatchState& state, bool measures, RowPatchVisitor visit) {
+  const auto visits = std::make_shared<PacketVisit>(state, measures, std::move(visit));
   return [visits](const PacketAnswer& answer) { visits->run(answer); };
 }
 

@@ -51,8 +51,7 @@ class FoundPatch {
 
 using RowPatchVisitor = std::function<void(std::size_t row, const FoundPatch& patch)>;
 
-/// A visitor of packets of the index `searched`, for one thread, that calls `visit` with the patch of each row.
-[[nodiscard]] PacketVisitor patch_visitor(const PatchState& state, const IndexView& searched, bool measures,
-                                          RowPatchVisitor visit);
+/// A visitor of packets of `state.searched`, for one thread, that calls `visit` with the patch of each row.
+[[nodiscard]] PacketVisitor patch_visitor(const PatchState& state, bool measures, RowPatchVisitor visit);
 
 }  // namespace meshhood

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -67,20 +68,36 @@ TEST(Features, OfMomentsAreThoseOfPrincipalComponents) {
   }
 }
 
+/// Of an index with ignored vertices, too, of which patches are searched apart from the others.
 TEST(Features, OfSeveralKindsHaveTheBitsOfEach) {
   const Bumps bumps;
+  std::vector<std::uint8_t> ignored(bumps.mesh.size());
+  for (std::size_t v = 0; v < ignored.size(); v += 7) ignored[v] = 1;
   std::vector<Feature> kinds;
   for (int kind = 0; kind <= static_cast<int>(Feature::Variation); ++kind) kinds.push_back(static_cast<Feature>(kind));
   const BatchQuery query{.radius = BatchRadius::scales(bumps.radii)};
-  const std::vector<double> together = features(bumps.surface, query, {.kinds = kinds}, {.threads = 2});
-  for (std::size_t k = 0; k < kinds.size(); ++k) {
-    const std::vector<double> alone = features(bumps.surface, query, {.kinds = {kinds[k]}});
-    ASSERT_EQ(together.size(), kinds.size() * alone.size());
-    for (std::size_t i = 0; i < alone.size(); ++i) {
-      const double found = together[i * kinds.size() + k];
-      ASSERT_TRUE(found == alone[i] || (std::isnan(found) && std::isnan(alone[i]))) << "kind " << k << ", number " << i;
+  const auto compare = [&](const Surface& surface) {
+    std::size_t most = 0;
+    std::size_t end = 0;
+    const auto count = [&](std::size_t done, std::size_t total) {
+      EXPECT_GE(done, std::exchange(most, done));
+      end = total;
+      return true;
+    };
+    const std::vector<double> together = features(surface, query, {.kinds = kinds}, {.threads = 2, .progress = count});
+    EXPECT_EQ(most, end);
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      const std::vector<double> alone = features(surface, query, {.kinds = {kinds[k]}});
+      ASSERT_EQ(together.size(), kinds.size() * alone.size());
+      for (std::size_t i = 0; i < alone.size(); ++i) {
+        const double found = together[i * kinds.size() + k];
+        ASSERT_TRUE(found == alone[i] || (std::isnan(found) && std::isnan(alone[i])))
+            << "kind " << k << ", number " << i;
+      }
     }
-  }
+  };
+  compare(bumps.surface);
+  compare(Surface(masked(bumps.index, {.ignored = ignored}), bumps.mesh.view()));
 }
 
 /// The corner of a cube, cut off, and its mirror image 0.2 above.

@@ -44,7 +44,7 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
     for (std::size_t v = 0; v < radii.size(); v += 7) radii[v] = radius / 2;
     const Surface surface(index, faces);
     const PatchState& state = SurfaceAccess::state(surface).patches();
-    PacketPatches packets(state, *state.index);
+    PacketPatches packets(state);
     PatchSearch search(state);
     const auto visit = [&](const PacketAnswer& answer) {
       const QueryWord found = packets.find(answer, true);
@@ -149,7 +149,7 @@ TEST(PacketPatches, FollowSidesThatDipIntoTheBall) {
     const Index index = build(mesh.view());
     const Surface surface(index, mesh.view().faces);
     const PatchState& state = SurfaceAccess::state(surface).patches();
-    PacketPatches packets(state, *state.index);
+    PacketPatches packets(state);
     const std::vector<VertexId> first{0};
     QueryWord found = 0;
     std::size_t triangles = 0;
