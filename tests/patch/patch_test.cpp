@@ -435,6 +435,16 @@ TEST(Patch, DoesNotChangeWhereFacesAreDivided) {
   }
 }
 
+TEST(Patch, TakesTheMemoryThatTheHeaderSays) {
+  const TestMesh ball = make_ball(5);
+  const Index index = build(ball.view());
+  const Surface surface(index, ball.view().faces);
+  const std::size_t before = surface.bytes();
+  const PatchSearcher searcher(surface);
+  const auto made = static_cast<double>(surface.bytes() - before);
+  EXPECT_NEAR(made / static_cast<double>(ball.face_count()), 41, 2);
+}
+
 TEST(Patch, IsWholeInABallOfAnySize) {
   TestMesh mesh = make_ball(3);
   Case outward(mesh);
