@@ -123,7 +123,7 @@ with tempfile.TemporaryDirectory() as folder:
         for name, (V, F) in meshes.items():
             index, pin = meshhood.MeshIndex(V, F), pin_of(V, F)
             gap, wanted = index.gaps(REACH, pin).distance, designed_gap(sides, V[pin])
-            nearest = index.nearest_unconnected(2 * REACH, pin).distances
+            nearest = index.nearest_unconnected(2 * REACH, pin).distance
             print(f"| {shape} | {name} | {len(F)} | {error(gap, wanted)} | {error(nearest, wanted)} |")
             pictures[shape, name] = V, F, pin, gap
 gmsh.finalize()

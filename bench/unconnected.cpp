@@ -39,7 +39,7 @@ void compare(const Index& index, double edges, double mean_edge, unsigned thread
     measure_round(counting, [&] { static_cast<void>(counts(index, query, run)); });
     measure_round(nearest, [&] { found = nearest_unconnected(index, query, run); });
   }
-  const auto none = std::count(found.vertices.begin(), found.vertices.end(), kNoVertex);
+  const auto none = std::count(found.vertex.begin(), found.vertex.end(), kNoVertex);
   const auto vertices = static_cast<double>(index.vertex_count());
   std::printf("%6.4g %12.3f %12.3f %8.2f %10.1f\n", edges, 1e6 * counting / vertices, 1e6 * nearest / vertices,
               nearest / counting, 100 * (1 - static_cast<double>(none) / vertices));

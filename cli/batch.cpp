@@ -299,7 +299,7 @@ void batch(const BatchCommand& options) {
   const unsigned threads = options.rows.threads;
   Input input(options.file, options.reading, threads);
   const RowQuery rows(options.rows, input);
-  BatchQuery query = options.count ? rows.query() : rows.query_of_scale(0);
+  BatchQuery query = options.count ? rows.query() : rows.query_of_first();
   query.metric = choose_metric(options.search.metric, input);
   if (query.metric == Metric::Space) input.ignore_welded();
   const SearchMethod method = method_of(options.search, input, {}, threads);

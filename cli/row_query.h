@@ -53,10 +53,10 @@ class RowQuery {
   /// The number of rows. A row of a vertex that was welded is that of the one that it has become.
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// The query of all scales, for calls whose results have a leading axis for them; of one of them; or of another
+  /// The query of all scales, for calls whose results have a leading axis for them; of the first of them; or of another
   /// radius. Borrows from this object.
   [[nodiscard]] BatchQuery query() const { return query(are_of_rows_ ? of_rows() : BatchRadius::scales(radii_)); }
-  [[nodiscard]] BatchQuery query_of_scale(std::size_t i) const { return query(are_of_rows_ ? of_rows() : radii_[i]); }
+  [[nodiscard]] BatchQuery query_of_first() const { return query(are_of_rows_ ? of_rows() : radii_[0]); }
   [[nodiscard]] BatchQuery query(BatchRadius radius) const;
 
   /// For the array `vertices` of the result: none if the rows are those of all vertices. Borrows from this object.

@@ -36,7 +36,7 @@ auto unconnected(const ExactMethod& method, const std::optional<Rows>& vertices,
   const Run run{.threads = threads, .progress = progress_to(progress)};
   Unconnected found = without_lock([&] { return nearest_unconnected(method.index(), query, run); });
   static_assert(static_cast<std::int32_t>(kNoVertex) == -1);
-  return std::pair(owned<std::int32_t>(std::move(found.vertices)), owned<double>(std::move(found.distances)));
+  return std::pair(owned<std::int32_t>(std::move(found.vertex)), owned<double>(std::move(found.distance)));
 }
 
 constexpr const char* kFewer = "take fewer vertices at a time";

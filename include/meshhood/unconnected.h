@@ -13,8 +13,8 @@ namespace meshhood MESHHOOD_API {
 
 /// For each row of a query, the nearest vertex in the ball that does not belong to the neighborhood.
 struct Unconnected {
-  std::vector<VertexId> vertices;  ///< #rows; `kNoVertex` where there is none
-  std::vector<double> distances;   ///< #rows: infinite where there is none
+  std::vector<VertexId> vertex;  ///< #rows; `kNoVertex` where there is none
+  std::vector<double> distance;  ///< #rows: infinite where there is none
 };
 
 /// Finds, for each row `v` with radius `r`, the nearest of the vertices that lie within `r` of `v` in space and are not

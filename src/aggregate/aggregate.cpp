@@ -248,7 +248,8 @@ class Aggregation {
                next_pass(blocks_));
   }
 
-  /// Reduces what one search finds at each of some scales. What belongs to a smaller one is cut from the largest.
+  /// Reduces what one search finds. Of several scales, which share it, what belongs to a smaller one is cut from the
+  /// largest.
   void reduce_scales(const Reduction& reduction, std::span<const std::size_t> scales, std::size_t first,
                      std::size_t count) {
     struct Cut {

@@ -210,8 +210,8 @@ Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, con
       search.run(packet);
       for (std::size_t i = 0; i < packet.rows.size(); ++i) {
         const auto [vertex, distance] = search.found(i);
-        result.vertices[packet.rows[i]] = vertex;
-        result.distances[packet.rows[i]] = distance;
+        result.vertex[packet.rows[i]] = vertex;
+        result.distance[packet.rows[i]] = distance;
       }
     };
   };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Principal curvatures of a batch, packet by packet.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <memory>

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -95,8 +97,9 @@ void check_radii(const BatchRadius& radius) {
   for (std::size_t i = 0; i < size; ++i) {
     const double r = radius.list() ? (*radius.list())[i] : passes[i].common();
     if (is_length(r)) continue;
-    check_is_length(
-        r, radius.list() ? "row " + std::to_string(i) + ": the radius is " : "radius " + std::to_string(i) + ": ");
+    check_is_length(r, radius.list()     ? "row " + std::to_string(i) + ": the radius is "
+                       : radius.scales() ? "radius " + std::to_string(i) + ": "
+                                         : "radius ");
   }
 }
 

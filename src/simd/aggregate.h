@@ -23,7 +23,7 @@ struct RowSums {
   PerLane<double> low;
 };
 
-/// A spread for each row: see `Spread` in aggregate/variances.h.
+/// A spread for each row: see `Spread` in aggregate/variances.cpp.
 struct RowSpreads {
   PerLane<double> weight;
   PerLane<double> mean;

@@ -64,8 +64,8 @@ TEST_P(UnconnectedFamilies, AreTheFirstOfAScan) {
       const Unconnected result = nearest_unconnected(index, {.radius = radii}, {.threads = 2});
       for (VertexId v = 0; v < mesh.size(); v += static_cast<VertexId>(1 + mesh.size() / scaled(150, 20))) {
         const NearestVertex expected = scan(oracle, v, radii[v]);
-        ASSERT_EQ(result.vertices[v], expected.vertex) << mesh.name << ", vertex " << v << ", radius " << radii[v];
-        ASSERT_EQ(result.distances[v], expected.distance) << mesh.name << ", vertex " << v << ", radius " << radii[v];
+        ASSERT_EQ(result.vertex[v], expected.vertex) << mesh.name << ", vertex " << v << ", radius " << radii[v];
+        ASSERT_EQ(result.distance[v], expected.distance) << mesh.name << ", vertex " << v << ", radius " << radii[v];
         ++rows;
         found += static_cast<std::size_t>(expected.vertex != kNoVertex);
       }
@@ -86,8 +86,8 @@ TEST(Unconnected, OfAFoldedSheetAreThoseOfAScan) {
   for (std::size_t row = 0; row < radii.size() * mesh.size(); ++row) {
     const auto v = static_cast<VertexId>(row % mesh.size());
     const NearestVertex expected = scan(oracle, v, radii[row / mesh.size()]);
-    ASSERT_EQ(result.vertices[row], expected.vertex) << v;
-    ASSERT_EQ(result.distances[row], expected.distance) << v;
+    ASSERT_EQ(result.vertex[row], expected.vertex) << v;
+    ASSERT_EQ(result.distance[row], expected.distance) << v;
   }
 }
 
@@ -114,8 +114,8 @@ TEST(Unconnected, IsNeitherAWallNorIgnored) {
       const double distance = oracle.distance(v, w);
       if (!is_out[w] && distance <= 2.5 && distance < expected.distance) expected = {w, distance};
     }
-    ASSERT_EQ(result.vertices[v], expected.vertex) << v;
-    ASSERT_EQ(result.distances[v], expected.distance) << v;
+    ASSERT_EQ(result.vertex[v], expected.vertex) << v;
+    ASSERT_EQ(result.distance[v], expected.distance) << v;
     found += static_cast<std::size_t>(expected.vertex != kNoVertex);
   }
   EXPECT_GT(found, mesh.size() / 2);

@@ -139,3 +139,20 @@ def test_a_mesh_with_holes_that_was_read_is_written_and_read_again(tmp_path, ext
     np.testing.assert_array_equal(read.faces[1], F.ravel())
     with pytest.raises(ValueError, match=rf"vertex {HOLES[0]} has no position \(NaN\), but face 0 has it as corner 1"):
         meshhood.write_mesh(path, V, np.array([[IDS[0], HOLES[0], IDS[1]]]))
+
+
+@pytest.mark.parametrize(("extension", "library"), ((".ply", None), (".vtk", None), (".vtp", "pyvista"), (".gii", "nibabel"), (".glb", "trimesh")))
+def test_no_format_has_a_face_with_such_a_vertex(tmp_path, extension, library):
+    if library:
+        pytest.importorskip(library)
+    V, F = scan()
+    used = np.array([[IDS[0], HOLES[0], IDS[1]]])
+    with pytest.raises(ValueError, match=rf"vertex {HOLES[0]} has no position \(NaN\), but face 0 has it as corner 1"):
+        meshhood.write_mesh(tmp_path / f"a{extension}", V, used)
+
+
+def test_gltf_has_no_such_vertices(tmp_path):
+    pytest.importorskip("trimesh")
+    V, F = scan()
+    with pytest.raises(ValueError, match="V: 12 vertices without a position .*, which glTF does not know, expected the mesh without them"):
+        meshhood.write_mesh(tmp_path / "a.glb", V, F)

@@ -202,15 +202,18 @@ def write_with(library, file, points):
         pytest.importorskip("meshio").write_points_cells(file, points.astype(float), [("triangle", F + 2)], file_format="gmsh")
     elif file.suffix == ".vtu":
         pytest.importorskip(library).UnstructuredGrid({5: F + 2}, points).save(file)
-    elif file.suffix == ".3mf":
-        pytest.importorskip("lxml")
-        pytest.importorskip("networkx")
+    elif file.suffix in (".3mf", ".glb"):
+        if file.suffix == ".3mf":
+            pytest.importorskip("lxml")
+            pytest.importorskip("networkx")
         pytest.importorskip(library).Trimesh(points, F + 2, process=False).export(file)
+    elif file.suffix == ".vtp":
+        pytest.importorskip(library).PolyData.from_regular_faces(points, F + 2).save(file)
     else:
-        pytest.importorskip(library)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            meshhood.write_mesh(file, points, F + 2)
+        gifti = pytest.importorskip(library).gifti
+        arrays = ((points, "NIFTI_INTENT_POINTSET"), ((F + 2).astype(np.int32), "NIFTI_INTENT_TRIANGLE"))
+        pieces = [gifti.GiftiDataArray(array, intent=intent, datatype=str(array.dtype)) for array, intent in arrays]
+        file.write_bytes(gifti.GiftiImage(darrays=pieces).to_bytes())
 
 
 HOLED_FILES = (("vtp", "pyvista"), ("vtu", "pyvista"), ("msh", "meshio"), ("glb", "trimesh"), ("3mf", "trimesh"), ("gii", "nibabel"))

@@ -25,6 +25,9 @@ def test_nearest_unconnected_takes_a_mask_radii_and_a_unit(mesh):
     assert other[0] == -1 and distance[0] == np.inf and distance[1] == 0.25
     a = index.nearest_unconnected(2, unit="edge")
     b = index.nearest_unconnected(2 * index.mean_edge_length)
+    both = index.nearest_unconnected(scales=[1, 2], unit="edge")
+    np.testing.assert_array_equal(both.vertex, [index.nearest_unconnected(1, unit="edge").vertex, a.vertex])
+    np.testing.assert_array_equal(both.distance[1], a.distance)
     np.testing.assert_array_equal(a[0], b[0])
     with pytest.raises(ValueError, match="vertices: row 1: vertex 999"):
         index.nearest_unconnected(1.0, [0, 999])

@@ -408,7 +408,7 @@ TEST_P(Allocation, FailsInACallForTheNearest) {
   const TestMesh grid = make_grid(9, 9, false);
   // Each returns a list of ids.
   std::vector<std::function<std::vector<VertexId>()>> calls{
-      [&] { return nearest_unconnected(index, {.vertices = some, .radius = radius}, kOneThread).vertices; },
+      [&] { return nearest_unconnected(index, {.vertices = some, .radius = radius}, kOneThread).vertex; },
       [&] { return k_nearest(index, some, 20, {}, kOneThread).ids; },
       [&] { return k_nearest(index, some, 20, {.metric = Metric::Path}, kOneThread).ids; },
       [&] { return discs(index, some, 20, std::vector<double>(mesh.size(), 1.0), {}, kOneThread).ids; },

@@ -123,8 +123,8 @@ class MetricCase {
         nearest = w;
         gap = distance;
       }
-      ASSERT_EQ(found.vertices[row], nearest) << mesh_.name << ", vertex " << v << ", radius " << radii_[row];
-      ASSERT_EQ(found.distances[row], gap);
+      ASSERT_EQ(found.vertex[row], nearest) << mesh_.name << ", vertex " << v << ", radius " << radii_[row];
+      ASSERT_EQ(found.distance[row], gap);
     }
   }
 

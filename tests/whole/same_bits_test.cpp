@@ -191,7 +191,7 @@ std::vector<Call> nearest_calls(const Scene& scene, double radius) {
                      [&scene, radius, metric](const auto& rows, unsigned threads) {
                        const Unconnected found =
                            nearest_unconnected(scene.index, {rows, radius, metric}, {.threads = threads});
-                       return interleaved(found.vertices, found.distances);
+                       return interleaved(found.vertex, found.distance);
                      },
                      2, true});
     const NearestOptions options{.metric = metric};

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from . import _convert, _core
 from ._atomic_file import atomic_file
 from ._index import MeshIndex
-from ._mesh import face_arrays, kept_faces, mesh_arrays, warn_if_coarse
+from ._mesh import face_arrays, kept_faces, mesh_arrays, text_of_unplaced, warn_if_coarse, without_them
 from ._other_files import WRITERS, Writing, bytes_of, read_other
 from ._progress import Progress, reporter
 from ._repr import shown_in_a_line
@@ -90,7 +90,8 @@ def write_mesh(
     VTP (.vtp, pyvista), GLB (.glb, trimesh), and GIFTI (nibabel): a surface (.gii, .surf.gii), or the values alone as maps
     (.shape.gii, .func.gii).
 
-    V, F : as for `MeshIndex`, but not a graph. A vertex of no face may be NaN. GIFTI and GLB have triangles and float32.
+    V, F : as for `MeshIndex`, but not a graph. A vertex of no face may be NaN, but not for GLB. GIFTI and GLB have
+        triangles and float32.
     values : by name, numbers (#V,) or vectors (#V, 3), written as float32. A name is printable ASCII without blanks.
         MeshLab shows the one named "quality" as colors.
     colors : (#V, 3) uint8, red, green and blue; not for VTK's legacy format and GIFTI.
@@ -117,16 +118,19 @@ def write_mesh(
         colors = np.ascontiguousarray(_convert.as_array(colors, "colors"))
         if colors.dtype != np.uint8 or colors.shape != (len(positions), 3):
             raise ValueError(f"colors: {colors.dtype} of shape {colors.shape}, expected uint8 ({len(positions)}, 3)")
+    placed, walls = _core.place(positions, corners, offsets=offsets) or (positions, None)
     if extension in WRITERS:
+        if walls is not None and extension == ".glb":
+            way_out = without_them("meshhood.MeshIndex(V, F)")
+            raise ValueError(f"V: {text_of_unplaced(walls)}, which glTF does not know, {way_out}")
         if extension != ".vtp" and not os.fsdecode(path).lower().endswith((".shape.gii", ".func.gii")):
             warn_if_coarse(np.asarray(positions, np.float32), corners, offsets, 3)
         content = bytes_of(extension, Writing(positions, corners, offsets, named, colors), os.fsdecode(path))
         with atomic_file(path) as file:
             file.write(content)
         return
-    positions, walls = _core.place(positions, corners, offsets=offsets) or (positions, None)
     _core.write_mesh(
-        path, positions, corners, offsets=offsets, values=named, colors=colors, walls=walls, vtk=extension == ".vtk"
+        path, placed, corners, offsets=offsets, values=named, colors=colors, walls=walls, vtk=extension == ".vtk"
     )
 
 

@@ -27,7 +27,7 @@ def whole_mesh_arrays(V, F):
     arrays = positions, corners, offsets = mesh_arrays(V, F)
     found = _core.place(positions, corners, offsets=offsets)
     if found is not None:
-        raise ValueError(f"V: {_text_of_unplaced(found[1])}, {without_them('meshhood.MeshIndex(V, F)')}")
+        raise ValueError(f"V: {text_of_unplaced(found[1])}, {without_them('meshhood.MeshIndex(V, F)')}")
     return arrays
 
 
@@ -369,10 +369,10 @@ def placed(positions, corners, offsets, stacklevel):
 
 
 def text_of_walls(walls):
-    return f"{_text_of_unplaced(walls)}, are walls"
+    return f"{text_of_unplaced(walls)}, are walls"
 
 
-def _text_of_unplaced(walls):
+def text_of_unplaced(walls):
     count, first = np.count_nonzero(walls), walls.argmax()
     return f"{count} vertices without a position (NaN), the first of which is {first}"
 

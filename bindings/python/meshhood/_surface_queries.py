@@ -15,7 +15,7 @@ from ._mesh import positions_of, warn_if_coarse, warn_if_link_is_coarse, whole_m
 from ._progress import Progress, reporter
 from ._repr import shown_in_a_line
 from ._rows import Rows, read_rows
-from ._types import AnyVertices, Ids, Mask, Metric, Number, Offsets, Radii, Reals, Unit, Weights
+from ._types import AnyVertices, Ids, Mask, Metric, Number, Offsets, Radii, Reals, Scales, Unit, Weights
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -135,9 +135,10 @@ class SurfaceQueries(Held):
 
     def nearest_unconnected(
         self,
-        r: Radii,
+        r: Optional[Radii] = None,
         vertices: AnyVertices = None,
         *,
+        scales: Optional[Scales] = None,
         metric: Metric = "straight",
         walls: Mask = None,
         ignored: Mask = None,
@@ -146,12 +147,12 @@ class SurfaceQueries(Held):
         progress: Progress = None,
     ) -> Unconnected:
         """The nearest vertex within `r` in space that is not in the neighborhood with radius `r`, and its distance:
-        `Unconnected(vertex, distance)`, both (#rows,), or an int and a float for a single vertex; -1 and inf where
-        there is none. Of several at the same distance, the one with the smallest id.
+        `Unconnected(vertex, distance)`, both (#rows,) or (#scales, #rows), or an int and a float for one vertex and
+        one radius; -1 and inf where there is none. Of several at the same distance, the one with the smallest id.
 
         r : one radius, or one for each row. A vertex at exactly `r` counts.
-        vertices, walls, ignored, unit, workers, progress : see `MeshIndex`. Walls and ignored vertices are never the
-            nearest, and for a wall there is none.
+        vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`. Walls and ignored vertices are never
+            the nearest, and for a wall there is none.
         metric : see `MeshIndex`: what is connected. With "path", the ball is that of radius `r` in space, too; with
             "rings", all of space.
 
@@ -164,17 +165,18 @@ class SurfaceQueries(Held):
         >>> vertex, distance = index.nearest_unconnected(0.5)
         >>> thin = distance < 0.1
         """
-        rows = read_rows(self, vertices, r, None, metric, walls, ignored, unit, workers, progress)
+        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         with rows.reporter("nearest_unconnected") as report:
-            other, distance = _core.nearest_unconnected(
+            found = _core.nearest_unconnected(
                 rows.index._exact,
                 rows.vertices,
-                rows.radii[0],
+                rows.radius,
                 threads=rows.threads,
                 progress=report,
                 metric=rows.core_metric,
             )
-        return Unconnected(int(other[0]), float(distance[0])) if rows.shape == () else Unconnected(other, distance)
+        vertex, distance = map(rows.shaped, found)
+        return Unconnected(vertex, distance) if vertex.ndim else Unconnected(int(vertex), float(distance))
 
     def closest_point(
         self, q: ArrayLike, *, F: Any = None, workers: int = -1, progress: Progress = None

@@ -96,8 +96,8 @@ extern "C" {
                                                                        bool are_scales) {
   const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
   Unconnected found = meshhood::nearest_unconnected(workspace.searched(), rows.query());
-  answer.ids = std::move(found.vertices);
-  answer.reals = std::move(found.distances);
+  answer.ids = std::move(found.vertex);
+  answer.reals = std::move(found.distance);
 }
 
 /// All vertices if `vertices` is null. The ids and reals of the answer have `k` places for each row.
