@@ -137,7 +137,8 @@ Input::Input(std::string file, const Reading& reading, unsigned threads) : name_
 std::string Input::other_as_ply() const {
   if (!mesh_ || mesh_->format != io::Format::Other) return {};
   const std::optional<OtherFile> other = other_reader(name_);
-  return other ? other->ply : "";
+  if (!other) raise(ErrorCode::IoFailure, name_ + ": has changed since it was read, expected the same mesh");
+  return other->ply;
 }
 
 std::size_t Input::vertex_count() const {

@@ -54,12 +54,12 @@ struct FeatureOptions {
 /// length of an edge.
 ///
 /// Each radius has a neighborhood of its own, which is searched once for all kinds; of an index with ignored vertices,
-/// Area, Volume and Gap beside other kinds have a search of their own. Time of `curvatures`,
-/// `principal_components`, `invariants` and `gaps` for each radius, as the kinds require. A row depends on surface,
-/// areas, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls, threads or the
-/// processor. Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, and InvalidMesh if the surface
-/// has neither faces nor normals. A radius must be > 0 and finite. Area, Volume and Gap throw InvalidOption by another
-/// metric than `Straight` and of a surface without faces, and InvalidMesh if every face has a wall.
+/// Area, Volume and Gap beside other kinds have a search of their own. Time of `curvatures`, `principal_components`,
+/// `invariants` and `gaps` for each radius, as the kinds require. A row depends on surface, areas, vertex and radius
+/// alone, bit for bit: not on the other rows of the call, earlier calls, threads or the processor. Throws
+/// Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, and InvalidMesh if the surface has neither faces
+/// nor normals. A radius must be > 0 and finite. Area, Volume and Gap throw InvalidOption by another metric than
+/// `Straight` and of a surface without faces, and InvalidMesh if every face has a wall.
 [[nodiscard]] std::vector<double> features(const Surface& surface, const BatchQuery& query,
                                            const FeatureOptions& options = {}, const Run& run = {});
 

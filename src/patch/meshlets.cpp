@@ -37,6 +37,14 @@ Meshlet add_up(const IndexView& index, const Triangles& triangles, TriangleId be
   return sums;
 }
 
+/// The same index, whose answers have the ignored vertices, too.
+Index without_ignored(const Index& given) {
+  if (IndexAccess::view(given).ignored.empty()) return IndexAccess::alias(given);
+  auto view = std::make_shared<IndexView>(IndexAccess::view(given));
+  view->ignored = {};
+  return IndexAccess::make(std::move(view), IndexAccess::share_graph(given));
+}
+
 }  // namespace
 
 Meshlets::Meshlets(const IndexView& index, const Triangles& triangles) : of_triangle(triangles.size()) {
@@ -85,16 +93,11 @@ void Meshlets::list_by_leaf(const IndexView& index) {
   std::partial_sum(first_of_leaf.begin(), first_of_leaf.end(), first_of_leaf.begin());
 }
 
-namespace {
-
-Index without_ignored(const Index& given) {
-  if (IndexAccess::view(given).ignored.empty()) return IndexAccess::alias(given);
-  auto view = std::make_shared<IndexView>(IndexAccess::view(given));
-  view->ignored = {};
-  return IndexAccess::make(std::move(view), IndexAccess::share_graph(given));
+std::size_t Meshlets::bytes() const {
+  const auto bytes_of = [](const auto& array) { return array.size() * sizeof(array[0]); };
+  return bytes_of(meshlets) + bytes_of(corners) + bytes_of(of_triangle) + bytes_of(first_of_leaf) + bytes_of(of_leaf) +
+         boxes.bytes();
 }
-
-}  // namespace
 
 PatchState::PatchState(const Index& given, const StoredFaces& all)
     : searched(without_ignored(given)),
@@ -102,11 +105,5 @@ PatchState::PatchState(const Index& given, const StoredFaces& all)
       faces(&all),
       triangles(*index, all),
       meshlets(*index, triangles) {}
-
-std::size_t Meshlets::bytes() const {
-  const auto bytes_of = [](const auto& array) { return array.size() * sizeof(array[0]); };
-  return bytes_of(meshlets) + bytes_of(corners) + bytes_of(of_triangle) + bytes_of(first_of_leaf) + bytes_of(of_leaf) +
-         boxes.bytes();
-}
 
 }  // namespace meshhood
