@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Chromium without a window, with WebGL in software, and the page in it.
+import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
@@ -109,6 +110,14 @@ export const countPixels = (page, rgb, reach = 60) => withPixels(page, ({ data }
   }
   return count;
 }, { rgb, reach });
+
+/** Until a screenshot has more than `least` pixels of about the color `rgb`: on a busy machine the browser draws late. */
+export async function waitForPixels(page, rgb, least) {
+  const end = Date.now() + TIMEOUT;
+  let pixels;
+  do pixels = await countPixels(page, rgb); while (pixels <= least && Date.now() < end);
+  assert.ok(pixels > least, `${pixels} pixels of ${rgb}, expected more than ${least}`);
+}
 
 /** The colors of a screenshot at some places. */
 export const colorsAt = (page, places) => withPixels(page, ({ data, width }, places) => places.map(({ x, y }) => {

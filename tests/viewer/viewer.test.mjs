@@ -9,7 +9,7 @@ import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 
 import {
-  countPixels, drop, idsOf, memoryOfPages, openPage, placeOf, setRadius, setVertex, waitForAnswers, waitForMesh,
+  drop, idsOf, memoryOfPages, openPage, placeOf, setRadius, setVertex, waitForAnswers, waitForMesh, waitForPixels,
 } from './browser.mjs';
 import { commandLine, launchWithFolder } from './fixture.mjs';
 import { arraysOf } from '../wasm/npz.mjs';
@@ -33,11 +33,7 @@ async function expectAnswers(page, mesh, vertex, radius) {
 
 /** Each of the colors is seen. */
 async function expectColors(page, colors) {
-  for (const [name, rgb] of Object.entries(colors)) {
-    const pixels = await countPixels(page, rgb);
-    console.log(`${pixels} pixels of ${name}`);
-    assert.ok(pixels > 500, name);
-  }
+  for (const rgb of Object.values(colors)) await waitForPixels(page, rgb, 500);
 }
 
 meshhood('generate', 'scroll', '--vertices', '20000', '-o', 'scroll.ply');
@@ -247,9 +243,8 @@ test('curvature of both signs is blue and red', async () => {
     hash: '#example=terrain&vertex=45000&radius=12&ball=hidden&color=mean&camera=-150,-250,330,0,0,0',
   });
   await page.waitForSelector('#legend:not([hidden])');
-  await page.waitForTimeout(500);
-  await page.screenshot({ path: join(pictures, 'curvature.png') });
   await expectColors(page, { blue: [33, 102, 172], white: [247, 247, 247], red: [178, 24, 43] });
+  await page.screenshot({ path: join(pictures, 'curvature.png') });
   await page.close();
 });
 
@@ -415,9 +410,8 @@ for (const [name, [width, height]] of Object.entries(SIZES)) {
     const page = await openPage(browser, process.env.MESHHOOD_PAGE, {
       viewport: { width, height }, hasTouch: name === 'phone', isMobile: name === 'phone',
     });
-    await page.waitForTimeout(500);
-    await page.screenshot({ path: join(pictures, `${name}.png`) });
     await expectColors(page, COLORS);
+    await page.screenshot({ path: join(pictures, `${name}.png`) });
     const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(overflow <= 0);
     const panel = await page.locator('#panel').boundingBox();
