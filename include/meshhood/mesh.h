@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "meshhood/export.h"
+#include "meshhood/vertex.h"
 #include "meshhood/vertex_id.h"
 
 namespace meshhood MESHHOOD_API {
@@ -339,6 +340,6 @@ void validate(const PositionsView& positions);
 /// while smoothing weights divide distances: a vertex beyond the radius may count, with the weight at the radius.
 ///
 /// Throws Error{VertexOutOfRange}.
-[[nodiscard]] double distance(const PositionsView& positions, VertexId v, VertexId w);
+[[nodiscard]] double distance(const PositionsView& positions, Vertex v, Vertex w);
 
 }  // namespace meshhood

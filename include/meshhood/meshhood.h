@@ -54,3 +54,4 @@
 #include "meshhood/thickness.h"            // IWYU pragma: export
 #include "meshhood/unconnected.h"          // IWYU pragma: export
 #include "meshhood/version.h"              // IWYU pragma: export
+#include "meshhood/vertex.h"               // IWYU pragma: export

@@ -15,6 +15,7 @@
 #include "meshhood/owner.h"
 #include "meshhood/run.h"
 #include "meshhood/search.h"
+#include "meshhood/vertex.h"
 
 /// The index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
 /// `docs/paper.md` lists the deviations from the paper, with reasons.
@@ -146,7 +147,7 @@ class Searcher {
   [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
-  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
+  [[nodiscard]] std::vector<VertexId> neighborhood(Vertex v, double radius) {
     std::vector<VertexId> out;
     neighborhood(v, radius, out);
     return out;
@@ -154,17 +155,17 @@ class Searcher {
 
   /// out     replaced, its capacity reused: ids without duplicates, `v` included. Their order depends on the
   ///         index, the options, the vertex and the radius alone.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
+  void neighborhood(Vertex v, double radius, std::vector<VertexId>& out);
 
   /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
+  void neighborhood(Vertex v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
   /// The neighborhood as ranges of the index order, without copying ids. In the same order, disjoint, none empty; valid
   /// until the next call. See `visit` and `reduce`.
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) &;
+  [[nodiscard]] std::span<const VertexRange> ranges(Vertex v, double radius) &;
 
   /// The number of vertices of the neighborhood.
-  [[nodiscard]] std::size_t count(VertexId v, double radius);
+  [[nodiscard]] std::size_t count(Vertex v, double radius);
 
   /// Statistics of the last successful query.
   [[nodiscard]] const QueryProfile& profile() const& { return profile_; }

@@ -14,6 +14,7 @@
 #include "meshhood/run.h"
 #include "meshhood/start.h"
 #include "meshhood/surface.h"
+#include "meshhood/vertex.h"
 
 /// The surface in a ball, rather than its vertices: areas, volumes and gaps that do not depend on the triangles.
 ///
@@ -38,23 +39,21 @@ namespace meshhood MESHHOOD_API {
 /// A vertex, or a point on a face.
 class PatchStart {
  public:
-  /// A vertex, as for `Start`.
-  template <class Vertex>
-    requires(std::convertible_to<const Vertex&, Start> && !std::same_as<Vertex, Start>)
-  PatchStart(const Vertex& v) : start_(v) {}
+  template <std::convertible_to<Vertex> V>
+  PatchStart(const V& v) : vertex_(Vertex(v)) {}
 
   /// point  on the face, up to rounding (see `Surface::closest_point` and `point_on_face`).
-  PatchStart(std::size_t face, const SpacePoint& point) : start_(0), face_(face), point_(point) {}
+  PatchStart(std::size_t face, const SpacePoint& point) : face_(face), point_(point) {}
 
   /// The vertex, unless there is a face.
-  [[nodiscard]] VertexId vertex() const { return start_.vertex(); }
+  [[nodiscard]] VertexId vertex() const { return vertex_; }
   [[nodiscard]] const std::optional<std::size_t>& face() const& { return face_; }
   [[nodiscard]] const std::optional<std::size_t>& face() const&& = delete;
   [[nodiscard]] const SpacePoint& point() const& { return point_; }
   [[nodiscard]] const SpacePoint& point() const&& = delete;
 
  private:
-  Start start_;
+  VertexId vertex_ = 0;
   std::optional<std::size_t> face_;
   SpacePoint point_{};
 };

@@ -11,6 +11,7 @@
 #include "meshhood/mesh.h"
 #include "meshhood/owner.h"
 #include "meshhood/search.h"
+#include "meshhood/vertex.h"
 
 namespace meshhood MESHHOOD_API {
 
@@ -42,23 +43,23 @@ class ReferenceSearcher {
   [[nodiscard]] std::span<const VertexId> permutation() const { return {}; }
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
-  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
+  [[nodiscard]] std::vector<VertexId> neighborhood(Vertex v, double radius) {
     std::vector<VertexId> out;
     neighborhood(v, radius, out);
     return out;
   }
 
   /// out     replaced, its capacity reused: ids in the order of the search, `v` first, no duplicates.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
+  void neighborhood(Vertex v, double radius, std::vector<VertexId>& out);
 
   /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
+  void neighborhood(Vertex v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
   /// The neighborhood as ranges of ids, disjoint, none empty, in the order of the search; valid until the next call.
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) &;
+  [[nodiscard]] std::span<const VertexRange> ranges(Vertex v, double radius) &;
 
   /// The number of vertices of the neighborhood.
-  [[nodiscard]] std::size_t count(VertexId v, double radius);
+  [[nodiscard]] std::size_t count(Vertex v, double radius);
 
   /// The graph that is searched. Lives as long as the searcher.
   [[nodiscard]] AdjacencyView adjacency() const&;
@@ -87,23 +88,23 @@ class BallSearcher {
   [[nodiscard]] std::span<const VertexId> permutation() const { return {}; }
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
-  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
+  [[nodiscard]] std::vector<VertexId> neighborhood(Vertex v, double radius) {
     std::vector<VertexId> out;
     neighborhood(v, radius, out);
     return out;
   }
 
   /// out     replaced, its capacity reused: ids ascending, `v` included.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
+  void neighborhood(Vertex v, double radius, std::vector<VertexId>& out);
 
   /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
+  void neighborhood(Vertex v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
   /// The vertices as ascending ranges of ids, disjoint, none empty; valid until the next call.
-  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) &;
+  [[nodiscard]] std::span<const VertexRange> ranges(Vertex v, double radius) &;
 
   /// The number of vertices in the ball.
-  [[nodiscard]] std::size_t count(VertexId v, double radius);
+  [[nodiscard]] std::size_t count(Vertex v, double radius);
 
  private:
   PositionsView positions_;
@@ -115,6 +116,6 @@ class BallSearcher {
 /// inside. O(#V + #corners log(valence)), whatever the radius.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidMesh, TooLarge}.
-[[nodiscard]] std::vector<VertexId> exact_neighborhood(const MeshView& mesh, VertexId v, double radius);
+[[nodiscard]] std::vector<VertexId> exact_neighborhood(const MeshView& mesh, Vertex v, double radius);
 
 }  // namespace meshhood

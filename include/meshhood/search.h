@@ -15,6 +15,7 @@
 #include "meshhood/metric.h"
 #include "meshhood/owner.h"
 #include "meshhood/start.h"
+#include "meshhood/vertex.h"
 
 /// Queries about the neighborhood of one vertex or point: the exact searcher, what all searchers have in common, and
 /// the folding of answers. Batches of many vertices are in batch.h.
@@ -168,14 +169,14 @@ class Searcher {
               std::vector<std::size_t>& counts);
 
   /// Whether the neighborhood has vertex `w`. Costs at most as much as it, and less if the search reaches `w` early.
-  [[nodiscard]] bool contains(const Start& start, VertexId w, Radius radius);
+  [[nodiscard]] bool contains(const Start& start, Vertex w, Radius radius);
 
   /// The smallest radius whose neighborhood has vertex `w`; infinite if there is none. Straight, it is the minimum,
   /// over all paths from a seed to `w`, of the largest distance between a vertex of the path and the center (a
   /// bottleneck shortest path); else the path distance, the number of edges, or the distance in space.
   ///
   /// Costs about as much as the neighborhood of the result.
-  [[nodiscard]] double connecting_radius(const Start& start, VertexId w);
+  [[nodiscard]] double connecting_radius(const Start& start, Vertex w);
 
   /// The `k` nearest connected vertices: the first `k`, ordered by connecting radius; straight, then by distance from
   /// the center, then by id; else then by place in index order. So the answer for a smaller `k` is the beginning of
@@ -207,7 +208,7 @@ class Searcher {
 ///
 /// Throws as `searcher.ranges`; an exception from `on_run` is passed on.
 template <NeighborhoodSearcher S, class F>
-bool visit(S& searcher, VertexId v, double radius, F&& on_run) {
+bool visit(S& searcher, Vertex v, double radius, F&& on_run) {
   for (const VertexRange run : searcher.ranges(v, radius)) {
     if constexpr (std::is_same_v<std::invoke_result_t<F&, VertexRange>, bool>) {
       if (!std::invoke(on_run, run)) return false;
@@ -222,7 +223,7 @@ bool visit(S& searcher, VertexId v, double radius, F&& on_run) {
 /// gives them. The same query gives the same ranges in the same order, so a floating-point sum has the same bits.
 /// Throws as `visit`.
 template <NeighborhoodSearcher S, class T, class F>
-[[nodiscard]] T reduce(S& searcher, VertexId v, double radius, T init, F&& f) {
+[[nodiscard]] T reduce(S& searcher, Vertex v, double radius, T init, F&& f) {
   visit(searcher, v, radius, [&](VertexRange run) { init = std::invoke(f, std::move(init), run); });
   return init;
 }

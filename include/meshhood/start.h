@@ -3,42 +3,26 @@
 
 #include <array>
 #include <concepts>
-#include <limits>
 #include <optional>
 #include <span>
-#include <type_traits>
-#include <utility>
 
 #include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/vertex.h"
 
 namespace meshhood MESHHOOD_API {
 
 /// A point in space, in the unit of the positions.
 using SpacePoint = std::array<double, 3>;
 
-namespace detail {
-
-template <class Handle>
-concept VertexHandle = std::is_class_v<Handle> && requires(const Handle& handle) { VertexId{handle}; } &&
-                       !requires(const Handle& handle) { bool{handle}; };
-
-}  // namespace detail
-
 /// Where a search starts: the center of its balls, and its seeds, the vertices from which it spreads. Borrows seeds
 /// that are given, which must outlive the call.
 class Start {
  public:
-  /// Vertex `v` is the center and the only seed. One that no `VertexId` can name is refused as the largest of them.
-  template <std::integral Integer>
-    requires(!std::same_as<Integer, bool>)
-  Start(Integer v)
-      : vertex_(std::in_range<VertexId>(v) ? static_cast<VertexId>(v) : std::numeric_limits<VertexId>::max()) {}
-
-  /// The vertex of another library's index that is a `VertexId` without a loss, as `CGAL::SM_Vertex_index`.
-  template <detail::VertexHandle Handle>
-  Start(const Handle& v) : vertex_{v} {}
+  /// Vertex `v` is the center and the only seed.
+  template <std::convertible_to<Vertex> V>
+  Start(const V& v) : vertex_(Vertex(v)) {}
 
   /// center  any point in space: finite, no coordinate beyond 2^500 in magnitude.
   /// seeds   in [0, #V), in any order; repeats are allowed. A seed outside a ball does not count for that ball.

@@ -28,13 +28,13 @@ void scan(const PositionsView& positions, VertexId v, double radius, F&& f) {
 
 }  // namespace
 
-void BallSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
+void BallSearcher::neighborhood(Vertex v, double radius, std::vector<VertexId>& out) {
   check_query(v, vertex_count(), radius);
   out.clear();
   scan(positions_, v, radius, [&](VertexId w, const Point&, const Point&) { out.push_back(w); });
 }
 
-void BallSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
+void BallSearcher::neighborhood(Vertex v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
   check_query(v, vertex_count(), radius);
   out.clear();
   distances.clear();
@@ -44,13 +44,13 @@ void BallSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>
   });
 }
 
-std::span<const VertexRange> BallSearcher::ranges(VertexId v, double radius) & {
+std::span<const VertexRange> BallSearcher::ranges(Vertex v, double radius) & {
   ranges_.clear();
   scan(positions_, v, radius, [&](VertexId w, const Point&, const Point&) { append_to(ranges_, w); });
   return ranges_;
 }
 
-std::size_t BallSearcher::count(VertexId v, double radius) {
+std::size_t BallSearcher::count(Vertex v, double radius) {
   std::size_t result = 0;
   scan(positions_, v, radius, [&](VertexId, const Point&, const Point&) { ++result; });
   return result;

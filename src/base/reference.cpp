@@ -131,13 +131,13 @@ ReferenceSearcher::ReferenceSearcher(const GraphView& graph) {
 
 std::size_t ReferenceSearcher::vertex_count() const { return state_->adjacency.size(); }
 
-void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
+void ReferenceSearcher::neighborhood(Vertex v, double radius, std::vector<VertexId>& out) {
   const std::span<const VertexId> found = state_->neighborhood(v, radius);
   out.reserve(found.size());  // `assign` of libc++ frees what there was before it allocates
   out.assign(found.begin(), found.end());
 }
 
-void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out,
+void ReferenceSearcher::neighborhood(Vertex v, double radius, std::vector<VertexId>& out,
                                      std::vector<double>& distances) {
   const std::span<const VertexId> found = state_->neighborhood(v, radius);
   // Reserved first: if memory runs out, neither has changed.
@@ -147,14 +147,14 @@ void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<Vert
   state_->measure(v, found, distances);
 }
 
-std::span<const VertexRange> ReferenceSearcher::ranges(VertexId v, double radius) & {
+std::span<const VertexRange> ReferenceSearcher::ranges(Vertex v, double radius) & {
   const std::span<const VertexId> found = state_->neighborhood(v, radius);
   state_->ranges.clear();
   for (const VertexId w : found) append_to(state_->ranges, w);
   return state_->ranges;
 }
 
-std::size_t ReferenceSearcher::count(VertexId v, double radius) { return state_->neighborhood(v, radius).size(); }
+std::size_t ReferenceSearcher::count(Vertex v, double radius) { return state_->neighborhood(v, radius).size(); }
 
 std::span<const VertexId> ReferenceAccess::search(ReferenceSearcher& searcher, VertexId v, double squared_radius) {
   return searcher.state_->search(v, squared_radius);
@@ -176,7 +176,7 @@ void ReferenceAccess::set_query(ReferenceSearcher& searcher, std::uint32_t queri
 
 AdjacencyView ReferenceSearcher::adjacency() const& { return state_->adjacency; }
 
-std::vector<VertexId> exact_neighborhood(const MeshView& mesh, VertexId v, double radius) {
+std::vector<VertexId> exact_neighborhood(const MeshView& mesh, Vertex v, double radius) {
   check_query(v, mesh.positions.size(), radius);
   std::vector<VertexId> result;
   ReferenceSearcher(mesh).neighborhood(v, radius, result);

@@ -229,20 +229,20 @@ void Searcher::run(VertexId v, double radius, F&& answer) {
       storage_->hierarchy);
 }
 
-void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
+void Searcher::neighborhood(Vertex v, double radius, std::vector<VertexId>& out) {
   run(v, radius, [&](auto& query) { query.collect(out); });
 }
 
-void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
+void Searcher::neighborhood(Vertex v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
   run(v, radius, [&](auto& query) { query.collect(out, distances); });
 }
 
-std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) & {
+std::span<const VertexRange> Searcher::ranges(Vertex v, double radius) & {
   run(v, radius, [&](auto& query) { query.collect(ranges_); });
   return ranges_;
 }
 
-std::size_t Searcher::count(VertexId v, double radius) {
+std::size_t Searcher::count(Vertex v, double radius) {
   std::size_t result = 0;
   run(v, radius, [&](auto& query) { result = query.count(); });
   return result;

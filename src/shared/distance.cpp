@@ -39,7 +39,7 @@ void check_query(VertexId v, std::size_t vertices, double radius, std::string_vi
   check_radius(radius, where);
 }
 
-double distance(const PositionsView& positions, VertexId v, VertexId w) {
+double distance(const PositionsView& positions, Vertex v, Vertex w) {
   check_query(v, positions.size(), 0);
   check_query(w, positions.size(), 0);
   return std::sqrt(squared_distance(point(positions, v), point(positions, w)));

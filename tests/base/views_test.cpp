@@ -120,10 +120,12 @@ struct Handle {
 struct Coordinate {
   explicit(false) operator float() const { return 3; }
 };
-static_assert(std::convertible_to<int, Start> && std::convertible_to<std::size_t, Start>);
-static_assert(std::convertible_to<Handle, Start>);
-static_assert(!std::constructible_from<Start, bool> && !std::constructible_from<Start, std::vector<bool>::reference>);
-static_assert(!std::constructible_from<Start, double> && !std::constructible_from<Start, Coordinate>);
+template <class T>
+constexpr bool kIsMadeOfVertices =
+    std::convertible_to<int, T> && std::convertible_to<std::size_t, T> && std::convertible_to<Handle, T> &&
+    !std::constructible_from<T, bool> && !std::constructible_from<T, std::vector<bool>::reference> &&
+    !std::constructible_from<T, double> && !std::constructible_from<T, Coordinate>;
+static_assert(kIsMadeOfVertices<Vertex> && kIsMadeOfVertices<Start> && kIsMadeOfVertices<PatchStart>);
 static_assert(std::constructible_from<Start, SpacePoint, const std::vector<VertexId>&>);
 static_assert(!std::constructible_from<Start, SpacePoint, std::vector<VertexId>>);
 static_assert(std::constructible_from<AdjacencyView, std::vector<EdgeOffset>&, std::vector<VertexId>&>);

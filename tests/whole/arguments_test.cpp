@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Invalid and extreme arguments to every method: rows A1 to A3 and A18 of docs/reliability.md. The meshes of A4 to A16
 // are in robustness_test, A13 and A14 in paper/fusion_test, A17 in base/error_test.
+#include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -28,7 +30,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Every method on the same mesh: two unconnected grids of nine vertices each, at a distance of a hundred.
 class Arguments : public testing::Test {
  protected:
-  using Method = std::function<void(VertexId, double, std::vector<VertexId>&)>;
+  using Method = std::function<void(Vertex, double, std::vector<VertexId>&)>;
 
   static TestMesh two_grids() {
     TestMesh mesh = make_grid(3, 3, false);
@@ -39,14 +41,14 @@ class Arguments : public testing::Test {
   }
 
   /// The answers of all methods to a query.
-  std::vector<std::vector<VertexId>> answers(VertexId v, double radius) {
+  std::vector<std::vector<VertexId>> answers(Vertex v, double radius) {
     std::vector<std::vector<VertexId>> result;
     for (const auto& [name, search] : methods) search(v, radius, result.emplace_back());
     return result;
   }
 
   /// Every method throws and leaves the previous answer unchanged.
-  void expect_all_refused(ErrorCode code, const std::string& cause, VertexId v, double radius) {
+  void expect_all_refused(ErrorCode code, const std::string& cause, Vertex v, double radius) {
     for (const auto& [name, search] : methods) {
       SCOPED_TRACE(name);
       std::vector<VertexId> out{7};
@@ -64,17 +66,17 @@ class Arguments : public testing::Test {
   paper::Searcher paper_searcher{paper_index};
   ReferenceSearcher reference{mesh.view()};
   std::vector<std::pair<std::string, Method>> methods{
-      {"exact", [this](VertexId v, double r, auto& out) { searcher.neighborhood(v, r, out); }},
-      {"paper", [this](VertexId v, double r, auto& out) { paper_searcher.neighborhood(v, r, out); }},
-      {"reference", [this](VertexId v, double r, auto& out) { reference.neighborhood(v, r, out); }},
-      {"once", [this](VertexId v, double r, auto& out) { out = exact_neighborhood(mesh.view(), v, r); }},
+      {"exact", [this](Vertex v, double r, auto& out) { searcher.neighborhood(v, r, out); }},
+      {"paper", [this](Vertex v, double r, auto& out) { paper_searcher.neighborhood(v, r, out); }},
+      {"reference", [this](Vertex v, double r, auto& out) { reference.neighborhood(v, r, out); }},
+      {"once", [this](Vertex v, double r, auto& out) { out = exact_neighborhood(mesh.view(), v, r); }},
       {"exact, distances",
-       [this](VertexId v, double r, auto& out) {
+       [this](Vertex v, double r, auto& out) {
          std::vector<double> distances;
          searcher.neighborhood(v, r, out, distances);
        }},
       {"exact, ranges",
-       [this](VertexId v, double r, auto& out) {
+       [this](Vertex v, double r, auto& out) {
          const std::span<const VertexRange> ranges = searcher.ranges(v, r);
          out.clear();
          for (const VertexRange& range : ranges) {
@@ -82,8 +84,8 @@ class Arguments : public testing::Test {
            out.insert(out.end(), part.begin(), part.end());
          }
        }},
-      {"exact, count", [this](VertexId v, double r, auto& out) { out.assign(searcher.count(v, r), v); }},
-      {"paper, count", [this](VertexId v, double r, auto& out) { out.assign(paper_searcher.count(v, r), v); }}};
+      {"exact, count", [this](Vertex v, double r, auto& out) { out.assign(searcher.count(v, r), v); }},
+      {"paper, count", [this](Vertex v, double r, auto& out) { out.assign(paper_searcher.count(v, r), v); }}};
 };
 
 TEST_F(Arguments, RadiusNaNOrNegativeIsRefused) {
@@ -107,8 +109,16 @@ TEST_F(Arguments, RadiusRatioIsPositiveAndFinite) {
 }
 
 TEST_F(Arguments, VertexOutOfRangeIsRefusedAndNeverWraps) {
+  constexpr std::uint64_t kWrapsToThree = (std::uint64_t{1} << 32) + 3;
   expect_all_refused(ErrorCode::VertexOutOfRange, "vertex 18, but the mesh has 18 vertices", 18, 1);
   expect_all_refused(ErrorCode::VertexOutOfRange, "vertex 4294967295, but", static_cast<VertexId>(-1), 1);
+  expect_all_refused(ErrorCode::VertexOutOfRange, "vertex 4294967295, but", kWrapsToThree, 1);
+  for (const auto& call : std::initializer_list<std::function<void()>>{
+           [&] { static_cast<void>(searcher.contains(0, kWrapsToThree, 1)); },
+           [&] { static_cast<void>(searcher.connecting_radius(0, kWrapsToThree)); },
+           [&] { static_cast<void>(distance(mesh.positions_view(), 0, kWrapsToThree)); }}) {
+    expect_refused(ErrorCode::VertexOutOfRange, "vertex 4294967295, but", call);
+  }
 }
 
 TEST_F(Arguments, ArraysOfTheWrongLengthAreRefused) {

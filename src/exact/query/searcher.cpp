@@ -138,14 +138,14 @@ void Searcher::nested(const Start& start, std::span<const double> radii, std::ve
   counts = std::move(sizes);
 }
 
-bool Searcher::contains(const Start& start, VertexId w, Radius radius) {
+bool Searcher::contains(const Start& start, Vertex w, Radius radius) {
   queries_->check(start);
   check_vertex(w, vertex_count(), "vertex");
   check_radius(radius);
   return queries_->contains(start, w, radius);
 }
 
-double Searcher::connecting_radius(const Start& start, VertexId w) {
+double Searcher::connecting_radius(const Start& start, Vertex w) {
   queries_->check(start);
   check_vertex(w, vertex_count(), "vertex");
   return queries_->connecting_radius(start, w);

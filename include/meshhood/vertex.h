@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+#include <utility>
+
+#include "meshhood/export.h"
+#include "meshhood/vertex_id.h"
+
+namespace meshhood MESHHOOD_API {
+
+namespace detail {
+
+template <class Handle>
+concept VertexHandle = std::is_class_v<Handle> && requires(const Handle& handle) { VertexId{handle}; } &&
+                       !requires(const Handle& handle) { bool{handle}; };
+
+}  // namespace detail
+
+/// A vertex as an argument, so that an integer of 64 bits is not cut to another vertex, and that no bool or floating
+/// point number is one.
+class Vertex {
+ public:
+  /// One that no `VertexId` can name is refused by the call, as the largest of them, which no mesh has.
+  template <std::integral Integer>
+    requires(!std::same_as<Integer, bool>)
+  Vertex(Integer v) : id_(std::in_range<VertexId>(v) ? static_cast<VertexId>(v) : kNoVertex) {}
+
+  /// The vertex of another library's index that is a `VertexId` without a loss, as `CGAL::SM_Vertex_index`.
+  template <detail::VertexHandle Handle>
+  Vertex(const Handle& v) : id_{v} {}
+
+  operator VertexId() const { return id_; }
+
+ private:
+  VertexId id_;
+};
+
+}  // namespace meshhood
