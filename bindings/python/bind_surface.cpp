@@ -74,7 +74,10 @@ auto columns(unsigned threads, nb::handle progress, const Find& find) {
   std::vector<SpacePoint> points;
   std::vector<double> distances;
   without_lock([&] {
-    for (const SurfacePoint& hit : find(run)) {
+    const std::vector<SurfacePoint> found = find(run);
+    const auto reserve = [&](auto&... columns) { (columns.reserve(found.size()), ...); };
+    reserve(faces, corners, barycentric, points, distances);
+    for (const SurfacePoint& hit : found) {
       faces.push_back(static_cast<std::int64_t>(hit.face));  // -1 for kNoFace
       corners.push_back(hit.corners);
       barycentric.push_back(hit.barycentric);

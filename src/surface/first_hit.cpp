@@ -12,6 +12,7 @@
 #include "meshhood/error.h"
 #include "meshhood/surface.h"
 
+#include "base/prefetch.h"
 #include "base/vector.h"
 #include "batch/position_sort.h"
 #include "exact/query/arguments.h"
@@ -24,6 +25,7 @@ namespace meshhood {
 namespace {
 
 constexpr std::size_t kRaysOfTask = 256;
+constexpr std::size_t kRaysAhead = 8;
 
 double largest_of(const Point& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
@@ -162,8 +164,16 @@ std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origin
     return ray.origin() + way_to_frame(ray.origin(), ray.direction()) * ray.direction();
   });
   std::vector<SurfacePoint> found(origins.size());
+  const auto fetch_row = [&](std::size_t row) {  // rays that follow each other along the curve lie anywhere
+    prefetch(&origins[row]);
+    prefetch(&directions[row]);
+    fetch_lines(&found[row], 1 + sizeof(SurfacePoint) / kCacheLine);
+  };
   task.parallel_for(origins.size(), kRaysOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) found[in_order[i]] = hit(state, tree, ray_of(in_order[i]));
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i + kRaysAhead < end) fetch_row(in_order[i + kRaysAhead]);
+      found[in_order[i]] = hit(state, tree, ray_of(in_order[i]));
+    }
     task.advance(thread, end - begin);
   });
   task.finish();
