@@ -32,7 +32,7 @@
 /// as sides do. A face with a wall (see masks.h), or with fewer than three corners, is not there. Vertices at the same
 /// place are not one: weld a mesh that has such.
 ///
-/// A surface makes what all searches share at the first of them, and again after a refit: about 41 bytes a triangle, in
+/// A surface makes what all searches share at the first of them, and again after a refit: about 37 bytes a triangle, in
 /// O(#V + #corners log #corners). Error{InvalidMesh} if no face is there.
 namespace meshhood MESHHOOD_API {
 
@@ -80,7 +80,7 @@ struct ClippedMesh {
   [[nodiscard]] MeshView view() const&& = delete;
 };
 
-/// Answers one start at a time; one for each thread. Owns 8 bytes a vertex and 4 a triangle. Shares the memory of
+/// Answers one start at a time; one for each thread. Owns 2 bytes a vertex and 2 a triangle. Shares the memory of
 /// the surface, which may be moved or destroyed. After a refit, make a new one. One that has been moved from can be
 /// assigned and destroyed.
 ///
@@ -138,7 +138,7 @@ struct Invariants {
 /// query  as of a batch. Error{InvalidOption} unless its metric is `Straight`.
 /// The patches of a leaf are found together, from the neighborhoods of its vertices. Where a neighborhood is joined by
 /// an edge that is no side of a face without walls, each is searched alone. A row depends on surface, vertex and radius
-/// alone, bit for bit. Each thread owns 5 bytes a vertex and, if it searches alone, 8 more and 4 a triangle. Throws
+/// alone, bit for bit. Each thread owns 5 bytes a vertex and, if it searches alone, 2 more and 2 a triangle. Throws
 /// Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run = {});
 

@@ -75,7 +75,7 @@ struct Rim {
 /// so that its triangles cover what it covers. A face with fewer than three corners has no points, and no area.
 ///
 /// What depends on the faces is made when it is first needed, and kept: 52 bytes a triangle for closest points and
-/// rays, and 2.3 more for thickness by balls, 41 bytes a triangle for patches (see patch.h), 24 bytes a vertex for
+/// rays, and 2.3 more for thickness by balls, 37 bytes a triangle for patches (see patch.h), 24 bytes a vertex for
 /// curvature, 4 bytes a corner and 8 a vertex for the faces of each vertex, 8 bytes a vertex for areas. The first call
 /// of its kind so takes O(#V + #corners), and O(n log n) for the n triangles of closest points and patches.
 ///

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The boxes of the meshlets, the nearest first, but those that the patch has as a whole.
+// The meshlets, the nearest first, but those that the patch has as a whole.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <variant>
+#include <vector>
 
 #include "base/vector.h"
 #include "patch/patches.h"
@@ -15,13 +17,6 @@
 
 namespace meshhood {
 namespace {
-
-inline double squared_distance(const Point& q, const BoundingBox& box) {
-  const auto beyond = [](double x, double low, double high) { return std::max({low - x, x - high, 0.0}); };
-  const Point gap{beyond(q.x, box.low.x, box.high.x), beyond(q.y, box.low.y, box.high.y),
-                  beyond(q.z, box.low.z, box.high.z)};
-  return dot(gap, gap);
-}
 
 /// The distance of a triangle from `q`, in twice the precision.
 double far_distance(const Point& q, const std::array<Point, 3>& corners, double scale) {
@@ -44,76 +39,148 @@ double far_distance(const Point& q, const std::array<Point, 3>& corners, double 
   return (has_foot ? std::abs(static_cast<double>(dot(area, p[0]))) / size : least) / scale;
 }
 
-template <class Real>
+/// The patch of a search, as the first of a packet.
+class OnePatch {
+ public:
+  explicit OnePatch(const PatchSearch& search) : search_(&search) {}
+
+  [[nodiscard]] const PatchBall& ball(std::size_t /*query*/) const { return search_->ball(); }
+  [[nodiscard]] bool has(std::size_t /*query*/, TriangleId t) const { return search_->has_seen(t); }
+  [[nodiscard]] QueryWord having(TriangleId t) const { return search_->has_seen(t) ? 1 : 0; }
+  [[nodiscard]] QueryWord having_all(MeshletId meshlet) const { return search_->has_taken(meshlet) ? 1 : 0; }
+
+ private:
+  const PatchSearch* search_;
+};
+
+/// The nearest triangles that patches do not have. Those of a packet are near each other, so their centers are compared
+/// with a triangle at once. Only what surely is too far is left out, so the order of the triangles changes no answer.
+template <class Patches>
 class GapSearch {
  public:
-  GapSearch(const PatchState& state, const FoundPatch& patch, std::span<const Real> xyz)
-      : state_(&state), patch_(&patch), xyz_(xyz), ball_(patch.ball()), radius_(patch.radius()) {
-    nearest_.distance = kInfinity;
-    set_limit(radius_);
+  GapSearch(const PatchState& state, const Patches& patches, QueryWord queries)
+      : state_(&state), patches_(&patches), queries_(queries), scale_(state.index->frame.scale) {
+    const auto center = [&](std::size_t q) { return state.index->frame.to_frame(patches.ball(q).center); };
+    BoundingBox around;
+    for_each_query(queries, [&](std::size_t q) { around.add(center(q)); });
+    middle_ = 0.5 * around.low + 0.5 * around.high;
+    for_each_query(queries, [&](std::size_t q) {
+      centers_.set(q, scale_ * patches.ball(q).center);
+      off_middle_[q] = length(center(q) - middle_);
+      limit_to(q, radius(q));
+    });
   }
 
-  SurfacePoint run() {
-    state_->meshlets.boxes.search(
-        state_->index->frame.to_frame(ball_.center), [&] { return reach_; },
-        [&](std::size_t meshlet) { visit(static_cast<MeshletId>(meshlet)); });
-    if (nearest_.distance == kInfinity) return {};
-    return surface_point(*state_->index, *state_->faces, state_->triangles.face[triangle_],
-                         state_->triangles.corners[triangle_], nearest_);
+  /// Writes those of the queries.
+  void run(std::span<SurfacePoint> gaps) {
+    std::visit(
+        [&](auto xyz) {
+          state_->meshlets.boxes.search(
+              middle_, [&] { return reach(); },
+              [&](std::size_t meshlet) { visit(static_cast<MeshletId>(meshlet), xyz); });
+        },
+        state_->index->positions);
+    for_each_query(queries_, [&](std::size_t q) {
+      const auto& [t, at] = nearest_[q];
+      if (at.distance == kInfinity) return;
+      const Triangles& all = state_->triangles;
+      gaps[q] = surface_point(*state_->index, *state_->faces, all.face[t], all.corners[t], at);
+    });
   }
 
  private:
-  void set_limit(double distance) {
-    reach_ = reach_of(distance * ball_.scale, ball_.scale);
-    const double limit = reach_ / ball_.scale;
-    squared_limit_ = limit * limit;
+  [[nodiscard]] double radius(std::size_t q) const { return patches_->ball(q).radius / scale_; }
+
+  void limit_to(std::size_t q, double distance) {
+    reaches_[q] = reach_of(distance * scale_, scale_);
+    squared_reaches_[q] = reaches_[q] * reaches_[q];
   }
 
-  void visit(MeshletId meshlet) {
-    if (patch_->has_all(meshlet)) return;
+  /// From the middle, of all queries.
+  [[nodiscard]] double reach() const {
+    double most = 0;
+    for_each_query(queries_, [&](std::size_t q) { most = std::max(most, off_middle_[q] + reaches_[q]); });
+    return most;
+  }
+
+  template <class Real>
+  void visit(MeshletId meshlet, std::span<const Real> xyz) {
+    const QueryWord queries = may_reach(meshlet) & ~patches_->having_all(meshlet);
+    if (queries == 0) return;
     const std::vector<TriangleId>& first = state_->triangles.first_of_meshlet;
     for (TriangleId t = first[meshlet]; t < first[meshlet + std::size_t{1}]; ++t) {
-      if (!patch_->has(t)) offer(t);
+      if (const QueryWord others = queries & ~patches_->having(t); others != 0) compare(t, others, xyz);
     }
   }
 
-  void offer(TriangleId t) {
-    const auto& places = state_->triangles.corners[t];
-    const std::array<Point, 3> corners{point(xyz_, places[0]), point(xyz_, places[1]), point(xyz_, places[2])};
-    BoundingBox box;
-    for (const Point& corner : corners) box.add(corner);
-    if (squared_distance(ball_.center, box) > squared_limit_) return;
-    TrianglePoint found = nearest_in_triangle(ball_.center, corners, ball_.scale);
-    if (is_far(corners)) found.distance = far_distance(ball_.center, corners, ball_.scale);
-    const std::size_t face = state_->triangles.face[t];
-    if (found.distance > radius_ || found.distance > nearest_.distance) return;
-    if (found.distance == nearest_.distance && state_->triangles.face[triangle_] <= face) return;
-    nearest_ = found;
-    triangle_ = t;
-    set_limit(found.distance);
+  /// The queries that may.
+  [[nodiscard]] QueryWord may_reach(MeshletId meshlet) const {
+    const Meshlet& sums = state_->meshlets.meshlets[meshlet];
+    const Point center = scale_ * sums.center();
+    QueryWord may = 0;
+    for_each_query(queries_, [&](std::size_t q) {
+      const double limit = reaches_[q] + sums.radius;
+      if (squared_distance(center, centers_.at(q)) <= limit * limit) may |= QueryWord{1} << q;
+    });
+    return may;
   }
 
-  [[nodiscard]] bool is_far(const std::array<Point, 3>& corners) const {
-    return std::ranges::any_of(
-        corners, [&](const Point& p) { return squared_distance(p, ball_.center) > kFar * kFar * radius_ * radius_; });
+  template <class Real>
+  void compare(TriangleId t, QueryWord queries, std::span<const Real> xyz) {
+    const auto& places = state_->triangles.corners[t];
+    const std::array<Point, 3> corners{point(xyz, places[0]), point(xyz, places[1]), point(xyz, places[2])};
+    const std::array<Point, 3> scaled{scale_ * corners[0], scale_ * corners[1], scale_ * corners[2]};
+    for_each_query(kernels_->may_reach(scaled, queries, centers_, squared_reaches_), [&](std::size_t q) {
+      if (!patches_->has(q, t)) offer(q, t, corners);
+    });
+  }
+
+  void offer(std::size_t q, TriangleId t, const std::array<Point, 3>& corners) {
+    const Point& center = patches_->ball(q).center;
+    TrianglePoint found = nearest_in_triangle(center, corners, scale_);
+    if (is_far(q, corners)) found.distance = far_distance(center, corners, scale_);
+    TriangleHit& nearest = nearest_[q];
+    if (found.distance > radius(q) || found.distance > nearest.at.distance) return;
+    const std::vector<std::uint32_t>& face = state_->triangles.face;
+    if (found.distance == nearest.at.distance && face[nearest.triangle] <= face[t]) return;
+    nearest = {t, found};
+    limit_to(q, found.distance);
+  }
+
+  [[nodiscard]] bool is_far(std::size_t q, const std::array<Point, 3>& corners) const {
+    const double far = kFar * radius(q);
+    const Point& center = patches_->ball(q).center;
+    return std::ranges::any_of(corners, [&](const Point& p) { return squared_distance(p, center) > far * far; });
   }
 
   const PatchState* state_;
-  const FoundPatch* patch_;
-  std::span<const Real> xyz_;
-  PatchBall ball_;
-  double radius_;
-  double reach_ = 0;  // in the frame
-  double squared_limit_ = 0;
-  TrianglePoint nearest_{};
-  TriangleId triangle_ = 0;
+  const Patches* patches_;
+  const SectionKernels* kernels_ = &section_kernels(best_isa());
+  QueryWord queries_;
+  double scale_;
+  Point middle_{};                  // of the centers, in the frame
+  PointPerLane<double> centers_{};  // times the scale
+  PerLane<double> off_middle_{};    // how far the centers are from there, in the frame
+  PerLane<double> reaches_{};       // in the frame: no triangle farther away is the nearest
+  PerLane<double> squared_reaches_{};
+  std::array<TriangleHit, kPacketCapacity> nearest_;
 };
 
 }  // namespace
 
 SurfacePoint FoundPatch::gap() const {
-  if (!exists_) return {};
-  return std::visit([&](auto xyz) { return GapSearch(*state_, *this, xyz).run(); }, state_->index->positions);
+  if (packet_) return packet_->gap(query_);
+  SurfacePoint gap;
+  if (exists_) GapSearch(*state_, OnePatch(*search_), 1).run({&gap, 1});
+  return gap;
+}
+
+const SurfacePoint& PacketPatches::gap(std::size_t query) {
+  if (gaps_.empty()) {
+    gaps_.resize(kPacketCapacity);
+    GapSearch(*state_, *this, queries_ & met_).run(gaps_);
+  }
+  return gaps_[query];
 }
 
 }  // namespace meshhood

@@ -47,7 +47,7 @@ Index without_ignored(const Index& given) {
 
 }  // namespace
 
-Meshlets::Meshlets(const IndexView& index, const Triangles& triangles) : of_triangle(triangles.size()) {
+Meshlets::Meshlets(const IndexView& index, const Triangles& triangles) {
   const std::size_t count = triangles.first_of_meshlet.size() - 1;
   meshlets.reserve(count + 1);
   for (MeshletId meshlet = 0; meshlet < count; ++meshlet) add(index, triangles, meshlet);
@@ -66,7 +66,6 @@ void Meshlets::add(const IndexView& index, const Triangles& triangles, MeshletId
   const TriangleId end = triangles.first_of_meshlet[meshlet + std::size_t{1}];
   const auto first = static_cast<std::ptrdiff_t>(corners.size());
   for (TriangleId t = begin; t < end; ++t) {
-    of_triangle[t] = meshlet;
     corners.insert(corners.end(), triangles.corners[t].begin(), triangles.corners[t].end());
   }
   std::sort(corners.begin() + first, corners.end());
@@ -95,8 +94,7 @@ void Meshlets::list_by_leaf(const IndexView& index) {
 
 std::size_t Meshlets::bytes() const {
   const auto bytes_of = [](const auto& array) { return array.size() * sizeof(array[0]); };
-  return bytes_of(meshlets) + bytes_of(corners) + bytes_of(of_triangle) + bytes_of(first_of_leaf) + bytes_of(of_leaf) +
-         boxes.bytes();
+  return bytes_of(meshlets) + bytes_of(corners) + bytes_of(first_of_leaf) + bytes_of(of_leaf) + boxes.bytes();
 }
 
 PatchState::PatchState(const Index& given, const StoredFaces& all)

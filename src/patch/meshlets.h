@@ -17,8 +17,6 @@
 
 namespace meshhood {
 
-using MeshletId = std::uint32_t;
-
 /// Sums over the triangles of a meshlet. Lengths are in the frame, points in the unit of the mesh.
 struct Meshlet {
   BoundingBox box;
@@ -36,7 +34,6 @@ struct Meshlet {
 struct Meshlets {
   std::vector<Meshlet> meshlets;             // and one more, for the end of the last corners
   std::vector<std::uint32_t> corners;        // the places at each meshlet, ascending
-  std::vector<MeshletId> of_triangle;        // the meshlet of each
   std::vector<std::uint32_t> first_of_leaf;  // by leaf, and one more: in `of_leaf`
   std::vector<MeshletId> of_leaf;            // those with a corner in it, ascending
   BoxTree boxes;                             // of the meshlets

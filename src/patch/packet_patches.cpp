@@ -31,8 +31,7 @@ QueryWord PacketPatches::find(const PacketAnswer& packet, bool measures) {
 }
 
 bool PacketPatches::has(std::size_t query, TriangleId t) const {
-  const auto [a, b, c] = words_of(t);
-  return ((a | b | c) >> query & 1U) != 0 || std::ranges::find(extras_[query], t) != extras_[query].end();
+  return (having(t) >> query & 1U) != 0 || std::ranges::find(extras_[query], t) != extras_[query].end();
 }
 
 void PacketPatches::clear() {
@@ -44,6 +43,7 @@ void PacketPatches::clear() {
   meshlets_.clear();
   all_.forget();
   met_ = 0;
+  gaps_.clear();
   dips_.clear();
   for (std::vector<TriangleId>& extras : extras_) extras.clear();
 }

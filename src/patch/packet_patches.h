@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "meshhood/surface.h"
+
 #include "base/epoch_array.h"
 #include "exact/joint/packet_answer.h"
 #include "patch/meshlets.h"
@@ -42,9 +44,15 @@ class PacketPatches {
     return exists(query) ? sums_[query].volume(balls_[query]) : kNan;
   }
   [[nodiscard]] bool has(std::size_t query, TriangleId t) const;
-  [[nodiscard]] bool has_all(std::size_t query, MeshletId meshlet) const {
-    return all_.is_known(meshlet) && (all_[meshlet] >> query & 1U) != 0;
+  /// The nearest point of a triangle in the ball that the patch does not have. The first call finds those of all.
+  [[nodiscard]] const SurfacePoint& gap(std::size_t query);
+
+  // Words of the queries that have a corner of a triangle, or all of a meshlet.
+  [[nodiscard]] QueryWord having(TriangleId t) const {
+    const auto [a, b, c] = words_of(t);
+    return a | b | c;
   }
+  [[nodiscard]] QueryWord having_all(MeshletId meshlet) const { return all_.is_known(meshlet) ? all_[meshlet] : 0; }
 
  private:
   /// A side of a triangle that dips into the ball of a query.
@@ -100,6 +108,7 @@ class PacketPatches {
   std::array<std::vector<TriangleId>, kPacketCapacity> extras_;  // without a corner in the ball
   WholeSums whole_{};
   std::array<PatchSums, kPacketCapacity> sums_;
+  std::vector<SurfacePoint> gaps_;  // by query; none before they are asked for
 };
 
 }  // namespace meshhood

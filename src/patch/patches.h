@@ -22,20 +22,14 @@ class FoundPatch {
   /// `exists`: whether it has a triangle.
   FoundPatch(const PatchState& state, const PatchSearch& search, double radius, bool exists)
       : state_(&state), search_(&search), radius_(radius), exists_(exists) {}
-  FoundPatch(const PatchState& state, const PacketPatches& packet, std::size_t query, double radius)
+  FoundPatch(const PatchState& state, PacketPatches& packet, std::size_t query, double radius)
       : state_(&state), packet_(&packet), query_(query), radius_(radius), exists_(packet.exists(query)) {}
 
   [[nodiscard]] double radius() const { return radius_; }
-  [[nodiscard]] const PatchBall& ball() const { return search_ ? search_->ball() : packet_->ball(query_); }
 
   /// If it was measured.
   [[nodiscard]] double area() const { return search_ ? search_->area() : packet_->area(query_); }
   [[nodiscard]] double volume() const { return search_ ? search_->volume() : packet_->volume(query_); }
-
-  [[nodiscard]] bool has(TriangleId t) const { return search_ ? search_->has_seen(t) : packet_->has(query_, t); }
-  [[nodiscard]] bool has_all(MeshletId meshlet) const {
-    return search_ ? search_->has_taken(meshlet) : packet_->has_all(query_, meshlet);
-  }
 
   /// The nearest point of a triangle in the ball that it does not have.
   [[nodiscard]] SurfacePoint gap() const;
@@ -43,7 +37,7 @@ class FoundPatch {
  private:
   const PatchState* state_;
   const PatchSearch* search_ = nullptr;  // one of the two
-  const PacketPatches* packet_ = nullptr;
+  PacketPatches* packet_ = nullptr;
   std::size_t query_ = 0;
   double radius_;
   bool exists_;

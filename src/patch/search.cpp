@@ -53,7 +53,8 @@ inline void PatchSearch::visit(TriangleId t) {
   seen_[t] = epoch_;
 }
 
-inline void PatchSearch::visit_fan(std::uint32_t place) {
+inline void PatchSearch::enter(std::uint32_t place) {
+  inside_[place] = epoch_;
   for (const TriangleId t : state_->triangles.fan(place)) visit(t);
 }
 
@@ -67,7 +68,7 @@ void PatchSearch::spread(std::span<const Real> xyz) {
       continue;
     }
     const TriangleId t = triangles_[next++];
-    const MeshletId meshlet = state_->meshlets.of_triangle[t];
+    const MeshletId meshlet = state_->triangles.meshlet_of(t);
     const Kind kind = kind_of(meshlet);
     if (kind == Kind::Whole) take(meshlet);
     if (kind != Kind::Partial) continue;
@@ -75,11 +76,8 @@ void PatchSearch::spread(std::span<const Real> xyz) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t place = triangle.places[i];
       triangle.corners[i] = point(xyz, place);
-      if (!inside_.is_known(place)) {
-        inside_.set(place, ball_.contains(triangle.corners[i]));
-        if (inside_[place]) visit_fan(place);
-      }
-      triangle.inside[i] = inside_[place];
+      if (inside_[place] != epoch_ && ball_.contains(triangle.corners[i])) enter(place);
+      triangle.inside[i] = inside_[place] == epoch_;
     }
     if (triangle.inside[0] && triangle.inside[1] && triangle.inside[2]) {
       if (measures_) add_whole(t, triangle);
@@ -92,10 +90,10 @@ void PatchSearch::spread(std::span<const Real> xyz) {
 void PatchSearch::run(const Point& center, double radius, std::span<const TriangleId> starts, bool measures) {
   ball_ = patch_ball(center, radius, state_->index->frame.scale);
   measures_ = measures;
-  inside_.forget();
   kinds_.forget();
   if (++epoch_ == 0) {
-    std::ranges::fill(seen_, 0U);
+    std::ranges::fill(inside_, std::uint16_t{0});
+    std::ranges::fill(seen_, std::uint16_t{0});
     epoch_ = 1;
   }
   seen_count_ = 0;
@@ -117,9 +115,7 @@ void PatchSearch::take(MeshletId meshlet) {
 /// All corners of a meshlet that is taken are in the ball.
 void PatchSearch::leave(MeshletId meshlet) {
   for (const std::uint32_t place : state_->meshlets.corners_of(meshlet)) {
-    if (inside_.is_known(place)) continue;
-    inside_.set(place, true);
-    visit_fan(place);
+    if (inside_[place] != epoch_) enter(place);
   }
 }
 

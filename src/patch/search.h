@@ -50,15 +50,15 @@ class PatchSearch {
   [[nodiscard]] Kind kind_of(MeshletId meshlet);
   void take(MeshletId meshlet);
   void leave(MeshletId meshlet);
-  void visit_fan(std::uint32_t place);
+  void enter(std::uint32_t place);
   void add_whole(TriangleId t, const PatchTriangle& triangle);
   void add_cut(TriangleId t, const PatchTriangle& triangle);
 
   const PatchState* state_;
-  EpochArray<bool> inside_;            // by place
-  std::vector<std::uint32_t> seen_;    // by triangle: the last run that has seen it
+  std::vector<std::uint16_t> inside_;  // by place: the last run whose ball has it
+  std::vector<std::uint16_t> seen_;    // by triangle: the last run that has seen it
   EpochArray<Kind> kinds_;             // by meshlet
-  std::uint32_t epoch_ = 0;            // the number of the run
+  std::uint16_t epoch_ = 0;            // the number of the run
   std::vector<TriangleId> triangles_;  // seen, in this order; and room
   std::size_t seen_count_ = 0;
   std::vector<MeshletId> meshlets_;  // taken

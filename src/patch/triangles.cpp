@@ -71,7 +71,7 @@ std::size_t bytes_of(const Arrays&... arrays) {
 }  // namespace
 
 std::size_t Triangles::bytes() const {
-  return bytes_of(corners, face, flags, first_fan, fans, first_of_meshlet, loose);
+  return bytes_of(corners, face, flags, first_fan, fans, first_of_meshlet, of_block, loose);
 }
 
 Triangles::Triangles(const IndexView& index, const StoredFaces& faces) {
@@ -129,6 +129,11 @@ void Triangles::make_meshlets(const IndexView& index, const std::vector<Triangle
     for (std::size_t i = begin; !has_wall && i < end; ++i) given.push_back({all[i], static_cast<std::uint32_t>(i), 0});
   }
   end_leaf();
+  MeshletId meshlet = 0;
+  for (TriangleId t = 0; t < size(); t += kBlock) {
+    while (first_of_meshlet[meshlet + std::size_t{1}] <= t) ++meshlet;
+    of_block.push_back(meshlet);
+  }
 }
 
 void Triangles::make_fans(std::size_t places) {

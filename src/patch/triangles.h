@@ -16,6 +16,7 @@ namespace meshhood {
 
 /// A triangle by its number. Those of a meshlet follow each other.
 using TriangleId = std::uint32_t;
+using MeshletId = std::uint32_t;
 
 /// The triangles of the faces of a mesh, and which of them meet.
 ///
@@ -29,6 +30,7 @@ struct Triangles {
   std::vector<std::uint32_t> first_fan;               // by place, and one more: in `fans`
   std::vector<TriangleId> fans;                       // the triangles at each place
   std::vector<TriangleId> first_of_meshlet;           // by meshlet, and one more
+  std::vector<MeshletId> of_block;                    // the meshlet of each eighth triangle
   bool are_of_index = true;                           // whether each side that is no diagonal is an edge of the index
 
   /// An edge of the index that is no side: between two faces with walls, or of a face with two corners. By places.
@@ -46,6 +48,14 @@ struct Triangles {
 
   [[nodiscard]] std::span<const TriangleId> fan(std::uint32_t place) const {
     return std::span(fans).subspan(first_fan[place], first_fan[place + std::size_t{1}] - first_fan[place]);
+  }
+
+  /// The first step is without a branch, since whether it is needed is seldom clear. More are rare.
+  [[nodiscard]] MeshletId meshlet_of(TriangleId t) const {
+    MeshletId meshlet = of_block[t / kBlock];
+    meshlet += static_cast<MeshletId>(first_of_meshlet[meshlet + std::size_t{1}] <= t);
+    while (first_of_meshlet[meshlet + std::size_t{1}] <= t) ++meshlet;
+    return meshlet;
   }
 
   /// The sum of the vector areas of some triangles, in the frame.
@@ -71,6 +81,8 @@ struct Triangles {
   }
 
  private:
+  static constexpr TriangleId kBlock = 8;
+
   /// Its ends, ascending; and the face of a diagonal, `kShared` of other sides.
   struct Side {
     static constexpr std::uint32_t kShared = std::numeric_limits<std::uint32_t>::max();

@@ -246,7 +246,27 @@ LaneMask may_dip_of(const CutTriangles& cut, std::size_t count) {
   return result & first_lanes(static_cast<unsigned>(count));
 }
 
-constexpr SectionKernels kSectionKernels{add_whole, measure, may_dip_of};
+/// No point of a triangle is nearer than its corners are along any direction. Of small triangles, that to a corner
+/// tells nearly the most.
+QueryWord may_reach(const std::array<Point, 3>& corners, QueryWord queries, const PointPerLane<double>& centers,
+                    const PerLane<double>& squared_reaches) {
+  const Doubles d;
+  QueryWord beyond = 0;
+  for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Doubles>) {
+    if ((queries >> i & first_lanes(kLanes<Doubles>)) == 0) continue;
+    const auto center = load_rows(d, centers, i);
+    const auto a = difference(splat_point(d, corners[0]), center);
+    const auto b = difference(splat_point(d, corners[1]), center);
+    const auto c = difference(splat_point(d, corners[2]), center);
+    const auto square = squared_length(a);
+    const auto least = hn::Min(square, hn::Min(scalar_product(a, b), scalar_product(a, c)));
+    const auto limit = hn::Mul(load(squared_reaches[i]), square);
+    beyond |= bits_of(d, hn::And(hn::Gt(least, hn::Zero(d)), hn::Gt(hn::Mul(least, least), limit))) << i;
+  }
+  return queries & ~beyond;
+}
+
+constexpr SectionKernels kSectionKernels{add_whole, measure, may_dip_of, may_reach};
 
 }  // namespace
 }  // namespace meshhood::HWY_NAMESPACE

@@ -76,6 +76,11 @@ struct SectionKernels {
 
   /// Which of them have one corner in the ball, and a third side that may dip into it or a corner far away.
   LaneMask (*may_dip)(const CutTriangles& cut, std::size_t count);
+
+  /// Those of `queries` that may have a point of a triangle within their reach. The others have none, but for rounding.
+  /// Fourth powers of a reach must not vanish.
+  QueryWord (*may_reach)(const std::array<Point, 3>& corners, QueryWord queries, const PointPerLane<double>& centers,
+                         const PerLane<double>& squared_reaches);
 };
 
 /// Those compiled for `isa`, which this processor must have.

@@ -19,6 +19,7 @@
 #include "meshhood/surface.h"
 
 #include "batch/packets.h"
+#include "patch/patches.h"
 #include "patch/search.h"
 #include "support/families.h"
 #include "support/family_name.h"
@@ -60,8 +61,8 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
                     {.threads = 1});
   }
 
-  static void expect_same(const PatchState& state, const PacketPatches& packets, std::size_t q,
-                          const PatchSearch& search, double radius) {
+  static void expect_same(const PatchState& state, PacketPatches& packets, std::size_t q, const PatchSearch& search,
+                          double radius) {
     std::vector<TriangleId> triangles;
     for (TriangleId t = 0; t < state.triangles.size(); ++t) {
       if (packets.has(q, t)) triangles.push_back(t);
@@ -69,11 +70,15 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
     std::ranges::sort(triangles, {}, [&](TriangleId t) { return std::pair(state.triangles.face[t], t); });
     ASSERT_EQ(triangles, search.triangles());
     for (MeshletId meshlet = 0; meshlet < state.meshlets.size(); ++meshlet) {
-      if (!packets.has_all(q, meshlet)) continue;
+      if ((packets.having_all(meshlet) >> q & 1U) == 0) continue;
       const auto first = state.triangles.first_of_meshlet.begin() + meshlet;
       for (TriangleId t = first[0]; t < first[1]; ++t) EXPECT_TRUE(packets.has(q, t));
     }
     EXPECT_EQ(packets.exists(q), !triangles.empty());
+    const SurfacePoint alone = FoundPatch(state, search, radius, !triangles.empty()).gap();
+    EXPECT_EQ(packets.gap(q).face, alone.face);
+    EXPECT_EQ(packets.gap(q).corners, alone.corners);
+    EXPECT_EQ(packets.gap(q).distance, alone.distance);
     const double disc = std::numbers::pi * radius * radius;
     EXPECT_NEAR(packets.area(q) / disc, search.area() / disc, 1e-12 * std::max(1.0, search.area() / disc));
     EXPECT_EQ(std::isnan(packets.volume(q)), std::isnan(search.volume()));

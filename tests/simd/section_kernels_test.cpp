@@ -20,6 +20,7 @@
 #include "support/exact_answer.h"
 #include "support/random.h"
 #include "support/scale.h"
+#include "surface/triangle_point.h"
 
 namespace meshhood::test {
 namespace {
@@ -190,6 +191,39 @@ TEST_P(EverySectionKernel, AddsWholeTriangles) {
       EXPECT_EQ(sums.moment[q], has ? 0.25 + (triangles.moment + dot(triangles.vector, offset)) : 0.25);
     }
   }
+}
+
+TEST_P(EverySectionKernel, LeavesOutTrianglesBeyondReach) {
+  std::size_t near = 0;
+  std::size_t left = 0;
+  std::size_t others = 0;
+  PointPerLane<double> centers{};
+  PerLane<double> squared_reaches{};
+  for (std::size_t round = 0; round < scaled(10000, 1000); ++round) {
+    const Point start = point(2);
+    const double size = std::exp2(random.uniform(-12, 1));
+    std::array corners{start + point(size), start + point(size), start + point(size)};
+    if (random.below(8) == 0) corners[2] = corners[random.below(2)];
+    std::array<double, kPacketCapacity> distances{};
+    for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+      centers.set(q, random.below(20) == 0 ? corners[0] : point(2));
+      distances[q] = nearest_in_triangle(centers.at(q), corners, 1).distance;
+      const double reach = reach_of(distances[q] * (random.below(2) == 0 ? 1 : random.uniform(0, 2)), 1);
+      squared_reaches[q] = reach * reach;
+    }
+    const auto queries = static_cast<QueryWord>(random.below(std::uint64_t{1} << 32));
+    const QueryWord found = section_kernels(GetParam()).may_reach(corners, queries, centers, squared_reaches);
+    ASSERT_EQ(found, section_kernels(Isa{}).may_reach(corners, queries, centers, squared_reaches));
+    ASSERT_EQ(found & ~queries, 0U);
+    for_each_query(queries, [&](std::size_t q) {
+      const bool reaches = distances[q] <= std::sqrt(squared_reaches[q]);
+      const bool may = (found >> q & 1U) != 0;
+      EXPECT_TRUE(may || !reaches) << distances[q];
+      ++(reaches ? near : may ? others : left);
+    });
+  }
+  std::printf("%zu triangles in reach, %zu left out, %zu not\n", near, left, others);
+  EXPECT_GT(left, 10 * others);
 }
 
 INSTANTIATE_TEST_SUITE_P(Isas, EverySectionKernel, testing::ValuesIn(available_isas()));
