@@ -81,7 +81,6 @@ class PathSearch {
   void follow_in_order();
   void follow(const Path& path);
   void push_shorter();
-  void meet(std::uint32_t vertex);
   void prefetch_edges(std::uint32_t vertex) const;
   [[nodiscard]] bool is_least(const Path& path) const { return path.length == lengths_[path.end]; }
 
@@ -90,14 +89,11 @@ class PathSearch {
   const Adjacency* edges_;  // of the graph
   double radius_ = 0;
   bool has_one_start_ = true;
-  bool is_small_ = false;
-  std::vector<double> lengths_;       // by vertex: of the shortest path so far, also beyond the radius
-  std::vector<std::uint32_t> left_;   // vertices with such a length that are not found: beyond the radius, or walls
-  std::vector<std::uint8_t> is_met_;  // by block of consecutive vertices: whether this run has met one of them
-  std::vector<std::uint32_t> met_;    // these blocks
-  bool is_complete_ = true;           // else the last run threw
-  PathQueue queue_;                   // holds longer paths to the same vertices too
-  std::vector<Path> round_;           // the first `round_count_`: the paths of the open bucket that are followed now
+  std::vector<double> lengths_;      // by vertex: of the shortest path so far, also beyond the radius
+  std::vector<std::uint32_t> left_;  // vertices with such a length that are not found: beyond the radius, or walls
+  bool is_complete_ = true;          // else the last run threw
+  PathQueue queue_;                  // holds longer paths to the same vertices too
+  std::vector<Path> round_;          // the first `round_count_`: the paths of the open bucket that are followed now
   std::size_t round_count_ = 0;
   std::vector<Path> shorter_;  // the first `shorter_count_`: found since, not in the queue yet
   std::size_t shorter_count_ = 0;
