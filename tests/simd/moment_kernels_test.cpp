@@ -359,7 +359,8 @@ TEST(MomentKernels, FacingIsThatOfDoublesNearARightAngle) {
 
 TEST(MomentKernels, TheAxisDecidesOnlyBeyondItsBound) {
   FacingTest test{};
-  for (std::size_t q = 0; q < kPacketCapacity; ++q) test.normals.set(q, {-1, 0, 0});  // the products would decide otherwise
+  for (std::size_t q = 0; q < kPacketCapacity; ++q)
+    test.normals.set(q, {-1, 0, 0});  // the products would decide otherwise
   test.axis = {1, 0, 0};
   test.all = 0.5;
   Normals normals;
