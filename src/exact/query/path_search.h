@@ -34,19 +34,13 @@ class PathSearch {
   /// Finds the vertices whose path distance from the vertex `start`, in index order, is at most `radius`, without
   /// passing walls.
   void run(std::uint32_t start, double radius) {
-    run(start, radius, [](std::span<const Path>) { return false; });
-  }
-
-  /// The same, but ends as soon as `is_enough(paths)` returns true: it is called for the paths that were found since
-  /// the last call. All paths that are shorter than one of these have then been found.
-  template <class IsEnough>
-  void run(std::uint32_t start, double radius, IsEnough&& is_enough) {
     const Path path{0, start};
-    run(std::span(&path, 1), radius, is_enough);
+    run(std::span(&path, 1), radius, [](std::span<const Path>) { return false; });
   }
 
   /// The same from the ends of some paths, of which one may be named more than once: the path to a vertex is then the
-  /// shortest of those that continue one of them.
+  /// shortest of those that continue one of them. Ends as soon as `is_enough(paths)` returns true: it is called for the
+  /// paths that were found since the last call. All paths that are shorter than one of these have then been found.
   template <class IsEnough>
   void run(std::span<const Path> starts, double radius, IsEnough&& is_enough) {
     begin(starts, radius);
