@@ -20,7 +20,7 @@
 #include "aggregate/maximal_nodes.h"
 #include "aggregate/node_tree.h"
 #include "aggregate/patch_cutter.h"
-#include "aggregate/reductions.h"
+#include "aggregate/reducers.h"
 #include "aggregate/signal_block.h"
 #include "batch/packets.h"
 #include "batch/rows.h"
@@ -111,34 +111,34 @@ SignalBlock make_block(const IndexView& index, SignalView signal, std::size_t fi
   return {index, signal, first, count, compares ? MissingValues::Propagate : missing, !compares};
 }
 
-Reduction make_reduction(const IndexView& index, const NodeTree& tree, SignalBlock block, Reduce reduce,
-                         const AggregateQuery& query) {
+ReducerFactory make_factory(const IndexView& index, const NodeTree& tree, SignalBlock block, Reduce reduce,
+                            const AggregateQuery& query) {
   switch (reduce) {
     case Reduce::Minimum:
-    case Reduce::Maximum: return minimum_reduction(tree, std::move(block), reduce == Reduce::Maximum, query.missing);
+    case Reduce::Maximum: return minimum_reducers(tree, std::move(block), reduce == Reduce::Maximum, query.missing);
     case Reduce::Variance:
     case Reduce::StandardDeviation:
-      return variance_reduction(tree, std::move(block), {reduce == Reduce::StandardDeviation, query.ddof});
-    case Reduce::Median: return quantile_reduction(tree, std::move(block), 0.5, query.missing);
-    case Reduce::Quantile: return quantile_reduction(tree, std::move(block), query.quantile, query.missing);
+      return variance_reducers(tree, std::move(block), {reduce == Reduce::StandardDeviation, query.ddof});
+    case Reduce::Median: return quantile_reducers(tree, std::move(block), 0.5, query.missing);
+    case Reduce::Quantile: return quantile_reducers(tree, std::move(block), query.quantile, query.missing);
     case Reduce::Sum:
     case Reduce::Mean:
     case Reduce::Count: break;
   }
   SumColumns columns(std::move(block), reduce);
-  if (query.kernel == SmoothingKernel::Box) return sum_reduction(tree, std::move(columns));
+  if (query.kernel == SmoothingKernel::Box) return sum_reducers(tree, std::move(columns));
   const bool has_lengths = is_along_edges(query.metric);
   if (has_lengths || query.kernel == SmoothingKernel::Gaussian) {
-    return weighted_reduction(index, std::move(columns), query.kernel, has_lengths);
+    return weighted_reducers(index, std::move(columns), query.kernel, has_lengths);
   }
-  return kernel_sum_reduction(index, tree, std::move(columns), query.kernel == SmoothingKernel::Biweight);
+  return kernel_sum_reducers(index, tree, std::move(columns), query.kernel == SmoothingKernel::Biweight);
 }
 
 /// Several reductions of the same packets: the numbers of a channel side by side.
 class Reducers final : public PacketReducer {
  public:
-  explicit Reducers(const std::vector<Reduction>& reductions) {
-    for (const Reduction& make_reducer : reductions) all_.push_back(make_reducer());
+  explicit Reducers(const std::vector<ReducerFactory>& factories) {
+    for (const ReducerFactory& make_reducer : factories) all_.push_back(make_reducer());
   }
 
   void begin(const PacketAnswer& packet) override {
@@ -218,23 +218,23 @@ class Aggregation {
     if (passes_.empty()) return;
     for (std::size_t first = 0; first < signal_.channels; first += together_) {
       const std::size_t count = std::min(together_, signal_.channels - first);
-      const Reduction reduction = make_reductions(first, count);
+      const ReducerFactory make_reducer = all_reducers(first, count);
       if (shares_search()) {
-        reduce_scales(reduction, passes_, first, count);
+        reduce_scales(make_reducer, passes_, first, count);
       } else {
-        for (const std::size_t& i : passes_) reduce_scales(reduction, std::span(&i, 1), first, count);
+        for (const std::size_t& i : passes_) reduce_scales(make_reducer, std::span(&i, 1), first, count);
       }
     }
   }
 
  private:
-  [[nodiscard]] Reduction make_reductions(std::size_t first, std::size_t count) const {
-    std::vector<Reduction> all;
+  [[nodiscard]] ReducerFactory all_reducers(std::size_t first, std::size_t count) const {
+    std::vector<ReducerFactory> all;
     for (const Reduce reduce : query_.reduce) {
       SignalBlock block = make_block(view_, signal_, first, count, reduce, query_.missing);
-      all.push_back(make_reduction(view_, tree_, std::move(block), reduce, query_));
+      all.push_back(make_factory(view_, tree_, std::move(block), reduce, query_));
     }
-    return reduction_of<Reducers>(std::move(all));
+    return factory_of<Reducers>(std::move(all));
   }
 
   [[nodiscard]] bool is_listed(const BatchRadius& radius) const {
@@ -250,7 +250,7 @@ class Aggregation {
 
   /// Reduces what one search finds. Of several scales, which share it, what belongs to a smaller one is cut from the
   /// largest.
-  void reduce_scales(const Reduction& reduction, std::span<const std::size_t> scales, std::size_t first,
+  void reduce_scales(const ReducerFactory& make_reducer, std::span<const std::size_t> scales, std::size_t first,
                      std::size_t count) {
     struct Cut {
       std::optional<PatchCutter> cutter;
@@ -264,7 +264,7 @@ class Aggregation {
         [&](unsigned /*thread*/) -> PacketVisitor {
           const auto cuts = std::make_shared<std::vector<Cut>>();
           for (const std::size_t i : scales) {
-            cuts->push_back({{}, reduction(), destination(i, first, count)});
+            cuts->push_back({{}, make_reducer(), destination(i, first, count)});
             if (shares_search()) cuts->back().cutter.emplace(view_, tree_, radius_of(i));
           }
           const auto nodes = std::make_shared<MaximalNodes>(tree_);

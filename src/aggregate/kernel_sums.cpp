@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "aggregate/reductions.h"
+#include "aggregate/reducers.h"
 #include "base/vector.h"
 #include "shared/distance.h"
 #include "simd/aggregate.h"
@@ -292,13 +292,13 @@ class KernelSumReducer final : public PacketReducer {
 
 }  // namespace
 
-Reduction kernel_sum_reduction(const IndexView& index, const NodeTree& tree, SumColumns columns, bool squared) {
+ReducerFactory kernel_sum_reducers(const IndexView& index, const NodeTree& tree, SumColumns columns, bool squared) {
   KernelSums tables{&index, &tree, std::move(columns), squared};
   for (std::size_t i = 0; i < tables.columns.size(); ++i) {
     tables.moments.push_back(moments_by_node(index, tree, tables.columns.column(i)));
     tables.mark_uneven(tables.columns.column(i));
   }
-  return reduction_of<KernelSumReducer>(std::move(tables));
+  return factory_of<KernelSumReducer>(std::move(tables));
 }
 
 double smoothing_radius(double fwhm) {

@@ -13,6 +13,7 @@
 
 #include "meshhood/batch.h"
 
+#include "batch/position_sort.h"
 #include "exact/index_access.h"
 #include "shared/parallel.h"
 
@@ -156,12 +157,9 @@ bool is_better_listed(const Index& index, const SignalView& signal, const Aggreg
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
                 std::span<double> result, const Run& run) {
   const IndexView& view = IndexAccess::view(index);
-  std::vector<std::size_t> rows(query.vertices.count(index.vertex_count()));
-  std::iota(rows.begin(), rows.end(), std::size_t{0});
   // Near rows share values that are in the cache.
-  std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(view.slot[query.vertices[a]], a) < std::pair(view.slot[query.vertices[b]], b);
-  });
+  const std::vector<std::size_t> rows = rows_by_position(
+      query.vertices.count(index.vertex_count()), [&](std::size_t row) { return view.slot[query.vertices[row]]; });
   TaskContext task(run.threads, run.progress, rows.size());
   ListedRows listed(signal, query, radius);
   const std::size_t numbers = signal.channels * query.reduce.size();

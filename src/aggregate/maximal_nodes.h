@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "aggregate/node_tree.h"
-#include "aggregate/packet_reducer.h"
+#include "aggregate/reducers.h"
 #include "exact/joint/packet_answer.h"
 #include "simd/joint.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "aggregate/reductions.h"
+#include "aggregate/reducers.h"
 #include "shared/distance.h"
 #include "simd/aggregate.h"
 
@@ -125,8 +125,8 @@ class MinimumReducer final : public PacketReducer {
 
 }  // namespace
 
-Reduction minimum_reduction(const NodeTree& tree, SignalBlock block, bool maximum, MissingValues missing) {
-  return reduction_of<MinimumReducer>(Minima(tree, std::move(block), maximum, missing));
+ReducerFactory minimum_reducers(const NodeTree& tree, SignalBlock block, bool maximum, MissingValues missing) {
+  return factory_of<MinimumReducer>(Minima(tree, std::move(block), maximum, missing));
 }
 
 }  // namespace meshhood

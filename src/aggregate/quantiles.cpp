@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "aggregate/reductions.h"
+#include "aggregate/reducers.h"
 #include "base/number_set.h"
 #include "shared/distance.h"
 
@@ -190,9 +190,8 @@ class QuantileReducer final : public PacketReducer {
 
 }  // namespace
 
-Reduction quantile_reduction(const NodeTree& tree, SignalBlock block, double quantile, MissingValues missing) {
-  return reduction_of<QuantileReducer>(
-      Ranks{&tree, quantile, missing == MissingValues::Propagate, rank(block.values())});
+ReducerFactory quantile_reducers(const NodeTree& tree, SignalBlock block, double quantile, MissingValues missing) {
+  return factory_of<QuantileReducer>(Ranks{&tree, quantile, missing == MissingValues::Propagate, rank(block.values())});
 }
 
 }  // namespace meshhood

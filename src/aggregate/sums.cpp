@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "aggregate/reductions.h"
+#include "aggregate/reducers.h"
 
 namespace meshhood {
 namespace {
@@ -103,10 +103,10 @@ double SumColumns::result(const Channel& channel, std::span<const RowSums> sums,
   return std::ldexp(sum(values) / weights, exponent);
 }
 
-Reduction sum_reduction(const NodeTree& tree, SumColumns columns) {
+ReducerFactory sum_reducers(const NodeTree& tree, SumColumns columns) {
   std::vector<std::vector<double>> of_nodes;
   for (std::size_t i = 0; i < columns.size(); ++i) of_nodes.push_back(reduced_by_node(tree, columns.column(i), sum_of));
-  return reduction_of<SumReducer>(SumTables{std::move(columns), std::move(of_nodes)});
+  return factory_of<SumReducer>(SumTables{std::move(columns), std::move(of_nodes)});
 }
 
 }  // namespace meshhood

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "aggregate/reductions.h"
+#include "aggregate/reducers.h"
 #include "simd/aggregate.h"
 
 namespace meshhood {
@@ -209,8 +209,8 @@ class VarianceReducer final : public PacketReducer {
 
 }  // namespace
 
-Reduction variance_reduction(const NodeTree& tree, SignalBlock block, const VarianceOptions& options) {
-  return reduction_of<VarianceReducer>(Spreads(tree, std::move(block), options));
+ReducerFactory variance_reducers(const NodeTree& tree, SignalBlock block, const VarianceOptions& options) {
+  return factory_of<VarianceReducer>(Spreads(tree, std::move(block), options));
 }
 
 }  // namespace meshhood

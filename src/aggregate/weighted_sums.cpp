@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "aggregate/reductions.h"
+#include "aggregate/reducers.h"
 #include "exact/layout.h"
 #include "simd/aggregate.h"
 
@@ -111,10 +111,9 @@ class WeightedByLength final : public WeightedReducer {
 
 }  // namespace
 
-Reduction weighted_reduction(const IndexView& index, SumColumns columns, SmoothingKernel kernel, bool has_lengths) {
+ReducerFactory weighted_reducers(const IndexView& index, SumColumns columns, SmoothingKernel kernel, bool has_lengths) {
   WeightedSums sums{&index, std::move(columns), kernel};
-  return has_lengths ? reduction_of<WeightedByLength>(std::move(sums))
-                     : reduction_of<WeightedByDistance>(std::move(sums));
+  return has_lengths ? factory_of<WeightedByLength>(std::move(sums)) : factory_of<WeightedByDistance>(std::move(sums));
 }
 
 }  // namespace meshhood

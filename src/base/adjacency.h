@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <vector>
 
 #include "meshhood/adjacency.h"
 #include "meshhood/mesh.h"
 
+#include "base/lists.h"
 #include "shared/parallel.h"
 
 namespace meshhood {
@@ -27,20 +27,7 @@ void for_each_side(const FacesView& faces, std::size_t begin, std::size_t end, F
   });
 }
 
-/// Rows of elements, each in no order: `for_each(f)` calls `f(v, element)` for every element of the row of `v`, and
-/// does so twice. `offsets` can count them all. O(#V + #elements).
-template <class Offset, class Element, class ForEach>
-void gather_rows(std::size_t vertices, ForEach&& for_each, std::vector<Offset>& offsets,
-                 std::vector<Element>& elements) {
-  offsets.assign(vertices + 1, 0);
-  for_each([&](VertexId v, const Element&) { ++offsets[v]; });
-  std::inclusive_scan(offsets.begin(), offsets.end(), offsets.begin());
-  elements.resize(offsets.back());
-  // Each offset stands at the end of its row and moves to the beginning as the row fills.
-  for_each([&](VertexId v, const Element& element) { elements[--offsets[v]] = element; });
-}
-
-/// The same for neighbors, of which there are at most `kMaxNeighbors`.
+/// Fills rows of neighbors, of which there are at most `kMaxNeighbors`, as the lists of `gather_rows`.
 template <class ForEach>
 [[nodiscard]] Adjacency gather_rows(std::size_t vertices, ForEach&& for_each) {
   Adjacency result;

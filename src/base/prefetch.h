@@ -29,21 +29,4 @@ inline void fetch_lines(const void* address, std::size_t count) {
   }
 }
 
-/// Fetches the lines of an array into the second level of the cache, for reads some time later. A run of lines takes
-/// much less time than as many single ones.
-template <class T>
-void fetch_run(const T* begin, const T* end) {
-#if defined(__GNUC__) || defined(__clang__)
-  constexpr int kSecondLevel = 2;
-  for (auto at = reinterpret_cast<std::uintptr_t>(begin) / kCacheLine * kCacheLine;
-       at < reinterpret_cast<std::uintptr_t>(end); at += kCacheLine) {
-    __builtin_prefetch(reinterpret_cast<const void*>(at), 0, kSecondLevel);  // NOLINT(performance-no-int-to-ptr)
-  }
-  asm volatile("");
-#else
-  static_cast<void>(begin);
-  static_cast<void>(end);
-#endif
-}
-
 }  // namespace meshhood

@@ -40,7 +40,7 @@ Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOpt
 
 BatchWorker& Batch::worker(unsigned thread) {
   std::unique_ptr<BatchWorker>& worker = threads_[thread].worker;
-  if (!worker) worker = factory_.make_worker();
+  if (!worker) worker = std::make_unique<BatchWorker>(factory_.make_rows());
   return *worker;
 }
 

@@ -14,7 +14,7 @@
 
 #include "batch/position_sort.h"
 #include "batch/rows.h"
-#include "batch/searcher_factory.h"
+#include "batch/worker.h"
 #include "shared/parallel.h"
 #include "shared/raw_vector.h"
 

@@ -14,6 +14,7 @@
 #include "meshhood/error.h"
 
 #include "batch/position_sort.h"
+#include "batch/rows.h"
 #include "batch/size_limit.h"
 #include "exact/bound_index.h"
 #include "exact/index_access.h"
@@ -42,31 +43,21 @@ constexpr double kAreaSlack = 1e-6;
 class NearestRows {
  public:
   NearestRows(const Index& index, const BatchVertices& vertices, const NearestOptions& options, const Run& run)
-      : index_(index), options_(options), run_(run) {
-    check_connects(options.metric);
-    check_radius(options.radius);
-    const std::size_t count = vertices.count(index.vertex_count());
-    vertices_.reserve(count);
-    for (std::size_t row = 0; row < count; ++row) {
-      const VertexId v = vertices[row];
-      check_vertex(v, index.vertex_count(), "row " + std::to_string(row) + ": vertex");
-      vertices_.push_back(v);
-    }
-  }
+      : index_(index), options_(checked(options)), run_(run), rows_({vertices, options.radius}, index.vertex_count()) {}
 
   NearestRows(const NearestRows&) = delete;
   NearestRows& operator=(const NearestRows&) = delete;
   ~NearestRows() = default;
 
   [[nodiscard]] const NearestOptions& options() const { return options_; }
-  [[nodiscard]] std::size_t size() const { return vertices_.size(); }
-  [[nodiscard]] VertexId vertex(std::size_t row) const { return vertices_[row]; }
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] VertexId vertex(std::size_t row) const { return rows_.vertex(row); }
 
   /// Calls `f(search, row)` for all rows, on any thread, with a search of that thread, made by `make()`.
   template <class Make, class F>
   void for_each(Make&& make, F&& f) {
     const std::vector<std::size_t> in_order =
-        rows_by_position(size(), [&](std::size_t row) { return index_->slot[vertices_[row]]; });
+        rows_by_position(size(), [&](std::size_t row) { return index_->slot[vertex(row)]; });
     TaskContext task(run_.threads, run_.progress, size());
     std::vector<decltype(make())> searches(task.threads());
     task.parallel_for(size(), kRowsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
@@ -80,10 +71,15 @@ class NearestRows {
   }
 
  private:
+  static const NearestOptions& checked(const NearestOptions& options) {
+    check_connects(options.metric);
+    return options;
+  }
+
   BoundIndex index_;
   const NearestOptions& options_;
   const Run& run_;
-  std::vector<VertexId> vertices_;
+  Rows rows_;
 };
 
 /// The vertices around one vertex by connecting radius. The rows of a leaf share a packet. How far it looks is guessed

@@ -2,6 +2,7 @@
 // The methods, each by its searcher.
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -13,7 +14,7 @@
 #include "meshhood/reference.h"
 #include "meshhood/search.h"
 
-#include "batch/searcher_factory.h"
+#include "batch/row_search.h"
 #include "exact/index_access.h"
 #include "exact/search/vertex_bfs.h"
 #include "paper/hierarchy.h"
@@ -95,17 +96,22 @@ SearcherFactory exact_factory(const Index& index, Metric metric) {
           .of_slots = &index,
           .is_count_cheap = true,
           .positions_together = metric == Metric::Straight ? kGroupPositions : kLeafCapacity,
-          .make_joint_search = [&index, metric] { return make_rows(index, metric); }};
+          .make_rows = [&index, metric] { return make_rows(index, metric); }};
+}
+
+/// Of a method that answers rows one by one.
+SearcherFactory single_factory(std::size_t vertices, const std::function<AnySearcher()>& make_searcher,
+                               std::function<std::uint32_t(VertexId v)> position, bool is_count_cheap = false) {
+  return {.vertex_count = vertices,
+          .make_searcher = make_searcher,
+          .position = std::move(position),
+          .is_count_cheap = is_count_cheap,
+          .make_rows = [make_searcher] { return std::make_unique<SingleRows>(make_searcher()); }};
 }
 
 constexpr auto kOwnOrder = [](VertexId v) { return std::uint32_t{v}; };
 
 }  // namespace
-
-std::unique_ptr<BatchWorker> SearcherFactory::make_worker() const {
-  return std::make_unique<BatchWorker>(make_joint_search ? make_joint_search()
-                                                         : std::make_unique<SingleRows>(make_searcher()));
-}
 
 SearchMethod::SearchMethod(SearcherFactory&& searchers)
     : searchers_(std::make_shared<const SearcherFactory>(std::move(searchers))) {}
@@ -113,18 +119,15 @@ SearchMethod::SearchMethod(SearcherFactory&& searchers)
 SearchMethod::SearchMethod(const Index& index) : SearchMethod(exact_factory(index, Metric::Straight)) {}
 
 SearchMethod::SearchMethod(const paper::Index& index, const paper::QueryOptions& options)
-    : SearchMethod(SearcherFactory{.vertex_count = index.vertex_count(),
-                                   .make_searcher = [&index, options] { return paper::Searcher(index, options); },
-                                   .position = [&index](VertexId v) { return position_in_paper_index(index, v); },
-                                   .is_count_cheap = true}) {
+    : SearchMethod(single_factory(
+          index.vertex_count(), [&index, options] { return paper::Searcher(index, options); },
+          [&index](VertexId v) { return position_in_paper_index(index, v); }, true)) {
   paper::validate(options);
 }
 
 SearchMethod SearchMethod::breadth_first(const GraphView& graph) {
   validate(graph);
-  return SearchMethod(SearcherFactory{.vertex_count = graph.positions.size(),
-                                      .make_searcher = [graph] { return ReferenceSearcher(graph); },
-                                      .position = kOwnOrder});
+  return SearchMethod(single_factory(graph.positions.size(), [graph] { return ReferenceSearcher(graph); }, kOwnOrder));
 }
 
 SearchMethod SearchMethod::by(Metric metric) const {
@@ -136,9 +139,7 @@ SearchMethod SearchMethod::by(Metric metric) const {
 }
 
 SearchMethod SearchMethod::ball_scan(const PositionsView& positions) {
-  return SearchMethod(SearcherFactory{.vertex_count = positions.size(),
-                                      .make_searcher = [positions] { return BallSearcher(positions); },
-                                      .position = kOwnOrder});
+  return SearchMethod(single_factory(positions.size(), [positions] { return BallSearcher(positions); }, kOwnOrder));
 }
 
 std::size_t SearchMethod::vertex_count() const { return searchers_->vertex_count; }

@@ -9,6 +9,7 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/mesh.h"
+#include "meshhood/search.h"
 
 #include "exact/joint/packet_answer.h"
 #include "exact/joint/row_writer.h"
@@ -92,6 +93,29 @@ class RowSearch {
   /// as soon as the receiver does.
   virtual bool write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
                      RowReceiver& receiver) = 0;
+};
+
+/// What a `SearchMethod` refers to. Any thread may call the functions.
+struct SearcherFactory {
+  std::size_t vertex_count;
+
+  /// Makes a searcher, for one thread.
+  std::function<AnySearcher()> make_searcher;
+
+  /// Ascends with the order in which vertices are best searched: near vertices have near positions.
+  std::function<std::uint32_t(VertexId v)> position;
+
+  /// The index whose slots the positions are, of a method that has metrics; else null. Lives as long as the functions.
+  const Index* of_slots = nullptr;
+
+  /// Counting takes much less time than listing. If not, rows to be kept are searched once, and copied.
+  bool is_count_cheap = false;
+
+  /// Rows that lie between two multiples of this many positions are computed together.
+  std::uint32_t positions_together = 1;
+
+  /// Makes the search of the rows of a batch, for one thread.
+  std::function<std::unique_ptr<RowSearch>()> make_rows;
 };
 
 /// Writes rows from their pieces.

@@ -17,7 +17,6 @@
 #include "base/vector.h"
 #include "batch/rows.h"
 #include "curvature/direct_fit.h"
-#include "curvature/jet.h"
 #include "curvature/packet_moments.h"
 #include "curvature/quadric.h"
 #include "curvature/symmetric.h"

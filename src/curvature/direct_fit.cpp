@@ -6,7 +6,6 @@
 
 #include "base/vector.h"
 #include "curvature/direct_moments.h"
-#include "curvature/jet.h"
 #include "curvature/packet_moments.h"
 #include "exact/index_access.h"
 #include "exact/neighbors.h"

@@ -99,7 +99,7 @@ void PacketMoments::set_normals(LeafId leaf, std::span<const std::uint32_t> plac
   for (std::size_t q = 0; q < size_; ++q) {
     const Point n = source_.filter->normal(places[q]);
     if (std::isnan(n.x)) active_ &= ~(QueryWord{1} << q);
-    facing_.set(q, n);
+    facing_.normals.set(q, n);
   }
   set_axis(leaf);
 }
@@ -107,6 +107,8 @@ void PacketMoments::set_normals(LeafId leaf, std::span<const std::uint32_t> plac
 /// If all normals of a leaf make at most the angle t with an axis, a normal that makes less than 90 degrees - t with it
 /// faces all of them.
 void PacketMoments::set_axis(LeafId leaf) {
+  // Products of unit vectors in single precision, each of at most six roundings, are off by less than this.
+  constexpr float kMargin = 0x1p-20F;
   const Leaf& of = source_.index->leaves[leaf];
   const auto for_each_normal = [&](const auto& f) {
     for (std::size_t i = of.first; i < of.first + of.size; ++i) {
@@ -123,7 +125,7 @@ void PacketMoments::set_axis(LeafId leaf) {
   facing_.axis = (1 / size) * sum;
   double least = 1;
   for_each_normal([&](const Point& n) { least = std::min(least, dot(facing_.axis, n)); });
-  if (least > 0) facing_.all = static_cast<float>(std::sqrt(std::max(0.0, 1 - least * least))) + 2 * kFacingMargin;
+  if (least > 0) facing_.all = static_cast<float>(std::sqrt(std::max(0.0, 1 - least * least))) + 2 * kMargin;
 }
 
 /// The sums begin with the sure leaves for their radius. With a filter, those are left out that do not face all

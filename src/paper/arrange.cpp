@@ -32,7 +32,7 @@ Numbering identity(std::size_t size) {
 Numbering number_below(const Numbering& above, const std::vector<ClusterId>& parent) {
   std::vector<ClusterId> new_parent(parent.size());
   for (std::size_t c = 0; c < parent.size(); ++c) new_parent[c] = above.new_id[parent[c]];
-  return Numbering(child_lists(new_parent, above.old_id.size()).children);
+  return Numbering(child_lists(new_parent, above.old_id.size()).elements);
 }
 
 /// By level, the base level first.

@@ -10,7 +10,7 @@ namespace meshhood::paper {
 namespace {
 
 void link_siblings(const DraftLevel& below, const Partition& partition, DraftLevel& level) {
-  const ChildLists children = child_lists(partition.parent, partition.clusters);
+  const auto children = child_lists(partition.parent, partition.clusters);
   Adjacency& siblings = level.own_siblings;
   siblings.offsets.reserve(partition.clusters + 1);
   siblings.offsets.push_back(0);

@@ -241,11 +241,6 @@ class BitSums {
     PerLane<std::uint32_t> sums;
     for (std::size_t part = 0; part < kVectors<Words>; ++part) store(sums_[part], sums[part * kLanes<Words>]);
     for (std::size_t i = 0; i < kPacketCapacity; ++i) counts_[i] += sums[i];
-#if HWY_TARGET == HWY_AVX3
-    PerLane<std::uint16_t> shorts;
-    _mm512_storeu_si512(shorts.data(), _mm512_add_epi16(even_, odd_));
-    for (std::size_t i = 0; i < kPacketCapacity; ++i) counts_[i] += shorts[i];
-#endif
   }
   BitSums(const BitSums&) = delete;
   BitSums& operator=(const BitSums&) = delete;
@@ -253,18 +248,6 @@ class BitSums {
   void add(Word words, std::size_t digit) {
     alignas(64) std::array<QueryWord, kLanes<Words>> each;
     store(words, each[0]);
-#if HWY_TARGET == HWY_AVX3
-    // A word is the mask of the numbers to increase. The sums of all these digits have 16 bits.
-    constexpr std::size_t kMostShort = 11;
-    if (digit <= kMostShort) {
-      const __m512i weight = _mm512_set1_epi16(static_cast<std::int16_t>(1 << digit));
-      for (std::size_t i = 0; i < each.size(); i += 2) {
-        even_ = _mm512_mask_add_epi16(even_, each[i], even_, weight);
-        odd_ = _mm512_mask_add_epi16(odd_, each[i + 1], odd_, weight);
-      }
-      return;
-    }
-#endif
     const auto weight = splat(std::uint32_t{1} << digit);
     for (const QueryWord word : each) {
       for (std::size_t part = 0; part < kVectors<Words>; ++part) {
@@ -277,10 +260,6 @@ class BitSums {
  private:
   PerLane<std::uint64_t>& counts_;
   WordsOfRow sums_;  // less than 2^32, as many as there can be vertices
-#if HWY_TARGET == HWY_AVX3
-  __m512i even_ = _mm512_setzero_si512();
-  __m512i odd_ = _mm512_setzero_si512();
-#endif
 };
 
 /// Counts bits in each position of many words: a vector for each binary digit, with a number in each of its bits.
@@ -318,11 +297,7 @@ class BitCounters {
   static Word add_digit(Word& digit, Word a, Word b) {
     const auto old = digit;
     digit = hn::Xor(old, hn::Xor(a, b));
-#if HWY_TARGET == HWY_AVX3
-    return Word{_mm512_ternarylogic_epi32(old.raw, a.raw, b.raw, 0xE8)};
-#else
     return hn::Or(hn::And(a, b), hn::And(old, hn::Xor(a, b)));
-#endif
   }
 
   /// Adds a vector of carries to the higher digits.

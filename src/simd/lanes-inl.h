@@ -198,47 +198,11 @@ HWY_INLINE Points<D> load_points(D d, const hn::TFromD<D>* xyz) {
   return points;
 }
 
-#if HWY_TARGET == HWY_AVX3
-// Two permutations for each coordinate of 64 bytes; Highway joins blocks of 16 bytes first.
-
-HWY_INLINE Points<Floats> load_points(Floats d, const float* xyz) {
-  const __m512 a = hn::LoadU(d, xyz).raw;
-  const __m512 b = hn::LoadU(d, xyz + 16).raw;
-  const __m512 c = hn::LoadU(d, xyz + 32).raw;
-  const __m512i xs = _mm512_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 1, 4, 7, 10, 13);
-  const __m512i ys = _mm512_setr_epi32(1, 4, 7, 10, 13, 16, 19, 22, 25, 28, 31, 2, 5, 8, 11, 14);
-  const __m512i zs = _mm512_setr_epi32(2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 0, 3, 6, 9, 12, 15);
-  // Indices from 16 on select from `b`. The values of `c` are inserted afterwards.
-  return {{_mm512_mask_permutexvar_ps(_mm512_permutex2var_ps(a, xs, b), 0xF800, xs, c)},
-          {_mm512_mask_permutexvar_ps(_mm512_permutex2var_ps(a, ys, b), 0xF800, ys, c)},
-          {_mm512_mask_permutexvar_ps(_mm512_permutex2var_ps(a, zs, b), 0xFC00, zs, c)}};
-}
-
-HWY_INLINE Points<Doubles> joined(Doubles /*d*/, __m512d a, __m512d b, __m512d c) {
-  const __m512i xs = _mm512_setr_epi64(0, 3, 6, 9, 12, 15, 2, 5);
-  const __m512i ys = _mm512_setr_epi64(1, 4, 7, 10, 13, 0, 3, 6);
-  const __m512i zs = _mm512_setr_epi64(2, 5, 8, 11, 14, 1, 4, 7);
-  return {{_mm512_mask_permutexvar_pd(_mm512_permutex2var_pd(a, xs, b), 0xC0, xs, c)},
-          {_mm512_mask_permutexvar_pd(_mm512_permutex2var_pd(a, ys, b), 0xE0, ys, c)},
-          {_mm512_mask_permutexvar_pd(_mm512_permutex2var_pd(a, zs, b), 0xE0, zs, c)}};
-}
-
-HWY_INLINE Points<Doubles> load_points(Doubles d, const double* xyz) {
-  return joined(d, hn::LoadU(d, xyz).raw, hn::LoadU(d, xyz + 8).raw, hn::LoadU(d, xyz + 16).raw);
-}
-
-HWY_INLINE Points<Doubles> load_points(Doubles d, const float* xyz) {
-  const hn::Rebind<float, Doubles> eight;
-  return joined(d, hn::PromoteTo(d, hn::LoadU(eight, xyz)).raw, hn::PromoteTo(d, hn::LoadU(eight, xyz + 8)).raw,
-                hn::PromoteTo(d, hn::LoadU(eight, xyz + 16)).raw);
-}
-#else
 /// The same for floats as doubles.
 HWY_INLINE Points<Doubles> load_points(Doubles d, const float* xyz) {
   const auto [x, y, z] = load_points(hn::Rebind<float, Doubles>(), xyz);
   return {hn::PromoteTo(d, x), hn::PromoteTo(d, y), hn::PromoteTo(d, z)};
 }
-#endif
 
 /// The points from `first` on of a structure that has a row for each coordinate.
 template <class D, class Rows>

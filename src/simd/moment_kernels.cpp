@@ -51,10 +51,15 @@ constexpr std::array<Factors, PaddedMoments::kPadded> kFactors = [] {
 }();
 
 /// The small powers of a vector of points, and these times the weight.
+template <class D>
 struct SmallPowers {
+  using Vector = VectorOf<D>;
+
   SmallPowers() = default;
-  HWY_INLINE SmallPowers(const MomentPoints& points, std::size_t i, Numbers weight) {
-    const Numbers coordinates[]{splat(1.0), load(points.x[i]), load(points.y[i]), load(points.z[i])};
+  HWY_INLINE SmallPowers(const MomentPoints& points, std::size_t i, Vector weight) {
+    const D d;
+    const auto [x, y, z] = load_rows(d, points, i);
+    const Vector coordinates[]{hn::Set(d, 1.0), x, y, z};
 #pragma GCC unroll 10
     for (std::size_t m = 0; m < kSmallPowers.size(); ++m) {
       plain[m] = hn::Mul(coordinates[kSmallPowers[m].first], coordinates[kSmallPowers[m].second]);
@@ -62,12 +67,12 @@ struct SmallPowers {
     }
   }
 
-  [[nodiscard]] HWY_INLINE Numbers power(std::size_t m) const {
+  [[nodiscard]] HWY_INLINE Vector power(std::size_t m) const {
     return hn::Mul(weighted[kFactors[m].first], plain[kFactors[m].second]);
   }
 
-  Numbers plain[kSmallPowers.size()];
-  Numbers weighted[kSmallPowers.size()];
+  Vector plain[kSmallPowers.size()];
+  Vector weighted[kSmallPowers.size()];
 };
 
 /// Doubles of at most four lanes.
@@ -113,86 +118,40 @@ HWY_INLINE VectorOf<Four> as_four(Numbers numbers) {
 #endif
 }
 
-#if HWY_TARGET == HWY_AVX3
-/// The places of one of the factors of each power.
-constexpr std::array<std::uint64_t, PaddedMoments::kPadded> places_of(std::size_t Factors::* factor) {
-  std::array<std::uint64_t, PaddedMoments::kPadded> places{};
-  for (std::size_t m = 0; m < places.size(); ++m) places[m] = kFactors[m].*factor;
-  return places;
-}
-alignas(64) constexpr auto kFirstPlaces = places_of(&Factors::first);
-alignas(64) constexpr auto kSecondPlaces = places_of(&Factors::second);
-
-/// Eight of the sixteen numbers, those of which the places are given.
-HWY_INLINE Numbers chosen(const Numbers& low, const std::uint64_t& places, const Numbers& high) {
-  return Numbers{_mm512_permutex2var_pd(low.raw, _mm512_load_si512(&places), high.raw)};
-}
-
-/// The powers of point `i`, times its weight: products of two of the ten small ones, which a permutation brings to
-/// their places.
-HWY_INLINE void powers_of(const MomentPoints& points, std::size_t i, PaddedMoments& out) {
-  const Doubles d;
-  const auto one = splat(1.0);
-  const auto x = splat(points.x[i]);
-  const auto y = splat(points.y[i]);
-  const auto z = splat(points.z[i]);
-  const auto weight = splat(points.weight[i]);
-  const auto either = [d](LaneMask places, Numbers yes, Numbers no)
-                          HWY_ATTR { return hn::IfThenElse(mask_of(d, places), yes, no); };
-  // 1 x y z xx xy xz yy, and yz zz: products of two coordinates.
-  const auto left = either(0b1, one, either(0b1000'0100, y, either(0b1000, z, x)));
-  const auto right = either(0b1111, one, either(0b1010'0000, y, either(0b0100'0000, z, x)));
-  const auto low = hn::Mul(left, right);
-  const auto high = hn::Mul(either(0b1, y, z), z);
-  const auto weighted_low = hn::Mul(weight, low);
-  const auto weighted_high = hn::Mul(weight, high);
-#pragma GCC unroll 5
-  for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kLanes<Doubles>) {
-    store(hn::Mul(chosen(weighted_low, kFirstPlaces[m], weighted_high), chosen(low, kSecondPlaces[m], high)),
-          out.at[m]);
-  }
-}
-
-HWY_INLINE void powers(const MomentPoints& points, LaneMask chosen, PaddedMoments* out) {
-  for (LaneMask left = chosen; left != 0; left &= left - 1) {
-    powers_of(points, static_cast<std::size_t>(std::countr_zero(left)), *out++);
-  }
-}
-#else
 /// Vector by vector of points. A product has one moment of several points; they change places, and become several
 /// moments of each point.
 HWY_INLINE void powers(const MomentPoints& points, LaneMask chosen, PaddedMoments* out) {
-  constexpr std::size_t kSize = kLanes<Doubles>;
+  const Four d;
+  constexpr std::size_t kSize = kLanes<Four>;
   for (std::size_t i = 0; i < kLeafCapacity; i += kSize) {
     const LaneMask here = chosen >> i & first_lanes(kSize);
     if (here == 0) continue;
-    const SmallPowers small(points, i, load(points.weight[i]));
+    const SmallPowers<Four> small(points, i, hn::Load(d, &points.weight[i]));
 #pragma GCC unroll 40
     for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kSize) {
-      Numbers rows[kSize];
+      VectorOf<Four> rows[kSize];
 #pragma GCC unroll 4
       for (std::size_t k = 0; k < kSize; ++k) rows[k] = small.power(m + k);
       transpose(rows);
       PaddedMoments* to = out;
       for (std::size_t k = 0; k < kSize; ++k) {
-        store(rows[k], to->at[m]);
+        hn::Store(rows[k], d, &to->at[m]);
         to += here >> k & 1U;  // what is not chosen is written over
       }
     }
     out += std::popcount(here);
   }
 }
-#endif
 
 /// Eight partial sums, of points 8 k + i each, are added by halves.
 void sum(const MomentPoints& points, std::size_t size, PaddedMoments& out) {
   constexpr std::size_t kParts = 8 / kLanes<Doubles>;
   const Doubles d;
-  SmallPowers small[kVectors<Doubles>];
+  SmallPowers<Doubles> small[kVectors<Doubles>];
   std::size_t vectors = 0;
   for (std::size_t i = 0; i < size || vectors % kParts != 0; i += kLanes<Doubles>) {
     const LaneMask exist = i < size ? first_lanes(static_cast<unsigned>(size)) >> i : 0;
-    small[vectors++] = SmallPowers(points, i, only(d, mask_of(d, exist), load(points.weight[i])));
+    small[vectors++] = SmallPowers<Doubles>(points, i, only(d, mask_of(d, exist), load(points.weight[i])));
   }
   std::fill(out.at.begin() + kMomentCount, out.at.end(), 0);
 #pragma GCC unroll 40
@@ -261,58 +220,42 @@ void add_terms(const PaddedMoments* terms, std::span<const QueryWord> words, Mom
   }
 }
 
-/// For which of the normals of a row the product with one normal is > `limit`, and for which it is > `-limit`, in
-/// single precision.
-struct Facing {
-  HWY_INLINE Facing(const RoundedVectors& normals, const Points<Floats>& normal, float limit) {
-    const Floats d;
-    MasksOfRow<Floats> above;
-    MasksOfRow<Floats> not_below;
-    for (std::size_t part = 0; part < kVectors<Floats>; ++part) {
-      const auto products = scalar_product(normal, load_rows(d, normals, part * kLanes<Floats>));
-      above[part] = hn::Gt(products, splat(limit));
-      not_below[part] = hn::Gt(products, splat(-limit));
-    }
-    surely = bits_of_row(d, above);
-    perhaps = bits_of_row(d, not_below);
+/// Those of the queries `among` that vertex `i` faces.
+HWY_INLINE QueryWord facing(const NormalColumns& normals, std::size_t i, const FacingTest& test, QueryWord among) {
+  const Doubles d;
+  const Points<Doubles> normal{splat(normals.x[i]), splat(normals.y[i]), splat(normals.z[i])};
+  QueryWord word = 0;
+  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
+    const auto product = scalar_product(normal, load_rows(d, test.normals, q));
+    word |= bits_of(d, hn::Gt(product, hn::Zero(d))) << q;
   }
-
-  LaneMask surely;
-  LaneMask perhaps;
-};
-
-/// Those of the queries `among` that vertex `i` faces. Single precision decides almost all.
-HWY_INLINE QueryWord facing(const NormalColumns& normals, const RoundedVectors& rounded, std::size_t i,
-                            const FacingTest& test, QueryWord among) {
-  const Points<Floats> normal{splat(rounded.x[i]), splat(rounded.y[i]), splat(rounded.z[i])};
-  const Facing facing(test.rounded, normal, kFacingMargin);
-  QueryWord word = among & facing.perhaps;
-  for (QueryWord open = word & ~facing.surely; open != 0; open &= open - 1) {
-    const auto q = static_cast<std::size_t>(std::countr_zero(open));
-    const QueryVectors& to = test.normals;
-    const double product = (normals.x[i] * to.x[q] + normals.y[i] * to.y[q]) + normals.z[i] * to.z[q];
-    if (!(product > 0)) word &= ~(QueryWord{1} << q);
-  }
-  return word;
+  return word & among;
 }
 
 /// The axis decides first, for all vertices together, without branches, which could not be predicted.
 void keep_facing(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words) {
-  RoundedVectors rounded{};
-  QueryWord used = 0;
+  const Floats d;
+  PointPerLane<float> rounded{};
+  LaneMask used = 0;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    rounded.x[i] = static_cast<float>(normals.x[i]);
-    rounded.y[i] = static_cast<float>(normals.y[i]);
-    rounded.z[i] = static_cast<float>(normals.z[i]);
-    used |= QueryWord{words[i] != 0} << i;
+    rounded.set(i, {normals.x[i], normals.y[i], normals.z[i]});
+    used |= LaneMask{words[i] != 0} << i;
   }
   const auto [x, y, z] = test.axis;
   const Points<Floats> axis{splat(static_cast<float>(x)), splat(static_cast<float>(y)), splat(static_cast<float>(z))};
-  const Facing facing_axis(rounded, axis, test.all);
-  for (std::size_t i = 0; i < words.size(); ++i) words[i] &= 0 - (facing_axis.perhaps >> i & 1U);
-  for (QueryWord left = used & facing_axis.perhaps & ~facing_axis.surely; left != 0; left &= left - 1) {
+  MasksOfRow<Floats> above;
+  MasksOfRow<Floats> not_below;
+  for (std::size_t part = 0; part < kVectors<Floats>; ++part) {
+    const auto product = scalar_product(axis, load_rows(d, rounded, part * kLanes<Floats>));
+    above[part] = hn::Gt(product, splat(test.all));
+    not_below[part] = hn::Gt(product, splat(-test.all));
+  }
+  const LaneMask faces_all = bits_of_row(d, above);
+  const LaneMask faces_some = bits_of_row(d, not_below);
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] &= 0 - (faces_some >> i & 1U);
+  for (LaneMask left = used & faces_some & ~faces_all; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
-    words[i] = facing(normals, rounded, i, test, words[i]);
+    words[i] = facing(normals, i, test, words[i]);
   }
 }
 

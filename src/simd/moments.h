@@ -30,7 +30,6 @@ using QueryRow = PerLane<double>;
 static_assert(kLeafCapacity == kPacketCapacity);
 
 using QueryVectors = PointPerLane<double>;
-using RoundedVectors = PointPerLane<float>;
 
 /// The moments of the neighborhoods of a packet, by moment, then by query.
 struct QueryMoments {
@@ -86,21 +85,12 @@ struct NormalColumns {
 /// Which vertices face the queries of a packet: those whose normal makes an angle of less than 90 degrees with that of
 /// the query. The product of the two, in double, each operation rounded, is > 0.
 struct FacingTest {
-  void set(std::size_t query, const Point& normal) {
-    normals.set(query, normal);
-    rounded.set(query, normal);
-  }
-
   QueryVectors normals;  // of the queries: unit vectors, or NaN
-  RoundedVectors rounded;
   // A vertex faces all queries if the product of its normal and the axis is > `all`, and none if it is <= `-all`, in
   // single precision.
   Point axis{0, 0, 0};
   float all = 0;
 };
-
-/// Products of unit vectors in single precision, each of at most six roundings, are off by less than this.
-inline constexpr float kFacingMargin = 0x1p-20F;
 
 /// The fits z = a x^2 + b x y + c y^2 + d x + e y of the queries of a packet.
 struct QueryQuadrics {

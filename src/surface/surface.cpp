@@ -92,7 +92,13 @@ Surface::State::State(const Index& given, const State& other)
       has_own_normals(other.has_own_normals) {}
 
 const FaceLists& Surface::State::lists() const {
-  return topology->lists.get([&] { return FaceLists(faces(), index->vertex_count()); });
+  return topology->lists.get([&] {
+    return gather_lists<std::uint32_t, std::uint64_t>(index->vertex_count(), [&](auto&& f) {
+      for (std::size_t face = faces().size(); face-- > 0;) {
+        for (const VertexId corner : faces()[face]) f(corner, static_cast<std::uint32_t>(face));
+      }
+    });
+  });
 }
 
 const FaceTree& Surface::State::tree(TaskContext& task) const {

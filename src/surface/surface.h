@@ -10,6 +10,7 @@
 
 #include "meshhood/surface.h"
 
+#include "base/lists.h"
 #include "exact/bound_index.h"
 #include "exact/layout.h"
 #include "exact/stored_faces.h"
@@ -17,13 +18,15 @@
 #include "shared/distance.h"
 #include "shared/kept.h"
 #include "shared/raw_vector.h"
-#include "surface/face_lists.h"
 #include "surface/face_tree.h"
 #include "surface/normal_cones.h"
 
 namespace meshhood {
 
 class TaskContext;
+
+/// The faces that have each vertex as a corner, ascending; twice if it is two corners of one.
+using FaceLists = Lists<std::uint32_t, std::uint64_t>;
 
 /// The faces of a surface, whatever the positions.
 struct SurfaceFaces {

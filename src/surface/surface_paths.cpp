@@ -16,7 +16,7 @@
 #include "meshhood/error.h"
 #include "meshhood/surface.h"
 
-#include "base/adjacency.h"
+#include "base/lists.h"
 #include "base/vector.h"
 #include "exact/index_access.h"
 #include "exact/weighted_graph.h"
@@ -27,26 +27,15 @@ namespace {
 
 constexpr double kNoLine = std::numeric_limits<double>::infinity();
 
-/// The elements of each vertex, sorted.
-template <class T>
-class VertexRows {
- public:
-  /// `for_each` as for `gather_rows`.
-  template <class ForEach>
-  VertexRows(std::size_t vertices, ForEach&& for_each) {
-    gather_rows(vertices, for_each, offsets_, elements_);
-    for (VertexId v = 0; v < vertices; ++v) std::ranges::sort((*this)[v]);
+/// The elements of each vertex, sorted. `for_each` as for `gather_rows`.
+template <class T, class ForEach>
+Lists<T, std::size_t> sorted_lists(std::size_t vertices, ForEach&& for_each) {
+  auto lists = gather_lists<T, std::size_t>(vertices, for_each);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    std::ranges::sort(std::span(lists.elements).subspan(lists.offsets[v], lists[v].size()));
   }
-
-  [[nodiscard]] std::size_t size() const { return offsets_.size() - 1; }
-  [[nodiscard]] std::span<T> operator[](VertexId v) {
-    return std::span(elements_).subspan(offsets_[v], offsets_[v + std::size_t{1}] - offsets_[v]);
-  }
-
- private:
-  std::vector<std::size_t> offsets_;
-  std::vector<T> elements_;
-};
+  return lists;
+}
 
 /// A side of a triangle from a vertex to one with a larger number.
 struct SharedSide {
@@ -92,8 +81,8 @@ class SurfaceGraph {
         edges_(&edges_of(surface)) {}
 
   [[nodiscard]] WeightedGraph make() const {
-    VertexRows<SharedSide> sides(index_.vertex_count(), [&](auto&& f) { for_each_side(f); });
-    VertexRows<Line> lines(index_.vertex_count(), [&](auto&& f) {
+    const auto sides = sorted_lists<SharedSide>(index_.vertex_count(), [&](auto&& f) { for_each_side(f); });
+    const auto lines = sorted_lists<Line>(index_.vertex_count(), [&](auto&& f) {
       for_each_edge(f);
       for_each_line(sides, [&](VertexId c, VertexId d, double length) {
         f(c, {d, length});
@@ -162,7 +151,7 @@ class SurfaceGraph {
 
   /// Lines across sides of two triangles, and the sides within a polygon.
   template <class F>
-  void for_each_line(VertexRows<SharedSide>& sides, F&& f) const {
+  void for_each_line(const Lists<SharedSide, std::size_t>& sides, F&& f) const {
     for (VertexId a = 0; a < sides.size(); ++a) {
       const std::span<const SharedSide> row = sides[a];
       for (auto first = row.begin(); first != row.end();) {

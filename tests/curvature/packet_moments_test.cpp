@@ -24,7 +24,6 @@ struct ScratchAccess {
   static void poison(PacketMoments& sums) {
     fill(sums.offsets_);
     fill(sums.facing_.normals);
-    fill(sums.facing_.rounded);
     fill(sums.terms_);
     fill(sums.words_);
     fill(sums.points_.x);

@@ -31,7 +31,7 @@ TEST(CollectRows, AreInOrderWhateverTheNumberOfThreads) {
         EXPECT_EQ(std::vector<std::uint32_t>(rows[row].begin(), rows[row].end()), expected);
         all += expected.size();
       }
-      EXPECT_EQ(rows.values.size(), all);
+      EXPECT_EQ(rows.elements.size(), all);
     }
   }
 }

@@ -316,11 +316,11 @@ struct Normals {
 
 TEST(MomentKernels, FacingComparesTheRoundedProductWithZero) {
   FacingTest test{};
-  test.set(0, {1, 0, 0});
-  test.set(1, {-1, 0, 0});
-  test.set(2, {0, 1, 0});
-  test.set(3, {0, 0, 1e-300});
-  test.set(4, {std::nan(""), 0, 0});
+  test.normals.set(0, {1, 0, 0});
+  test.normals.set(1, {-1, 0, 0});
+  test.normals.set(2, {0, 1, 0});
+  test.normals.set(3, {0, 0, 1e-300});
+  test.normals.set(4, {std::nan(""), 0, 0});
   test.axis = {1, 0, 0};
   test.all = 2;  // leaves all undecided
   Normals normals;
@@ -334,12 +334,12 @@ TEST(MomentKernels, FacingComparesTheRoundedProductWithZero) {
   }
 }
 
-TEST(MomentKernels, FacingIsThatOfDoublesWhereFloatsCannotDecide) {
+TEST(MomentKernels, FacingIsThatOfDoublesNearARightAngle) {
   const double x = std::cos(0.7);
   const double y = std::sin(0.7);
   FacingTest test{};
   test.all = 2;  // leaves all undecided
-  for (std::size_t q = 0; q < kPacketCapacity; ++q) test.set(q, {x, y, 0});
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) test.normals.set(q, {x, y, 0});
   Normals normals;
   std::vector<QueryWord> expected;
   for (int exponent = -45; exponent < -10; ++exponent) {
@@ -359,7 +359,8 @@ TEST(MomentKernels, FacingIsThatOfDoublesWhereFloatsCannotDecide) {
 
 TEST(MomentKernels, TheAxisDecidesOnlyBeyondItsBound) {
   FacingTest test{};
-  for (std::size_t q = 0; q < kPacketCapacity; ++q) test.set(q, {-1, 0, 0});  // the products would decide otherwise
+  for (std::size_t q = 0; q < kPacketCapacity; ++q)
+    test.normals.set(q, {-1, 0, 0});  // the products would decide otherwise
   test.axis = {1, 0, 0};
   test.all = 0.5;
   Normals normals;
@@ -624,7 +625,7 @@ TEST(MomentKernels, EveryInstructionSetGivesTheSameBits) {
     const QueryVectors u = random_vectors(random);
     const QueryVectors v = random_vectors(random);
     FacingTest test{};
-    for (std::size_t q = 0; q < kPacketCapacity; ++q) test.set(q, {u.x[q], u.y[q], u.z[q]});
+    for (std::size_t q = 0; q < kPacketCapacity; ++q) test.normals.set(q, {u.x[q], u.y[q], u.z[q]});
     test.axis = {0.6, 0, 0.8};
     test.all = 0.5;
     const std::size_t leaf = std::min<std::size_t>(input.size(), kLeafCapacity);

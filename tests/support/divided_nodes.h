@@ -73,7 +73,6 @@ NodeGraph draw_node_graph(Draw& draw) {
   const NodeLinks links = draw_links(draw, 1 + draw.below(64));
   const std::size_t kind = draw.below(5);
   auto& [offsets, neighbors] = graph.neighbors;
-  offsets.push_back(0);
   for (const auto& row : links) {
     const auto signed_extent = [&] { return (draw.below(2) == 0 ? 1 : -1) * draw_extent(draw, kind); };
     const double x = signed_extent();

@@ -15,14 +15,13 @@ namespace meshhood::test {
 [[nodiscard]] inline NodeGraph node_line(std::size_t nodes,
                                          const std::vector<std::pair<std::uint32_t, std::uint32_t>>& links) {
   NodeGraph graph;
-  graph.neighbors.offsets.push_back(0);
   for (std::uint32_t node = 0; node < nodes; ++node) {
     graph.balls.push_back({{static_cast<double>(node), 0, 0}, 0.5});
     for (const auto& [a, b] : links) {
-      if (a == node) graph.neighbors.values.push_back(b);
-      if (b == node) graph.neighbors.values.push_back(a);
+      if (a == node) graph.neighbors.elements.push_back(b);
+      if (b == node) graph.neighbors.elements.push_back(a);
     }
-    graph.neighbors.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.values.size()));
+    graph.neighbors.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.elements.size()));
   }
   return graph;
 }

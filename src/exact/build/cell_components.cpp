@@ -31,10 +31,9 @@ void split_cell(const Cells& cells, const Links& links, std::uint32_t cell, std:
 }
 
 /// By component, if it is small: the components at the other ends of the edges that leave it, one for each edge.
-CollectedRows<std::uint32_t> neighbors_of_small(const CellComponents& components, const Links& links,
-                                                TaskContext& task) {
+Lists<std::uint32_t> neighbors_of_small(const CellComponents& components, const Links& links, TaskContext& task) {
   const auto append = [&](std::size_t c, std::vector<std::uint32_t>& out) {
-    const CellComponent& component = components.values[c];
+    const CellComponent& component = components.elements[c];
     if (count_of(component.lanes) >= kSmallComponent) return;
     for (const Link& link : links.links_of(component.cell)) {
       if ((link.boundary & component.lanes) == 0) continue;
@@ -43,7 +42,7 @@ CollectedRows<std::uint32_t> neighbors_of_small(const CellComponents& components
       }
     }
   };
-  return collect_rows<std::uint32_t>(components.values.size(), task, append);
+  return collect_rows<std::uint32_t>(components.elements.size(), task, append);
 }
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -52,7 +51,7 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 class Merger {
  public:
   /// `neighbors`: see `neighbors_of_small`.
-  Merger(std::span<const CellComponent> components, const CollectedRows<std::uint32_t>& neighbors)
+  Merger(std::span<const CellComponent> components, const Lists<std::uint32_t>& neighbors)
       : neighbors_of_(neighbors), merged_into_(components.size()), edges_to_(components.size()) {
     std::iota(merged_into_.begin(), merged_into_.end(), 0);
     sizes_.reserve(components.size());
@@ -153,7 +152,7 @@ class Merger {
     return component;
   }
 
-  const CollectedRows<std::uint32_t>& neighbors_of_;
+  const Lists<std::uint32_t>& neighbors_of_;
   std::vector<std::uint32_t> merged_into_;  // by component: itself, or the component it has been merged into
   std::vector<std::uint8_t> sizes_;         // by component, with those merged into it; small if it has been merged
   std::vector<std::uint32_t> neighbors_;    // of the component that is being merged
@@ -189,8 +188,8 @@ CellComponents split_cells(const Cells& cells, const Links& links, TaskContext& 
 }
 
 MergedComponents merge_small(const CellComponents& components, const Links& links, TaskContext& task) {
-  const CollectedRows<std::uint32_t> neighbors = neighbors_of_small(components, links, task);
-  return number_leaves(Merger(components.values, neighbors).run(), components.values);
+  const Lists<std::uint32_t> neighbors = neighbors_of_small(components, links, task);
+  return number_leaves(Merger(components.elements, neighbors).run(), components.elements);
 }
 
 }  // namespace meshhood

@@ -26,11 +26,11 @@ struct CellComponent {
 };
 
 /// The components of all cells, numbered from cell to cell; the first of a cell is its largest.
-struct CellComponents : CollectedRows<CellComponent> {
+struct CellComponents : Lists<CellComponent> {
   /// The component that holds the vertex `lane` of a cell.
   [[nodiscard]] std::uint32_t at(std::size_t cell, unsigned lane) const {
     std::uint32_t component = offsets[cell];
-    while ((values[component].lanes >> lane & 1U) == 0) ++component;
+    while ((elements[component].lanes >> lane & 1U) == 0) ++component;
     assert(component < offsets[cell + 1]);
     return component;
   }

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "base/lists.h"
 #include "exact/build/collect_rows.h"
 #include "shared/distance.h"
 #include "shared/parallel.h"
@@ -22,8 +22,8 @@ struct NodeBall {
 
 /// The nodes of one level while the tree is built, and the links between them.
 struct NodeGraph {
-  std::vector<NodeBall> balls;             // by node
-  CollectedRows<std::uint32_t> neighbors;  // by node, ascending
+  std::vector<NodeBall> balls;     // by node
+  Lists<std::uint32_t> neighbors;  // by node, ascending
 
   [[nodiscard]] std::size_t size() const { return balls.size(); }
   [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t node) const { return neighbors[node]; }
@@ -46,22 +46,7 @@ NodeGraph make_graph(std::size_t size, BallAt&& ball_at, Append&& append, TaskCo
 }
 
 /// Sets of up to eight nodes.
-class NodeGroups {
- public:
-  void add(std::span<const std::uint32_t> nodes) {
-    nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
-    begin_.push_back(static_cast<std::uint32_t>(nodes_.size()));
-  }
-  [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
-  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t group) const {
-    assert(group < size());
-    return std::span(nodes_).subspan(begin_[group], begin_[group + 1] - begin_[group]);
-  }
-
- private:
-  std::vector<std::uint32_t> begin_{0};
-  std::vector<std::uint32_t> nodes_;
-};
+using NodeGroups = Lists<std::uint32_t>;
 
 /// The sphere around the mean of the centers of `a` and `b` that holds the spheres of all these nodes.
 [[nodiscard]] NodeBall ball_of(const NodeGraph& graph, std::span<const std::uint32_t> a,

@@ -2,9 +2,7 @@
 #include "exact/joint/group.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <variant>
 
@@ -67,34 +65,9 @@ void JointGroup::begin(std::span<const LeafId> leaves, const TreeBounds& low, co
     if (is_core(entry)) continue;
     for (const Link& link : index_->links_of(leaves_[entry])) discover(link.leaf);
   }
-  rank_by_distance();
   if (points_.size() < size()) points_.resize(size() + size() / 2);
   has_points_.assign(size(), 0);
   link_ranges_.assign(size(), {kUnknown, kUnknown});
-}
-
-/// Sorts the entries by squared distance from the center, roughly, in linear time.
-void JointGroup::rank_by_distance() {
-  constexpr std::size_t kBuckets = 64;
-  const float scale = static_cast<float>(kBuckets) / (ball_.outer * ball_.outer);
-  const auto bucket_of = [&](GroupEntry entry) -> std::size_t {
-    if (is_core(entry)) return 0;
-    const Group& spheres = spheres_[entry / kFanOut];
-    const float x = spheres.x[entry % kFanOut] - ball_.x;
-    const float y = spheres.y[entry % kFanOut] - ball_.y;
-    const float z = spheres.z[entry % kFanOut] - ball_.z;
-    const float bucket = ((x * x + y * y) + z * z) * scale;
-    return bucket < static_cast<float>(kBuckets) ? static_cast<std::size_t>(bucket) : kBuckets - 1;
-  };
-  std::array<GroupEntry, kBuckets + 1> begin{};
-  for (GroupEntry entry = 0; entry < size(); ++entry) ++begin[bucket_of(entry) + 1];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  rank_.resize(size());
-  by_rank_.resize(size());
-  for (GroupEntry entry = 0; entry < size(); ++entry) {
-    rank_[entry] = begin[bucket_of(entry)]++;
-    by_rank_[rank_[entry]] = entry;
-  }
 }
 
 std::span<const JointGroup::EntryLink> JointGroup::links(GroupEntry entry) {

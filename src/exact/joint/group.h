@@ -65,10 +65,6 @@ class JointGroup {
   [[nodiscard]] GroupEntry entry_of(LeafId leaf) const { return entry_of_[leaf]; }
   static constexpr GroupEntry kNoEntry = 0xFFFFFFFE;
 
-  /// The place of an entry among all, sorted by the distance from the center; and the reverse.
-  [[nodiscard]] std::uint32_t rank(GroupEntry entry) const { return rank_[entry]; }
-  [[nodiscard]] GroupEntry at_rank(std::uint32_t rank) const { return by_rank_[rank]; }
-
   /// The links of an entry that is a leaf. Looked up at the first call; valid until those of another are.
   [[nodiscard]] std::span<const EntryLink> links(GroupEntry entry);
 
@@ -117,7 +113,6 @@ class JointGroup {
   GroupEntry add_entry(LeafId leaf);
   GroupEntry add_core(LeafId leaf);
   void add_core_link(const Core& core, GroupEntry linked, LaneMask far_boundary);
-  void rank_by_distance();
   void add_to_eights(LeafId leaf, const FrameSphere& sphere, bool connected);
   [[nodiscard]] static std::uint8_t bit_of(GroupEntry entry) {
     return static_cast<std::uint8_t>(1U << entry % kFanOut);
@@ -147,8 +142,6 @@ class JointGroup {
   std::vector<std::uint32_t> last_core_link_;  // by entry: the last core link to it, in core_links_
   std::vector<LinkRange> link_ranges_;         // by entry
   std::vector<EntryLink> links_;
-  std::vector<std::uint32_t> rank_;
-  std::vector<GroupEntry> by_rank_;
   std::vector<LeafPoints> points_;  // by entry
   std::vector<std::uint8_t> has_points_;
 };

@@ -13,7 +13,7 @@ void JointSpread::run(JointGroup& group, const Packet& packet) {
   if (words_.size() < group.size()) words_.resize(group.size() + group.size() / 2);
   classify(group, packet);
   start(group, packet);
-  worklist_.run([&](std::uint32_t rank) { take(group, packet, group.at_rank(rank)); });
+  worklist_.run([&](GroupEntry entry) { take(group, packet, entry); });
   if (!index_->ignored.empty()) leave_out_ignored(group);
 }
 
@@ -55,14 +55,14 @@ void JointSpread::classify(const JointGroup& group, const Packet& packet) {
 void JointSpread::start(const JointGroup& group, const Packet& packet) {
   const GroupEntry entry = group.entry_of(packet.leaf());
   if (states_[entry].kind == Kind::Whole) {
-    add_to_whole(group, packet, entry, packet.queries());
+    add_to_whole(packet, entry, packet.queries());
     return;
   }
   states_[entry].kind = Kind::Partial;
   states_[entry].closed = false;
   PerLane<QueryWord>& words = pending(entry);
   for (std::size_t i = 0; i < packet.size(); ++i) words[packet.lane(i)] |= QueryWord{1} << i;
-  worklist_.add(group.rank(entry));
+  worklist_.add(entry);
 }
 
 void JointSpread::take(JointGroup& group, const Packet& packet, GroupEntry entry) {
@@ -75,13 +75,13 @@ void JointSpread::take(JointGroup& group, const Packet& packet, GroupEntry entry
 
 /// Pushes one word to an entry; `f` puts it into the pending words of a partial one.
 template <class F>
-void JointSpread::push(const JointGroup& group, const Packet& packet, GroupEntry entry, QueryWord word, F&& f) {
+void JointSpread::push(const Packet& packet, GroupEntry entry, QueryWord word, F&& f) {
   if (states_[entry].closed) return;
   if (states_[entry].kind == Kind::Whole) {
-    add_to_whole(group, packet, entry, word);
+    add_to_whole(packet, entry, word);
   } else {
     f(pending(entry));
-    worklist_.add(group.rank(entry));
+    worklist_.add(entry);
   }
 }
 
@@ -91,13 +91,13 @@ void JointSpread::take_whole(JointGroup& group, const Packet& packet, GroupEntry
   states_[entry].pushed |= word;
   if (group.is_core(entry)) {
     for (const JointGroup::CoreLink& link : group.core_links(entry)) {
-      push(group, packet, link.entry, word, [&](PerLane<QueryWord>& pending) {
+      push(packet, link.entry, word, [&](PerLane<QueryWord>& pending) {
         for_each_lane(link.far_boundary, [&](unsigned lane) { pending[lane] |= word; });
       });
     }
   } else {
     for (const JointGroup::EntryLink& link : group.links(entry)) {
-      push(group, packet, link.entry, word, [&](PerLane<QueryWord>& pending) {
+      push(packet, link.entry, word, [&](PerLane<QueryWord>& pending) {
         for (const CrossEdge& edge : link.edges) pending[edge.to] |= word;
       });
     }
@@ -151,30 +151,30 @@ void JointSpread::push_leaf(JointGroup& group, const Packet& packet, GroupEntry 
       taken |= static_cast<std::uint64_t>(has_gained & is_open) << i;
     }
     for (; taken != 0; taken &= taken - 1) {
-      push_over(group, packet, words_[entry].reached, some[static_cast<std::size_t>(std::countr_zero(taken))]);
+      push_over(packet, words_[entry].reached, some[static_cast<std::size_t>(std::countr_zero(taken))]);
     }
     links = links.subspan(some.size());
   }
 }
 
-void JointSpread::push_over(const JointGroup& group, const Packet& packet, const PerLane<QueryWord>& reached,
+void JointSpread::push_over(const Packet& packet, const PerLane<QueryWord>& reached,
                             const JointGroup::EntryLink& link) {
   if (states_[link.entry].kind == Kind::Whole) {
     QueryWord word = 0;
     for_each_lane(link.boundary, [&](unsigned lane) { word |= reached[lane]; });
-    add_to_whole(group, packet, link.entry, word);
+    add_to_whole(packet, link.entry, word);
   } else {
     push_words(link.edges, reached, pending(link.entry));
-    worklist_.add(group.rank(link.entry));
+    worklist_.add(link.entry);
   }
 }
 
-void JointSpread::add_to_whole(const JointGroup& group, const Packet& packet, GroupEntry entry, QueryWord word) {
+void JointSpread::add_to_whole(const Packet& packet, GroupEntry entry, QueryWord word) {
   State& state = states_[entry];
   if ((word & ~state.word) == 0) return;
   state.word |= word;
   state.closed = state.word == packet.queries();
-  worklist_.add(group.rank(entry));
+  worklist_.add(entry);
 }
 
 PerLane<QueryWord>& JointSpread::pending(GroupEntry entry) {

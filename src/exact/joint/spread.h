@@ -15,8 +15,8 @@
 
 namespace meshhood {
 
-/// A set of pending entries, a bit for each. They are taken in ascending order, sweep by sweep: entries near the group
-/// come first, and an entry that gains several times in one sweep is taken once.
+/// A set of pending entries, a bit for each. They are taken in ascending order, sweep by sweep: entries that were
+/// discovered early, near the group, come first, and one that gains several times in one sweep is taken once.
 class Worklist {
  public:
   /// Empty, for entries below `size`.
@@ -90,11 +90,10 @@ class JointSpread {
   void take_partial(JointGroup& group, const Packet& packet, GroupEntry entry);
   void find_inside(JointGroup& group, const Packet& packet, GroupEntry entry);
   void push_leaf(JointGroup& group, const Packet& packet, GroupEntry entry, LaneMask gained);
-  void push_over(const JointGroup& group, const Packet& packet, const PerLane<QueryWord>& reached,
-                 const JointGroup::EntryLink& link);
+  void push_over(const Packet& packet, const PerLane<QueryWord>& reached, const JointGroup::EntryLink& link);
   template <class F>
-  void push(const JointGroup& group, const Packet& packet, GroupEntry entry, QueryWord word, F&& f);
-  void add_to_whole(const JointGroup& group, const Packet& packet, GroupEntry entry, QueryWord word);
+  void push(const Packet& packet, GroupEntry entry, QueryWord word, F&& f);
+  void add_to_whole(const Packet& packet, GroupEntry entry, QueryWord word);
   PerLane<QueryWord>& pending(GroupEntry entry);
 
   const IndexView* index_;

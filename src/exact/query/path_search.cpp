@@ -14,15 +14,6 @@ constexpr double kBucketsPerEdge = 8;
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
-// The vertices of a block, consecutive in index order.
-constexpr std::uint32_t kVerticesOfBlock = 32;
-
-// Of more edges of a block, which belong to a vertex with very many neighbors, only the first are fetched.
-constexpr std::size_t kMostEdges = std::size_t{16} * kVerticesOfBlock;
-
-// A search of a smaller radius, in mean lengths of edges, reads little of its blocks.
-constexpr double kSmall = 3;
-
 // No path is shorter.
 constexpr double kWall = -1;
 
@@ -34,17 +25,14 @@ PathSearch::PathSearch(const IndexView& index, KeptGraph& graph)
     : index_(&index),
       graph_(&graph.of(index)),
       edges_(graph_->edges.get()),
-      lengths_(index.vertex_count(), kUnreached),
-      is_met_(index.vertex_count() / kVerticesOfBlock + 1) {}
+      lengths_(index.vertex_count(), kUnreached) {}
 
 void PathSearch::begin(std::span<const Path> starts, double radius) {
   forget();
   is_complete_ = false;
   radius_ = radius;
   has_one_start_ = starts.size() == 1;
-  const double mean_length = starts.empty() ? 0 : mean_length_near(starts.front().end);
-  queue_.clear(mean_length / kBucketsPerEdge);
-  is_small_ = radius < kSmall * mean_length;
+  queue_.clear(starts.empty() ? 0 : mean_length_near(starts.front().end) / kBucketsPerEdge);
   for (const Path& start : starts) {
     if (index_->is_wall_at(start.end) || !(start.length <= radius) || lengths_[start.end] <= start.length) continue;
     lengths_[start.end] = start.length;
@@ -63,15 +51,12 @@ void PathSearch::forget() {
   if (is_complete_) {
     for (const Path& path : found_) lengths_[path.end] = kUnreached;
     for (const std::uint32_t vertex : left_) lengths_[vertex] = kUnreached;
-    for (const std::uint32_t block : met_) is_met_[block] = 0;
   } else {
     std::fill(lengths_.begin(), lengths_.end(), kUnreached);
-    std::fill(is_met_.begin(), is_met_.end(), std::uint8_t{0});
   }
   is_complete_ = true;
   found_.clear();
   left_.clear();
-  met_.clear();
   shorter_count_ = 0;
   steps_ = 0;
 }
@@ -175,34 +160,11 @@ void PathSearch::push_shorter() {
       lengths_[path.end] = kWall;
       left_.push_back(path.end);
     } else {
-      meet(path.end);
+      prefetch_edges(path.end);
       queue_.push(path);
     }
   }
   shorter_count_ = 0;
-}
-
-/// Fetches what the search will read of a vertex some buckets later: at the first vertex of a block, all that it will
-/// read of the block, because the paths to its other vertices follow soon.
-void PathSearch::meet(std::uint32_t vertex) {
-  if (is_small_) {
-    prefetch_edges(vertex);
-    return;
-  }
-  const std::uint32_t block = vertex / kVerticesOfBlock;
-  if (is_met_[block] != 0) return;
-  is_met_[block] = 1;
-  met_.push_back(block);
-  const std::size_t first = std::size_t{block} * kVerticesOfBlock;
-  const std::size_t last = std::min(first + kVerticesOfBlock, lengths_.size());
-  const std::size_t begin = edges_->offsets[first];
-  const std::size_t end = std::min<std::size_t>(edges_->offsets[last], begin + kMostEdges);
-  fetch_run(edges_->neighbors.data() + begin, edges_->neighbors.data() + end);
-  fetch_run(graph_->lengths.data() + begin, graph_->lengths.data() + end);
-  fetch_run(lengths_.data() + first, lengths_.data() + last);
-  if (!index_->permutation.empty()) {
-    fetch_run(index_->permutation.data() + first, index_->permutation.data() + last);
-  }
 }
 
 std::span<const Path> PathSearch::found_in_order() {

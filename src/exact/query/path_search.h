@@ -34,19 +34,13 @@ class PathSearch {
   /// Finds the vertices whose path distance from the vertex `start`, in index order, is at most `radius`, without
   /// passing walls.
   void run(std::uint32_t start, double radius) {
-    run(start, radius, [](std::span<const Path>) { return false; });
-  }
-
-  /// The same, but ends as soon as `is_enough(paths)` returns true: it is called for the paths that were found since
-  /// the last call. All paths that are shorter than one of these have then been found.
-  template <class IsEnough>
-  void run(std::uint32_t start, double radius, IsEnough&& is_enough) {
     const Path path{0, start};
-    run(std::span(&path, 1), radius, is_enough);
+    run(std::span(&path, 1), radius, [](std::span<const Path>) { return false; });
   }
 
   /// The same from the ends of some paths, of which one may be named more than once: the path to a vertex is then the
-  /// shortest of those that continue one of them.
+  /// shortest of those that continue one of them. Ends as soon as `is_enough(paths)` returns true: it is called for the
+  /// paths that were found since the last call. All paths that are shorter than one of these have then been found.
   template <class IsEnough>
   void run(std::span<const Path> starts, double radius, IsEnough&& is_enough) {
     begin(starts, radius);
@@ -81,7 +75,6 @@ class PathSearch {
   void follow_in_order();
   void follow(const Path& path);
   void push_shorter();
-  void meet(std::uint32_t vertex);
   void prefetch_edges(std::uint32_t vertex) const;
   [[nodiscard]] bool is_least(const Path& path) const { return path.length == lengths_[path.end]; }
 
@@ -90,14 +83,11 @@ class PathSearch {
   const Adjacency* edges_;  // of the graph
   double radius_ = 0;
   bool has_one_start_ = true;
-  bool is_small_ = false;
-  std::vector<double> lengths_;       // by vertex: of the shortest path so far, also beyond the radius
-  std::vector<std::uint32_t> left_;   // vertices with such a length that are not found: beyond the radius, or walls
-  std::vector<std::uint8_t> is_met_;  // by block of consecutive vertices: whether this run has met one of them
-  std::vector<std::uint32_t> met_;    // these blocks
-  bool is_complete_ = true;           // else the last run threw
-  PathQueue queue_;                   // holds longer paths to the same vertices too
-  std::vector<Path> round_;           // the first `round_count_`: the paths of the open bucket that are followed now
+  std::vector<double> lengths_;      // by vertex: of the shortest path so far, also beyond the radius
+  std::vector<std::uint32_t> left_;  // vertices with such a length that are not found: beyond the radius, or walls
+  bool is_complete_ = true;          // else the last run threw
+  PathQueue queue_;                  // holds longer paths to the same vertices too
+  std::vector<Path> round_;          // the first `round_count_`: the paths of the open bucket that are followed now
   std::size_t round_count_ = 0;
   std::vector<Path> shorter_;  // the first `shorter_count_`: found since, not in the queue yet
   std::size_t shorter_count_ = 0;

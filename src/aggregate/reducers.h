@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "meshhood/aggregate.h"
+
+#include "aggregate/node_tree.h"
+#include "aggregate/signal_block.h"
+#include "aggregate/sums.h"
+#include "exact/joint/packet_answer.h"
+#include "simd/joint.h"
+
+namespace meshhood {
+
+/// Reduces the neighborhoods of a packet, on one thread.
+class PacketReducer {
+ public:
+  PacketReducer() = default;
+  PacketReducer(const PacketReducer&) = delete;
+  PacketReducer& operator=(const PacketReducer&) = delete;
+  virtual ~PacketReducer() = default;
+
+  /// Begins with the rows of another packet.
+  virtual void begin(const PacketAnswer& packet) = 0;
+
+  /// Whether it takes whole nodes. If not, all vertices are passed to `add_leaf`, in index order.
+  [[nodiscard]] virtual bool takes_nodes() const { return true; }
+
+  /// Adds all vertices of each of up to eight nodes, which are neighbors, to the rows of its word.
+  virtual void add_nodes(const NodeTree::Children& /*nodes*/, const QueryWord* /*queries*/) {}
+
+  /// Adds each vertex of a leaf, of which rows may have all, to the rows of its word.
+  virtual void add_leaf(const VertexRange& vertices, const QueryWord* queries) = 0;
+
+  /// Writes the result of a row, a number for each channel, or for each of its reductions. Called after everything has
+  /// been added.
+  virtual void write(std::size_t row, std::span<double> channels) = 0;
+};
+
+/// Makes the reducer of a thread. Any thread may call it.
+using ReducerFactory = std::function<std::unique_ptr<PacketReducer>()>;
+
+/// Makes reducers of one kind, which share tables.
+template <class Reducer, class Tables>
+[[nodiscard]] ReducerFactory factory_of(Tables tables) {
+  return [shared = std::make_shared<const Tables>(std::move(tables))] { return std::make_unique<Reducer>(*shared); };
+}
+
+// The kinds of reducers, each written in a file of its own. They borrow index and tree.
+
+/// The minimum or the maximum. NaN marks a missing value, or propagates to the result. The block is not scaled, and its
+/// values were not omitted.
+[[nodiscard]] ReducerFactory minimum_reducers(const NodeTree& tree, SignalBlock block, bool maximum,
+                                              MissingValues missing);
+
+/// A quantile, of the same blocks.
+[[nodiscard]] ReducerFactory quantile_reducers(const NodeTree& tree, SignalBlock block, double quantile,
+                                               MissingValues missing);
+
+/// How the variance follows from a sum of squares.
+struct VarianceOptions {
+  bool root;      ///< the standard deviation
+  unsigned ddof;  ///< see `AggregateQuery::ddof`
+};
+[[nodiscard]] ReducerFactory variance_reducers(const NodeTree& tree, SignalBlock block, const VarianceOptions& options);
+
+/// Sum, mean and count with the weight of a vertex alone.
+[[nodiscard]] ReducerFactory sum_reducers(const NodeTree& tree, SumColumns columns);
+
+/// Sum and mean with weights that fall with the distance. `squared`: the biweight, else Epanechnikov.
+[[nodiscard]] ReducerFactory kernel_sum_reducers(const IndexView& index, const NodeTree& tree, SumColumns columns,
+                                                 bool squared);
+
+/// Sum and mean with a weight for each vertex of a row, where no moments of few terms give the sum over a node: weights
+/// that fall with the distance as a Gaussian, or if packets have lengths, by any kernel but the box with these.
+[[nodiscard]] ReducerFactory weighted_reducers(const IndexView& index, SumColumns columns, SmoothingKernel kernel,
+                                               bool has_lengths);
+
+}  // namespace meshhood

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "meshhood/vertex_id.h"
+
+namespace meshhood {
+
+/// Lists of elements, one after the other.
+template <class T, class Offset = std::uint32_t>
+struct Lists {
+  std::vector<Offset> offsets{0};  // by list, and one more: where its elements begin
+  std::vector<T> elements;
+
+  void add(std::span<const T> list) {
+    elements.insert(elements.end(), list.begin(), list.end());
+    offsets.push_back(static_cast<Offset>(elements.size()));
+  }
+
+  [[nodiscard]] std::size_t size() const { return offsets.size() - 1; }
+  [[nodiscard]] std::span<const T> operator[](std::size_t list) const {
+    assert(list < size());
+    return std::span(elements).subspan(offsets[list], static_cast<std::size_t>(offsets[list + 1] - offsets[list]));
+  }
+  [[nodiscard]] std::size_t bytes() const { return offsets.size() * sizeof(Offset) + elements.size() * sizeof(T); }
+};
+
+/// Fills the lists of vertices: `for_each(f)` calls `f(v, element)` for every element of the list of `v`, and does so
+/// twice, in the same order. A list has its elements in the reverse of that order. `offsets` can count them all.
+/// O(#V + #elements).
+template <class Offset, class T, class ForEach>
+void gather_rows(std::size_t vertices, ForEach&& for_each, std::vector<Offset>& offsets, std::vector<T>& elements) {
+  offsets.assign(vertices + 1, 0);
+  for_each([&](VertexId v, const T&) { ++offsets[v]; });
+  std::inclusive_scan(offsets.begin(), offsets.end(), offsets.begin());
+  elements.resize(offsets.back());
+  // Each offset stands at the end of its list and moves to the beginning as the list fills.
+  for_each([&](VertexId v, const T& element) { elements[--offsets[v]] = element; });
+}
+
+template <class T, class Offset, class ForEach>
+[[nodiscard]] Lists<T, Offset> gather_lists(std::size_t vertices, ForEach&& for_each) {
+  Lists<T, Offset> result;
+  gather_rows(vertices, for_each, result.offsets, result.elements);
+  return result;
+}
+
+}  // namespace meshhood
