@@ -42,7 +42,7 @@ auto one_with_distances(Method& method, VertexId v, double radius) {
   return std::pair(owned<std::int32_t>(std::move(answer.ids)), owned<double>(std::move(answer.distances)));
 }
 
-auto many(Method& method, const std::optional<Rows>& vertices, const Radius& radius, bool distances, bool sorted,
+auto many(Method& method, const std::optional<Ids>& vertices, const Radius& radius, bool distances, bool sorted,
           unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
   const BatchQuery query = query_of(vertices, radius);
   const BatchOptions options{.distances = distances, .sorted = sorted};
@@ -61,7 +61,7 @@ auto many(Method& method, const std::optional<Rows>& vertices, const Radius& rad
   return std::tuple(owned<std::int64_t>(std::move(offsets)), std::move(ids), std::move(found_distances));
 }
 
-Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vertices, const Radius& radius,
+Output<std::int64_t> many_counts(Method& method, const std::optional<Ids>& vertices, const Radius& radius,
                                  unsigned threads, nb::handle progress) {
   const Run run{.threads = threads, .progress = progress_to(progress)};
   return owned<std::int64_t>(method.counts(query_of(vertices, radius), run));
