@@ -263,17 +263,3 @@ def test_chunks_are_those_of_the_masks_at_the_call():
     for mask in masks.values():
         mask[:] = True
     np.testing.assert_array_equal(np.concatenate([part.indices for part in parts]), wanted[1])
-
-
-def test_the_arguments_of_chunks_are_checked_at_the_call():
-    index = meshhood.MeshIndex(*meshes.two_plates(5))
-    for arguments, options, error in (
-        ((1.0, [50]), {}, ValueError),
-        ((-1.0, [0]), {}, ValueError),
-        ((1.0, [0]), {"workers": 0}, ValueError),
-        ((1.0, [0]), {"method": "fast"}, ValueError),
-        ((1.0, [0]), {"unit": "mile"}, ValueError),
-        ((1.0, [0]), {"order": "file"}, ValueError),
-    ):
-        with pytest.raises(error):
-            index.iter_neighborhoods(*arguments, **options)

@@ -145,39 +145,6 @@ def test_arguments_that_are_not_paths_are_refused(call, path):
     assert type(raised(call, path)) is TypeError
 
 
-@pytest.mark.parametrize(
-    ("v", "r", "options"),
-    (
-        ([50], 1.0, {}),
-        ([-1], 1.0, {}),
-        ([0.5], 1.0, {}),
-        ([[0]], 1.0, {}),
-        ([True, 0], 1.0, {}),
-        ([], -1.0, {}),
-        ([], float("nan"), {}),
-        ([0], -1.0, {}),
-        ([0, 1], [1.0, -1.0], {}),
-        ([0, 1], [1.0], {}),
-        ([0], "1", {}),
-        ([0], 1.0, {"workers": 0}),
-        ([0], 1.0, {"workers": 10**30}),
-        ([0], 1.0, {"unit": "mile"}),
-        ([0], 1.0, {"unit": ["edge"]}),
-    ),
-)
-def test_every_method_and_function_gives_the_same_error(v, r, options):
-    calls = INDEX.neighborhoods, INDEX.counts, INDEX.iter_neighborhoods
-    errors = [raised(call, r, v, method=method, **options) for call in calls for method in METHODS]
-    assert len({(type(error), str(error)) for error in errors}) == 1, errors
-
-
-@pytest.mark.parametrize(("v", "r"), ((50, 1.0), (-1, 1.0), (0, -1.0), (0, float("nan")), (True, 1.0), (0, True), (0, [1.0])))
-def test_every_method_and_function_gives_the_same_error_for_one_vertex(v, r):
-    calls = INDEX.neighborhood, INDEX.count
-    errors = [raised(call, v, r, method=method) for call in calls for method in METHODS]
-    assert len({(type(error), str(error)) for error in errors}) == 1, errors
-
-
 def star(count):
     """A vertex joined to all others, so that every larger neighborhood is the whole mesh."""
     V = np.random.default_rng(3).normal(size=(count, 3))

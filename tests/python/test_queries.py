@@ -125,7 +125,6 @@ def test_rim_of_polygons_on_a_sheet_is_one_loop():
         (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], [], 1), r"start: expected a vertex or 3 numbers, not .* \(0,\)"),
         (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], np.zeros((4, 3)), 1), r"start: expected a vertex .* \(4, 3\)"),
         (lambda i: i.neighborhood(np.zeros((1, 3)), 1), r"start: expected a vertex or 3 numbers, not .* \(1, 3\)"),
-        (lambda i: i.neighborhood(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
         (lambda i: i.neighborhood(0, 1, metric="path", method="bfs"), r"method: 'bfs', expected 'exact'"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 1), (0, 8)]), r"cut: edge 1: vertices 0 and 8"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 9)]), r"^cut: edge 0: vertex 9, but the mesh has 9 vertices"),
