@@ -205,18 +205,11 @@ def test_the_class_can_be_used_as_others():
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     (
-        (lambda: INDEX.neighborhood(3, None), TypeError, "r: missing"),
-        (lambda: INDEX.neighborhoods(vertices=[3]), TypeError, "r: missing"),
         (lambda: INDEX.count(3, None), TypeError, "r: missing"),
-        (lambda: INDEX.neighborhoods(2.0, 3), TypeError, r"vertices: one vertex, .* neighborhood\(start, r\)"),
         (lambda: INDEX.curvature(), TypeError, "r: missing"),
-        (lambda: INDEX.curvature(1.0, scales=[1.0]), TypeError, "r: given, but so are scales"),
-        (lambda: INDEX.smooth(np.ones(50)), TypeError, "fwhm: missing"),
         (lambda: INDEX.smooth(np.ones(50), 1.0, scales=[1.0]), TypeError, "fwhm: given, but so are scales"),
         (lambda: INDEX.smoothing_matrix(), TypeError, "fwhm: missing"),
         (lambda: INDEX.smooth(np.ones(50), 1.0, weights=-np.ones(50)), ValueError, "weights: vertex 0: -1.0"),
-        (lambda: meshhood.MeshIndex("hand.stl"), TypeError, r"V: a path, .* read_mesh\(path\)"),
-        (lambda: meshhood.MeshIndex("hand.stl", [[0, 1, 2]]), TypeError, r"V: a path, .* read_mesh\(path\)"),
         (lambda: INDEX.refit("hand.stl"), TypeError, r"V: a path, .* read_mesh\(path\)"),
     ),
 )
