@@ -49,7 +49,7 @@ std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& cor
   return without_lock([&] {
     if (cut) {
       GraphData graph = graph_copy(mesh);
-      graph.adjacency = cut_copy(graph.adjacency.view(), edges);
+      graph.adjacency = about("cut", [&] { return cut_edges(graph.adjacency.view(), edges); });
       return exact_method(build(graph.view(), run));
     }
     const GraphData copy = positions_copy(mesh.positions, "V");

@@ -18,13 +18,13 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/variant.h>
 
+#include "meshhood/masks.h"
 #include "meshhood/refit.h"
 
 #include "arrays.h"
 #include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
-#include "masks.h"
 #include "methods.h"
 
 namespace nb = nanobind;
@@ -67,8 +67,15 @@ Output<std::int64_t> many_counts(Method& method, const std::optional<Ids>& verti
   return owned<std::int64_t>(method.counts(query_of(vertices, radius), run));
 }
 
+/// A value for each vertex, 0 or 1.
+using Mask = std::optional<Bytes>;
+
+/// Borrows the array.
+VertexMask mask_of(const Mask& mask) { return mask ? VertexMask(std::span(mask->data(), mask->size())) : VertexMask(); }
+
 std::shared_ptr<ExactMethod> masked_method(const ExactMethod& method, const Mask& walls, const Mask& ignored) {
-  return exact_method(without_lock([&] { return masked(method.index(), masks_of(walls, ignored)); }));
+  const Masks masks{mask_of(walls), mask_of(ignored)};
+  return exact_method(without_lock([&] { return masked(method.index(), masks); }));
 }
 
 bool are_same_masks(const Mask& a, const Mask& b) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -17,18 +18,44 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
 
+#include "meshhood/search.h"
 #include "meshhood/start.h"
 
 #include "arrays.h"
 #include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
-#include "queries.h"
+#include "methods.h"
+#include "pool.h"
 
 namespace nb = nanobind;
 
 namespace meshhood::python {
 namespace {
+
+/// The queries of an index beyond neighborhoods. Any number of threads may use it at the same time. Each call is made
+/// with the interpreter lock, which is released while the call works.
+class Queries {
+ public:
+  explicit Queries(std::shared_ptr<const ExactMethod> exact) : exact_(std::move(exact)) {}
+  Queries(const Queries&) = delete;
+  Queries& operator=(const Queries&) = delete;
+  ~Queries() = default;
+
+  [[nodiscard]] const Index& index() const { return exact_->index(); }
+
+  /// Calls `f` with a searcher by the metric that no other thread uses.
+  template <class F>
+  auto with(Metric metric, F&& f) {
+    return searchers_[static_cast<std::size_t>(metric)].with([&] { return Searcher(index(), metric); },
+                                                             std::forward<F>(f));
+  }
+
+ private:
+  std::shared_ptr<const ExactMethod> exact_;
+  // By metric, of which `Space` is the last.
+  std::array<Pool<Searcher>, static_cast<std::size_t>(Metric::Space) + 1> searchers_;
+};
 
 using SeedRows = nb::ndarray<const std::int32_t, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
 
