@@ -1,5 +1,5 @@
 # The tests of mesh and index files.
-foreach(stem shared_meshes ply obj off stl vtk freesurfer float_keeps blocks text file progress index index_progress weld write unplaced mutation)
+foreach(stem shared_meshes ply obj off stl vtk freesurfer float_keeps blocks text file progress index index_progress weld write unplaced)
   meshhood_test(io/${stem} meshhood_test_support meshhood_families)
 endforeach()
 meshhood_test(io/zip ALONE meshhood_test_support meshhood_npz)
