@@ -25,7 +25,7 @@ set(parts
   patch/clip patch/packet_patches patch/patch surface/box_tree surface/closest_point surface/first_hit surface/normal_cones surface/submesh surface/surface surface/surface_paths surface/thickness
   curvature/bits curvature/corrected curvature/curvatures curvature/features curvature/filter curvature/moments curvature/packet_moments curvature/quadric curvature/sure_leaves
   simd/joint_kernels simd/kernels simd/moment_kernels simd/path_kernels simd/section_kernels
-  whole/arguments whole/metrics whole/outlives whole/robustness whole/same_bits whole/differential whole/metamorphic)
+  whole/arguments whole/metrics whole/outlives whole/robustness whole/same_bits whole/differential)
 if(WIN32)
   list(REMOVE_ITEM parts base/packed_positions shared/parallel) # mmap and fork
 endif()

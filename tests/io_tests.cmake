@@ -1,5 +1,5 @@
 # The tests of mesh and index files.
-foreach(stem shared_meshes ply obj off stl vtk freesurfer float_keeps blocks text file progress index index_progress weld write unplaced mutation)
+foreach(stem shared_meshes ply obj off stl vtk freesurfer float_keeps blocks text file progress index index_progress weld write unplaced)
   meshhood_test(io/${stem} meshhood_test_support meshhood_families)
 endforeach()
 meshhood_test(io/zip ALONE meshhood_test_support meshhood_npz)
@@ -46,6 +46,12 @@ target_link_libraries(read_peak PRIVATE meshhood::io)
 meshhood_own_target(read_peak)
 target_compile_definitions(io_memory_test PRIVATE MESHHOOD_READ_PEAK="$<TARGET_FILE:read_peak>")
 add_dependencies(io_memory_test read_peak)
+if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  add_test(NAME io.growth
+    COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/io/run_growth.py $<TARGET_FILE:read_peak>)
+  set_tests_properties(io.growth PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+endif()
 
 meshhood_test(whole/soak ALONE meshhood_test_support meshhood_families)
 add_subdirectory(interop)

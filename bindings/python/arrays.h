@@ -14,6 +14,7 @@
 #include <nanobind/ndarray.h>
 
 #include "meshhood/mesh.h"
+#include "meshhood/start.h"
 
 namespace meshhood::python {
 
@@ -22,6 +23,20 @@ using Input = nanobind::ndarray<nanobind::ro, nanobind::c_contig, nanobind::devi
 
 /// Bytes of Python, read in place.
 using Bytes = nanobind::ndarray<const std::uint8_t, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>;
+
+/// Ids, numbers and points, read in place.
+using Ids = nanobind::ndarray<const std::int32_t, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>;
+using Reals = nanobind::ndarray<const double, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>;
+using Points = nanobind::ndarray<const double, nanobind::shape<-1, 3>, nanobind::c_contig, nanobind::device::cpu>;
+
+[[nodiscard]] inline std::span<const VertexId> ids_of(const Ids& ids) {
+  return {reinterpret_cast<const VertexId*>(ids.data()), ids.size()};
+}
+[[nodiscard]] inline std::span<const double> numbers_of(const Reals& array) { return {array.data(), array.size()}; }
+[[nodiscard]] inline std::span<const SpacePoint> points_of(const Points& points) {
+  static_assert(sizeof(SpacePoint) == 3 * sizeof(double));
+  return {reinterpret_cast<const SpacePoint*>(points.data()), points.shape(0)};
+}
 
 /// An array that is returned to Python.
 template <class T>

@@ -18,29 +18,26 @@
 #include "meshhood/batch.h"
 #include "meshhood/error.h"
 
+#include "arrays.h"
+
 namespace meshhood::python {
 
-using Rows = nanobind::ndarray<const std::int32_t, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>;
-using Radii = nanobind::ndarray<const double, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>;
-
 /// A number; an array, one for each row; or a list, of scales.
-using Radius = std::variant<double, Radii, std::vector<double>>;
+using Radius = std::variant<double, Reals, std::vector<double>>;
 
-[[nodiscard]] inline std::span<const double> numbers_of(const Radii& array) { return {array.data(), array.size()}; }
-
-[[nodiscard]] inline BatchVertices vertices_of(const std::optional<Rows>& vertices) {
+[[nodiscard]] inline BatchVertices vertices_of(const std::optional<Ids>& vertices) {
   if (!vertices) return {};
-  return std::span(reinterpret_cast<const VertexId*>(vertices->data()), vertices->size());
+  return ids_of(*vertices);
 }
 
 [[nodiscard]] inline BatchRadius radius_of(const Radius& radius) {
-  if (const auto* const radii = std::get_if<Radii>(&radius)) return numbers_of(*radii);
+  if (const auto* const radii = std::get_if<Reals>(&radius)) return numbers_of(*radii);
   if (const auto* const scales = std::get_if<std::vector<double>>(&radius)) return BatchRadius::scales(*scales);
   return std::get<double>(radius);
 }
 
 /// The query of a batch. Borrows the arrays.
-[[nodiscard]] inline BatchQuery query_of(const std::optional<Rows>& vertices, const Radius& radius,
+[[nodiscard]] inline BatchQuery query_of(const std::optional<Ids>& vertices, const Radius& radius,
                                          Metric metric = Metric::Straight) {
   return {.vertices = vertices_of(vertices), .radius = radius_of(radius), .metric = metric};
 }
@@ -55,6 +52,17 @@ using Radius = std::variant<double, Radii, std::vector<double>>;
 class ResultTooLarge : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// Calls `f`. An error of a radius names the argument `scales` if that has it; the module names `r`.
+template <class F>
+auto about_radii(const BatchRadius& radius, F&& f) {
+  try {
+    return std::forward<F>(f)();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::InvalidRadius || !radius.scales()) throw;
+    raise(ErrorCode::InvalidOption, std::string("scales: ") + error.what());
+  }
+}
 
 /// Calls `f`, whose result alone may be too large. `advice`: what to do then.
 template <class F>

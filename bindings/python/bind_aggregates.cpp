@@ -26,17 +26,16 @@ namespace meshhood::python {
 namespace {
 
 using Values = nb::ndarray<const double, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
-using Weights = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
-SignalView signal_of(const Values& values, const std::optional<Weights>& weights) {
+SignalView signal_of(const Values& values, const std::optional<Reals>& weights) {
   SignalView signal{std::span(values.data(), values.size()), values.shape(1)};
-  if (weights) signal.weights = std::span(weights->data(), weights->size());
+  if (weights) signal.weights = numbers_of(*weights);
   return signal;
 }
 
 /// A flat array, #scales by #rows by channels by #reductions.
-nb::object aggregates(const ExactMethod& method, const Values& values, const std::optional<Weights>& weights,
-                      const std::optional<Rows>& vertices, const Radius& radius, std::vector<Reduce> reduce,
+nb::object aggregates(const ExactMethod& method, const Values& values, const std::optional<Reals>& weights,
+                      const std::optional<Ids>& vertices, const Radius& radius, std::vector<Reduce> reduce,
                       SmoothingKernel kernel, MissingValues missing, Nesting nesting, unsigned ddof, double quantile,
                       unsigned threads, std::uint64_t max_bytes, nb::handle progress, Metric metric) {
   const SignalView signal = signal_of(values, weights);
@@ -57,7 +56,7 @@ nb::object aggregates(const ExactMethod& method, const Values& values, const std
 }
 
 /// By distance, each with its radius.
-Output<double> smoothing_weights(SmoothingKernel kernel, const Weights& distances, const Weights& radii) {
+Output<double> smoothing_weights(SmoothingKernel kernel, const Reals& distances, const Reals& radii) {
   std::vector<double> weights(distances.size());
   without_lock([&] {
     for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -68,9 +67,7 @@ Output<double> smoothing_weights(SmoothingKernel kernel, const Weights& distance
 }
 
 Output<double> areas(const Input& positions, const Input& corners, const std::optional<Input>& offsets) {
-  const IndicesView flat = indices_of(corners, "F");
-  const MeshView mesh{positions_of(positions, "V"),
-                      offsets ? FacesView::polygons(indices_of(*offsets, "F"), flat) : FacesView::triangles(flat)};
+  const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
   return owned<double>(without_lock([&] { return vertex_areas(mesh); }));
 }
 

@@ -31,7 +31,7 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
-auto curvatures_of(const Surface& surface, const std::optional<Rows>& vertices, const Radius& radius, bool libigl,
+auto curvatures_of(const Surface& surface, const std::optional<Ids>& vertices, const Radius& radius, bool libigl,
                    bool jet, bool filter, unsigned threads, nb::handle progress, Metric metric) {
   CurvatureOptions options = libigl ? like_libigl() : CurvatureOptions{};
   options.fit = jet ? CurvatureFit::Jet : CurvatureFit::Quadric;
@@ -57,7 +57,7 @@ auto curvatures_of(const Surface& surface, const std::optional<Rows>& vertices, 
   return std::tuple(k1, k2, nb::object(vectors[0]), nb::object(vectors[1]), state, count);
 }
 
-auto corrected_curvatures_of(const Surface& surface, const std::optional<Rows>& vertices, const Radius& radius,
+auto corrected_curvatures_of(const Surface& surface, const std::optional<Ids>& vertices, const Radius& radius,
                              unsigned threads, nb::handle progress, Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
   const Run run{.threads = threads, .progress = progress_to(progress)};
@@ -72,14 +72,14 @@ auto corrected_curvatures_of(const Surface& surface, const std::optional<Rows>& 
                     vectors(found.measures, CorrectedCurvatures::kMeasures));
 }
 
-MomentOptions moment_options(unsigned degree, const std::optional<Radii>& weights) {
+MomentOptions moment_options(unsigned degree, const std::optional<Reals>& weights) {
   MomentOptions options{.degree = degree, .weights = {}};
   if (weights) options.weights = numbers_of(*weights);
   return options;
 }
 
-Output<double> moments_of(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius,
-                          unsigned degree, const std::optional<Radii>& weights, unsigned threads, nb::handle progress,
+Output<double> moments_of(const ExactMethod& method, const std::optional<Ids>& vertices, const Radius& radius,
+                          unsigned degree, const std::optional<Reals>& weights, unsigned threads, nb::handle progress,
                           Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
   const MomentOptions options = moment_options(degree, weights);
@@ -90,8 +90,8 @@ Output<double> moments_of(const ExactMethod& method, const std::optional<Rows>& 
   return owned<double>(std::move(found), {rows, columns});
 }
 
-auto components_of(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius,
-                   const std::optional<Radii>& weights, unsigned threads, nb::handle progress, Metric metric) {
+auto components_of(const ExactMethod& method, const std::optional<Ids>& vertices, const Radius& radius,
+                   const std::optional<Reals>& weights, unsigned threads, nb::handle progress, Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
   const MomentOptions options = moment_options(0, weights);
   const Run run{.threads = threads, .progress = progress_to(progress)};
@@ -102,19 +102,19 @@ auto components_of(const ExactMethod& method, const std::optional<Rows>& vertice
                     owned<double>(std::move(found.axes), {rows, 3, 3}));
 }
 
-Output<double> features_of(const Surface& surface, const std::optional<Rows>& vertices, const Radius& radius,
-                           std::vector<Feature> kinds, const std::optional<Radii>& areas, bool filter, unsigned threads,
-                           nb::handle progress, Metric metric) {
+Output<double> features_of(const Surface& surface, const std::optional<Ids>& vertices, const Radius& radius,
+                           std::vector<Feature> kinds, bool filter, unsigned threads, nb::handle progress,
+                           Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
-  FeatureOptions options{.kinds = std::move(kinds), .areas = {}, .filter = filter};
+  const FeatureOptions options{.kinds = std::move(kinds), .areas = {}, .filter = filter};
   const Run run{.threads = threads, .progress = progress_to(progress)};
-  if (areas) options.areas = numbers_of(*areas);
-  std::vector<double> found = without_lock([&] { return features(surface, query, options, run); });
+  std::vector<double> found =
+      without_lock([&] { return about_radii(query.radius, [&] { return features(surface, query, options, run); }); });
   const std::size_t rows = found.size() / options.kinds.size();
   return owned<double>(std::move(found), {rows, options.kinds.size()});
 }
 
-auto persistence_of(const Radii& values, const Radii& radii, double threshold) {
+auto persistence_of(const Reals& values, const Reals& radii, double threshold) {
   Persistence found = without_lock([&] { return persistence(numbers_of(values), numbers_of(radii), threshold); });
   return std::tuple(owned<std::int32_t>(std::move(found.scales)), owned<double>(std::move(found.strength)),
                     owned<double>(std::move(found.radius)));
@@ -147,8 +147,8 @@ void bind_curvature(nb::module_& module, nb::class_<Surface>& surface) {
            nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"))
       .def("corrected", &corrected_curvatures_of, nb::arg().none(), nb::arg(), nb::arg("threads"),
            nb::arg("progress").none(), nb::arg("metric"))
-      .def("features", &features_of, nb::arg().none(), nb::arg(), nb::arg("kinds"), nb::arg("areas").none(),
-           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"));
+      .def("features", &features_of, nb::arg().none(), nb::arg(), nb::arg("kinds"), nb::arg("filter"),
+           nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"));
   module.def("moments", &moments_of, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("degree"),
              nb::arg("weights").none(), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"));
   module.def("principal_components", &components_of, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("weights").none(),

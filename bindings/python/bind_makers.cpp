@@ -49,7 +49,7 @@ std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& cor
   return without_lock([&] {
     if (cut) {
       GraphData graph = graph_copy(mesh);
-      graph.adjacency = cut_copy(graph.adjacency.view(), edges);
+      graph.adjacency = about("cut", [&] { return cut_edges(graph.adjacency.view(), edges); });
       return exact_method(build(graph.view(), run));
     }
     const GraphData copy = positions_copy(mesh.positions, "V");
@@ -162,6 +162,16 @@ void bind_makers(nb::module_& module) {
   module.def("exact", &make_exact, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("cut").none(),
              nb::arg("threads"), nb::arg("progress").none());
   module.def("place", &place_all, nb::arg(), nb::arg(), nb::arg("offsets").none());
+  module.def(
+      "check_mesh",
+      [](const Input& positions, const Input& corners, const std::optional<Input>& offsets) {
+        const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
+        without_lock([&] {
+          about("V", [&] { validate(mesh.positions); });
+          about("F", [&] { validate(mesh); });
+        });
+      },
+      nb::arg(), nb::arg(), nb::arg("offsets").none());
   module.def("exact_of_points", &make_linked, nb::arg(), nb::arg("link"), nb::arg("max_edges"), nb::arg("threads"),
              nb::arg("progress").none());
   module.def("exact_of_faces", &make_of_faces, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("threads"),

@@ -18,13 +18,13 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/variant.h>
 
+#include "meshhood/masks.h"
 #include "meshhood/refit.h"
 
 #include "arrays.h"
 #include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
-#include "masks.h"
 #include "methods.h"
 
 namespace nb = nanobind;
@@ -42,7 +42,7 @@ auto one_with_distances(Method& method, VertexId v, double radius) {
   return std::pair(owned<std::int32_t>(std::move(answer.ids)), owned<double>(std::move(answer.distances)));
 }
 
-auto many(Method& method, const std::optional<Rows>& vertices, const Radius& radius, bool distances, bool sorted,
+auto many(Method& method, const std::optional<Ids>& vertices, const Radius& radius, bool distances, bool sorted,
           unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
   const BatchQuery query = query_of(vertices, radius);
   const BatchOptions options{.distances = distances, .sorted = sorted};
@@ -61,14 +61,21 @@ auto many(Method& method, const std::optional<Rows>& vertices, const Radius& rad
   return std::tuple(owned<std::int64_t>(std::move(offsets)), std::move(ids), std::move(found_distances));
 }
 
-Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vertices, const Radius& radius,
+Output<std::int64_t> many_counts(Method& method, const std::optional<Ids>& vertices, const Radius& radius,
                                  unsigned threads, nb::handle progress) {
   const Run run{.threads = threads, .progress = progress_to(progress)};
   return owned<std::int64_t>(method.counts(query_of(vertices, radius), run));
 }
 
+/// A value for each vertex, 0 or 1.
+using Mask = std::optional<Bytes>;
+
+/// Borrows the array.
+VertexMask mask_of(const Mask& mask) { return mask ? VertexMask(std::span(mask->data(), mask->size())) : VertexMask(); }
+
 std::shared_ptr<ExactMethod> masked_method(const ExactMethod& method, const Mask& walls, const Mask& ignored) {
-  return exact_method(without_lock([&] { return masked(method.index(), masks_of(walls, ignored)); }));
+  const Masks masks{mask_of(walls), mask_of(ignored)};
+  return exact_method(without_lock([&] { return masked(method.index(), masks); }));
 }
 
 bool are_same_masks(const Mask& a, const Mask& b) {

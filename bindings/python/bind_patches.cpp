@@ -73,7 +73,7 @@ class Patches {
  public:
   explicit Patches(Surface surface) : surface_(std::move(surface)) {}
 
-  auto measure_rows(const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
+  auto measure_rows(const std::optional<Ids>& vertices, const Radius& radius, unsigned threads,
                     nb::handle progress) const {
     const BatchQuery query = query_of(vertices, radius);
     const Run run{.threads = threads, .progress = progress_to(progress)};
@@ -81,7 +81,7 @@ class Patches {
     return std::pair(owned<double>(std::move(found.area)), owned<double>(std::move(found.volume)));
   }
 
-  auto find_gaps(const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
+  auto find_gaps(const std::optional<Ids>& vertices, const Radius& radius, unsigned threads,
                  nb::handle progress) const {
     const BatchQuery query = query_of(vertices, radius);
     const Run run{.threads = threads, .progress = progress_to(progress)};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -17,42 +18,57 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
 
+#include "meshhood/search.h"
 #include "meshhood/start.h"
 
 #include "arrays.h"
 #include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
-#include "queries.h"
+#include "methods.h"
+#include "pool.h"
 
 namespace nb = nanobind;
 
 namespace meshhood::python {
 namespace {
 
-using Seeds = nb::ndarray<const std::int32_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
-using SeedRows = nb::ndarray<const std::int32_t, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
-using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-using Reals = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+/// The queries of an index beyond neighborhoods. Any number of threads may use it at the same time. Each call is made
+/// with the interpreter lock, which is released while the call works.
+class Queries {
+ public:
+  explicit Queries(std::shared_ptr<const ExactMethod> exact) : exact_(std::move(exact)) {}
+  Queries(const Queries&) = delete;
+  Queries& operator=(const Queries&) = delete;
+  ~Queries() = default;
 
-std::span<const VertexId> ids_of(const std::int32_t* first, std::size_t count) {
-  return {reinterpret_cast<const VertexId*>(first), count};
-}
+  [[nodiscard]] const Index& index() const { return exact_->index(); }
+
+  /// Calls `f` with a searcher by the metric that no other thread uses.
+  template <class F>
+  auto with(Metric metric, F&& f) {
+    return searchers_[static_cast<std::size_t>(metric)].with([&] { return Searcher(index(), metric); },
+                                                             std::forward<F>(f));
+  }
+
+ private:
+  std::shared_ptr<const ExactMethod> exact_;
+  // By metric, of which `Space` is the last.
+  std::array<Pool<Searcher>, static_cast<std::size_t>(Metric::Space) + 1> searchers_;
+};
+
+using SeedRows = nb::ndarray<const std::int32_t, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
 
 /// The center of a point, or none: then the start is the vertex `seeds[0]`.
 using Center = std::optional<SpacePoint>;
 
-Start start_of(const Center& center, const Seeds& seeds) {
-  const std::span<const VertexId> ids = ids_of(seeds.data(), seeds.size());
+Start start_of(const Center& center, const Ids& seeds) {
+  const std::span<const VertexId> ids = ids_of(seeds);
   return center ? Start(*center, ids) : Start(ids.front());
 }
 
-SpacePoint point_of(const Points& points, std::size_t i) {
-  return {points.data()[3 * i], points.data()[3 * i + 1], points.data()[3 * i + 2]};
-}
-
 /// Also returns whether a seed lies in the ball, as `stroke` and `nested` do.
-auto region(Queries& queries, Metric metric, const Center& center, const Seeds& seeds, double radius) {
+auto region(Queries& queries, Metric metric, const Center& center, const Ids& seeds, double radius) {
   const Start start = start_of(center, seeds);
   std::vector<VertexId> ids;
   std::vector<double> distances;
@@ -66,12 +82,12 @@ auto region(Queries& queries, Metric metric, const Center& center, const Seeds& 
 /// By vertices if there are no centers: then they are the seeds of the rows. Seeds that do not exist are -1.
 auto stroke(Queries& queries, Metric metric, const std::optional<Points>& centers, const SeedRows& seeds,
             const Reals& radii) {
+  const std::span all_seeds(reinterpret_cast<const VertexId*>(seeds.data()), seeds.size());
   std::vector<Dab> dabs;
   for (std::size_t i = 0; i < radii.size(); ++i) {
-    const std::int32_t* const row = seeds.data() + i * seeds.shape(1);
-    std::size_t count = 0;
-    while (count < seeds.shape(1) && row[count] >= 0) ++count;
-    const Start start = centers ? Start(point_of(*centers, i), ids_of(row, count)) : Start(*row);
+    const std::span row = all_seeds.subspan(i * seeds.shape(1), seeds.shape(1));
+    const std::span existing(row.begin(), std::ranges::find(row, kNoVertex));
+    const Start start = centers ? Start(points_of(*centers)[i], existing) : Start(row.front());
     dabs.push_back({start, radii.data()[i]});
   }
   std::vector<VertexId> ids;
@@ -82,28 +98,28 @@ auto stroke(Queries& queries, Metric metric, const std::optional<Points>& center
   return std::pair(owned<std::int32_t>(std::move(ids)), has_seeds);
 }
 
-auto nested(Queries& queries, Metric metric, const Center& center, const Seeds& seeds, const Reals& radii) {
+auto nested(Queries& queries, Metric metric, const Center& center, const Ids& seeds, const Reals& radii) {
   const Start start = start_of(center, seeds);
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
   const bool has_seed = queries.with(metric, [&](Searcher& searcher) {
-    searcher.nested(start, std::span(radii.data(), radii.size()), ids, counts);
+    searcher.nested(start, numbers_of(radii), ids, counts);
     return radii.size() == 0 || searcher.has_seed(start, radii.data()[radii.size() - 1]);
   });
   return std::tuple(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)), has_seed);
 }
 
-bool contains(Queries& queries, Metric metric, const Center& center, const Seeds& seeds, VertexId w, double radius) {
+bool contains(Queries& queries, Metric metric, const Center& center, const Ids& seeds, VertexId w, double radius) {
   return queries.with(metric,
                       [&](Searcher& searcher) { return searcher.contains(start_of(center, seeds), w, radius); });
 }
 
-double connecting_radius(Queries& queries, Metric metric, const Center& center, const Seeds& seeds, VertexId w) {
+double connecting_radius(Queries& queries, Metric metric, const Center& center, const Ids& seeds, VertexId w) {
   return queries.with(metric,
                       [&](Searcher& searcher) { return searcher.connecting_radius(start_of(center, seeds), w); });
 }
 
-auto nearest_connected(Queries& queries, Metric metric, const Center& center, const Seeds& seeds, std::size_t k) {
+auto nearest_connected(Queries& queries, Metric metric, const Center& center, const Ids& seeds, std::size_t k) {
   std::vector<VertexId> ids;
   std::vector<double> radii;
   queries.with(metric, [&](Searcher& searcher) {
@@ -117,8 +133,8 @@ auto nearest_vertices(Queries& queries, const Points& points) {
   std::vector<VertexId> ids;
   std::vector<double> distances;
   without_lock([&] {
-    for (std::size_t i = 0; i < points.shape(0); ++i) {
-      const NearestVertex found = nearest(queries.index(), point_of(points, i));
+    for (const SpacePoint& point : points_of(points)) {
+      const NearestVertex found = nearest(queries.index(), point);
       ids.push_back(found.vertex);
       distances.push_back(found.distance);
     }

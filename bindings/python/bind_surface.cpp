@@ -28,13 +28,6 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
-using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-using IdList = nb::ndarray<const std::int32_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
-
-std::span<const VertexId> id_span(const IdList& ids) {
-  return {reinterpret_cast<const VertexId*>(ids.data()), ids.size()};
-}
-
 Corners corners_of(bool all) { return all ? Corners::All : Corners::Any; }
 
 Surface of_faces(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets) {
@@ -51,16 +44,10 @@ Surface of_mesh(const Input& positions, const Input& corners, const std::optiona
   });
 }
 
-Surface of_normals(const ExactMethod& method, const Radii& normals, const std::optional<Input>& corners,
+Surface of_normals(const ExactMethod& method, const Reals& normals, const std::optional<Input>& corners,
                    const std::optional<Input>& offsets) {
-  const std::span<const double> values(normals.data(), normals.size());
   const FacesView faces = corners ? faces_of(*corners, offsets) : FacesView{};
-  return without_lock([&] { return Surface::of_normals(method.index(), values, faces); });
-}
-
-std::span<const SpacePoint> space_points(const Points& points) {
-  static_assert(sizeof(SpacePoint) == 3 * sizeof(double));
-  return {reinterpret_cast<const SpacePoint*>(points.data()), points.shape(0)};
+  return without_lock([&] { return Surface::of_normals(method.index(), numbers_of(normals), faces); });
 }
 
 /// The faces, the places in them of the corners of their triangles, barycentric coordinates, points and distances of
@@ -92,36 +79,35 @@ auto columns(unsigned threads, nb::handle progress, const Find& find) {
 }
 
 auto closest_points(const Surface& surface, const Points& points, unsigned threads, nb::handle progress) {
-  return columns(threads, progress, [&](const Run& run) { return surface.closest_points(space_points(points), run); });
+  return columns(threads, progress, [&](const Run& run) { return surface.closest_points(points_of(points), run); });
 }
 
 auto first_hits(const Surface& surface, const Points& origins, const Points& directions, unsigned threads,
                 nb::handle progress) {
-  return columns(threads, progress, [&](const Run& run) {
-    return surface.first_hits(space_points(origins), space_points(directions), run);
-  });
+  return columns(threads, progress,
+                 [&](const Run& run) { return surface.first_hits(points_of(origins), points_of(directions), run); });
 }
 
-Output<double> measure_thickness(const Surface& surface, const std::optional<IdList>& ids, bool by_sphere,
+Output<double> measure_thickness(const Surface& surface, const std::optional<Ids>& ids, bool by_sphere,
                                  unsigned threads, nb::handle progress) {
   const Run run{.threads = threads, .progress = progress_to(progress)};
-  const BatchVertices vertices = ids ? BatchVertices(id_span(*ids)) : BatchVertices();
+  const BatchVertices vertices = ids ? BatchVertices(ids_of(*ids)) : BatchVertices();
   const ThicknessMethod method = by_sphere ? ThicknessMethod::Sphere : ThicknessMethod::Ray;
   return owned<double>(without_lock([&] { return thickness(surface, vertices, method, run); }));
 }
 
-Output<std::int64_t> faces(const Surface& surface, const IdList& ids, bool all) {
-  return owned<std::int64_t>(surface.faces(id_span(ids), corners_of(all)));
+Output<std::int64_t> faces(const Surface& surface, const Ids& ids, bool all) {
+  return owned<std::int64_t>(surface.faces(ids_of(ids), corners_of(all)));
 }
 
-auto submesh(const Surface& surface, const IdList& ids, bool all) {
-  Submesh part = surface.submesh(id_span(ids), corners_of(all));
+auto submesh(const Surface& surface, const Ids& ids, bool all) {
+  Submesh part = surface.submesh(ids_of(ids), corners_of(all));
   return std::tuple(owned<std::int32_t>(std::move(part.vertices)), owned<std::int64_t>(std::move(part.faces)),
                     owned<std::int64_t>(std::move(part.offsets)), owned<std::int32_t>(std::move(part.corners)));
 }
 
-auto rim(const Surface& surface, const IdList& ids, const SpacePoint& center, double radius) {
-  Rim rim = surface.rim(id_span(ids), center, radius);
+auto rim(const Surface& surface, const Ids& ids, const SpacePoint& center, double radius) {
+  Rim rim = surface.rim(ids_of(ids), center, radius);
   const std::size_t size = rim.points.size();
   return std::tuple(owned<double>(std::move(rim.points), {size, 3}),
                     owned<std::int32_t>(std::move(rim.edges), {size, 2}), owned<std::int64_t>(std::move(rim.offsets)),

@@ -30,7 +30,7 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
-auto unconnected(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
+auto unconnected(const ExactMethod& method, const std::optional<Ids>& vertices, const Radius& radius, unsigned threads,
                  nb::handle progress, Metric metric) {
   const BatchQuery query = query_of(vertices, radius, metric);
   const Run run{.threads = threads, .progress = progress_to(progress)};
@@ -41,7 +41,7 @@ auto unconnected(const ExactMethod& method, const std::optional<Rows>& vertices,
 
 constexpr const char* kFewer = "take fewer vertices at a time";
 
-auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices, std::size_t k, std::int32_t fill,
+auto k_nearest_of(const ExactMethod& method, const std::optional<Ids>& vertices, std::size_t k, std::int32_t fill,
                   Metric metric, double radius, unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
   const NearestOptions options{.metric = metric, .radius = radius};
@@ -58,14 +58,13 @@ auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices
                    owned<double>(std::move(found.distances), {rows, k}));
 }
 
-auto discs_of(const ExactMethod& method, const std::optional<Rows>& vertices, double area, const Radii& areas,
+auto discs_of(const ExactMethod& method, const std::optional<Ids>& vertices, double area, const Reals& areas,
               Metric metric, double radius, unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
   const NearestOptions options{.metric = metric, .radius = radius};
   const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
   Neighborhoods found = limited(kFewer, [&] {
-    return without_lock(
-        [&] { return discs(method.index(), asked, area, std::span(areas.data(), areas.size()), options, run); });
+    return without_lock([&] { return discs(method.index(), asked, area, numbers_of(areas), options, run); });
   });
   return std::tuple(owned<std::int64_t>(std::move(found.offsets)), owned<std::int32_t>(std::move(found.ids)),
                     owned<double>(std::move(found.distances)));

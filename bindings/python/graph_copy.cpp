@@ -52,10 +52,6 @@ GraphData graph_copy(const MeshView& mesh) {
   return copy;
 }
 
-Adjacency cut_copy(const AdjacencyView& graph, const IndicesView& cut) {
-  return about("cut", [&] { return cut_edges(graph, cut); });
-}
-
 void check_faces(const GraphView& graph, const FacesView& faces) {
   const Adjacency of_faces = about("F", [&] { return adjacency({graph.positions, faces}); });
   const auto missing = first_missing(of_faces.view(), graph.adjacency);

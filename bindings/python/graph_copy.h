@@ -18,9 +18,6 @@ namespace meshhood::python {
 /// Throws Error{InvalidMesh, TooLarge}. The message begins with the argument: `V` or `F`.
 [[nodiscard]] GraphData graph_copy(const MeshView& mesh);
 
-/// The graph without the edges `cut`. Throws as `cut_edges`. The message begins with the argument: `cut`.
-[[nodiscard]] Adjacency cut_copy(const AdjacencyView& graph, const IndicesView& cut);
-
 /// Throws Error{InvalidMesh} unless the faces are those of the graph: some of its faces, or all of them if edges were
 /// cut. So the edges of one are edges of the other. The message begins with the argument: `F`.
 void check_faces(const GraphView& graph, const FacesView& faces);

@@ -20,7 +20,6 @@ const KINDS = [
   'crease', 'mean', 'gaussian', 'k1', 'k2', 'curvedness', 'shape_index', 'area', 'volume', 'gap', 'height',
   'variation',
 ];
-const KINDS_OF_AREAS = ['height', 'variation'];
 
 // The options of the calls, with their defaults. Made once: a small query takes less time than spreading them.
 const BUILDING = { offsets: null, cut: null, progress: undefined };
@@ -313,14 +312,14 @@ export class MeshIndex extends Owner {
 
   #findRows(r, given, { distances = false, byId = false, countOnly = false }) {
     const place = chooseMethod(given);
-    withRows(this.instance, r, given, this.#scale(given.unit), (...rows) =>
-      this.instance.call('batch', ...rows, place, countOnly, distances, byId));
+    withRows(this.instance, r, given, this.#scale(given.unit), () =>
+      this.instance.call('batch', place, countOnly, distances, byId));
   }
 
   kNearest(k, options = {}) {
     const given = withDefaults(options, NEAREST);
     expectSize(k, 'k');
-    this.#findNearest(given, (...rows) => this.instance.call('k_nearest', ...rows, k));
+    this.#findNearest(given, () => this.instance.call('k_nearest', k));
     const found = { ids: this.instance.takeIds(), distances: this.instance.takeReals() };
     this.instance.releaseAnswer();
     return found;
@@ -331,17 +330,14 @@ export class MeshIndex extends Owner {
     expectNumber(area, 'area');
     const areas = this.#weights(given.weights, given.faces);
     if (areas === null) throw new TypeError("weights: null, expected 'area' or a typed array of numbers");
-    this.#findNearest(given, (...rows) => this.instance.with([areas], (list) =>
-      this.instance.call('discs', ...rows, area, list, areas.length)));
+    this.#findNearest(given, () => this.instance.with([areas], (list) =>
+      this.instance.call('discs', area, list, areas.length)));
     return this.#takeRows(true);
   }
 
   #findNearest(given, use) {
-    const { vertices, r } = given;
-    expectVertices(vertices, 'vertices');
-    expectRadius(r);
-    withMasks(this.instance, given, () => this.instance.with([vertices], (ids) =>
-      use(ids, vertices?.length ?? 0, this.#scale(given.unit) * r)));
+    expectRadius(given.r);
+    withRows(this.instance, given.r, given, this.#scale(given.unit), use);
   }
 
   #takeRows(distances) {
@@ -353,8 +349,7 @@ export class MeshIndex extends Owner {
 
   nearestUnconnected(r, options = {}) {
     const given = withDefaults(options, ROWS);
-    withRows(this.instance, r, given, this.#scale(given.unit), (...rows) =>
-      this.instance.call('nearest_unconnected', ...rows));
+    withRows(this.instance, r, given, this.#scale(given.unit), () => this.instance.call('nearest_unconnected'));
     const found = { vertex: this.instance.takeIds(), distance: this.instance.takeReals() };
     this.instance.releaseAnswer();
     return found;
@@ -382,7 +377,7 @@ export class MeshIndex extends Owner {
 
   #callOnSurface(name, r, given) {
     useFaces(this.instance, given.faces);
-    withRows(this.instance, r, given, this.#scale(given.unit), (...rows) => this.instance.call(name, ...rows));
+    withRows(this.instance, r, given, this.#scale(given.unit), () => this.instance.call(name));
   }
 
   patch(start, r, options = {}) {
@@ -449,10 +444,10 @@ export class MeshIndex extends Owner {
     expectSize(ddof, 'ddof');
     expectNumber(q, 'q');
     const weighed = this.#weights(weights, faces);
-    withRows(this.instance, r, given, this.#scale(unit), (...rows) =>
+    withRows(this.instance, r, given, this.#scale(unit), () =>
       this.instance.with([signal, weighed, reductions], (numbers, weightList, list) => this.instance.call('aggregate',
-        ...rows, numbers, signal.length, channels, weightList, weighed?.length ?? 0, list, reductions.length,
-        ...choices, ddof, q)));
+        numbers, signal.length, channels, weightList, weighed?.length ?? 0, list, reductions.length, ...choices, ddof,
+        q)));
     const aggregates = this.instance.takeReals();
     this.instance.releaseAnswer();
     return aggregates;
@@ -483,9 +478,13 @@ export class MeshIndex extends Owner {
     if (like !== null) choose(['libigl'], like, 'like');
     const place = choose(FITS, fit, 'fit');
     this.#useNormals(faces, normals);
-    withRows(this.instance, r, given, this.#scale(unit), (...rows) => this.instance.call(
-      'curvature', ...rows, place, Boolean(filter), like !== null));
-    return this.#takeCurvature();
+    withRows(this.instance, r, given, this.#scale(unit), () =>
+      this.instance.call('curvature', place, Boolean(filter), like !== null));
+    const numbers = this.instance.takeReals();
+    const state = Uint8Array.from(this.instance.takeCounts());
+    this.instance.releaseAnswer();
+    const parts = [[0, 1], [1, 2], [2, 5], [5, 8]].map((ends) => ends.map((end) => end * state.length));
+    return new Curvature(...parts.map((ends) => numbers.slice(...ends)), state);
   }
 
   features(r, options = {}) {
@@ -493,10 +492,8 @@ export class MeshIndex extends Owner {
     const { faces, kinds, filter, unit } = given;
     const places = chooseSome(KINDS, kinds, 'kinds');
     useFaces(this.instance, faces);
-    const areas = places.some((place) => KINDS_OF_AREAS.includes(KINDS[place])) ? this.#weights('area', faces) : null;
-    withRows(this.instance, r, given, this.#scale(unit), (...rows) =>
-      this.instance.with([places, areas], (list, areaList) => this.instance.call(
-        'features', ...rows, list, places.length, areaList, areas?.length ?? 0, Boolean(filter))));
+    withRows(this.instance, r, given, this.#scale(unit), () => this.instance.with([places], (list) =>
+      this.instance.call('features', list, places.length, Boolean(filter))));
     const found = this.instance.takeReals();
     this.instance.releaseAnswer();
     return found;
@@ -523,14 +520,5 @@ export class MeshIndex extends Owner {
       const vectors = toReals(normals, 'normals');
       this.instance.with([vectors], (list) => this.instance.call('use_normals', list, vectors.length));
     }
-  }
-
-  #takeCurvature() {
-    const rows = this.instance.call('curvature_rows');
-    const take = (which, size) => this.instance.take(Float64Array, this.instance.call('curvature_reals', which), size);
-    const state = this.instance.take(Uint8Array, this.instance.call('curvature_states'), rows);
-    const curvature = new Curvature(take(0, rows), take(1, rows), take(2, 3 * rows), take(3, 3 * rows), state);
-    this.instance.call('release_curvature');
-    return curvature;
   }
 }

@@ -48,11 +48,13 @@ export function withMasks(instance, given, use) {
   });
 }
 
-/** The same for rows. `use` gets the six arguments that describe them. `scale` is that of the unit. */
+/** The same for rows, which are then those of the call. `scale` is that of the unit. */
 export function withRows(instance, r, given, scale, use) {
   const { vertices, scales = null } = given;
   expectVertices(vertices, 'vertices');
   const { common, list } = readRadius(r, scales, scale);
-  return withMasks(instance, given, () => instance.with([vertices, list], (ids, radii) =>
-    use(ids, vertices?.length ?? 0, common, radii, list?.length ?? 0, scales !== null)));
+  return withMasks(instance, given, () => instance.with([vertices, list], (ids, radii) => {
+    instance.call('use_rows', ids, vertices?.length ?? 0, common, radii, list?.length ?? 0, scales !== null);
+    return use();
+  }));
 }

@@ -167,12 +167,12 @@ class Plain:
                     heapq.heappush(queue, (d + step, w))
         return found
 
-    def connecting_radii(self, v, most, walls="", ignored="", point=None, seeds=None):
-        """The first `most` vertices and the radii that connect them, by radius, distance and id; all for None."""
+    def connecting_radii(self, v, most, walls="", ignored="", point=None, seeds=None, r=math.inf):
+        """The first `most` vertices and the radii that connect them, up to r, by radius, distance and id; all for None."""
         walls, ignored = self.mask(walls), self.mask(ignored)
         starts = [int(self.kept[s]) for s in (seeds if seeds is not None else [v])]
         squared = self.squared(self.V[starts[0]] if point is None else np.array(point))
-        queue = [(squared[s], s) for s in starts if not walls[s]]
+        queue = [(squared[s], s) for s in starts if not walls[s] and math.sqrt(squared[s]) <= r]
         heapq.heapify(queue)
         found, done = {}, set()
         while queue:
@@ -186,7 +186,7 @@ class Plain:
             if not ignored[v]:
                 found[v] = math.sqrt(d)
             for w in self.neighbors(v):
-                if not walls[w] and w not in done:
+                if not walls[w] and w not in done and math.sqrt(squared[w]) <= r:
                     heapq.heappush(queue, (max(d, squared[w]), w))
         first = sorted(found, key=lambda v: (found[v], squared[v], v))[:most]
         return {v: found[v] for v in first}

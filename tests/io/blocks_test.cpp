@@ -31,6 +31,7 @@ std::string outcome(Reader reader, std::string_view content, const io::ReaderOpt
   io::InputBuffer input(source, "file", content.size());
   try {
     const io::Mesh mesh = reader(input, options);
+    EXPECT_NO_THROW(validate(mesh.view()));
     std::string words;
     const auto add = [&words](const auto& values) {
       for (const auto& value : values) words += std::to_string(value) + ' ';
@@ -46,6 +47,7 @@ std::string outcome(Reader reader, std::string_view content, const io::ReaderOpt
     }
     return words;
   } catch (const Error& error) {
+    EXPECT_EQ(std::string_view(error.what()).find_first_of("\n\r"), std::string_view::npos) << "one line";
     return error.what();
   }
 }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <clocale>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <ctime>
 #include <limits>
 #include <locale>
 #include <random>
@@ -180,104 +178,6 @@ TEST(Text, LinesAreCountedForEveryLineEnd) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     expect_refused("a.obj", "v 0 0 0" + end + end + "# c" + end + "\tv 0 x 0" + end, ErrorCode::MalformedFile,
                    "a.obj:4:6: ");
-  }
-}
-
-/// The processor time of reading a file, in ticks: the least of several times, if they are short.
-double reading_time(const std::string& name, const std::string& file) {
-  std::clock_t least = std::numeric_limits<std::clock_t>::max();
-  const std::clock_t start = std::clock();
-  for (int i = 0; i == 0 || (i < 5 && std::clock() - start < CLOCKS_PER_SEC / 2); ++i) {
-    const std::clock_t begin = std::clock();
-    static_cast<void>(read(name, file));
-    least = std::min(least, std::clock() - begin);
-  }
-  return static_cast<double>(std::max<std::clock_t>(least, 1));
-}
-
-std::string repeated(const std::string& text, std::size_t count) {
-  std::string result;
-  for (std::size_t i = 0; i < count; ++i) result += text;
-  return result;
-}
-
-std::string with_line_ends(std::string lines, const std::string& end) {
-  for (std::size_t at = 0; (at = lines.find('\n', at)) != std::string::npos; at += end.size())
-    lines.replace(at, 1, end);
-  return lines;
-}
-
-/// Files of a format that grow in one way. All have fewer than 2 MB: what is quadratic often is so in a window of the
-/// file only.
-struct Growth {
-  const char* name;
-  const char* format;
-  std::string (*file)(std::size_t rows);
-};
-
-std::string ply_of(std::size_t rows, const std::string& row, const std::string& comments = "") {
-  return "ply\nformat ascii 1.0\n" + comments + "element vertex " + std::to_string(rows) +
-         "\nproperty float x\nproperty float y\nproperty float z\nend_header\n" + repeated(row, rows);
-}
-
-std::string off_of(std::size_t rows, const std::string& row) {
-  return "OFF\n" + std::to_string(rows) + " 0 0\n" + repeated(row, rows);
-}
-
-std::string stl_of(std::size_t rows, const std::string& end = "end") {
-  const std::string loop = "outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
-  return "solid\n" + repeated("facet normal 0 0 1\n" + loop + end + "loop\n" + end + "facet\n", rows / 8) +
-         "endsolid\n";
-}
-
-std::string ply_elements(std::size_t rows) {
-  std::string file = "ply\nformat ascii 1.0\n";
-  for (std::size_t i = 0; i < rows; ++i) file += "element e" + std::to_string(i) + " 0\n";
-  return file + "element vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
-}
-
-std::string ply_properties(std::size_t rows) {
-  std::string file = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
-  for (std::size_t i = 0; i < rows; ++i) file += "property float p" + std::to_string(i) + "\n";
-  return file + "end_header\n" + repeated("0 ", rows + 3) + "\n";
-}
-
-TEST(Text, ReadingTakesTimeInProportionToTheSize) {
-  const std::vector<Growth> growths = {
-      {"lines", "a.ply", [](std::size_t n) { return ply_of(n, "1 2 3\n"); }},
-      {"CR", "a.ply", [](std::size_t n) { return with_line_ends(ply_of(n, "1 2 3\n"), "\r"); }},
-      {"a tail in CR", "a.ply", [](std::size_t n) { return ply_of(n, "1 2 3\r"); }},
-      {"longer rows", "a.ply", [](std::size_t n) { return ply_of(n, "1 2 3 4\n"); }},
-      {"rows in one line", "a.ply", [](std::size_t n) { return ply_of(n, "1 2 3 "); }},
-      {"rows over lines", "a.ply", [](std::size_t n) { return ply_of(n, "1\n2\n3\n"); }},
-      {"comments", "a.ply", [](std::size_t n) { return ply_of(1, "1 2 3\n", repeated("comment of it\n", n)); }},
-      {"elements", "a.ply", ply_elements},
-      {"properties", "a.ply", ply_properties},
-      {"lines", "a.off", [](std::size_t n) { return off_of(n, "1 2 3\n"); }},
-      {"CR", "a.off", [](std::size_t n) { return with_line_ends(off_of(n, "1 2 3\n"), "\r"); }},
-      {"a tail in CR", "a.off", [](std::size_t n) { return off_of(n, "1 2 3\r"); }},
-      {"comments", "a.off", [](std::size_t n) { return off_of(1, repeated("# comment\n", n) + "1 2 3\n"); }},
-      {"comments in lines", "a.off", [](std::size_t n) { return off_of(n, "1 2 3 # comment\n"); }},
-      {"lines", "a.obj", [](std::size_t n) { return repeated("v 1 2 3\n", n); }},
-      {"CR", "a.obj", [](std::size_t n) { return repeated("v 1 2 3\r", n); }},
-      {"a tail in CR", "a.obj", [](std::size_t n) { return "v 1 2 3\n" + repeated("v 1 2 3\r", n); }},
-      {"comments", "a.obj", [](std::size_t n) { return repeated("# comment\n", n) + "v 1 2 3\n"; }},
-      {"continued lines", "a.obj", [](std::size_t n) { return repeated("v 1 \\\n2 3\n", n); }},
-      {"a continued face", "a.obj", [](std::size_t n) { return "v 1 2 3\nf 1" + repeated(" \\\n1", n) + "\n"; }},
-      {"a long line", "a.obj", [](std::size_t n) { return "v 1 2 3\nf" + repeated(" 1", n) + "\n"; }},
-      {"lines", "a.stl", [](std::size_t n) { return stl_of(n); }},
-      {"CR", "a.stl", [](std::size_t n) { return with_line_ends(stl_of(n), "\r"); }},
-      {"a tail in CR", "a.stl", [](std::size_t n) { return "solid\n" + with_line_ends(stl_of(n), "\r"); }},
-      {"end as a word", "a.stl", [](std::size_t n) { return stl_of(n, "end "); }},
-      {"solids", "a.stl", [](std::size_t n) { return repeated("solid\nendsolid\n", n); }},
-  };
-  constexpr double kFactor = 16;
-  constexpr std::size_t kRows = 2000;
-  for (const auto& [name, format, file] : growths) {
-    const double small = reading_time(format, file(kRows));
-    const double large = reading_time(format, file(static_cast<std::size_t>(kFactor) * kRows));
-    EXPECT_LT(large, 5 * kFactor * small) << format << ", " << name;
-    std::printf("%-6s %-18s %5.1f times the time for %.0f times the rows\n", format, name, large / small, kFactor);
   }
 }
 

@@ -3,6 +3,7 @@
 the arguments as they were when the call began; a thread that writes all the time may get any answer or an error, but
 never ends the process. Each attack runs in a process of its own."""
 
+import inspect
 import subprocess
 import sys
 
@@ -27,24 +28,27 @@ def run(program):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-# Arguments of each call that takes a progress function, and values that would be refused or change the result. There are
-# enough channels, radii and rows for several passes.
+# Arguments by the names of parameters, and values that would be refused or change the result. There are enough channels,
+# radii and rows for several passes.
 ARGUMENTS = """
 V, quads = meshes.grid(50)
 F = meshes.triangles(quads).astype(np.int64)
 V[:, 2] = np.sin(V[:, 0] / 5)
 index, count, draw = meshhood.MeshIndex(V, F), len(V), np.random.default_rng(1)
+radii, points = draw.random(count) * 3, V + draw.normal(size=V.shape)
 arguments = {
-    "V": V, "moved": V + draw.random(V.shape) / 9, "F": F, "cut": F[::9, :2].copy(),
-    "values": draw.random((count, 40)), "weights": draw.random(count), "normals": draw.normal(size=(count, 3)),
-    "vertices": draw.permutation(count), "r": np.array([2.0, 1.0, 3.0]), "radii": draw.random(count) * 3,
-    "changed": draw.permutation(count)[:700], "points": V + draw.normal(size=V.shape),
-    "walls": draw.random(count) < 0.1, "ignored": draw.random(count) < 0.1,
+    "V": V, "P": V, "F": F, "cut": F[::9, :2].copy(), "values": draw.random((count, 40)), "weights": draw.random(count),
+    "normals": draw.normal(size=(count, 3)), "vertices": draw.permutation(count), "r": radii, "fwhm": radii,
+    "scales": np.array([2.0, 1.0, 3.0]), "changed": draw.permutation(count)[:700], "q": points, "origins": points,
+    "directions": -points, "walls": draw.random(count) < 0.1, "ignored": draw.random(count) < 0.1,
 }
 hostile = {
-    "V": np.nan, "moved": np.nan, "F": 2**40, "cut": -1, "values": np.inf, "weights": -1.0, "normals": np.nan,
-    "vertices": -1, "r": np.nan, "radii": -1.0, "changed": 2**40, "points": np.nan, "walls": True, "ignored": True,
+    "V": np.nan, "P": np.nan, "F": 2**40, "cut": -1, "values": np.inf, "weights": -1.0, "normals": np.nan, "vertices": -1,
+    "r": -1.0, "fwhm": -1.0, "scales": np.nan, "changed": 2**40, "q": np.nan, "origins": np.nan, "directions": np.nan,
+    "walls": True, "ignored": True,
 }
+def call_of(name):
+    return meshhood.MeshIndex if name == "MeshIndex" else getattr(index, name)
 def numbers(result):
     if hasattr(result, "tocsr"):
         return result.indptr, result.indices, result.data
@@ -52,142 +56,85 @@ def numbers(result):
         return [result.positions, *result.neighborhoods(2.0)]
     return result if isinstance(result, tuple) else (result,)
 """
+ARRAYS = (
+    "V", "P", "F", "cut", "values", "weights", "normals", "vertices", "r", "fwhm", "scales", "changed", "q", "origins",
+    "directions", "walls", "ignored",
+)  # fmt: skip
+MASKS = {"walls", "ignored"}
 
-# Several radii, each of which is a search of its own, with masks.
-FILTERED = "scales=r, walls=walls, ignored=ignored, progress=p"
-FILTER = {"r": "r", "walls": "walls", "ignored": "ignored"}
-
-CALLS = {
-    "neighborhoods": ("index.neighborhoods(r, v, progress=p)", {"v": "vertices", "r": "radii"}),
-    "counts": ("index.counts(r, v, progress=p)", {"v": "vertices", "r": "radii"}),
-    "along edges": ("index.neighborhoods(r, v, metric='path', progress=p)", {"v": "vertices", "r": "radii"}),
-    "aggregate": (
-        "index.aggregate(values, scales=r, weights=weights, vertices=v, progress=p)",
-        {"values": "values", "r": "r", "weights": "weights", "v": "vertices"},
-    ),
-    "variance of patches": (
-        "index.aggregate(values, scales=r, reduce='var', weights=weights, nesting='patch', progress=p)",
-        {"values": "values", "r": "r", "weights": "weights"},
-    ),
-    "maximum": (
-        "index.aggregate(values, scales=r, reduce='max', vertices=v, progress=p)",
-        {"values": "values", "r": "r", "v": "vertices"},
-    ),
-    "smooth": ("index.smooth(values, 2.0, weights=weights, progress=p)", {"values": "values", "weights": "weights"}),
-    "curvature": ("index.curvature(scales=r, vertices=v, F=F, progress=p)", {"r": "r", "v": "vertices", "F": "F"}),
-    "curvature by normals": ("index.curvature(scales=r, normals=N, progress=p)", {"r": "r", "N": "normals"}),
-    "corrected curvature": (
-        "index.corrected_curvature(2.0, v, F=F, normals=N, progress=p)",
-        {"v": "vertices", "F": "F", "N": "normals"},
-    ),
-    "moments": (
-        "index.moments(r, v, weights=weights, progress=p)",
-        {"r": "radii", "v": "vertices", "weights": "weights"},
-    ),
-    "principal components": (
-        "index.principal_components(r, v, weights=weights, progress=p)",
-        {"r": "radii", "v": "vertices", "weights": "weights"},
-    ),
-    "features": (
-        "index.features(scales=r, vertices=v, F=F, kinds=('crease', 'area', 'variation'), progress=p)",
-        {"r": "r", "v": "vertices", "F": "F"},
-    ),
-    "build": ("meshhood.MeshIndex(V, F, cut=cut, progress=p)", {"V": "V", "F": "F", "cut": "cut"}),
-    "refit": ("index.refit(moved, progress=p)", {"moved": "moved"}),
-    "refit of some": ("index.refit(moved, changed, progress=p)", {"moved": "moved", "changed": "changed"}),
-    "neighborhoods with masks": (f"index.neighborhoods(vertices=v, {FILTERED})", {"v": "vertices", **FILTER}),
-    "counts with masks": (f"index.counts(vertices=v, {FILTERED})", {"v": "vertices", **FILTER}),
-    "along edges with masks": (f"index.neighborhoods(vertices=v, {FILTERED}, metric='path')", {"v": "vertices", **FILTER}),
-    "rings with masks": (f"index.neighborhoods(vertices=v, {FILTERED}, metric='rings')", {"v": "vertices", **FILTER}),
-    "graph with masks": (f"index.radius_neighbors_graph(vertices=v, {FILTERED})", {"v": "vertices", **FILTER}),
-    "aggregate with masks": (f"index.aggregate(values, {FILTERED})", {"values": "values", **FILTER}),
-    "aggregate along edges": (
-        f"index.aggregate(values, metric='path', weights=weights, {FILTERED})",
-        {"values": "values", "weights": "weights", **FILTER},
-    ),
-    "smoothing matrix": (
-        "index.smoothing_matrix(2.0, weights=weights, vertices=v, walls=walls, progress=p)",
-        {"weights": "weights", "v": "vertices", "walls": "walls"},
-    ),
-    "curvature with masks": (
-        f"index.curvature(vertices=v, F=F, {FILTERED})",
-        {"v": "vertices", "F": "F", **FILTER},
-    ),
-    "corrected curvature with masks": (
-        f"index.corrected_curvature(F=F, normals=N, {FILTERED})",
-        {"F": "F", "N": "normals", **FILTER},
-    ),
-    "moments with masks": (f"index.moments(weights=weights, {FILTERED})", {"weights": "weights", **FILTER}),
-    "principal components with masks": (
-        f"index.principal_components(weights=weights, {FILTERED})",
-        {"weights": "weights", **FILTER},
-    ),
-    "features with masks": (f"index.features(F=F, kinds=('crease', 'area'), {FILTERED})", {"F": "F", **FILTER}),
-    "nearest unconnected": (
-        "index.nearest_unconnected(r, v, walls=walls, ignored=ignored, progress=p)",
-        {"v": "vertices", "r": "radii", "walls": "walls", "ignored": "ignored"},
-    ),
-    "k nearest": (
-        "index.k_nearest(9, v, walls=walls, ignored=ignored, progress=p)",
-        {"v": "vertices", "walls": "walls", "ignored": "ignored"},
-    ),
-    "k nearest along edges": (
-        "index.k_nearest(9, v, metric='path', walls=walls, ignored=ignored, progress=p)",
-        {"v": "vertices", "walls": "walls", "ignored": "ignored"},
-    ),
-    "discs": (
-        "index.discs(9.0, v, weights=weights, walls=walls, ignored=ignored, progress=p)",
-        {"v": "vertices", "weights": "weights", "walls": "walls", "ignored": "ignored"},
-    ),
-    "closest points": ("index.closest_point(q, F=F, progress=p)", {"q": "points", "F": "F"}),
-    "first hits": ("index.first_hit(q, -q, F=F, progress=p)", {"q": "points", "F": "F"}),
-    "thickness": ("index.thickness(v, F=F, progress=p)", {"v": "vertices", "F": "F"}),
-    "points without faces": ("meshhood.MeshIndex.from_points(V, 1.5, progress=p)", {"V": "V"}),
-    "faces as vertices": ("meshhood.MeshIndex.of_faces(V, F, progress=p)", {"V": "V", "F": "F"}),
+# What else a call needs, and other searches of a call.
+NEEDED = {
+    "k_nearest": {"k": 9}, "discs": {"area": 9.0}, "from_points": {"link": 1.5},
+    "features": {"kinds": ("crease", "area", "variation")},
+}  # fmt: skip
+OTHERS = {
+    "neighborhoods": ({"metric": "path"}, {"metric": "rings"}),
+    "aggregate": ({"metric": "path"}, {"reduce": "var", "nesting": "patch"}, {"reduce": "max"}),
+    "k_nearest": ({"metric": "path"},),
 }
 
 
-@pytest.mark.parametrize("name", CALLS)
-def test_a_progress_function_may_write_to_each_argument_of_each_call(name):
-    call, names = CALLS[name]
+def calls():
+    """Each call that takes a progress function: its name, those of its arrays, and other words. If it takes scales, once
+    with a radius for each row, and once with scales, each of which is a search of its own, and masks."""
+    methods = {name: getattr(meshhood.MeshIndex, name) for name in dir(meshhood.MeshIndex) if name[0] != "_"}
+    for name, method in {"MeshIndex": meshhood.MeshIndex, **methods}.items():
+        parameters = inspect.signature(method).parameters if callable(method) else {}
+        arrays = {word for word in ARRAYS if word in parameters}
+        if "progress" not in parameters or not arrays:
+            continue
+        if "weights" in arrays:
+            arrays -= {"F", "q"}  # faces are for weights="area"; of `aggregate`, q is a number
+        of_rows, of_scales = arrays - MASKS - {"scales"}, arrays - {"r", "fwhm"}
+        if "normals" in arrays:  # instead of faces
+            of_rows, of_scales = of_rows - {"normals"}, of_scales - {"F"}
+        for words in ({}, *OTHERS.get(name, ())):
+            for some in (of_rows, of_scales) if "scales" in arrays else (of_scales,):
+                yield name, sorted(some), {**NEEDED.get(name, {}), **words}
+
+
+CALLS = {f"{name}({', '.join([*arrays, *map(str, words.values())])})": (name, arrays, words) for name, arrays, words in calls()}
+
+
+@pytest.mark.parametrize("case", CALLS)
+def test_a_progress_function_may_write_to_each_argument_of_each_call(case):
+    name, arrays, words = CALLS[case]
     run(ARGUMENTS + f"""
-names = {names!r}
+call = call_of({name!r})
 def answer(progress=None, **changed):
-    given = {{name: arguments[kind].copy() for name, kind in names.items()}} | changed
-    return numbers(eval({call!r}, globals(), given | {{"p": progress}}))
+    given = {{name: arguments[name].copy() for name in {arrays!r}}} | changed
+    return numbers(call(**given, **{words!r}, progress=progress))
 wanted = answer()
-for name, kind in names.items():
-    written, reports = arguments[kind].copy(), []
+for name in {arrays!r}:
+    written, reports = arguments[name].copy(), []
     def write(done, total):
         reports.append(done)
-        written[:] = hostile[kind]
+        written[:] = hostile[name]
     for got, want in zip(answer(write, **{{name: written}}), wanted):
         np.testing.assert_array_equal(got, want, err_msg=name)
     assert reports
 """)
 
 
-@pytest.mark.parametrize("name", CALLS)
-def test_the_conversion_of_each_argument_may_write_to_the_others(name):
+@pytest.mark.parametrize("case", CALLS)
+def test_the_conversion_of_each_argument_may_write_to_the_others(case):
     """The result may be that of either values, or an error; the process goes on."""
-    call, names = CALLS[name]
+    name, arrays, words = CALLS[case]
     run(ARGUMENTS + f"""
-names = {names!r}
 class Array:
     def __init__(self, values, others):
         self.values, self.others, self.dtype = values, others, values.dtype
     def __array__(self, dtype=None, copy=None):
-        for kind, other in self.others:
-            other[:] = hostile[kind]
+        for name, other in self.others:
+            other[:] = hostile[name]
         return self.values
     def __len__(self):
         return len(self.values)
-for name in names:
-    given = {{name: arguments[kind].copy() for name, kind in names.items()}}
-    others = [(names[other], given[other]) for other in names if other != name]
-    given[name] = Array(given[name], others)
+for name in {arrays!r}:
+    given = {{name: arguments[name].copy() for name in {arrays!r}}}
+    given[name] = Array(given[name], [(other, array) for other, array in given.items() if other != name])
     try:
-        eval({call!r}, globals(), given | {{"p": None}})
+        call_of({name!r})(**given, **{words!r})
     except (ValueError, TypeError):
         pass
 """)
@@ -316,17 +263,3 @@ def test_chunks_are_those_of_the_masks_at_the_call():
     for mask in masks.values():
         mask[:] = True
     np.testing.assert_array_equal(np.concatenate([part.indices for part in parts]), wanted[1])
-
-
-def test_the_arguments_of_chunks_are_checked_at_the_call():
-    index = meshhood.MeshIndex(*meshes.two_plates(5))
-    for arguments, options, error in (
-        ((1.0, [50]), {}, ValueError),
-        ((-1.0, [0]), {}, ValueError),
-        ((1.0, [0]), {"workers": 0}, ValueError),
-        ((1.0, [0]), {"method": "fast"}, ValueError),
-        ((1.0, [0]), {"unit": "mile"}, ValueError),
-        ((1.0, [0]), {"order": "file"}, ValueError),
-    ):
-        with pytest.raises(error):
-            index.iter_neighborhoods(*arguments, **options)

@@ -228,7 +228,6 @@ def test_wrong_arguments_are_refused_by_name():
         (dict(r=1, normals=V[:3]), r"normals: expected an array of shape \(18, 3\)"),
         (dict(r=1, normals=np.full_like(V, np.inf)), "normals: the normal of vertex 0 is infinite"),
         (dict(r=1, F=F + 1), "face"),
-        (dict(r=-1, F=F), "r: radius -1"),
         (dict(r=1, F=F, like="cgal"), "like: 'cgal'"),
         (dict(r=1, F=F, vertices=[99]), "vertices: row 0: vertex 99"),
     ):

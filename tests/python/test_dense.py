@@ -57,14 +57,17 @@ def areas_and_normals(V, F):
 def test_moments_of_a_graded_mesh_are_those_of_fractions(far):
     V, F = graded(far)
     index, edges, r = meshhood.MeshIndex(V, F), edges_of(V, F), 0.05
-    found = index.moments(r, degree=4)
+    weights = np.random.default_rng(2).uniform(size=len(V))
+    found, weighted = index.moments(r, degree=4), index.moments(r, degree=4, weights=weights)
     for v in (0, 21, 190, 398, 401):
-        exactly = [[Fraction(float(x)) for x in V[w]] for w in (v, *oracle.neighborhood(V, edges, v, r))]
+        ids = oracle.neighborhood(V, edges, v, r)
+        exactly = [[Fraction(float(x)) for x in V[w]] for w in (v, *ids)]
         offsets = [[a - b for a, b in zip(p, exactly[0])] for p in exactly[1:]]
         for column, (i, j, k) in enumerate(EXPONENTS):
-            exact = sum(x**i * y**j * z**k for x, y, z in offsets)
-            size = sum(float(x * x + y * y + z * z) ** ((i + j + k) / 2) for x, y, z in offsets)
-            assert abs(Fraction(float(found[v, column])) - exact) <= 1e-13 * size, (v, column)
+            for of, w in ((found, np.ones(len(ids))), (weighted, weights[ids])):
+                exact = sum(Fraction(float(one)) * x**i * y**j * z**k for one, (x, y, z) in zip(w, offsets))
+                size = sum(one * float(x * x + y * y + z * z) ** ((i + j + k) / 2) for one, (x, y, z) in zip(w, offsets))
+                assert abs(Fraction(float(of[v, column])) - exact) <= 1e-13 * size, (v, column)
 
 
 @pytest.mark.parametrize("make", (lambda: bumpy(14), lambda: graded(1e2), lambda: graded(1e6)))

@@ -145,39 +145,6 @@ def test_arguments_that_are_not_paths_are_refused(call, path):
     assert type(raised(call, path)) is TypeError
 
 
-@pytest.mark.parametrize(
-    ("v", "r", "options"),
-    (
-        ([50], 1.0, {}),
-        ([-1], 1.0, {}),
-        ([0.5], 1.0, {}),
-        ([[0]], 1.0, {}),
-        ([True, 0], 1.0, {}),
-        ([], -1.0, {}),
-        ([], float("nan"), {}),
-        ([0], -1.0, {}),
-        ([0, 1], [1.0, -1.0], {}),
-        ([0, 1], [1.0], {}),
-        ([0], "1", {}),
-        ([0], 1.0, {"workers": 0}),
-        ([0], 1.0, {"workers": 10**30}),
-        ([0], 1.0, {"unit": "mile"}),
-        ([0], 1.0, {"unit": ["edge"]}),
-    ),
-)
-def test_every_method_and_function_gives_the_same_error(v, r, options):
-    calls = INDEX.neighborhoods, INDEX.counts, INDEX.iter_neighborhoods
-    errors = [raised(call, r, v, method=method, **options) for call in calls for method in METHODS]
-    assert len({(type(error), str(error)) for error in errors}) == 1, errors
-
-
-@pytest.mark.parametrize(("v", "r"), ((50, 1.0), (-1, 1.0), (0, -1.0), (0, float("nan")), (True, 1.0), (0, True), (0, [1.0])))
-def test_every_method_and_function_gives_the_same_error_for_one_vertex(v, r):
-    calls = INDEX.neighborhood, INDEX.count
-    errors = [raised(call, v, r, method=method) for call in calls for method in METHODS]
-    assert len({(type(error), str(error)) for error in errors}) == 1, errors
-
-
 def star(count):
     """A vertex joined to all others, so that every larger neighborhood is the whole mesh."""
     V = np.random.default_rng(3).normal(size=(count, 3))
@@ -238,18 +205,11 @@ def test_the_class_can_be_used_as_others():
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     (
-        (lambda: INDEX.neighborhood(3, None), TypeError, "r: missing"),
-        (lambda: INDEX.neighborhoods(vertices=[3]), TypeError, "r: missing"),
         (lambda: INDEX.count(3, None), TypeError, "r: missing"),
-        (lambda: INDEX.neighborhoods(2.0, 3), TypeError, r"vertices: one vertex, .* neighborhood\(start, r\)"),
         (lambda: INDEX.curvature(), TypeError, "r: missing"),
-        (lambda: INDEX.curvature(1.0, scales=[1.0]), TypeError, "r: given, but so are scales"),
-        (lambda: INDEX.smooth(np.ones(50)), TypeError, "fwhm: missing"),
         (lambda: INDEX.smooth(np.ones(50), 1.0, scales=[1.0]), TypeError, "fwhm: given, but so are scales"),
         (lambda: INDEX.smoothing_matrix(), TypeError, "fwhm: missing"),
         (lambda: INDEX.smooth(np.ones(50), 1.0, weights=-np.ones(50)), ValueError, "weights: vertex 0: -1.0"),
-        (lambda: meshhood.MeshIndex("hand.stl"), TypeError, r"V: a path, .* read_mesh\(path\)"),
-        (lambda: meshhood.MeshIndex("hand.stl", [[0, 1, 2]]), TypeError, r"V: a path, .* read_mesh\(path\)"),
         (lambda: INDEX.refit("hand.stl"), TypeError, r"V: a path, .* read_mesh\(path\)"),
     ),
 )

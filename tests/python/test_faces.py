@@ -59,14 +59,6 @@ def test_triangles_are_rows_of_three_in_whatever_form_they_are_given():
 
 
 @pytest.mark.parametrize("call", CALLS)
-def test_other_faces_are_used_for_one_call(call):
-    index = meshhood.MeshIndex(V, TRIANGLES)
-    own, half = CALLS[call](index), CALLS[call](index, F=TRIANGLES[: len(TRIANGLES) // 2])
-    assert not np.array_equal(own, half, equal_nan=True)
-    np.testing.assert_array_equal(CALLS[call](index), own)
-
-
-@pytest.mark.parametrize("call", CALLS)
 def test_an_index_without_faces_says_so(tmp_path, call):
     edges = np.concatenate([TRIANGLES[:, [0, 1]], TRIANGLES[:, [1, 2]], TRIANGLES[:, [2, 0]]]).T
     graph = csr_array((np.ones(edges.shape[1]), tuple(edges)), shape=(len(V), len(V)))

@@ -207,18 +207,6 @@ def test_a_surface_of_nilearn():
     expect_same(meshhood.MeshIndex(surface.InMemoryMesh(V, F)))
 
 
-def test_a_gifti_file_is_read(tmp_path):
-    nibabel = pytest.importorskip("nibabel")
-    image = nibabel.gifti.GiftiImage()
-    for array, intent in ((V.astype(np.float32), "POINTSET"), (F.astype(np.int32), "TRIANGLE")):
-        image.add_gifti_data_array(nibabel.gifti.GiftiDataArray(array, intent=f"NIFTI_INTENT_{intent}"))
-    nibabel.save(image, tmp_path / "lh.surf.gii")
-    mesh = meshhood.read_mesh(tmp_path / "lh.surf.gii")
-    np.testing.assert_array_equal(mesh.vertices, V.astype(np.float32))
-    np.testing.assert_array_equal(mesh.faces, F)
-    assert mesh.faces.dtype == np.int32
-
-
 def test_values_are_written_by_name(tmp_path):
     pyvista = pytest.importorskip("pyvista")
     values = {"quality": V[:, 0], "direction": V.astype(np.float32)}

@@ -2,7 +2,6 @@
 """Ownership of memory and the times at which it may change (reliability rows P2 and P3)."""
 
 import gc
-import multiprocessing
 from concurrent.futures import ThreadPoolExecutor
 
 import meshes
@@ -62,21 +61,3 @@ def test_threads_may_share_an_index(method):
     with ThreadPoolExecutor(4) as pool:
         for got, want in zip(pool.map(run_query, range(len(index))), wanted):
             np.testing.assert_array_equal(got, want)
-
-
-def test_an_index_works_in_a_forked_child():
-    if "fork" not in multiprocessing.get_all_start_methods():
-        pytest.skip("no fork here")
-    index = make()
-    wanted = index.neighborhoods(4.0)[1]
-
-    def run_query(answers):
-        answers.put(index.neighborhoods(4.0, workers=2)[1])
-
-    context = multiprocessing.get_context("fork")
-    answers = context.SimpleQueue()
-    child = context.Process(target=run_query, args=(answers,))
-    child.start()
-    np.testing.assert_array_equal(answers.get(), wanted)
-    child.join()
-    assert child.exitcode == 0

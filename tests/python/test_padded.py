@@ -50,33 +50,6 @@ def test_a_longer_row_is_refused_unless_it_may_be_cut():
         meshhood.padded(INDPTR, INDICES, width=longest - 1)
 
 
-def test_rows_in_order_of_distance_keep_the_nearest():
-    indptr, indices = INDEX.neighborhoods(2.5, sort="distance")
-    ids, mask = meshhood.padded(indptr, indices, width=5, truncate=True)
-    far, _ = meshhood.padded(indptr, np.linalg.norm(V[indices] - np.repeat(V, np.diff(indptr), axis=0), axis=1))
-    assert mask.all()
-    np.testing.assert_allclose(np.linalg.norm(V[ids] - V[:, None], axis=2), far[:, :5])
-
-
-@pytest.mark.parametrize("width", (None, 4, 30))
-def test_discs_have_rows_too(width):
-    indptr, indices, distances = INDEX.discs(4.0)
-    ids, mask = meshhood.padded(indptr, indices, width=width, truncate=True)
-    lengths, _ = meshhood.padded(indptr, distances, width=width, truncate=True, fill=np.inf)
-    for i in range(len(V)):
-        np.testing.assert_array_equal(ids[i][mask[i]], indices[indptr[i] : indptr[i + 1]][:width])
-        np.testing.assert_array_equal(lengths[i][mask[i]], distances[indptr[i] : indptr[i + 1]][:width])
-
-
-def test_k_nearest_is_padded_already():
-    ids, distances = INDEX.k_nearest(12, r=1.5)
-    indptr, indices, lengths = INDEX.neighborhoods(1.5, return_distance=True, sort="distance")
-    padded, mask = meshhood.padded(indptr, indices, width=12, fill=-1)
-    np.testing.assert_array_equal(ids >= 0, mask)
-    np.testing.assert_array_equal(np.sort(ids), np.sort(padded))
-    assert np.isinf(distances[~mask]).all()
-
-
 def test_no_rows_and_empty_rows():
     assert meshhood.padded([0], np.zeros(0, np.int32))[0].shape == (0, 0)
     ids, mask = meshhood.padded([0, 0, 2], [7, 8])

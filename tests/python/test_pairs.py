@@ -2,19 +2,23 @@
 """Every pair of options of every call. The options are those of the signatures: a new one needs a value here, or its call
 fails by name. A pair that is allowed is asked for all vertices of a mesh, more than any sample, window or chunk has, and
 compared for some of them with the same question asked plainly: one vertex at a time, one radius, one thread, no masks
-but a mesh without the walls; and, where `plain.py` can answer it, without the library. A pair that is refused names both
+but a mesh without the walls; and, where `tests/cli/plain.py` can answer it, without the library. A pair that is refused names both
 options."""
 
 import inspect
 import itertools
 import re
+import sys
+from pathlib import Path
 
 import meshes
 import meshhood
 import numpy as np
 import pytest
-from plain import PlainMesh
 from scale import scaled
+
+sys.path.append(str(Path(__file__).parents[1] / "cli"))
+from plain import Plain  # noqa: E402: beside the pairs of the command line
 
 RANDOM = np.random.default_rng(11)
 V, F = meshes.folded(100)
@@ -39,11 +43,23 @@ def index_without(walls):
 
 
 WITHOUT_WALLS = index_without(WALLS)
-PLAIN = {
-    (walls, ignored): PlainMesh(V, F, WALLS if walls else None, IGNORED if ignored else None)
-    for walls in (False, True)
-    for ignored in (False, True)
-}
+MASKS = {"walls": np.flatnonzero(WALLS), "ignored": np.flatnonzero(IGNORED)}
+PLAIN = Plain(V, 3 * np.arange(len(F) + 1), F.ravel(), MASKS)
+
+
+def masks_of(words):
+    """By their names in `PLAIN`."""
+    return {name: name if name in words else "" for name in MASKS}
+
+
+def arrays_of(found):
+    """Ascending ids, and their distances."""
+    ids = np.array(sorted(found), np.int64)
+    return ids, np.array([found[v] for v in ids.tolist()], np.float64)
+
+
+def distances_from(center):
+    return np.sqrt(PLAIN.squared(np.asarray(center, np.float64)))
 
 
 class Watch:
@@ -236,15 +252,16 @@ def check_plain(call, words, v, radius, found):
             np.testing.assert_array_equal(a, b)
 
 
-PLAIN_METRICS = ("straight", "path", "surface", "rings", "space", "ball")
+PLAIN_METRICS = ("straight", "path", "surface", "rings", "space")
 
 
 def near(words, v, radius):
-    """By `PlainMesh`, the ids and the distances of a row; none where only the library knows the answer."""
-    plain = PLAIN["walls" in words, "ignored" in words]
+    """By `PLAIN`, the ids and the distances of a row; none where only the library knows the answer."""
     how = words.get("method", words.get("metric", "straight"))
-    how = {"exact": "straight", "bfs": "straight"}.get(how, how)
-    return getattr(plain, how)(int(v), radius) if how in PLAIN_METRICS else None
+    how = {"exact": "straight", "bfs": "straight", "ball": "space"}.get(how, how)
+    if how not in PLAIN_METRICS:
+        return None
+    return arrays_of(PLAIN.neighborhood(int(v), float(radius), how, **masks_of(words)))
 
 
 def weights_of(words):
@@ -279,13 +296,7 @@ def reduced(words, ids, distances, radius):
 def by_hand(call, words, v, radius):
     """The columns of a row without the library, or as many of the first as are known; none if there are none."""
     if call.name == "nearest_unconnected":
-        plain = PLAIN["walls" in words, "ignored" in words]
-        connected = near({name: value for name, value in words.items() if name != "ignored"}, v, radius)[0]
-        ids, distances = plain.ball(int(v), radius)
-        keep = ~np.isin(ids, connected) & ~plain.hidden[ids]
-        order = np.argsort(distances[keep], kind="stable")[:1]
-        found = (ids[keep][order], distances[keep][order]) if len(order) and not plain.walls[v] else ([-1], [np.inf])
-        return found[0][0], found[1][0]
+        return PLAIN.nearest_unconnected(int(v), float(radius), **masks_of(words), metric=words.get("metric", "straight"))
     if call.name in ("k_nearest", "discs"):
         return nearest_by_hand(words, v, radius)
     largest = max(words["scales"]) * (radius / radius) if words.get("nesting") == "patch" else radius
@@ -324,11 +335,10 @@ def by_hand(call, words, v, radius):
 
 
 def nearest_by_hand(words, v, radius):
-    plain = PLAIN["walls" in words, "ignored" in words]
-    metric = words.get("metric", "straight")
-    straight = metric == "straight"
-    ids, keys = plain.connecting(plain.V[v], [v], radius) if straight else getattr(plain, metric)(int(v), radius)
-    order = np.lexsort([ids, plain.distances_of(ids, int(v)), keys] if straight else [PLACE[ids], keys])
+    straight = words.get("metric", "straight") == "straight"
+    by_radius = PLAIN.connecting_radii(int(v), None, **masks_of(words), r=radius) if straight else None
+    ids, keys = arrays_of(by_radius) if straight else near(words, v, radius)
+    order = np.lexsort([ids, distances_from(V[v])[ids], keys] if straight else [PLACE[ids], keys])
     if "area" in words:
         needed = 1 + np.searchsorted(np.cumsum(weights_of({"weights": "area", **words})[ids[order]]), words["area"])
         return ids[order[:needed]], keys[order[:needed]]
@@ -345,7 +355,7 @@ def check_by_hand(call, words, v, radius, found):
         a = a[: np.size(b)] if call.name == "moments" else a
         np.testing.assert_allclose(a, b, rtol=1e-5 if "dtype" in words else 1e-8, atol=1e-5 if "dtype" in words else 1e-8)
     if words.get("method") in ("paper", OPTIONS["method"]["Paper"]) and call.rows in (lists, matrix):
-        exact, ball = (getattr(PLAIN[False, False], how)(int(v), radius)[0] for how in ("straight", "ball"))
+        exact, ball = (near({"metric": metric}, v, radius)[0] for metric in ("straight", "space"))
         assert np.isin(exact, found[0]).all() and np.isin(found[0], ball).all()
     return bool(wanted)
 
@@ -465,7 +475,7 @@ POINTS = V[RANDOM.integers(COUNT, size=12)] + np.float32(0.03)
 STARTS = {"vertex": [int(v) for v in RANDOM.integers(COUNT, size=12)], "point": [point.astype(float) for point in POINTS]}
 OPTIONS_OF_START = {
     "return_distance": {"yes": True},
-    "seeds": {"two": lambda start: np.argsort(PLAIN[False, False].distances(start))[[0, 5]].astype(np.int32)},
+    "seeds": {"two": lambda start: np.argsort(distances_from(start))[[0, 5]].astype(np.int32)},
     "face": {"given": lambda start: int(INDEX.closest_point(start)[0])},
     "walls": {"mask": WALLS},
     "ignored": {"mask": IGNORED},
@@ -477,28 +487,25 @@ OPTIONS_OF_START = {
 }
 
 
-def region_by_hand(words, start, r):
-    """The center, the seeds, and the mesh."""
-    plain = PLAIN["walls" in words, "ignored" in words]
+def start_of(words, start):
+    """As `PLAIN` takes it, with the masks."""
     if np.ndim(start) == 0:
-        return plain, plain.V[start], [start]
-    seeds = F[words["face"]] if "face" in words else words.get("seeds", [np.argmin(plain.distances(start))])
-    return plain, start, seeds
+        return {"v": int(start), **masks_of(words)}
+    seeds = F[words["face"]] if "face" in words else words.get("seeds", [np.argmin(distances_from(start))])
+    return {"v": None, **masks_of(words), "point": tuple(start.tolist()), "seeds": tuple(int(v) for v in seeds)}
 
 
-def lengths_by_hand(plain, how, start, center, seeds, r):
-    """Ascending ids and their lengths, by a metric."""
-    if how in ("path", "surface") and np.ndim(start):
-        start = {int(v): float(plain.distances(center)[v]) for v in seeds}
-    return getattr(plain, how)(start, r)
+def region_by_hand(words, start, r):
+    """Ascending ids, and their distances or lengths."""
+    how = words.get("method", words.get("metric", "straight"))
+    how = {"bfs": "straight", "ball": "space"}.get(how, how)
+    return arrays_of(PLAIN.neighborhood(r=float(r), metric=how, **start_of(words, start)))
 
 
 def check_region(words, start, answer):
     r = R * (INDEX.mean_edge_length if "unit" in words else 1)
-    plain, center, seeds = region_by_hand(words, start, r)
     how = words.get("method", words.get("metric", "straight"))
-    is_region = how in ("straight", "bfs")
-    ids, distances = plain.region(center, seeds, r) if is_region else lengths_by_hand(plain, how, start, center, seeds, r)
+    ids, distances = region_by_hand(words, start, r)
     found = answer if isinstance(answer, tuple) else (answer,)
     if "sort" not in words and how == "bfs":  # an order of its own
         found = [column[np.argsort(PLACE[found[0]])] for column in found]
@@ -510,36 +517,26 @@ def check_region(words, start, answer):
 
 
 def check_count(words, start, answer):
-    plain, center, seeds = region_by_hand(words, start, R)
-    how, r = words.get("method", words.get("metric", "straight")), R * (INDEX.mean_edge_length if "unit" in words else 1)
-    is_region = how in ("straight", "bfs")
-    wanted = plain.region(center, seeds, r) if is_region else lengths_by_hand(plain, how, start, center, seeds, r)
-    assert type(answer) is int and answer == len(wanted[0])
+    r = R * (INDEX.mean_edge_length if "unit" in words else 1)
+    assert type(answer) is int and answer == len(region_by_hand(words, start, r)[0])
 
 
 def check_nested(words, start, answer):
     counts, ids = answer
     for r, begin, end in zip((1.4, 2.3), (0, *counts), counts):
         r *= INDEX.mean_edge_length if "unit" in words else 1
-        plain, center, seeds = region_by_hand(words, start, r)
-        by_metric = (
-            lengths_by_hand(plain, words["metric"], start, center, seeds, r)
-            if "metric" in words
-            else plain.region(center, seeds, r)
-        )
-        np.testing.assert_array_equal(np.sort(ids[:end]), by_metric[0])
+        np.testing.assert_array_equal(np.sort(ids[:end]), region_by_hand(words, start, r)[0])
         assert np.all(np.diff(PLACE[ids[begin:end]]) > 0)
     assert len(ids) == counts[-1]
 
 
 def connecting_by_hand(words, start, r):
     """The keys that order vertices of one connecting radius, the vertices, and their radii, up to r."""
-    plain, center, seeds = region_by_hand(words, start, r)
     if "metric" in words:
-        ids, lengths = lengths_by_hand(plain, words["metric"], start, center, seeds, r)
+        ids, lengths = region_by_hand(words, start, r)
         return [PLACE[ids]], ids, lengths
-    ids, radii = plain.connecting(center, seeds, r)
-    return [ids, plain.distances(center)[ids]], ids, radii
+    ids, radii = arrays_of(PLAIN.connecting_radii(most=None, **start_of(words, start), r=r))
+    return [ids, distances_from(V[start] if np.ndim(start) == 0 else start)[ids]], ids, radii
 
 
 def check_contains(words, start, answer):
@@ -562,14 +559,13 @@ def check_nearest(words, start, answer):
 
 
 def rounding(words):
-    """Relative: lines over triangles are computed another way by `PlainMesh`, all else is the same to the last bit."""
+    """Relative: lines over triangles are computed another way by `PLAIN`, all else is the same to the last bit."""
     return 1e-12 if words.get("metric") == "surface" else 0
 
 
 def near_of(start):
     """A vertex near the start."""
-    distances = PLAIN[False, False].distances(V[start] if np.ndim(start) == 0 else start)
-    return int(np.argsort(distances)[7])
+    return int(np.argsort(distances_from(V[start] if np.ndim(start) == 0 else start))[7])
 
 
 CALLS_OF_START = {

@@ -10,12 +10,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 
-@pytest.fixture(scope="module")
-def plates():
-    V, F = meshes.two_plates(12)
-    return V, F, oracle.triangle_graph(len(V), F), meshhood.MeshIndex(V, F)
-
-
 def test_paper_with_other_parameters():
     index = meshhood.MeshIndex(*meshes.folded(12))
     one_cluster = meshhood.Paper(levels=64, discard=64, fusion_growth=0)
@@ -34,18 +28,6 @@ def test_a_larger_radius_ratio_adds_fewer_vertices():
     assert few < many
 
 
-def test_permutation_has_each_vertex_once(plates):
-    np.testing.assert_array_equal(np.sort(plates[3].permutation), np.arange(len(plates[3])))
-
-
-def test_chunks_of_some_vertices(plates):
-    index = plates[3]
-    parts = list(index.iter_neighborhoods(1.0, [7, 3, 9], chunk=2, sort="id"))
-    assert [list(p.vertices) for p in parts] == [[7, 3], [9]]
-    assert parts[0].distances is None
-    np.testing.assert_array_equal(parts[1].indices, index.neighborhood(9, 1.0, sort="id"))
-
-
 def test_index_does_not_depend_on_workers():
     V, F = meshes.two_plates(60)
     one, many = (meshhood.MeshIndex(V, F, workers=workers) for workers in (1, 4))
@@ -54,8 +36,9 @@ def test_index_does_not_depend_on_workers():
         np.testing.assert_array_equal(a, b)
 
 
-def test_length_and_bytes(plates):
-    V, _, _, index = plates
+def test_length_and_bytes():
+    V, F = meshes.two_plates(12)
+    index = meshhood.MeshIndex(V, F)
     assert len(index) == len(V)
     assert index.nbytes > V.nbytes
     assert str(len(V)) in repr(index)

@@ -17,24 +17,6 @@ def mesh(request):
     return V, F, meshhood.MeshIndex(V, F), triangle_graph(len(V), F)
 
 
-def test_nearest_unconnected_takes_a_mask_radii_and_a_unit(mesh):
-    V, _, index, _ = mesh
-    rows = np.zeros(len(V), bool)
-    rows[[4, 9]] = True
-    other, distance = index.nearest_unconnected([0.1, 2.0], rows)
-    assert other[0] == -1 and distance[0] == np.inf and distance[1] == 0.25
-    a = index.nearest_unconnected(2, unit="edge")
-    b = index.nearest_unconnected(2 * index.mean_edge_length)
-    both = index.nearest_unconnected(scales=[1, 2], unit="edge")
-    np.testing.assert_array_equal(both.vertex, [index.nearest_unconnected(1, unit="edge").vertex, a.vertex])
-    np.testing.assert_array_equal(both.distance[1], a.distance)
-    np.testing.assert_array_equal(a[0], b[0])
-    with pytest.raises(ValueError, match="vertices: row 1: vertex 999"):
-        index.nearest_unconnected(1.0, [0, 999])
-    with pytest.raises(ValueError, match="r: radius -1"):
-        index.nearest_unconnected(-1)
-
-
 def nearest_by_samples(V, F, q):
     """The least distance from points spread over the triangles: an upper bound, a little too large."""
     steps = np.linspace(0, 1, 9)
@@ -178,13 +160,6 @@ def test_a_face_as_start_is_refused_where_it_means_nothing(mesh):
         index.stroke([[0, 0, 0], [1, 1, 0]], 1.0, face=[1])
     with pytest.raises(ValueError, match="face: given, but this index has none"):
         meshhood.MeshIndex(V, F, keep_faces=False).neighborhood([0.0, 0.0, 0.0], 1.0, face=1)
-
-
-def test_k_nearest_of_one_vertex_is_one_row(mesh):
-    _, _, index, _ = mesh
-    ids, radii = index.k_nearest(4, 5)
-    assert ids.shape == radii.shape == (4,) and ids[0] == 5 and radii[0] == 0
-    np.testing.assert_array_equal(ids, index.k_nearest(4, [5])[0][0])
 
 
 def test_nearest_vertices_refuse_wrong_arguments(mesh):

@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 
 import { ball, distance, grid, neighborhood, neighbors, plates, polygons, random, roll, toPly } from './meshes.mjs';
-import { build, library, meshhood, read as readFile, scaled, wordsOfCommandLine, write } from './setup.mjs';
+import { build, library, meshhood, read as readFile, scaled, write } from './setup.mjs';
 
 const { MeshIndex, MeshhoodError, RegionMesh, initialize, readMesh } = library;
 
@@ -181,22 +181,6 @@ test('polygons, precision and warnings of a file', () => {
   assert.match(readMesh(more, 'p.ply').warnings[0], /^line \d+: data after the last element$/);
   assert.throws(() => readMesh(more, 'p.ply', { strict: true }), { code: 'MalformedFile' });
 });
-
-const broken = {
-  'empty.ply': '',
-  'word.off': 'OFF\n2 0 0\n0 0 zero\n',
-  'corner.obj': 'v 0 0 0\nv 1 0 0\nf 1 2 9\n',
-  'short.ply': Buffer.from(toPly(families.roll)).subarray(0, 3000),
-  'what.xyz': 'hello',
-  'facet.stl': 'solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nend',
-};
-for (const [name, content] of Object.entries(broken)) {
-  test(`${name} is refused in the words of the command line`, () => {
-    const message = wordsOfCommandLine(name, content);
-    const bytes = new TextEncoder().encode(content);
-    assert.throws(() => readMesh(typeof content === 'string' ? bytes : content, name), { name: 'MeshhoodError', message });
-  });
-}
 
 test('every damaged index file is refused, with the place of the damage', () => {
   const bytes = golden('float.mhi');

@@ -272,27 +272,6 @@ test('area, volume and gap of a vertex are a row of all, and so of a point', () 
   two.dispose();
 });
 
-test('the plate of twelve triangles has a gap of its thickness', () => {
-  const positions = Float64Array.from({ length: 24 }, (_, i) => [100, 100, 1][i % 3] * ((Math.floor(i / 3) >> (i % 3)) & 1));
-  const quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-  const plate = { positions, corners: Uint32Array.from(quads.flatMap(([a, b, c, d]) => [a, b, c, a, c, d])), offsets: null };
-  const index = build(plate);
-  const { face, point } = index.closestPoint([30, 60, 2], { faces: plate });
-  for (const r of [1, 3]) {
-    assert.ok(Math.abs(index.measure(point, r, { faces: plate, face }).area / (Math.PI * r * r) - 1) < 1e-12);
-    assert.equal(index.gap(point, r, { faces: plate, face }).distance, 1);
-  }
-  index.dispose();
-});
-
-test('gaps at scales are those of each', () => {
-  const two = build(corners);
-  const both = two.gaps(null, { faces: corners, scales: Float64Array.of(0.1, 0.4) });
-  const each = [0.1, 0.4].flatMap((r) => [...two.gaps(r, { faces: corners }).distance]);
-  assert.deepEqual([...both.distance], each);
-  two.dispose();
-});
-
 test('the patch of a vertex or of a point has faces', () => {
   const two = build(corners);
   assert.deepEqual([...two.patch(0, 0.1, { faces: corners })], [0, 1, 2]);

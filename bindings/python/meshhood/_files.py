@@ -119,6 +119,7 @@ def write_mesh(
         if colors.dtype != np.uint8 or colors.shape != (len(positions), 3):
             raise ValueError(f"colors: {colors.dtype} of shape {colors.shape}, expected uint8 ({len(positions)}, 3)")
     placed, walls = _core.place(positions, corners, offsets=offsets) or (positions, None)
+    _core.check_mesh(placed, corners, offsets=offsets)  # as other libraries write anything
     if extension in WRITERS:
         if walls is not None and extension == ".glb":
             way_out = without_them("meshhood.MeshIndex(V, F)")

@@ -29,7 +29,7 @@ from ._mesh import (
 from ._methods import Method
 from ._optional import optional
 from ._patches import Patches
-from ._progress import Progress, reporter
+from ._progress import Progress, in_parts, reporter
 from ._queries import Queries
 from ._region_mesh import Regions
 from ._repr import shown_in_a_line
@@ -354,11 +354,9 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         searched = rows.index._method(method, metric)
-        found = rows.for_each_scale(
-            "counts",
-            lambda radius, report: searched.counts(rows.vertices, radius, threads=rows.threads, progress=report),
-        )
-        counts = rows.shaped(np.concatenate(found))
+        with rows.reporter("counts") as report:
+            found = searched.counts(rows.vertices, rows.radius, threads=rows.threads, progress=report)
+        counts = rows.shaped(found)
         return counts if counts.ndim else int(counts)
 
     def radius_neighbors_graph(
@@ -486,7 +484,9 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
             left = max(0, left - indices.nbytes - distances.nbytes)
             return indptr, indices, distances if with_distances else None
 
-        indptr, indices, distances = _joined(rows.for_each_scale(title, search))
+        with rows.reporter(title) as report:  # scale after scale, as the library lists those of one radius alone
+            found = map(search, rows.radii, in_parts(report, len(rows.radii)))
+            indptr, indices, distances = _joined(list(found))
         if sort in ("index", "distance"):
             indices, distances = sorted_rows(self, sort, indptr, indices, distances)
         if len(indices) <= np.iinfo(np.int32).max:

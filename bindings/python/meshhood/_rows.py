@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Optional, Union
@@ -13,7 +12,7 @@ import numpy as np
 
 from . import _convert
 from ._methods import core_metric
-from ._progress import Progress, Report, in_parts, reporter
+from ._progress import Progress, Report, reporter
 from ._types import METRICS, Ids, Reals
 
 if TYPE_CHECKING:
@@ -27,6 +26,7 @@ class Rows:
     count: int
     vertices: Optional[Ids]  # None for all
     radii: list[Union[float, Reals]]  # of each scale, in the unit of the positions
+    has_scales: bool
     shape: tuple[int, ...]  # the leading axes of the result
     index: Any  # with the masks, along the surface by metric="surface"
     metric: str
@@ -37,7 +37,7 @@ class Rows:
     def radius(self) -> Any:
         """As calls of the library take it that compute all scales at once: a number; an array, one for each row; or a
         list, of scales."""
-        return self.radii[0] if len(self.radii) == 1 else self.radii
+        return self.radii if self.has_scales else self.radii[0]
 
     @property
     def core_metric(self) -> Any:
@@ -45,12 +45,6 @@ class Rows:
 
     def reporter(self, title: str) -> AbstractContextManager[Report]:
         return reporter(self.progress, title, "vertices", self.count * len(self.radii))
-
-    def for_each_scale(self, title: str, compute: Callable[[Union[float, Reals], Report], Any]) -> list[Any]:
-        """The results of `compute(radius, progress)`."""
-        with self.reporter(title) as report:
-            reports = in_parts(report, len(self.radii))
-            return [compute(radius, each) for radius, each in zip(self.radii, reports)]
 
     def shaped(self, array: Any) -> Any:
         """A result with a row for each vertex, of one scale after the other."""
@@ -75,6 +69,7 @@ def read_rows(
         count,
         ids,
         radii,
+        scales is not None,
         shape if is_one else (*shape, count),
         index._searched(metric, walls, ignored),
         metric,

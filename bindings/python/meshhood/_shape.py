@@ -227,7 +227,6 @@ class Shape(Held):
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options = {
             "kinds": [getattr(_core.Feature, name) for name in _convert.some_choices(kinds, "kinds", get_args(Kind))],
-            "areas": None,
             "filter": bool(filter),
             "threads": rows.threads,
             "metric": rows.core_metric,

@@ -14,22 +14,17 @@ namespace meshhood::wasm {
 
 extern "C" {
 
-/// See `RowArguments`.
-[[clang::export_name("aggregate")]] void aggregate(const VertexId* vertices, std::size_t vertex_count, double radius,
-                                                   const double* radii, std::size_t radius_count, bool are_scales,
-                                                   const double* values, std::size_t value_count, std::size_t channels,
+[[clang::export_name("aggregate")]] void aggregate(const double* values, std::size_t value_count, std::size_t channels,
                                                    const double* weights, std::size_t weight_count,
                                                    const Reduce* reductions, std::size_t reduction_count,
                                                    SmoothingKernel kernel, MissingValues missing, Nesting nesting,
                                                    double ddof, double quantile) {
-  const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
-  const BatchQuery query = rows.query();
   const SignalView signal{
       .values = std::span(values, value_count), .channels = channels, .weights = std::span(weights, weight_count)};
   answer.reals = meshhood::aggregate(workspace.searched(), signal,
-                                     {.vertices = query.vertices,
-                                      .radius = query.radius,
-                                      .metric = query.metric,
+                                     {.vertices = rows.vertices,
+                                      .radius = rows.radius,
+                                      .metric = rows.metric,
                                       .reduce = {reductions, reductions + reduction_count},
                                       .kernel = kernel,
                                       .missing = missing,

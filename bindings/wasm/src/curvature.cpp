@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Curvature and features at a scale. `use_faces` or `use_normals` comes first.
-#include <array>
 #include <cstddef>
-#include <span>
-#include <vector>
+#include <cstdint>
 
 #include "meshhood/meshhood.h"
 
@@ -12,16 +10,6 @@
 #include "workspace.h"
 
 namespace meshhood::wasm {
-namespace {
-
-Curvatures last_curvatures;
-
-template <class T>
-void append(std::vector<T>& all, const std::vector<T>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
-}  // namespace
 
 extern "C" {
 
@@ -29,56 +17,23 @@ extern "C" {
   workspace.use_normals({normals, scalars});
 }
 
-/// See `RowArguments`. With scales, one after the other.
-[[clang::export_name("curvature")]] void curvature(const VertexId* vertices, std::size_t vertex_count, double radius,
-                                                   const double* radii, std::size_t radius_count, bool are_scales,
-                                                   CurvatureFit fit, bool filter, bool is_like_libigl) {
-  const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
+/// The reals of the answer are all k1, then all k2, d1 and d2; the counts are the states.
+[[clang::export_name("curvature")]] void curvature(CurvatureFit fit, bool filter, bool is_like_libigl) {
   CurvatureOptions options = is_like_libigl ? like_libigl() : CurvatureOptions{};
   options.fit = fit;
   options.filter = filter;
-  BatchQuery query = rows.query();
-  if (!query.radius.scales()) {
-    last_curvatures = curvatures(workspace.surface(), query, options);
-    return;
+  const Curvatures found = curvatures(workspace.surface(), rows, options);
+  answer = {};
+  for (const auto* part : {&found.k1, &found.k2, &found.d1, &found.d2}) {
+    answer.reals.insert(answer.reals.end(), part->begin(), part->end());
   }
-  last_curvatures = {};
-  for (const double scale : std::span(radii, radius_count)) {
-    query.radius = scale;
-    const Curvatures found = curvatures(workspace.surface(), query, options);
-    append(last_curvatures.k1, found.k1);
-    append(last_curvatures.k2, found.k2);
-    append(last_curvatures.d1, found.d1);
-    append(last_curvatures.d2, found.d2);
-    append(last_curvatures.state, found.state);
-  }
+  for (const CurvatureState state : found.state) answer.counts.push_back(static_cast<std::uint32_t>(state));
 }
 
-/// See `RowArguments`. `areas` are null unless a kind needs them.
-[[clang::export_name("features")]] void features(const VertexId* vertices, std::size_t vertex_count, double radius,
-                                                 const double* radii, std::size_t radius_count, bool are_scales,
-                                                 const Feature* kinds, std::size_t kind_count, const double* areas,
-                                                 std::size_t area_count, bool filter) {
-  const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
-  answer.reals = meshhood::features(
-      workspace.surface(), rows.query(),
-      {.kinds = {kinds, kinds + kind_count}, .areas = std::span(areas, area_count), .filter = filter});
+[[clang::export_name("features")]] void features(const Feature* kinds, std::size_t kind_count, bool filter) {
+  answer.reals =
+      meshhood::features(workspace.surface(), rows, {.kinds = {kinds, kinds + kind_count}, .filter = filter});
 }
-
-[[clang::export_name("curvature_rows")]] std::size_t curvature_rows() { return last_curvatures.state.size(); }
-
-/// `which` is 0 for k1, 1 for k2, 2 for d1 and 3 for d2.
-[[clang::export_name("curvature_reals")]] const double* curvature_reals(std::size_t which) {
-  const Curvatures& last = last_curvatures;
-  const std::array arrays{last.k1.data(), last.k2.data(), last.d1.data(), last.d2.data()};
-  return arrays[which];
-}
-
-[[clang::export_name("curvature_states")]] const CurvatureState* curvature_states() {
-  return last_curvatures.state.data();
-}
-
-[[clang::export_name("release_curvature")]] void release_curvature() { last_curvatures = {}; }
 
 }  // extern "C"
 

@@ -29,22 +29,18 @@ void append_rows(std::vector<T>& out, const std::vector<std::array<T, N>>& rows)
 
 extern "C" {
 
-/// See `RowArguments`. The reals are all areas, and then all volumes.
-[[clang::export_name("invariants")]] void invariants(const VertexId* vertices, std::size_t vertex_count, double radius,
-                                                     const double* radii, std::size_t radius_count, bool are_scales) {
-  const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
-  Invariants found = meshhood::invariants(workspace.surface(), rows.query());
+/// The reals are all areas, and then all volumes.
+[[clang::export_name("invariants")]] void invariants() {
+  Invariants found = meshhood::invariants(workspace.surface(), rows);
   answer.reals = std::move(found.area);
   answer.reals.insert(answer.reals.end(), found.volume.begin(), found.volume.end());
 }
 
-/// See `RowArguments`. The counts are the faces, and the ids the three vertices of each row. The reals are seven for
-/// each row: the weights, the point and the distance.
-[[clang::export_name("gaps")]] void gaps(const VertexId* vertices, std::size_t vertex_count, double radius,
-                                         const double* radii, std::size_t radius_count, bool are_scales) {
-  const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
+/// The counts are the faces, and the ids the three vertices of each row. The reals are seven for each row: the weights,
+/// the point and the distance.
+[[clang::export_name("gaps")]] void gaps() {
   answer = {};
-  for (const SurfacePoint& gap : meshhood::gaps(workspace.surface(), rows.query())) append_point(gap);
+  for (const SurfacePoint& gap : meshhood::gaps(workspace.surface(), rows)) append_point(gap);
 }
 
 /// Where the patches that follow start.

@@ -59,7 +59,8 @@ void sort_rows(VertexOrder order, std::span<const std::uint32_t> offsets) {
   }
 }
 
-NearestOptions nearest_options(double radius) { return {.metric = row_metric, .radius = radius}; }
+/// The rows have one radius.
+NearestOptions nearest_options() { return {.metric = rows.metric, .radius = rows.radius.common()}; }
 
 }  // namespace
 
@@ -72,48 +73,38 @@ extern "C" {
   sort_rows(order, has_rows ? std::span<const std::uint32_t>(answer.counts) : whole);
 }
 
-/// See `RowArguments`. The counts of the answer are the offsets of the rows; with `count_only`, their sizes.
-[[clang::export_name("batch")]] void batch(const VertexId* vertices, std::size_t vertex_count, double radius,
-                                           const double* radii, std::size_t radius_count, bool are_scales,
-                                           MethodName method, bool count_only, bool with_distances, bool by_id) {
-  const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
+/// The counts of the answer are the offsets of the rows; with `count_only`, their sizes.
+[[clang::export_name("batch")]] void batch(MethodName method, bool count_only, bool with_distances, bool by_id) {
   const SearchMethod& search = workspace.method(method);
   if (count_only) {
-    const auto sizes = counts(search, rows.query());
+    const auto sizes = counts(search, rows);
     answer.counts.assign(sizes.begin(), sizes.end());
     return;
   }
-  Neighborhoods found = neighborhoods(search, rows.query(), {.distances = with_distances, .sorted = by_id});
+  Neighborhoods found = neighborhoods(search, rows, {.distances = with_distances, .sorted = by_id});
   answer.counts.assign(found.offsets.begin(), found.offsets.end());
   answer.ids = std::move(found.ids);
   answer.reals = std::move(found.distances);
 }
 
-/// See `RowArguments`. The ids of the answer are the nearest unconnected vertices, the reals their distances.
-[[clang::export_name("nearest_unconnected")]] void nearest_unconnected(const VertexId* vertices,
-                                                                       std::size_t vertex_count, double radius,
-                                                                       const double* radii, std::size_t radius_count,
-                                                                       bool are_scales) {
-  const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
-  Unconnected found = meshhood::nearest_unconnected(workspace.searched(), rows.query());
+/// The ids of the answer are the nearest unconnected vertices, the reals their distances.
+[[clang::export_name("nearest_unconnected")]] void nearest_unconnected() {
+  Unconnected found = meshhood::nearest_unconnected(workspace.searched(), rows);
   answer.ids = std::move(found.vertex);
   answer.reals = std::move(found.distance);
 }
 
-/// All vertices if `vertices` is null. The ids and reals of the answer have `k` places for each row.
-[[clang::export_name("k_nearest")]] void k_nearest(const VertexId* vertices, std::size_t vertex_count, double radius,
-                                                   double k) {
-  KNearest found = meshhood::k_nearest(workspace.searched(), view_vertices(vertices, vertex_count), to_size(k),
-                                       nearest_options(radius));
+/// The ids and reals of the answer have `k` places for each row.
+[[clang::export_name("k_nearest")]] void k_nearest(double k) {
+  KNearest found = meshhood::k_nearest(workspace.searched(), rows.vertices, to_size(k), nearest_options());
   answer.ids = std::move(found.ids);
   answer.reals = std::move(found.distances);
 }
 
 /// The same rows up to an area. The counts of the answer are their offsets.
-[[clang::export_name("discs")]] void discs(const VertexId* vertices, std::size_t vertex_count, double radius,
-                                           double area, const double* areas, std::size_t area_count) {
-  Neighborhoods found = meshhood::discs(workspace.searched(), view_vertices(vertices, vertex_count), area,
-                                        {areas, area_count}, nearest_options(radius));
+[[clang::export_name("discs")]] void discs(double area, const double* areas, std::size_t area_count) {
+  Neighborhoods found =
+      meshhood::discs(workspace.searched(), rows.vertices, area, {areas, area_count}, nearest_options());
   answer.counts.assign(found.offsets.begin(), found.offsets.end());
   answer.ids = std::move(found.ids);
   answer.reals = std::move(found.distances);

@@ -42,12 +42,23 @@ extern "C" {
   }
 }
 
+/// The rows of the next call on many vertices: all if `vertices` is null. The radius of all rows, unless there are
+/// radii: one for each row, or with `are_scales` each for all rows.
+[[clang::export_name("use_rows")]] void use_rows(const VertexId* vertices, std::size_t vertex_count, double radius,
+                                                 const double* radii, std::size_t radius_count, bool are_scales) {
+  const std::span list(radii, radius_count);
+  rows.vertices = view_vertices(vertices, vertex_count);
+  rows.radius = are_scales         ? BatchRadius::scales({list.begin(), list.end()})
+                : radii != nullptr ? BatchRadius(list)
+                                   : BatchRadius(radius);
+}
+
 /// The metric of the rows and the masks of all searches that follow; no masks if both are empty. Along the surface,
 /// `use_faces` comes before.
 [[clang::export_name("search_by")]] void search_by(MetricName metric, const std::uint8_t* walls, std::size_t wall_count,
                                                    const std::uint8_t* ignored, std::size_t ignored_count) {
   const bool is_along_surface = metric == MetricName::Surface;
-  row_metric = is_along_surface ? Metric::Path : static_cast<Metric>(metric);
+  rows.metric = is_along_surface ? Metric::Path : static_cast<Metric>(metric);
   workspace.set_masks({walls, wall_count}, {ignored, ignored_count});
   workspace.search_along_surface(is_along_surface);
 }
@@ -64,36 +75,36 @@ extern "C" {
     std::visit([&](auto& searcher) { search(searcher, origin.vertex()); }, workspace.searcher(method));
     return true;
   }
-  Searcher& searcher = workspace.searcher(row_metric);
+  Searcher& searcher = workspace.searcher(rows.metric);
   search(searcher, origin);
   return searcher.has_seed(origin, radius);
 }
 
 [[clang::export_name("count")]] std::size_t count(MethodName method, double radius) {
-  if (method == MethodName::Exact) return workspace.searcher(row_metric).count(origin, radius);
+  if (method == MethodName::Exact) return workspace.searcher(rows.metric).count(origin, radius);
   return std::visit([&](auto& searcher) { return searcher.count(origin.vertex(), radius); },
                     workspace.searcher(method));
 }
 
 /// Whether a seed lies in the largest ball.
 [[clang::export_name("nested")]] bool nested(const double* radii, std::size_t radius_count) {
-  Searcher& searcher = workspace.searcher(row_metric);
+  Searcher& searcher = workspace.searcher(rows.metric);
   searcher.nested(origin, std::span(radii, radius_count), answer.ids, region_sizes);
   answer_sizes();
   return radius_count == 0 || searcher.has_seed(origin, radii[radius_count - 1]);
 }
 
 [[clang::export_name("contains")]] bool contains(VertexId w, double radius) {
-  return workspace.searcher(row_metric).contains(origin, w, radius);
+  return workspace.searcher(rows.metric).contains(origin, w, radius);
 }
 
 [[clang::export_name("connecting_radius")]] double connecting_radius(VertexId w) {
-  return workspace.searcher(row_metric).connecting_radius(origin, w);
+  return workspace.searcher(rows.metric).connecting_radius(origin, w);
 }
 
 [[clang::export_name("nearest_connected")]] void nearest_connected(double k) {
   const std::size_t most = std::min(to_size(k), workspace.index().vertex_count());
-  workspace.searcher(row_metric).nearest_connected(origin, most, answer.ids, answer.reals);
+  workspace.searcher(rows.metric).nearest_connected(origin, most, answer.ids, answer.reals);
 }
 
 /// Returns the vertex, which is no wall; the first real of the answer is its distance.
