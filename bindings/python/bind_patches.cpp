@@ -30,17 +30,18 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
-/// Columns of gaps.
+/// Columns of gaps, set row by row.
 class GapColumns {
  public:
-  explicit GapColumns(const std::vector<SurfacePoint>& gaps) {
-    for (const SurfacePoint& gap : gaps) {
-      distances_.push_back(gap.distance);
-      faces_.push_back(static_cast<std::int64_t>(gap.face));
-      corners_.push_back(gap.vertices);
-      barycentric_.push_back(gap.barycentric);
-      points_.push_back(gap.point);
-    }
+  explicit GapColumns(std::size_t rows)
+      : distances_(rows), faces_(rows), corners_(rows), barycentric_(rows), points_(rows) {}
+
+  void set(std::size_t row, const SurfacePoint& gap) {
+    distances_[row] = gap.distance;
+    faces_[row] = static_cast<std::int64_t>(gap.face);
+    corners_[row] = gap.vertices;
+    barycentric_[row] = gap.barycentric;
+    points_[row] = gap.point;
   }
 
   /// Distances, faces, the vertices of their triangles, barycentric coordinates and points.
@@ -85,7 +86,11 @@ class Patches {
                  nb::handle progress) const {
     const BatchQuery query = query_of(vertices, radius);
     const Run run{.threads = threads, .progress = progress_to(progress)};
-    return without_lock([&] { return GapColumns(gaps(surface_, query, run)); }).arrays();
+    GapColumns columns(result_rows(query, surface_.vertex_count()));
+    without_lock([&] {
+      for_each_gap(surface_, query, [&](std::size_t row, const SurfacePoint& gap) { columns.set(row, gap); }, run);
+    });
+    return std::move(columns).arrays();
   }
 
   auto faces(VertexId vertex, std::optional<std::size_t> face, const SpacePoint& point, double radius) {
@@ -121,7 +126,9 @@ class Patches {
     const SurfacePoint found = ask(vertex, face, point, [&](PatchSearcher& searcher, const PatchStart& start) {
       return searcher.gap(start, radius);
     });
-    return GapColumns({found}).arrays();
+    GapColumns columns(1);
+    columns.set(0, found);
+    return std::move(columns).arrays();
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -145,5 +146,9 @@ struct Invariants {
 /// `PatchSearcher::gap` of many vertices, one for each row; #radii by #rows if the query has scales. Throws as
 /// `invariants`.
 [[nodiscard]] std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, const Run& run = {});
+
+/// The same as `visit(row, gap)`, once for each row, on any thread, for a caller that keeps only a part of each.
+void for_each_gap(const Surface& surface, const BatchQuery& query,
+                  const std::function<void(std::size_t row, const SurfacePoint& gap)>& visit, const Run& run = {});
 
 }  // namespace meshhood

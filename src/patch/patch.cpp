@@ -174,9 +174,14 @@ Invariants invariants(const Surface& surface, const BatchQuery& query, const Run
 
 std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, const Run& run) {
   std::vector<SurfacePoint> result(result_rows(query, surface.vertex_count()));
-  for_each_patch(surface, query, false, run,
-                 [&](std::size_t row, const FoundPatch& patch) { result[row] = patch.gap(); });
+  for_each_gap(surface, query, [&](std::size_t row, const SurfacePoint& gap) { result[row] = gap; }, run);
   return result;
+}
+
+void for_each_gap(const Surface& surface, const BatchQuery& query,
+                  const std::function<void(std::size_t row, const SurfacePoint& gap)>& visit, const Run& run) {
+  for_each_patch(surface, query, false, run,
+                 [&](std::size_t row, const FoundPatch& patch) { visit(row, patch.gap()); });
 }
 
 }  // namespace meshhood

@@ -617,6 +617,10 @@ TEST(PatchBatch, HasTheSameBitsForAnyThreadsAndRows) {
     EXPECT_EQ(nearest[i].distance, test.searcher.gap(some[i], radii[i]).distance);
     EXPECT_EQ(nearest[i].distance, of_scales[scale * some.size() + i].distance);
   }
+  std::vector<double> visited(some.size());
+  for_each_gap(test.surface, {.vertices = some, .radius = radii},
+               [&](std::size_t row, const SurfacePoint& gap) { visited[row] += gap.distance; }, {.threads = 2});
+  for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(visited[i], nearest[i].distance);
 }
 
 TEST(PatchBatch, RefusesWhatIsWrong) {
