@@ -44,29 +44,9 @@ std::vector<SurfacePoint> compute(const ClosestCommand& options, std::span<const
 }
 
 RowTable table_of(const std::vector<SurfacePoint>& found) {
-  std::vector<std::int64_t> faces;
-  std::vector<double> distances;
-  std::vector<double> points;
-  std::vector<std::int64_t> vertices;
-  std::vector<double> barycentric;
-  for (const SurfacePoint& one : found) {
-    faces.push_back(static_cast<std::int64_t>(one.face));
-    distances.push_back(one.distance);
-    points.insert(points.end(), one.point.begin(), one.point.end());
-    vertices.insert(vertices.end(), one.vertices.begin(), one.vertices.end());
-    barycentric.insert(barycentric.end(), one.barycentric.begin(), one.barycentric.end());
-  }
-  RowTable table{.rows = found.size()};
-  table.columns = {{"face", std::move(faces)},
-                   {"distance", std::move(distances)},
-                   {"point", std::move(points), 0, 3},
-                   {"vertices", std::move(vertices), 0, 3},
-                   {"barycentric", std::move(barycentric), 0, 3}};
-  table.add_property("face", "face");
-  table.add_property("distance", "distance");
-  table.add_property("point", "point", 0, 0, 3);
-  for (const char* name : {"vertices", "barycentric"}) {
-    for (std::size_t i = 0; i < 3; ++i) table.add_property(fmt::format("{}_{}", name, i), name, 0, i);
+  RowTable table{.rows = found.size(), .columns = columns_of(found, "vertices")};
+  for (const Column& column : table.columns) {
+    table.add_property(column.name, column.name, 0, 0, column.channels == 0 ? 1 : column.channels);
   }
   return table;
 }

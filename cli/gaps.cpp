@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // meshhood gaps: the nearest point of the surface in each ball that is not connected in it.
-#include <array>
-#include <cstddef>
-#include <cstdint>
+#include <algorithm>
+#include <iterator>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -24,31 +22,9 @@ class GapsQuantity : public Quantity {
     RowTable table = task.table();
     const std::vector<SurfacePoint> all = task.while_shown(
         "searching", table.scales, [&](const Run& run) { return gaps(surface, task.rows.query(), run); });
-    std::vector<double> distances;
-    std::vector<std::int64_t> faces;  // -1 where there is none
-    std::vector<double> points;
-    std::vector<std::int64_t> corners;
-    std::vector<double> barycentric;
-    std::size_t found = 0;
-    for (const SurfacePoint& one : all) {
-      distances.push_back(one.distance);
-      faces.push_back(one.face == kNoFace ? -1 : static_cast<std::int64_t>(one.face));
-      points.insert(points.end(), one.point.begin(), one.point.end());
-      for (const VertexId v : one.vertices) corners.push_back(v == kNoVertex ? -1 : std::int64_t{v});
-      barycentric.insert(barycentric.end(), one.barycentric.begin(), one.barycentric.end());
-      found += one.face == kNoFace ? 0 : 1;
-    }
-    const std::size_t none = faces.size() - found;
-    table.columns = {
-        {"distance", std::move(distances), table.scales},
-        {"face", std::move(faces), table.scales},
-        {"point", std::move(points), table.scales, 3},
-        {.name = "corners", .numbers = std::move(corners), .scales = table.scales, .channels = 3, .of_triangle = true},
-        {.name = "barycentric",
-         .numbers = std::move(barycentric),
-         .scales = table.scales,
-         .channels = 3,
-         .of_triangle = true}};
+    const auto found = std::ranges::count_if(all, [](const SurfacePoint& one) { return one.face != kNoFace; });
+    const auto none = std::ssize(all) - found;
+    table.columns = columns_of(all, "corners", table.scales);
     table.add_properties({"distance", "face", "point", "corners", "barycentric"});
     table.shown = fmt::format("distance_{}", table.scales - 1);
     table.summary = {{"found", found}, {"none", none}};

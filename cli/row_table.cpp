@@ -184,6 +184,29 @@ void run(const TableCommand& options, const QuantityName& name, Quantity& quanti
 
 }  // namespace
 
+std::vector<Column> columns_of(const std::vector<SurfacePoint>& points, const std::string& vertices,
+                               std::size_t scales) {
+  std::vector<std::int64_t> faces;
+  std::vector<double> distances;
+  std::vector<double> places;
+  std::vector<std::int64_t> corners;
+  std::vector<double> barycentric;
+  for (const SurfacePoint& one : points) {
+    faces.push_back(one.face == kNoFace ? -1 : static_cast<std::int64_t>(one.face));
+    distances.push_back(one.distance);
+    places.insert(places.end(), one.point.begin(), one.point.end());
+    for (const VertexId v : one.vertices) corners.push_back(v == kNoVertex ? -1 : std::int64_t{v});
+    barycentric.insert(barycentric.end(), one.barycentric.begin(), one.barycentric.end());
+  }
+  std::vector<Column> columns{{"face", std::move(faces), scales},
+                              {"distance", std::move(distances), scales},
+                              {"point", std::move(places), scales, 3},
+                              {vertices, std::move(corners), scales, 3},
+                              {"barycentric", std::move(barycentric), scales, 3}};
+  columns[3].of_triangle = columns[4].of_triangle = true;
+  return columns;
+}
+
 void write_table(const TableFile& file, const RowTable& table) {
   file.is_csv() ? write_csv(file.name, table) : write_npz(file.name, table);
 }

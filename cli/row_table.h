@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include "meshhood/run.h"
+#include "meshhood/surface.h"
 
 #include "input.h"
 #include "io/npz_writer.h"
@@ -47,6 +48,11 @@ struct Column {
   std::size_t kinds = 0;     ///< of the numbers of each channel; 0: the array has no axis of kinds
   bool of_triangle = false;  ///< three channels are of its corners, no vector: text numbers them, and no mesh has them
 };
+
+/// Of points of the surface: the faces, the distances, the points, the vertices of the triangles, whose name is given,
+/// and the barycentric coordinates in these. Faces and vertices are -1 where there is no point.
+[[nodiscard]] std::vector<Column> columns_of(const std::vector<SurfacePoint>& points, const std::string& vertices,
+                                             std::size_t scales = 0);
 
 /// One number of each row, or a vector of three: of a table of text, and unless its numbers have 64 bits, which float
 /// does not keep, of a mesh.

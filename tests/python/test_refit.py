@@ -126,13 +126,6 @@ def test_other_threads_search_the_old_index_meanwhile(mesh):
     assert not np.array_equal(wanted[id(kept[0])], wanted[id(kept[1])])
 
 
-def test_a_mesh_is_accepted_for_its_positions():
-    trimesh = pytest.importorskip("trimesh")
-    V, F = meshes.folded(SIDE)
-    index = meshhood.MeshIndex(V, F)
-    expect_answers_of(index.refit(trimesh.Trimesh(bent(V, 2), F, process=False)), bent(V, 2), F)
-
-
 @pytest.mark.parametrize(
     ("change", "error", "message"),
     (
