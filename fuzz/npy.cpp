@@ -2,9 +2,14 @@
 // Any bytes as two `.npy` files, of positions and faces. The first two bytes of an input give the size of the first.
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
+#include <string>
 #include <vector>
 
-#include "memory_file.h"
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "judge.h"
 #include "parts/chunked_mesh.h"
 #include "refusal.h"
 #include "target.h"
@@ -13,6 +18,29 @@ namespace meshhood::fuzz {
 namespace {
 
 using parts::ChunkedMesh;
+
+/// A regular file in memory, for functions that take a path.
+class MemoryFile {
+ public:
+  MemoryFile() : file_(::memfd_create("fuzz", 0)) {
+    if (file_ < 0) fail("no file in memory");
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  ~MemoryFile() { ::close(file_); }
+
+  void replace(std::span<const std::byte> bytes) const {
+    if (::ftruncate(file_, 0) != 0) fail("cannot empty a file in memory");
+    if (::pwrite(file_, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
+      fail("cannot write a file in memory");
+    }
+  }
+
+  [[nodiscard]] std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(file_); }
+
+ private:
+  int file_;
+};
 
 /// In pieces of `size` vertices.
 std::vector<Point> read_positions(ChunkedMesh& mesh, std::size_t size) {

@@ -2,15 +2,16 @@
 #include "exact/build/node_parts.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/divided_nodes.h"
-#include "support/node_line.h"
 #include "support/random.h"
 #include "support/scale.h"
 
@@ -20,6 +21,35 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
+
+/// Nodes on a line, at their numbers, and links between some of them.
+NodeGraph node_line(std::size_t nodes, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& links) {
+  NodeGraph graph;
+  for (std::uint32_t node = 0; node < nodes; ++node) {
+    graph.balls.push_back({{static_cast<double>(node), 0, 0}, 0.5});
+    std::vector<std::uint32_t> neighbors;
+    for (const auto& [a, b] : links) {
+      if (a == node) neighbors.push_back(b);
+      if (b == node) neighbors.push_back(a);
+    }
+    graph.neighbors.add(neighbors);
+  }
+  return graph;
+}
+
+/// Links between each two successive nodes from `first` to `last`.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> chain(std::uint32_t first, std::uint32_t last) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> links;
+  for (std::uint32_t node = first; node < last; ++node) links.emplace_back(node, node + 1);
+  return links;
+}
+
+/// The nodes from `first` to `last`.
+std::vector<std::uint32_t> nodes_from(std::uint32_t first, std::uint32_t last) {
+  std::vector<std::uint32_t> nodes;
+  for (std::uint32_t node = first; node <= last; ++node) nodes.push_back(node);
+  return nodes;
+}
 
 TEST(NodeParts, BecomeGroupsWithoutThoseThatHaveLostAllNodes) {
   const NodeGraph graph = node_line(12, chain(0, 11));

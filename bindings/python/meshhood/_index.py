@@ -200,10 +200,6 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         slots = {name: getattr(self, name) for name in names if hasattr(self, name)}
         return (attributes, slots) if slots else attributes or None
 
-    def _like_this(self, exact: Any) -> MeshIndex:
-        """An index of this class, with the attributes that a subclass has added."""
-        return self._with_attributes(type(self)._holding(exact, self._faces))
-
     def _with_attributes(self, other: MeshIndex) -> MeshIndex:
         """`other`, with the attributes that a subclass has added to this one."""
         state = self.__getstate__()
@@ -538,7 +534,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
             exact = _core.refit(
                 whole, positions, changed=moved, threads=_convert.threads(workers), progress=report
             )
-        return self._like_this(exact)
+        return self._with_attributes(type(self)._holding(exact, self._faces))
 
     def quality(self) -> Quality:
         """How well the leaves of the index, its smallest parts, fit the positions after `refit`.

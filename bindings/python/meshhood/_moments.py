@@ -103,11 +103,8 @@ def geometric_radii(smallest: float, largest: float, count: int) -> Reals:
     [1.0, 2.0, 4.0]
     """
     smallest = _convert.finite(smallest, "smallest", or_zero=False)
-    return _core.geometric_radii(smallest, _convert.finite(largest, "largest", or_zero=False), _count(count))
-
-
-def _count(count: Any) -> int:
-    return _convert.integer(count, "count", 1, 1000)
+    largest = _convert.finite(largest, "largest", or_zero=False)
+    return _core.geometric_radii(smallest, largest, _convert.integer(count, "count", 1, 1000))
 
 
 def persistence(values: Any, radii: Any, threshold: float) -> Persistence:

@@ -19,13 +19,9 @@ def reporter(progress: Progress, title: str, unit: str = "steps", count: Optiona
     if progress is True:
         with _bar(title, unit, count) as report:
             yield report
-    else:
-        check_progress(progress)
+    elif progress is None or isinstance(progress, bool) or callable(progress):
         yield progress if callable(progress) else None
-
-
-def check_progress(progress: Any) -> None:
-    if not (progress is None or isinstance(progress, bool) or callable(progress)):
+    else:
         raise TypeError(f"progress: expected True or a function, not {type(progress).__name__}")
 
 
