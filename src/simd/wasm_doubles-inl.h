@@ -15,6 +15,7 @@ HWY_API Doubles128 Mul(Doubles128 a, Doubles128 b) { return {wasm_f64x2_mul(a.ra
 HWY_API Doubles128 Div(Doubles128 a, Doubles128 b) { return {wasm_f64x2_div(a.raw, b.raw)}; }
 HWY_API Doubles128 Abs(Doubles128 a) { return {wasm_f64x2_abs(a.raw)}; }
 HWY_API Doubles128 Max(Doubles128 a, Doubles128 b) { return {wasm_f64x2_max(a.raw, b.raw)}; }
+HWY_API Doubles128 Min(Doubles128 a, Doubles128 b) { return {wasm_f64x2_min(a.raw, b.raw)}; }
 HWY_API Doubles128 Sqrt(Doubles128 a) { return {wasm_f64x2_sqrt(a.raw)}; }
 HWY_API DoubleMask128 Eq(Doubles128 a, Doubles128 b) { return {wasm_f64x2_eq(a.raw, b.raw)}; }
 HWY_API DoubleMask128 Lt(Doubles128 a, Doubles128 b) { return {wasm_f64x2_lt(a.raw, b.raw)}; }
