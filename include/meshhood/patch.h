@@ -147,7 +147,8 @@ struct Invariants {
 /// `invariants`.
 [[nodiscard]] std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, const Run& run = {});
 
-/// The same as `visit(row, gap)`, once for each row, on any thread, for a caller that keeps only a part of each.
+/// Calls `visit(row, gap)` once for each row instead, in any order and on the threads of the call, several at a time:
+/// for a caller that keeps only a part of each gap. An exception of `visit` ends the call, and is passed on.
 void for_each_gap(const Surface& surface, const BatchQuery& query,
                   const std::function<void(std::size_t row, const SurfacePoint& gap)>& visit, const Run& run = {});
 
