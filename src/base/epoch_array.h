@@ -60,4 +60,24 @@ class EpochArray {
   std::uint32_t epoch_ = 0;
 };
 
+/// Numbers that one search has added. `forget` removes them all at once, in constant time but for every 65,535th call.
+/// 2 bytes for each number below `size`.
+class EpochSet {
+ public:
+  explicit EpochSet(std::size_t size) : epochs_(size) {}
+
+  void forget() {
+    if (++epoch_ != 0) return;
+    std::fill(epochs_.begin(), epochs_.end(), std::uint16_t{0});
+    epoch_ = 1;
+  }
+
+  [[nodiscard]] bool has(std::size_t i) const { return epochs_[i] == epoch_; }
+  void add(std::size_t i) { epochs_[i] = epoch_; }
+
+ private:
+  std::vector<std::uint16_t> epochs_;
+  std::uint16_t epoch_ = 1;
+};
+
 }  // namespace meshhood

@@ -49,12 +49,12 @@ inline PatchSearch::Kind PatchSearch::kind_of(MeshletId meshlet) {
 inline void PatchSearch::visit(TriangleId t) {
   if (seen_count_ == triangles_.size()) triangles_.resize(2 * seen_count_ + 64);
   triangles_[seen_count_] = t;
-  seen_count_ += static_cast<std::size_t>(seen_[t] != epoch_);
-  seen_[t] = epoch_;
+  seen_count_ += static_cast<std::size_t>(!seen_.has(t));
+  seen_.add(t);
 }
 
 inline void PatchSearch::enter(std::uint32_t place) {
-  inside_[place] = epoch_;
+  inside_.add(place);
   for (const TriangleId t : state_->triangles.fan(place)) visit(t);
 }
 
@@ -76,8 +76,8 @@ void PatchSearch::spread(std::span<const Real> xyz) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t place = triangle.places[i];
       triangle.corners[i] = point(xyz, place);
-      if (inside_[place] != epoch_ && ball_.contains(triangle.corners[i])) enter(place);
-      triangle.inside[i] = inside_[place] == epoch_;
+      if (!inside_.has(place) && ball_.contains(triangle.corners[i])) enter(place);
+      triangle.inside[i] = inside_.has(place);
     }
     if (triangle.inside[0] && triangle.inside[1] && triangle.inside[2]) {
       if (measures_) add_whole(t, triangle);
@@ -91,11 +91,8 @@ void PatchSearch::run(const Point& center, double radius, std::span<const Triang
   ball_ = patch_ball(center, radius, state_->index->frame.scale);
   measures_ = measures;
   kinds_.forget();
-  if (++epoch_ == 0) {
-    std::ranges::fill(inside_, std::uint16_t{0});
-    std::ranges::fill(seen_, std::uint16_t{0});
-    epoch_ = 1;
-  }
+  inside_.forget();
+  seen_.forget();
   seen_count_ = 0;
   meshlets_.clear();
   sums_.clear(state_->triangles.normal_of(*state_->index, starts));
@@ -115,7 +112,7 @@ void PatchSearch::take(MeshletId meshlet) {
 /// All corners of a meshlet that is taken are in the ball.
 void PatchSearch::leave(MeshletId meshlet) {
   for (const std::uint32_t place : state_->meshlets.corners_of(meshlet)) {
-    if (inside_[place] != epoch_) enter(place);
+    if (!inside_.has(place)) enter(place);
   }
 }
 

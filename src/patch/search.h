@@ -34,7 +34,7 @@ class PatchSearch {
 
   [[nodiscard]] const PatchBall& ball() const { return ball_; }
   /// A triangle is of the patch if it was seen, or its meshlet taken.
-  [[nodiscard]] bool has_seen(TriangleId t) const { return seen_[t] == epoch_; }
+  [[nodiscard]] bool has_seen(TriangleId t) const { return seen_.has(t); }
   [[nodiscard]] bool has_taken(MeshletId c) const { return kinds_.is_known(c) && kinds_[c] == Kind::Taken; }
 
   /// By the numbers of their faces.
@@ -55,10 +55,9 @@ class PatchSearch {
   void add_cut(TriangleId t, const PatchTriangle& triangle);
 
   const PatchState* state_;
-  std::vector<std::uint16_t> inside_;  // by place: the last run whose ball has it
-  std::vector<std::uint16_t> seen_;    // by triangle: the last run that has seen it
+  EpochSet inside_;                    // places in the ball
+  EpochSet seen_;                      // triangles
   EpochArray<Kind> kinds_;             // by meshlet
-  std::uint16_t epoch_ = 0;            // the number of the run
   std::vector<TriangleId> triangles_;  // seen, in this order; and room
   std::size_t seen_count_ = 0;
   std::vector<MeshletId> meshlets_;  // taken

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/epoch_array.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -57,6 +58,17 @@ TEST(EpochArray, ForgetsEverythingWhenTheEpochsRunOut) {
   array.set(2, 9);
   EXPECT_TRUE(array.is_known(2));
   EXPECT_FALSE(array.is_known(0));
+}
+
+TEST(EpochSet, IsEmptyAfterEachForgetAndWhenItsNumbersRunOut) {
+  EpochSet set(3);
+  set.add(1);
+  for (std::size_t search = 0; search < 2 * 65536; ++search) {
+    ASSERT_EQ(set.has(1), search == 0) << search;
+    set.forget();
+    set.add(2);
+    ASSERT_TRUE(set.has(2) && !set.has(0) && !set.has(1)) << search;
+  }
 }
 
 }  // namespace
