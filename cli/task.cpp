@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "task.h"
 
-#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -12,12 +11,12 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "meshhood/error.h"
 
 #include "io/messages.h"
 #include "quantity.h"
+#include "system.h"
 
 namespace meshhood::cli {
 namespace {
@@ -28,14 +27,12 @@ constexpr auto kDelay = std::chrono::seconds(1);
 constexpr auto kRefresh = std::chrono::milliseconds(200);
 constexpr const char* kClearLine = "\r\x1b[K";
 
-constexpr std::array kSignals{SIGINT, SIGHUP, SIGTERM, SIGXCPU};
-
 volatile std::sig_atomic_t caught = 0;
 
 void remember(int /*signal*/) { caught = 1; }
 
 void replace_handlers(void (*expected)(int), void (*handler)(int)) {
-  for (const int signal : kSignals) {
+  for (const int signal : ending_signals()) {
     // An ignored signal stays ignored: nohup and background jobs rely on it.
     const auto previous = std::signal(signal, handler);
     if (previous != expected) std::signal(signal, previous);
@@ -46,7 +43,7 @@ void replace_handlers(void (*expected)(int), void (*handler)(int)) {
 
 Task::Task(std::string_view description, Unit unit) : description_(io::printable_name(description)), unit_(unit) {
   replace_handlers(SIG_DFL, remember);
-  if (isatty(STDERR_FILENO) == 0) return;
+  if (!is_error_on_terminal()) return;
   display_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
 }
 
