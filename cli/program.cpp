@@ -76,6 +76,7 @@ ExitCode fail(ExitCode code, std::string_view message) {
 
 void add_subcommands(CLI::App& program) {
   program.require_subcommand(0, 1);
+  program.allow_windows_style_options(false);  // on Windows, /name would be an option; the commands inherit it
   program.formatter(std::make_shared<HelpFormatter>());  // the commands inherit it
   program.group("Subcommands");                          // and this; versions of CLI11 differ
   program.footer(kFooter);
