@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
+#include <cerrno>
 #include <csignal>
 
 #include <fcntl.h>
@@ -27,6 +28,8 @@ void prepare_streams() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }
+
+bool is_closed_pipe(int error_number) { return error_number == EPIPE; }
 
 std::span<const int> ending_signals() {
   static constexpr std::array kSignals{SIGINT, SIGHUP, SIGTERM, SIGXCPU};

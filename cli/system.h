@@ -19,6 +19,9 @@ namespace meshhood::cli {
 /// written into it. A closed pipe, and a file-size limit for standard output, become errors of the write.
 void prepare_streams();
 
+/// Whether a write to a standard stream failed because its reader has closed it.
+[[nodiscard]] bool is_closed_pipe(int error_number);
+
 /// The signals by which the user or the system ends a program.
 [[nodiscard]] std::span<const int> ending_signals();
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 
@@ -23,19 +24,27 @@ std::vector<std::string> arguments_of(std::span<char* const> /*given*/) {
   return arguments;
 }
 
-/// Lines end as they do on other systems, so that a program that reads them need not know this one.
+/// Lines end as they do on other systems, so that a program that reads them need not know this one, and messages are
+/// not kept back.
 void prepare_streams() {
   ::_setmode(::_fileno(stdout), _O_BINARY);
   ::_setmode(::_fileno(stderr), _O_BINARY);
+  std::setvbuf(stderr, nullptr, _IONBF, 0);
   ::SetConsoleOutputCP(CP_UTF8);
 }
+
+/// The C library knows no other reason for EINVAL here.
+bool is_closed_pipe(int error_number) { return error_number == EPIPE || error_number == EINVAL; }
 
 std::span<const int> ending_signals() {
   static constexpr std::array kSignals{SIGINT, SIGTERM};
   return kSignals;
 }
 
-bool is_error_on_terminal() { return ::_isatty(::_fileno(stderr)) != 0; }
+bool is_error_on_terminal() {
+  DWORD mode = 0;
+  return ::GetConsoleMode(::GetStdHandle(STD_ERROR_HANDLE), &mode) != 0;
+}
 
 std::optional<std::size_t> terminal_columns() {
   CONSOLE_SCREEN_BUFFER_INFO console{};

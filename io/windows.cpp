@@ -100,10 +100,9 @@ FileStatus status_of(const Descriptor& file, const std::filesystem::path& path) 
   using Kind = FileStatus::Kind;
   BY_HANDLE_FILE_INFORMATION status{};
   const DWORD type = ::GetFileType(handle_of(file));
-  if (type != FILE_TYPE_DISK) return {type == FILE_TYPE_PIPE ? Kind::Pipe : Kind::Other, 0, {}};
-  if (::GetFileInformationByHandle(handle_of(file), &status) == 0) {
-    fail_with_last_error();
-    raise_errno(path, errno);
+  // A file that tells nothing of itself is read and written as a device is.
+  if (type != FILE_TYPE_DISK || ::GetFileInformationByHandle(handle_of(file), &status) == 0) {
+    return {type == FILE_TYPE_PIPE ? Kind::Pipe : Kind::Other, 0, {}};
   }
   const auto joined = [](DWORD high, DWORD low) { return std::uint64_t{high} << 32U | low; };
   using Ticks = std::chrono::duration<std::uint64_t, std::ratio<1, 10'000'000>>;
@@ -147,7 +146,12 @@ bool write_all(const Descriptor& file, std::string_view bytes) {
   return true;
 }
 
-bool write_when_ready(const Descriptor& file, std::string_view bytes) { return write_all(file, bytes); }
+/// The C library has EINVAL for a pipe that its reader has closed.
+bool write_when_ready(const Descriptor& file, std::string_view bytes) {
+  if (write_all(file, bytes)) return true;
+  if (errno == EINVAL) errno = EPIPE;
+  return false;
+}
 
 std::int64_t position_of(const Descriptor& file) { return ::_telli64(file.number()); }
 
