@@ -2,7 +2,7 @@
 set(stems ply obj off stl vtk freesurfer float_keeps blocks text index_progress weld unplaced)
 if(WIN32) # the others are tests of what only POSIX has: links, modes, named pipes
   foreach(stem IN LISTS stems)
-    meshhood_test(io/${stem} meshhood::io meshhood_families)
+    meshhood_test(io/${stem} meshhood::io meshhood_families fmt::fmt)
   endforeach()
   return()
 endif()
