@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The memory of a call, from the counters of Linux. As a program, that of the first call of all vertices at 5 mean edges,
-in bytes a vertex beyond the mesh and the index, each call in a process of its own:
+"""The memory of a call, from the counters of Linux. As a program, that of the first call of all vertices, at 5 mean edges
+and at 16 radii up to that, in bytes a vertex beyond the mesh and the index, each call in a process of its own:
 
     PYTHONPATH=PACKAGE python3 bench/memory.py MESH...
 """
@@ -31,20 +31,22 @@ def status(name):
     return 1024 * int(re.search(rf"{name}:\s*(\d+) kB", text)[1])
 
 
-def first_call(path, call, options):
+def first_call(path, call, options, radii):
     import meshhood
 
     index = meshhood.MeshIndex(*meshhood.read_mesh(path))
-    radius = 5 * index.mean_edge_length
-    return peak_of(lambda: getattr(index, call)(radius, **options)) / len(index)
+    scales = [5 * index.mean_edge_length * (i + 1) / radii for i in range(radii)]
+    return peak_of(lambda: getattr(index, call)(scales=scales, **options)) / len(index)
 
 
-CALLS = (("moments", {"degree": 2}), ("moments", {"degree": 4}), ("invariants", {}), ("gaps", {}))
+KINDS = (("moments", {"degree": 2}), ("moments", {"degree": 4}), ("invariants", {}), ("gaps", {}))
+CALLS = [(*kind, radii) for kind in KINDS for radii in (1, 16)]
 
 if __name__ == "__main__" and sys.argv[1] != "--one":
     for file in sys.argv[1:]:
         for number in range(len(CALLS)):
             subprocess.run([sys.executable, __file__, "--one", file, str(number)], check=True)
 elif __name__ == "__main__":
-    name, given = CALLS[int(sys.argv[3])]
-    print(f"{Path(sys.argv[2]).name}, {name} {given or ''}: {first_call(sys.argv[2], name, given):.0f} bytes a vertex")
+    name, given, radii = CALLS[int(sys.argv[3])]
+    held = first_call(sys.argv[2], name, given, radii)
+    print(f"{Path(sys.argv[2]).name}, {name} {given or ''}, {radii} radii: {held:.0f} bytes a vertex")

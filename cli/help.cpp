@@ -9,10 +9,9 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include "io/number.h"
+#include "system.h"
 
 namespace meshhood::cli {
 namespace {
@@ -23,9 +22,7 @@ std::size_t terminal_width() {
   const char* const text = std::getenv("COLUMNS");  // NOLINT(concurrency-mt-unsafe): no thread sets it
   const std::optional<std::uint64_t> columns = text == nullptr ? std::nullopt : io::parse_count(text);
   if (columns && *columns > 0) return std::max<std::size_t>(*columns, kLeast);
-  winsize size{};
-  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefault;
-  return std::max<std::size_t>(size.ws_col, kLeast);
+  return std::max(terminal_columns().value_or(kDefault), kLeast);
 }
 
 /// Breaks lines at blanks. A longer word keeps its length.

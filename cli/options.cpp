@@ -19,15 +19,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include "meshhood/adjacency.h"
 #include "meshhood/error.h"
 #include "meshhood/run.h"
 
-#include "io/descriptor.h"
 #include "io/messages.h"
 #include "io/number.h"
+#include "io/system.h"
 #include "io/text.h"
 #include "output.h"
 
@@ -133,7 +132,7 @@ void check_place(const std::string& output) {
   const fs::path folder = fs::path(output).parent_path();
   const fs::file_status status_of_folder = fs::status(folder.empty() ? "." : folder, ignored);
   if (fs::exists(status_of_folder) && !fs::is_directory(status_of_folder)) io::raise_errno(output, ENOTDIR, "create");
-  if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) io::raise_errno(output, errno, "create");
+  if (!io::may_create_in(folder.empty() ? "." : folder)) io::raise_errno(output, errno, "create");
 }
 
 }  // namespace

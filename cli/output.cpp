@@ -8,13 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "system.h"
+
 namespace meshhood::cli {
 namespace {
 
 bool is_output_kept = false;
 
 [[noreturn]] void fail(int error_number) {
-  if (error_number == EPIPE) throw OutputClosed();
+  if (is_closed_pipe(error_number)) throw OutputClosed();
   io::raise_errno("standard output", error_number);
 }
 

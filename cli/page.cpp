@@ -14,9 +14,9 @@
 #include "meshhood/error.h"
 
 #include "io/byte_source.h"
-#include "io/descriptor.h"
 #include "io/file_writer.h"
 #include "io/messages.h"
+#include "io/system.h"
 #include "output.h"
 #include "quantity.h"
 #include "task.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -16,9 +15,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "meshhood/error.h"
 #include "meshhood/kernel_target.h"
@@ -26,10 +23,11 @@
 
 #include "commands.h"
 #include "help.h"
-#include "io/descriptor.h"
 #include "io/number.h"
+#include "io/system.h"
 #include "options.h"
 #include "output.h"
+#include "system.h"
 
 namespace meshhood::cli {
 namespace {
@@ -78,6 +76,7 @@ ExitCode fail(ExitCode code, std::string_view message) {
 
 void add_subcommands(CLI::App& program) {
   program.require_subcommand(0, 1);
+  program.allow_windows_style_options(false);  // on Windows, /name would be an option; the commands inherit it
   program.formatter(std::make_shared<HelpFormatter>());  // the commands inherit it
   program.group("Subcommands");                          // and this; versions of CLI11 differ
   program.footer(kFooter);
@@ -182,11 +181,11 @@ void run(CLI::App& program, std::vector<std::string> arguments) {
   close_output();
 }
 
-ExitCode run_or_report(std::span<const char* const> arguments) {
+ExitCode run_or_report(std::vector<std::string> arguments) {
   try {
     CLI::App program(kDescription, "meshhood");
     add_subcommands(program);
-    run(program, {arguments.begin(), arguments.end()});
+    run(program, std::move(arguments));
     return ExitCode::Ok;
   } catch (const OutputClosed&) {
     return ExitCode::Ok;
@@ -202,23 +201,11 @@ ExitCode run_or_report(std::span<const char* const> arguments) {
   }
 }
 
-/// A file opened later must not get the number of a closed standard stream: messages would be written into it. Writing
-/// to a closed standard output still fails, because the replacement is opened in the wrong direction.
-void occupy_standard_streams() {
-  for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
-    if (::fcntl(number, F_GETFD) != -1) continue;
-    static_cast<void>(::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY));
-  }
-}
-
 }  // namespace
 
-int run_program(std::span<const char* const> arguments) {
-  occupy_standard_streams();
-  // Both become errors of the write: a closed pipe, and a file-size limit for standard output.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
-  return static_cast<int>(run_or_report(arguments));
+int run_program(std::vector<std::string> arguments) {
+  prepare_streams();
+  return static_cast<int>(run_or_report(std::move(arguments)));
 }
 
 }  // namespace meshhood::cli

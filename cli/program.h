@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +23,6 @@ void read_others_by(OtherReader reader);
 /// The program as a function: runs the command that `arguments` name, without the name of the program, and returns its
 /// exit code, an error of the command included. Once in a process, which should then end: standard output is closed,
 /// and SIGPIPE and SIGXFSZ stay ignored. An exception is a bug, or there is not enough memory for an error message.
-[[nodiscard]] int run_program(std::span<const char* const> arguments);
+[[nodiscard]] int run_program(std::vector<std::string> arguments);
 
 }  // namespace meshhood::cli

@@ -15,12 +15,11 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <sys/statvfs.h>
 
 #include "meshhood/error.h"
 
-#include "io/descriptor.h"
 #include "io/messages.h"
+#include "io/system.h"
 #include "quantity.h"
 
 namespace meshhood::cli {
@@ -31,10 +30,11 @@ std::optional<double> free_space(const std::filesystem::path& output) {
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(output, ignored);
   const bool is_special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-  struct statvfs disk = {};
-  const std::string folder = output.has_parent_path() ? output.parent_path().string() : ".";
-  if (is_special || ::statvfs(folder.c_str(), &disk) != 0 || disk.f_blocks == 0) return std::nullopt;
-  return static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
+  const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : ".";
+  std::error_code unknown;
+  const std::filesystem::space_info space = std::filesystem::space(folder, unknown);
+  if (is_special || unknown || space.capacity == 0) return std::nullopt;
+  return static_cast<double>(space.available);
 }
 
 /// The sizes of rows, one after the other.

@@ -10,9 +10,9 @@
 #include "meshhood/error.h"
 #include "meshhood/search.h"
 
-#include "io/descriptor.h"
 #include "io/messages.h"
 #include "io/number.h"
+#include "io/system.h"
 #include "methods.h"
 #include "options.h"
 #include "output.h"

@@ -8,7 +8,7 @@
 
 #include "meshhood/error.h"
 
-#include "io/descriptor.h"
+#include "io/system.h"
 #include "io/text.h"
 #include "options.h"
 #include "output.h"

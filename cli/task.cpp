@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "task.h"
 
-#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <mutex>
-#include <stop_token>
 #include <string>
 #include <string_view>
-#include <thread>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "meshhood/error.h"
 
 #include "io/messages.h"
 #include "quantity.h"
+#include "system.h"
 
 namespace meshhood::cli {
 namespace {
@@ -28,14 +25,12 @@ constexpr auto kDelay = std::chrono::seconds(1);
 constexpr auto kRefresh = std::chrono::milliseconds(200);
 constexpr const char* kClearLine = "\r\x1b[K";
 
-constexpr std::array kSignals{SIGINT, SIGHUP, SIGTERM, SIGXCPU};
-
 volatile std::sig_atomic_t caught = 0;
 
 void remember(int /*signal*/) { caught = 1; }
 
 void replace_handlers(void (*expected)(int), void (*handler)(int)) {
-  for (const int signal : kSignals) {
+  for (const int signal : ending_signals()) {
     // An ignored signal stays ignored: nohup and background jobs rely on it.
     const auto previous = std::signal(signal, handler);
     if (previous != expected) std::signal(signal, previous);
@@ -46,11 +41,20 @@ void replace_handlers(void (*expected)(int), void (*handler)(int)) {
 
 Task::Task(std::string_view description, Unit unit) : description_(io::printable_name(description)), unit_(unit) {
   replace_handlers(SIG_DFL, remember);
-  if (isatty(STDERR_FILENO) == 0) return;
-  display_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
+  if (!is_error_on_terminal()) return;
+  display_ = std::thread([this] { show(); });
 }
 
-Task::~Task() { replace_handlers(remember, SIG_DFL); }
+Task::~Task() {
+  replace_handlers(remember, SIG_DFL);
+  if (!display_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    is_finished_ = true;
+  }
+  finished_.notify_one();
+  display_.join();
+}
 
 void Task::check_cancelled() {
   if (caught != 0) raise(ErrorCode::Cancelled, "cancelled");
@@ -68,17 +72,16 @@ void Task::report(std::size_t done, std::size_t total) {
   total_ = total;
 }
 
-void Task::show(const std::stop_token& stop) {
+void Task::show() {
   const auto start = Clock::now();
   std::unique_lock lock(mutex_);
-  const auto wait = [&](auto time) {
-    finished_.wait_for(lock, stop, time, [] { return false; });
-    return !stop.stop_requested();
+  const auto finishes_within = [&](auto time) {
+    return finished_.wait_for(lock, time, [this] { return is_finished_; });
   };
-  if (!wait(kDelay)) return;
+  if (finishes_within(kDelay)) return;
   do {
     draw(std::chrono::duration<double>(Clock::now() - start).count());
-  } while (wait(kRefresh));
+  } while (!finishes_within(kRefresh));
   std::fputs(kClearLine, stderr);
 }
 

@@ -5,7 +5,6 @@
 #include <condition_variable>
 #include <cstddef>
 #include <mutex>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -45,7 +44,7 @@ class Task {
   static void check_cancelled();
 
  private:
-  void show(const std::stop_token& stop);
+  void show();
   void draw(double seconds) const;
 
   io::WhileWaiting waiting_{check_cancelled};
@@ -54,8 +53,9 @@ class Task {
   std::atomic<std::size_t> done_ = 0;
   std::atomic<std::size_t> total_ = 0;
   std::mutex mutex_;
-  std::condition_variable_any finished_;
-  std::jthread display_;  // last, so that it ends before the members it uses
+  std::condition_variable finished_;
+  bool is_finished_ = false;
+  std::thread display_;
 };
 
 }  // namespace meshhood::cli

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // meshhood view: a page that shows the mesh and its neighborhoods.
-#include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -13,8 +11,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include "meshhood/error.h"
 
@@ -24,9 +20,8 @@
 #include "options.h"
 #include "output.h"
 #include "page.h"
+#include "system.h"
 #include "vertex_files.h"
-
-extern char** environ;  // NOLINT(readability-redundant-declaration): not every system declares it
 
 namespace meshhood::cli {
 namespace {
@@ -41,22 +36,6 @@ struct ViewCommand {
   std::string output;
   bool open = false;
 };
-
-/// Starts the browser that the desktop prefers.
-void open_in_browser(const std::string& page) {
-#if defined(__APPLE__)
-  std::string program = "open";
-#else
-  std::string program = "xdg-open";
-#endif
-  std::string argument = std::filesystem::absolute(page).string();
-  const std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
-  pid_t process = 0;
-  const int error = ::posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments.data(), environ);
-  int status = 0;
-  if (error == 0 && ::waitpid(process, &status, 0) == process && status == 0) return;
-  print_error("warning: ", fmt::format("{} could not open {}", program, printable_name(page)));
-}
 
 /// A page stores float. Values that are not finite get no color; others must not become infinite.
 std::vector<float> as_floats(const std::vector<double>& values) {
@@ -109,7 +88,10 @@ void view(const ViewCommand& options) {
   input.need_edges("view");
   write_page(output, options.file, input.other_as_ply(), settings_of(options, input));
   print_text(output + "\n");
-  if (options.open) open_in_browser(output);
+  if (!options.open) return;
+  if (const auto program = open_in_browser(std::filesystem::absolute(output)); !program.empty()) {
+    print_error("warning: ", fmt::format("{} could not open {}", program, printable_name(output)));
+  }
 }
 
 }  // namespace

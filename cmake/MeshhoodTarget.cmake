@@ -123,4 +123,7 @@ function(meshhood_harden target)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2>)
   endif()
   target_link_options(${target} PRIVATE $<$<PLATFORM_ID:Linux>:LINKER:-z,relro,-z,now>)
+  if(MINGW)
+    target_link_libraries(${target} PUBLIC ssp) # which has both
+  endif()
 endfunction()

@@ -6,13 +6,11 @@
 #include <cstring>
 #include <utility>
 
-#include <poll.h>
-#include <sys/stat.h>
-
 #include "io/messages.h"
 #include "io/waiting.h"
 
 namespace meshhood::io {
+
 std::size_t MemorySource::read(std::span<char> out) {
   const std::size_t count = std::min(out.size(), left_.size());
   if (count != 0) std::memcpy(out.data(), left_.data(), count);
@@ -21,24 +19,24 @@ std::size_t MemorySource::read(std::span<char> out) {
 }
 
 FileSource::FileSource(const std::filesystem::path& path) : path_(path), file_(open_to_read(path)) {
-  const struct stat status = status_of(file_, path);
-  const bool is_file = S_ISREG(status.st_mode);
+  const FileStatus status = status_of(file_, path);
+  const bool is_file = status.kind == FileStatus::Kind::Regular;
   const bool is_standard_input = path == kStandardInput;
   is_regular_ = is_file && !is_standard_input;
   // A file of length 0 may still have content: /proc is full of them.
-  if (is_file && status.st_size > 0) size_ = static_cast<std::uint64_t>(status.st_size);
-  may_lack_a_writer_ = S_ISFIFO(status.st_mode) && !is_standard_input;
+  if (is_file && status.size > 0) size_ = status.size;
+  may_lack_a_writer_ = status.kind == FileStatus::Kind::Pipe && !is_standard_input;
   if (!is_standard_input) return;
-  // Opened by another process, without O_NONBLOCK, and perhaps read in part.
+  // Opened by another process, so that reading may wait, and perhaps read in part.
   may_block_ = !is_file;
-  if (size_) *size_ -= std::min(*size_, static_cast<std::uint64_t>(::lseek(file_.number(), 0, SEEK_CUR)));
+  if (size_) *size_ -= std::min(*size_, static_cast<std::uint64_t>(position_of(file_)));
 }
 
 FileSource::FileSource(const std::filesystem::path& path, Descriptor file) : path_(path), file_(std::move(file)) {
-  const struct stat status = status_of(file_, path);
-  is_regular_ = S_ISREG(status.st_mode);
-  size_ = static_cast<std::uint64_t>(status.st_size);
-  if (::lseek(file_.number(), 0, SEEK_SET) < 0) raise_errno(path, errno);
+  const FileStatus status = status_of(file_, path);
+  is_regular_ = status.kind == FileStatus::Kind::Regular;
+  size_ = status.size;
+  if (!move_to(file_, 0)) raise_errno(path, errno);
 }
 
 std::string_view FileSource::peek(std::size_t count) {
@@ -63,10 +61,10 @@ std::size_t FileSource::read(std::span<char> out) {
 
 std::size_t FileSource::read_file(std::span<char> out) {
   for (;;) {
-    if (may_block_) wait_for(file_.number(), POLLIN, kNoTimeout);
-    const ssize_t count = ::read(file_.number(), out.data(), out.size());
+    if (may_block_) wait_for(file_, Ready::ToRead, kNoTimeout);
+    const std::ptrdiff_t count = read_some(file_, out);
     if (count == 0 && std::exchange(may_lack_a_writer_, false)) {
-      if (!wait_for(file_.number(), POLLIN, kPartnerTimeout))
+      if (!wait_for(file_, Ready::ToRead, kPartnerTimeout))
         raise_io(path_, ETIMEDOUT, "no process writes to this pipe");
       continue;
     }
@@ -75,7 +73,7 @@ std::size_t FileSource::read_file(std::span<char> out) {
       return static_cast<std::size_t>(count);
     }
     if (errno == EAGAIN) {
-      wait_for(file_.number(), POLLIN, kNoTimeout);
+      wait_for(file_, Ready::ToRead, kNoTimeout);
     } else if (errno == EINTR) {
       report_wait();
     } else {

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/descriptor.h"
+#include "io/system.h"
 
 namespace meshhood::io {
 

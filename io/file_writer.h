@@ -7,9 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include <sys/types.h>
-
-#include "io/descriptor.h"
+#include "io/system.h"
 
 namespace meshhood::io {
 
@@ -51,14 +49,12 @@ class FileWriter {
   void open_in_place(Order order);
   [[nodiscard]] Descriptor open_special() const;
   [[nodiscard]] bool can_seek() const;
-  void open_unnamed();
-  void open_beside(mode_t mode);
+  void open_beside(bool is_private);
   void write_through(std::string_view bytes);
   void flush();
   void copy_to_stream();
-  void keep_owner_and_mode() const;
   [[nodiscard]] Descriptor open_directory() const;
-  void sync(const Descriptor& directory) const;
+  void sync_names(const Descriptor& directory) const;
   [[noreturn]] void fail(std::string_view action) const;
 
   std::filesystem::path name_;  // as given, for messages

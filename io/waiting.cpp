@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include <poll.h>
-
 namespace meshhood::io {
 namespace {
 
@@ -19,11 +17,10 @@ void report_wait() {
   if (current != nullptr) (*current)();
 }
 
-bool wait_for(int file, short events, std::chrono::steady_clock::duration limit) {
+bool wait_for(const Descriptor& file, Ready ready, std::chrono::steady_clock::duration limit) {
   using Clock = std::chrono::steady_clock;
-  pollfd waiting = {file, events, 0};
   const auto start = Clock::now();
-  while (::poll(&waiting, 1, static_cast<int>(kPollInterval.count())) <= 0) {
+  while (!is_ready(file, ready, kPollInterval)) {
     report_wait();
     if (Clock::now() - start >= limit) return false;
   }

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <functional>
 
+#include "io/system.h"
+
 namespace meshhood::io {
 
 /// While it lives, files of this thread that wait for another process call `f` about ten times a second, and whenever a
@@ -24,9 +26,8 @@ class WhileWaiting {
 /// Calls the function of this thread, if there is one.
 void report_wait();
 
-/// Waits until `file` has something to read (POLLIN) or room to write (POLLOUT), or is over. Returns false after
-/// `limit`.
-bool wait_for(int file, short events, std::chrono::steady_clock::duration limit);
+/// Waits until `file` is ready. Returns false after `limit`.
+bool wait_for(const Descriptor& file, Ready ready, std::chrono::steady_clock::duration limit);
 
 inline constexpr auto kPollInterval = std::chrono::milliseconds(100);
 inline constexpr auto kNoTimeout = std::chrono::steady_clock::duration::max();

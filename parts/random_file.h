@@ -5,14 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <span>
 
-#include <sys/stat.h>
-
 #include "io/byte_source.h"
-#include "io/descriptor.h"
+#include "io/system.h"
 
 namespace meshhood::parts {
 
@@ -25,7 +22,7 @@ class RandomFile {
   explicit RandomFile(const std::filesystem::path& path);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::uint64_t size() const { return size_; }
+  [[nodiscard]] std::uint64_t size() const { return opened_.size; }
 
   /// Fills `out` with the bytes from `offset` on. They must lie in the file.
   void read(std::uint64_t offset, std::span<char> out) const;
@@ -37,12 +34,9 @@ class RandomFile {
   void check_unchanged() const;
 
  private:
-  [[nodiscard]] struct stat status() const;
-
   std::filesystem::path path_;
   io::Descriptor file_;
-  std::uint64_t size_ = 0;
-  timespec written_{};  // for the last time before it was opened
+  io::FileStatus opened_;  // when it was opened
 };
 
 /// The number of type T at `bytes`, in reversed byte order if `swaps`.

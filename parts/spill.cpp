@@ -6,12 +6,10 @@
 #include <cerrno>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include "io/descriptor.h"
 #include "io/messages.h"
+#include "io/system.h"
 
 namespace meshhood::parts {
 
@@ -42,15 +40,11 @@ void Spill::write(std::size_t list) {
   std::vector<std::uint64_t>& buffer = buffers_[list];
   if (buffer.empty()) return;
   const std::filesystem::path path = file(list);
-  constexpr int kFlags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC;
-  constexpr mode_t kPrivateMode = 0600;
-  io::Descriptor target(io::uninterrupted([&] { return ::open(path.c_str(), kFlags, kPrivateMode); }));
+  io::Descriptor target = io::open_to_append(path);
   if (!target.is_open()) io::raise_errno(path, errno, "create");
-  auto bytes = std::as_bytes(std::span(buffer));
-  while (!bytes.empty()) {
-    const ssize_t count = io::uninterrupted([&] { return ::write(target.number(), bytes.data(), bytes.size()); });
-    if (count < 0) io::raise_errno(path, errno, "write");
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  const auto bytes = std::as_bytes(std::span(buffer));
+  if (!io::write_all(target, {reinterpret_cast<const char*>(bytes.data()), bytes.size()})) {
+    io::raise_errno(path, errno, "write");
   }
   if (!target.close()) io::raise_errno(path, errno, "close");
   buffer.clear();

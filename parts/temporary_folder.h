@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdio>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
-#include <ftw.h>
-#include <sys/stat.h>
-
 #include "io/messages.h"
+#include "io/system.h"
 
 namespace meshhood::parts {
 
@@ -25,12 +22,7 @@ class TemporaryFolder {
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  /// Not by `std::filesystem::remove_all`, which throws if memory runs out.
-  ~TemporaryFolder() {
-    constexpr int kOpenFolders = 4;
-    const auto remove = [](const char* file, const struct stat*, int, FTW*) { return std::remove(file); };
-    static_cast<void>(::nftw(path_.c_str(), remove, kOpenFolders, FTW_DEPTH | FTW_PHYS));
-  }
+  ~TemporaryFolder() { io::remove_folder(path_); }
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 

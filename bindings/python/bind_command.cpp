@@ -50,11 +50,11 @@ cli::OtherReader reader_by(nb::handle reader) {
 }
 
 int run_command(const std::vector<nb::bytes>& words, nb::handle read_other) {
-  std::vector<const char*> arguments;
-  for (const nb::bytes& word : words) arguments.push_back(word.c_str());
+  std::vector<std::string> arguments;
+  for (const nb::bytes& word : words) arguments.emplace_back(word.c_str());
   cli::read_others_by(reader_by(read_other));
   restore_interrupt();
-  return without_lock([&] { return cli::run_program(arguments); });
+  return without_lock([&] { return cli::run_program(std::move(arguments)); });
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Runs a transcript and compares the output of the program with it.
 
-usage: run_transcript.py PROGRAM TRANSCRIPT
+usage: run_transcript.py TRANSCRIPT [EMULATOR] PROGRAM
 
 A transcript is a text of
 
@@ -76,12 +76,18 @@ def run(step, folder, environment):
 
 
 def main():
-    program, transcript = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
+    transcript, *emulator, program = sys.argv[1:]
+    transcript, program = Path(transcript), Path(program).resolve()
     steps = parse(transcript.read_text(encoding="utf-8"))
     failures = 0
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "bin").mkdir()
-        (Path(folder) / "bin" / "meshhood").symlink_to(program)
+        command = Path(folder) / "bin" / "meshhood"
+        if emulator:
+            command.write_text(f'#!/bin/sh\nexec {" ".join(emulator)} {program} "$@"\n', encoding="utf-8")
+            command.chmod(0o700)
+        else:
+            command.symlink_to(program)
         (Path(folder) / "work").mkdir()
         environment = dict(os.environ, PATH=f"{folder}/bin:{os.environ['PATH']}", LC_ALL="C.UTF-8")
         for step in steps:

@@ -80,7 +80,7 @@ def test_takes_bytes_that_are_no_text(folder):
 
 @pytest.mark.parametrize("name", ["streams", "shell", "errors", "names", "help", "view"])
 def test_behaves_as_the_transcript(name):
-    subprocess.run([sys.executable, TESTS / "run_transcript.py", COMMAND, TESTS / f"{name}.txt"], check=True)
+    subprocess.run([sys.executable, TESTS / "run_transcript.py", TESTS / f"{name}.txt", COMMAND], check=True)
 
 
 def test_ends_at_a_signal():

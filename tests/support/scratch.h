@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,9 +16,10 @@ namespace meshhood::test {
 class Scratch {
  public:
   explicit Scratch(const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
-    std::string name = (parent / "meshhood_test_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch folder");
-    path_ = name;
+    std::random_device random;
+    do {
+      path_ = parent / ("meshhood_test_" + std::to_string(random()));
+    } while (!std::filesystem::create_directory(path_));
   }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
