@@ -56,9 +56,9 @@ class NearestRows {
   /// Calls `f(search, row)` for all rows, on any thread, with a search of that thread, made by `make()`.
   template <class Make, class F>
   void for_each(Make&& make, F&& f) {
-    const std::vector<std::size_t> in_order =
-        rows_by_position(size(), [&](std::size_t row) { return index_->slot[vertex(row)]; });
     TaskContext task(run_.threads, run_.progress, size());
+    const RawVector<std::size_t> in_order =
+        rows_by_position(size(), [&](std::size_t row) { return index_->slot[vertex(row)]; }, task);
     std::vector<decltype(make())> searches(task.threads());
     task.parallel_for(size(), kRowsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
       if (!searches[thread]) searches[thread] = make();

@@ -144,12 +144,15 @@ SurfacePoint Surface::closest_point(const SpacePoint& point) const {
 
 std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> points, const Run& run) const {
   const State& state = SurfaceAccess::state(*this);
-  for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points: row " + std::to_string(i) + ": ");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!is_valid(points[i])) check_point(points[i], "points: row " + std::to_string(i) + ": ");
+  }
   TaskContext task(run.threads, run.progress, points.size());
   const FaceTree& tree = state.tree(task);
-  const std::vector<std::size_t> in_order = rows_along_curve(points.size(), [&](std::size_t i) {
+  const auto in_frame = [&](std::size_t i) {
     return state.index->frame.to_frame({points[i][0], points[i][1], points[i][2]});
-  });
+  };
+  const RawVector<std::size_t> in_order = rows_along_curve(points.size(), in_frame, task);
   std::vector<SurfacePoint> found(points.size());
   task.parallel_for(points.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     ClosestPoint search(*state.index, state.faces(), tree);

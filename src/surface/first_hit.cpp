@@ -64,6 +64,10 @@ std::array<double, 3> weights_on_side(const std::array<Point, 3>& corners, const
   return weights;
 }
 
+bool is_direction(const SpacePoint& d) {
+  return std::ranges::all_of(d, [](double coordinate) { return std::isfinite(coordinate); }) && d != SpacePoint{};
+}
+
 void check_direction(const SpacePoint& d, std::string_view where) {
   for (std::size_t axis = 0; axis < d.size(); ++axis) {
     if (std::isfinite(d[axis])) continue;
@@ -153,16 +157,19 @@ std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origin
                                         std::to_string(origins.size()) + " origins");
   }
   for (std::size_t i = 0; i < origins.size(); ++i) {
-    check_point(origins[i], "origins: row " + std::to_string(i) + ": ");
-    check_direction(directions[i], "directions: row " + std::to_string(i) + ": ");
+    if (is_valid(origins[i]) && is_direction(directions[i])) continue;
+    const std::string row = ": row " + std::to_string(i) + ": ";
+    check_point(origins[i], "origins" + row);
+    check_direction(directions[i], "directions" + row);
   }
   TaskContext task(run.threads, run.progress, origins.size());
   const FaceTree& tree = state.tree(task);
   const auto ray_of = [&](std::size_t i) { return make_ray(state, origins[i], directions[i]); };
-  const std::vector<std::size_t> in_order = rows_along_curve(origins.size(), [&](std::size_t i) {
+  const auto entry_of = [&](std::size_t i) {
     const Ray ray = ray_of(i);
     return ray.origin() + way_to_frame(ray.origin(), ray.direction()) * ray.direction();
-  });
+  };
+  const RawVector<std::size_t> in_order = rows_along_curve(origins.size(), entry_of, task);
   std::vector<SurfacePoint> found(origins.size());
   const auto fetch_row = [&](std::size_t row) {  // rays that follow each other along the curve lie anywhere
     prefetch(&origins[row]);
