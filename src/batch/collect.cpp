@@ -13,6 +13,7 @@
 #include "base/prefetch.h"
 #include "batch/batch.h"
 #include "batch/size_limit.h"
+#include "shared/large_pages.h"
 
 namespace meshhood {
 namespace {
@@ -197,8 +198,8 @@ Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query,
                             const Run& run) {
   Neighborhoods result;
   const auto allocate = [&](std::size_t count) -> BatchMemory {
-    result.ids.resize(count);
-    if (options.distances) result.distances.resize(count);
+    result.ids = make_values<VertexId>(count);
+    if (options.distances) result.distances = make_values<double>(count);
     return {result.ids, result.distances};
   };
   result.offsets = neighborhoods(method, query, allocate, options, run);

@@ -22,6 +22,7 @@
 #include "exact/query/arguments.h"
 #include "exact/query/length_search.h"
 #include "exact/query/straight_queries.h"
+#include "shared/large_pages.h"
 #include "shared/parallel.h"
 #include "shared/text.h"
 
@@ -269,8 +270,8 @@ KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_
   }
   const SizeLimit limit(run.max_bytes, kItemBytes, rows.size());
   if (rows.size() * k > limit.max_items()) limit.refuse("", rows.size() * k);
-  KNearest result{std::vector<VertexId>(rows.size() * k, kNoVertex),
-                  std::vector<double>(rows.size() * k, std::numeric_limits<double>::infinity())};
+  KNearest result{make_values(rows.size() * k, kNoVertex),
+                  make_values(rows.size() * k, std::numeric_limits<double>::infinity())};
   if (k == 0) return result;
   for_each_row(index, rows, [&](auto& search, std::size_t row) {
     std::size_t next = row * k;

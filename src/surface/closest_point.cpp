@@ -14,6 +14,7 @@
 #include "batch/position_sort.h"
 #include "exact/layout.h"
 #include "exact/query/arguments.h"
+#include "shared/large_pages.h"
 #include "shared/parallel.h"
 #include "surface/face_tree.h"
 #include "surface/surface.h"
@@ -153,7 +154,7 @@ std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> po
     return state.index->frame.to_frame({points[i][0], points[i][1], points[i][2]});
   };
   const RawVector<std::size_t> in_order = rows_along_curve(points.size(), in_frame, task);
-  std::vector<SurfacePoint> found(points.size());
+  std::vector<SurfacePoint> found = make_values<SurfacePoint>(points.size());
   task.parallel_for(points.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     ClosestPoint search(*state.index, state.faces(), tree);
     for (std::size_t i = begin; i < end; ++i) {

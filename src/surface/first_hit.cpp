@@ -17,6 +17,7 @@
 #include "batch/position_sort.h"
 #include "exact/query/arguments.h"
 #include "patch/twofold.h"
+#include "shared/large_pages.h"
 #include "shared/parallel.h"
 #include "shared/text.h"
 #include "surface/surface.h"
@@ -170,7 +171,7 @@ std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origin
     return ray.origin() + way_to_frame(ray.origin(), ray.direction()) * ray.direction();
   };
   const RawVector<std::size_t> in_order = rows_along_curve(origins.size(), entry_of, task);
-  std::vector<SurfacePoint> found(origins.size());
+  std::vector<SurfacePoint> found = make_values<SurfacePoint>(origins.size());
   const auto fetch_row = [&](std::size_t row) {  // rays that follow each other along the curve lie anywhere
     prefetch(&origins[row]);
     prefetch(&directions[row]);
