@@ -83,18 +83,6 @@ void count_rows(Batch& batch, std::uint64_t* sizes, const ForWriting* writing) {
   for (const NewIds& ids : new_ids) writing->limit.add(ids.count);
 }
 
-BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances) {
-  const BatchMemory memory = allocate(count);
-  const auto verify = [count](std::size_t size, const char* what) {
-    if (size == count) return;
-    raise(ErrorCode::InvalidOption,
-          "memory for " + std::to_string(size) + what + ", expected for " + std::to_string(count));
-  };
-  verify(memory.ids.size(), " ids");
-  if (distances) verify(memory.distances.size(), " distances");
-  return memory;
-}
-
 /// Searches each row once. The rows wait in memory of our own until their number of ids is known.
 std::vector<std::uint64_t> stream_and_copy(const SearchMethod& method, const BatchQuery& query,
                                            const BatchAllocator& allocate, const BatchOptions& options,

@@ -144,6 +144,13 @@ SurfacePoint Surface::closest_point(const SpacePoint& point) const {
 }
 
 std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> points, const Run& run) const {
+  std::vector<SurfacePoint> found = make_values<SurfacePoint>(points.size());
+  for_each_closest_point(points, [&](std::size_t row, const SurfacePoint& point) { found[row] = point; }, run);
+  return found;
+}
+
+void Surface::for_each_closest_point(std::span<const SpacePoint> points, const SurfacePointVisitor& visit,
+                                     const Run& run) const {
   const State& state = SurfaceAccess::state(*this);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_valid(points[i])) check_point(points[i], "points: row " + std::to_string(i) + ": ");
@@ -154,17 +161,15 @@ std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> po
     return state.index->frame.to_frame({points[i][0], points[i][1], points[i][2]});
   };
   const RawVector<std::size_t> in_order = rows_along_curve(points.size(), in_frame, task);
-  std::vector<SurfacePoint> found = make_values<SurfacePoint>(points.size());
   task.parallel_for(points.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     ClosestPoint search(*state.index, state.faces(), tree);
     for (std::size_t i = begin; i < end; ++i) {
       const auto& [x, y, z] = points[in_order[i]];
-      found[in_order[i]] = search.run({x, y, z});
+      visit(in_order[i], search.run({x, y, z}));
     }
     task.advance(thread, end - begin);
   });
   task.finish();
-  return found;
 }
 
 }  // namespace meshhood

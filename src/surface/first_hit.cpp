@@ -152,6 +152,13 @@ SurfacePoint Surface::first_hit(const SpacePoint& origin, const SpacePoint& dire
 
 std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origins,
                                               std::span<const SpacePoint> directions, const Run& run) const {
+  std::vector<SurfacePoint> found = make_values<SurfacePoint>(origins.size());
+  for_each_first_hit(origins, directions, [&](std::size_t row, const SurfacePoint& point) { found[row] = point; }, run);
+  return found;
+}
+
+void Surface::for_each_first_hit(std::span<const SpacePoint> origins, std::span<const SpacePoint> directions,
+                                 const SurfacePointVisitor& visit, const Run& run) const {
   const State& state = SurfaceAccess::state(*this);
   if (origins.size() != directions.size()) {
     raise(ErrorCode::InvalidOption, std::to_string(directions.size()) + " directions, expected one for each of " +
@@ -171,21 +178,18 @@ std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origin
     return ray.origin() + way_to_frame(ray.origin(), ray.direction()) * ray.direction();
   };
   const RawVector<std::size_t> in_order = rows_along_curve(origins.size(), entry_of, task);
-  std::vector<SurfacePoint> found = make_values<SurfacePoint>(origins.size());
   const auto fetch_row = [&](std::size_t row) {  // rays that follow each other along the curve lie anywhere
     prefetch(&origins[row]);
     prefetch(&directions[row]);
-    fetch_lines(&found[row], 1 + sizeof(SurfacePoint) / kCacheLine);
   };
   task.parallel_for(origins.size(), kRaysOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i + kRaysAhead < end) fetch_row(in_order[i + kRaysAhead]);
-      found[in_order[i]] = hit(state, tree, ray_of(in_order[i]));
+      visit(in_order[i], hit(state, tree, ray_of(in_order[i])));
     }
     task.advance(thread, end - begin);
   });
   task.finish();
-  return found;
 }
 
 }  // namespace meshhood
