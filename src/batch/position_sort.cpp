@@ -46,7 +46,9 @@ void sort_by_position(RawVector<std::uint64_t>& rows, TaskContext& task) {
     const auto for_each_row = [&](auto&& f) {
       task.parallel_for(rows.size(), kChunk, [&](unsigned /*thread*/, std::size_t begin, std::size_t end) {
         Places& places = chunks[begin / kChunk];
-        for (std::size_t i = begin; i < end; ++i) f(places[(rows[i] >> shift) % kDigits], rows[i]);
+        for (std::size_t i = begin; i < end; ++i) {
+          f(places[static_cast<std::size_t>((rows[i] >> shift) % kDigits)], rows[i]);
+        }
       });
     };
     std::ranges::fill(chunks, Places{});

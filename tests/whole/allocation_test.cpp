@@ -495,7 +495,7 @@ TEST(AllocationInASort, LeavesTheSameRows) {
   TaskContext alone;
   shortages.fail_each([&] { return rows; }, [&](RawVector<std::uint64_t>& sorted) { sort_by_position(sorted, alone); },
                       [&](const RawVector<std::uint64_t>& sorted, Ending ending) {
-                        EXPECT_EQ(std::ranges::is_sorted(sorted), ending == Ending::Well);
+                        EXPECT_TRUE(std::ranges::is_sorted(sorted) || ending == Ending::OutOfMemory);
                         EXPECT_TRUE(std::ranges::is_permutation(sorted, rows));
                       });
 }
