@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "batch/position_sort.h"
 #include "bytes.h"
@@ -39,13 +37,13 @@ void dissolve(Bytes& bytes) {
 }
 
 void sort_rows(Bytes& bytes) {
-  using Row = std::pair<std::uint32_t, std::size_t>;
   const auto mask = bytes.take<std::uint32_t>();
-  std::vector<Row> rows;
-  while (!bytes.empty()) rows.emplace_back(bytes.take<std::uint32_t>() & mask, rows.size());
-  std::vector<Row> expected = rows;
-  std::sort(expected.begin(), expected.end());  // ties by the number of the row
-  sort_by_position(std::span(rows), [](const Row& row) { return row.first; });
+  RawVector<std::uint64_t> rows;
+  while (!bytes.empty()) rows.push_back((std::uint64_t{bytes.take<std::uint32_t>() & mask} << 32) + rows.size());
+  RawVector<std::uint64_t> expected = rows;
+  std::ranges::sort(expected);  // ties by the number of the row
+  TaskContext alone;
+  sort_by_position(rows, alone);
   if (rows != expected) fail("rows are not sorted");
 }
 

@@ -68,15 +68,15 @@ auto owned(std::vector<Value>&& values) {
   return owned<T>(std::move(values), {size});
 }
 
-/// An array in memory of NumPy, in one dimension, whose values are not set. For large arrays this is faster than a
-/// vector, which would be initialized first: NumPy asks the system for large pages.
+/// An array in memory of NumPy, of `size` values or rows of values, that are not set. For large arrays this is faster
+/// than a vector, which would be initialized first: NumPy asks the system for large pages.
 [[nodiscard]] nanobind::object unset(std::size_t size, const char* dtype);
 
-/// The values of such an array, whose type has as many bytes as `T`.
+/// The values of such an array as `T`, which has as many bytes as one or several of them.
 template <class T>
 std::span<T> values_of(const nanobind::object& array) {
   const auto values = nanobind::cast<nanobind::ndarray<nanobind::c_contig, nanobind::device::cpu>>(array);
-  return {static_cast<T*>(values.data()), values.size()};
+  return {static_cast<T*>(values.data()), values.nbytes() / sizeof(T)};
 }
 
 }  // namespace meshhood::python

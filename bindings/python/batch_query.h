@@ -19,6 +19,7 @@
 #include "meshhood/error.h"
 
 #include "arrays.h"
+#include "interpreter.h"
 
 namespace meshhood::python {
 
@@ -47,6 +48,23 @@ using Radius = std::variant<double, Reals, std::vector<double>>;
   const auto& scales = query.radius.scales();
   return (scales ? scales->size() : 1) * query.vertices.count(vertex_count);
 }
+
+/// Rows in memory of NumPy.
+struct FoundRows {
+  nanobind::object ids;
+  nanobind::object distances;
+
+  /// Allocates both, or the ids alone. Called with the interpreter lock; the result without it, on the same thread.
+  [[nodiscard]] BatchAllocator allocator(bool has_distances) {
+    return [this, has_distances, state = PyThreadState_Get()](std::size_t count) {
+      return with_lock(state, [&]() -> BatchMemory {
+        ids = unset(count, "int32");
+        distances = unset(has_distances ? count : 0, "float64");
+        return {values_of<VertexId>(ids), values_of<double>(distances)};
+      });
+    };
+  }
+};
 
 /// A result beyond the limit of bytes: a MemoryError in Python.
 class ResultTooLarge : public std::runtime_error {

@@ -47,18 +47,11 @@ auto many(Method& method, const std::optional<Ids>& vertices, const Radius& radi
   const BatchQuery query = query_of(vertices, radius);
   const BatchOptions options{.distances = distances, .sorted = sorted};
   const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
-  nb::object ids;
-  nb::object found_distances;
-  const auto allocate = [&, state = PyThreadState_Get()](std::size_t count) -> BatchMemory {
-    return with_lock(state, [&]() -> BatchMemory {
-      ids = unset(count, "int32");
-      found_distances = unset(distances ? count : 0, "float64");
-      return {values_of<VertexId>(ids), values_of<double>(found_distances)};
-    });
-  };
+  FoundRows found;
+  const BatchAllocator allocate = found.allocator(distances);
   std::vector<std::uint64_t> offsets = limited("iter_neighborhoods returns the rows in chunks",
                                                [&] { return method.neighborhoods(query, allocate, options, run); });
-  return std::tuple(owned<std::int64_t>(std::move(offsets)), std::move(ids), std::move(found_distances));
+  return std::tuple(owned<std::int64_t>(std::move(offsets)), std::move(found.ids), std::move(found.distances));
 }
 
 Output<std::int64_t> many_counts(Method& method, const std::optional<Ids>& vertices, const Radius& radius,

@@ -24,42 +24,12 @@
 #include "interpreter.h"
 #include "methods.h"
 #include "pool.h"
+#include "surface_columns.h"
 
 namespace nb = nanobind;
 
 namespace meshhood::python {
 namespace {
-
-/// Columns of gaps, set row by row.
-class GapColumns {
- public:
-  explicit GapColumns(std::size_t rows)
-      : distances_(rows), faces_(rows), corners_(rows), barycentric_(rows), points_(rows) {}
-
-  void set(std::size_t row, const SurfacePoint& gap) {
-    distances_[row] = gap.distance;
-    faces_[row] = static_cast<std::int64_t>(gap.face);
-    corners_[row] = gap.vertices;
-    barycentric_[row] = gap.barycentric;
-    points_[row] = gap.point;
-  }
-
-  /// Distances, faces, the vertices of their triangles, barycentric coordinates and points.
-  auto arrays() && {
-    static_assert(static_cast<std::int64_t>(kNoFace) == -1);
-    const std::size_t rows = distances_.size();
-    return std::tuple(owned<double>(std::move(distances_)), owned<std::int64_t>(std::move(faces_)),
-                      owned<std::int32_t>(std::move(corners_), {rows, 3}),
-                      owned<double>(std::move(barycentric_), {rows, 3}), owned<double>(std::move(points_), {rows, 3}));
-  }
-
- private:
-  std::vector<double> distances_;
-  std::vector<std::int64_t> faces_;
-  std::vector<std::array<VertexId, 3>> corners_;
-  std::vector<std::array<double, 3>> barycentric_;
-  std::vector<SpacePoint> points_;
-};
 
 /// The surface of an index, with searchers for single starts.
 class Patches {
@@ -86,11 +56,12 @@ class Patches {
                  nb::handle progress) const {
     const BatchQuery query = query_of(vertices, radius);
     const Run run{.threads = threads, .progress = progress_to(progress)};
-    GapColumns columns(result_rows(query, surface_.vertex_count()));
+    SurfaceColumns columns(result_rows(query, surface_.vertex_count()));
     without_lock([&] {
-      for_each_gap(surface_, query, [&](std::size_t row, const SurfacePoint& gap) { columns.set(row, gap); }, run);
+      const auto set = [&](std::size_t row, const SurfacePoint& gap) { columns.set(row, gap, gap.vertices); };
+      for_each_gap(surface_, query, set, run);
     });
-    return std::move(columns).arrays();
+    return columns.arrays();
   }
 
   auto faces(VertexId vertex, std::optional<std::size_t> face, const SpacePoint& point, double radius) {
@@ -126,9 +97,9 @@ class Patches {
     const SurfacePoint found = ask(vertex, face, point, [&](PatchSearcher& searcher, const PatchStart& start) {
       return searcher.gap(start, radius);
     });
-    GapColumns columns(1);
-    columns.set(0, found);
-    return std::move(columns).arrays();
+    SurfaceColumns columns(1);
+    columns.set(0, found, found.vertices);
+    return columns.arrays();
   }
 
  private:

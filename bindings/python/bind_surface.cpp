@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,7 @@
 #include "bindings.h"
 #include "interpreter.h"
 #include "methods.h"
+#include "surface_columns.h"
 
 namespace nb = nanobind;
 
@@ -50,42 +52,33 @@ Surface of_normals(const ExactMethod& method, const Reals& normals, const std::o
   return without_lock([&] { return Surface::of_normals(method.index(), numbers_of(normals), faces); });
 }
 
-/// The faces, the places in them of the corners of their triangles, barycentric coordinates, points and distances of
-/// what `find(run)` returns.
+/// The columns of the points that `find(visit)` visits, with the places of corners in the face.
 template <class Find>
-auto columns(unsigned threads, nb::handle progress, const Find& find) {
-  const Run run{.threads = threads, .progress = progress_to(progress)};
-  std::vector<std::int64_t> faces;
-  std::vector<std::array<std::size_t, 3>> corners;
-  std::vector<std::array<double, 3>> barycentric;
-  std::vector<SpacePoint> points;
-  std::vector<double> distances;
+auto columns(std::size_t rows, const Find& find) {
+  SurfaceColumns columns(rows);
   without_lock([&] {
-    const std::vector<SurfacePoint> found = find(run);
-    const auto reserve = [&](auto&... columns) { (columns.reserve(found.size()), ...); };
-    reserve(faces, corners, barycentric, points, distances);
-    for (const SurfacePoint& hit : found) {
-      faces.push_back(static_cast<std::int64_t>(hit.face));  // -1 for kNoFace
-      corners.push_back(hit.corners);
-      barycentric.push_back(hit.barycentric);
-      points.push_back(hit.point);
-      distances.push_back(hit.distance);
-    }
+    find([&](std::size_t row, const SurfacePoint& found) {
+      std::array<VertexId, 3> places;
+      std::ranges::transform(found.corners, places.begin(), [](std::size_t c) { return static_cast<VertexId>(c); });
+      columns.set(row, found, places);
+    });
   });
-  const std::size_t rows = faces.size();
-  return std::tuple(owned<std::int64_t>(std::move(faces)), owned<std::int64_t>(std::move(corners), {rows, 3}),
-                    owned<double>(std::move(barycentric), {rows, 3}), owned<double>(std::move(points), {rows, 3}),
-                    owned<double>(std::move(distances)));
+  return columns.arrays();
 }
 
 auto closest_points(const Surface& surface, const Points& points, unsigned threads, nb::handle progress) {
-  return columns(threads, progress, [&](const Run& run) { return surface.closest_points(points_of(points), run); });
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  return columns(points.shape(0), [&](const SurfacePointVisitor& visit) {
+    surface.for_each_closest_point(points_of(points), visit, run);
+  });
 }
 
 auto first_hits(const Surface& surface, const Points& origins, const Points& directions, unsigned threads,
                 nb::handle progress) {
-  return columns(threads, progress,
-                 [&](const Run& run) { return surface.first_hits(points_of(origins), points_of(directions), run); });
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  return columns(origins.shape(0), [&](const SurfacePointVisitor& visit) {
+    surface.for_each_first_hit(points_of(origins), points_of(directions), visit, run);
+  });
 }
 
 Output<double> measure_thickness(const Surface& surface, const std::optional<Ids>& ids, bool by_sphere,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -46,16 +47,13 @@ auto k_nearest_of(const ExactMethod& method, const std::optional<Ids>& vertices,
   const BatchVertices asked = vertices_of(vertices);
   const NearestOptions options{.metric = metric, .radius = radius};
   const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
-  KNearest found = limited(kFewer, [&] {
-    return without_lock([&] {
-      KNearest result = k_nearest(method.index(), asked, k, options, run);
-      for (VertexId& id : result.ids) id = id == kNoVertex ? static_cast<VertexId>(fill) : id;
-      return result;
-    });
-  });
+  FoundRows found;
+  const BatchAllocator allocate = found.allocator(true);
+  limited(kFewer, [&] { without_lock([&] { k_nearest(method.index(), asked, k, allocate, options, run); }); });
+  const std::span<VertexId> ids = values_of<VertexId>(found.ids);
+  if (fill != -1) without_lock([&] { std::ranges::replace(ids, kNoVertex, static_cast<VertexId>(fill)); });
   const std::size_t rows = vertices ? vertices->size() : method.index().vertex_count();
-  return std::pair(owned<std::int32_t>(std::move(found.ids), {rows, k}),
-                   owned<double>(std::move(found.distances), {rows, k}));
+  return std::pair(found.ids.attr("reshape")(rows, k), found.distances.attr("reshape")(rows, k));
 }
 
 auto discs_of(const ExactMethod& method, const std::optional<Ids>& vertices, double area, const Reals& areas,

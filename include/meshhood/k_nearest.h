@@ -44,6 +44,12 @@ struct KNearest {
 [[nodiscard]] KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k,
                                  const NearestOptions& options = {}, const Run& run = {});
 
+/// The same in memory of the caller. `allocate` is called once, on the calling thread, after the arguments are checked.
+/// All of the memory is written unless the call throws. Throws as above, Error{InvalidOption} if the memory does not
+/// have the requested size, and what `allocate` throws.
+void k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k, const BatchAllocator& allocate,
+               const NearestOptions& options = {}, const Run& run = {});
+
 /// A disc of fixed area around each of `vertices`: of the nearest connected vertices, in the order of `k_nearest`, the
 /// first whose areas add up to at least `area`; all, where they do not. Distances as for `k_nearest`.
 ///

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -38,6 +39,9 @@ struct SurfacePoint {
   [[nodiscard]] Start start() const& { return {point, vertices}; }
   [[nodiscard]] Start start() const&& = delete;
 };
+
+/// Receives the answer of a row.
+using SurfacePointVisitor = std::function<void(std::size_t row, const SurfacePoint& point)>;
 
 /// Which faces belong to a set of vertices: those with all corners in the set, or with at least one.
 enum class Corners : std::uint8_t { All, Any };
@@ -140,6 +144,11 @@ class Surface {
   /// the row, and Error{Cancelled}.
   [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const SpacePoint> points, const Run& run = {}) const;
 
+  /// Calls `visit(row, point)` once for each row instead, in any order and on the threads of the call, several at a
+  /// time: for a caller that keeps only a part of each answer. An exception of `visit` ends the call, and is passed on.
+  void for_each_closest_point(std::span<const SpacePoint> points, const SurfacePointVisitor& visit,
+                              const Run& run = {}) const;
+
   /// The first point of the surface on the ray from `origin` along `direction`, seen from either side of a face; at the
   /// origin if this lies on the surface. Of several faces at the same distance, the one with the smallest number; none
   /// (see `SurfacePoint`) if the ray meets nothing.
@@ -162,6 +171,10 @@ class Surface {
   /// there are not as many directions as origins, and Error{Cancelled}.
   [[nodiscard]] std::vector<SurfacePoint> first_hits(std::span<const SpacePoint> origins,
                                                      std::span<const SpacePoint> directions, const Run& run = {}) const;
+
+  /// Calls `visit(row, point)` once for each row instead, as `for_each_closest_point`.
+  void for_each_first_hit(std::span<const SpacePoint> origins, std::span<const SpacePoint> directions,
+                          const SurfacePointVisitor& visit, const Run& run = {}) const;
 
   /// The faces with all corners in `ids`, or with at least one; ascending. A face without corners is never one.
   ///

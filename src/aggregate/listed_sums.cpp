@@ -157,10 +157,11 @@ bool is_better_listed(const Index& index, const SignalView& signal, const Aggreg
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
                 std::span<double> result, const Run& run) {
   const IndexView& view = IndexAccess::view(index);
+  const std::size_t count = query.vertices.count(index.vertex_count());
+  TaskContext task(run.threads, run.progress, count);
   // Near rows share values that are in the cache.
-  const std::vector<std::size_t> rows = rows_by_position(
-      query.vertices.count(index.vertex_count()), [&](std::size_t row) { return view.slot[query.vertices[row]]; });
-  TaskContext task(run.threads, run.progress, rows.size());
+  const RawVector<std::size_t> rows =
+      rows_by_position(count, [&](std::size_t row) { return view.slot[query.vertices[row]]; }, task);
   ListedRows listed(signal, query, radius);
   const std::size_t numbers = signal.channels * query.reduce.size();
   std::vector<VertexId> vertices;

@@ -44,10 +44,10 @@ BatchWorker& Batch::worker(unsigned thread) {
   return *worker;
 }
 
-std::vector<std::size_t> Batch::put_in_index_order() {
+RawVector<std::size_t> Batch::put_in_index_order() {
   block_.reset();
-  std::vector<std::size_t> order =
-      rows_by_position(rows_.size(), [&](std::size_t row) { return factory_.position(rows_.vertex(row)); });
+  RawVector<std::size_t> order =
+      rows_by_position(rows_.size(), [&](std::size_t row) { return factory_.position(rows_.vertex(row)); }, task_);
   rows_.reorder(order);
   return order;
 }

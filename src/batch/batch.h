@@ -53,7 +53,7 @@ class Batch {
   }
 
   /// Sorts the rows by their position in the index, and returns the former number of each.
-  std::vector<std::size_t> put_in_index_order();
+  RawVector<std::size_t> put_in_index_order();
 
   /// Whether the positions of the rows ascend.
   [[nodiscard]] bool is_in_index_order() const;
@@ -75,9 +75,6 @@ class Batch {
   [[nodiscard]] BatchWorker& worker(unsigned thread);
 
  private:
-  // Enough that passing them to a thread costs little.
-  static constexpr std::size_t kRowsPerTask = std::size_t{1} << 12;
-
   /// What a thread uses. Not beside that of another thread, which writes to its own all the time.
   struct alignas(64) PerThread {
     std::unique_ptr<BatchWorker> worker;
@@ -121,15 +118,10 @@ void Batch::for_each_chunk(std::size_t count, RowOf&& row_of, F&& f) {
 
 template <class RowOf>
 void Batch::sort_rows(std::size_t count, RowOf&& row_of) {
-  in_order_.clear();
-  const std::span<std::uint64_t> in_order = add_raw(in_order_, count);
-  task_.parallel_for(count, kRowsPerTask, [&](unsigned /*thread*/, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      in_order[i] = (std::uint64_t{factory_.position(rows_.vertex(row_of(i)))} << 32) + i;
-    }
-  });
-  sort_by_position(in_order, [](std::uint64_t row) { return static_cast<std::uint32_t>(row >> 32); });
-  cut_into_chunks(in_order);
+  in_order_ = {};
+  in_order_ =
+      sorted_by_position(count, [&](std::size_t i) { return factory_.position(rows_.vertex(row_of(i))); }, task_);
+  cut_into_chunks(in_order_);
 }
 
 template <class RowOf, class F>

@@ -13,6 +13,7 @@
 #include "base/prefetch.h"
 #include "batch/batch.h"
 #include "batch/size_limit.h"
+#include "shared/large_pages.h"
 
 namespace meshhood {
 namespace {
@@ -80,18 +81,6 @@ void count_rows(Batch& batch, std::uint64_t* sizes, const ForWriting* writing) {
   });
   if (writing == nullptr) return;
   for (const NewIds& ids : new_ids) writing->limit.add(ids.count);
-}
-
-BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances) {
-  const BatchMemory memory = allocate(count);
-  const auto verify = [count](std::size_t size, const char* what) {
-    if (size == count) return;
-    raise(ErrorCode::InvalidOption,
-          "memory for " + std::to_string(size) + what + ", expected for " + std::to_string(count));
-  };
-  verify(memory.ids.size(), " ids");
-  if (distances) verify(memory.distances.size(), " distances");
-  return memory;
 }
 
 /// Searches each row once. The rows wait in memory of our own until their number of ids is known.
@@ -197,8 +186,8 @@ Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query,
                             const Run& run) {
   Neighborhoods result;
   const auto allocate = [&](std::size_t count) -> BatchMemory {
-    result.ids.resize(count);
-    if (options.distances) result.distances.resize(count);
+    result.ids = make_values<VertexId>(count);
+    if (options.distances) result.distances = make_values<double>(count);
     return {result.ids, result.distances};
   };
   result.offsets = neighborhoods(method, query, allocate, options, run);

@@ -22,6 +22,8 @@
 #include "exact/query/arguments.h"
 #include "exact/query/length_search.h"
 #include "exact/query/straight_queries.h"
+#include "shared/distance.h"
+#include "shared/large_pages.h"
 #include "shared/parallel.h"
 #include "shared/text.h"
 
@@ -56,9 +58,9 @@ class NearestRows {
   /// Calls `f(search, row)` for all rows, on any thread, with a search of that thread, made by `make()`.
   template <class Make, class F>
   void for_each(Make&& make, F&& f) {
-    const std::vector<std::size_t> in_order =
-        rows_by_position(size(), [&](std::size_t row) { return index_->slot[vertex(row)]; });
     TaskContext task(run_.threads, run_.progress, size());
+    const RawVector<std::size_t> in_order =
+        rows_by_position(size(), [&](std::size_t row) { return index_->slot[vertex(row)]; }, task);
     std::vector<decltype(make())> searches(task.threads());
     task.parallel_for(size(), kRowsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
       if (!searches[thread]) searches[thread] = make();
@@ -262,6 +264,18 @@ void check_areas(double area, std::span<const double> areas, std::size_t vertice
 
 KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k, const NearestOptions& options,
                    const Run& run) {
+  KNearest result;
+  const auto allocate = [&](std::size_t count) -> BatchMemory {
+    result.ids = make_values<VertexId>(count);
+    result.distances = make_values<double>(count);
+    return {result.ids, result.distances};
+  };
+  k_nearest(index, vertices, k, allocate, options, run);
+  return result;
+}
+
+void k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k, const BatchAllocator& allocate,
+               const NearestOptions& options, const Run& run) {
   NearestRows rows(index, vertices, options, run);
   if (rows.size() != 0 && k > kMostValues / rows.size()) {
     raise(ErrorCode::TooLarge, "k: " + std::to_string(k) + " vertices for each of " + std::to_string(rows.size()) +
@@ -269,18 +283,20 @@ KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_
   }
   const SizeLimit limit(run.max_bytes, kItemBytes, rows.size());
   if (rows.size() * k > limit.max_items()) limit.refuse("", rows.size() * k);
-  KNearest result{std::vector<VertexId>(rows.size() * k, kNoVertex),
-                  std::vector<double>(rows.size() * k, std::numeric_limits<double>::infinity())};
-  if (k == 0) return result;
+  const BatchMemory memory = allocated(allocate, rows.size() * k, true);
+  if (k == 0) return;
   for_each_row(index, rows, [&](auto& search, std::size_t row) {
-    std::size_t next = row * k;
-    search.run(rows.vertex(row), k, std::numeric_limits<double>::infinity(), {}, [&](VertexId vertex, double distance) {
-      result.ids[next] = vertex;
-      result.distances[next++] = distance;
-      return next < (row + 1) * k;
+    const std::span<VertexId> ids = memory.ids.subspan(row * k, k);
+    const std::span<double> distances = memory.distances.subspan(row * k, k);
+    std::size_t next = 0;
+    search.run(rows.vertex(row), k, kInfinity, {}, [&](VertexId vertex, double distance) {
+      ids[next] = vertex;
+      distances[next++] = distance;
+      return next < k;
     });
+    std::ranges::fill(ids.subspan(next), kNoVertex);
+    std::ranges::fill(distances.subspan(next), kInfinity);
   });
-  return result;
 }
 
 Neighborhoods discs(const Index& index, const BatchVertices& vertices, double area, std::span<const double> areas,

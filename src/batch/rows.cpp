@@ -37,6 +37,18 @@ std::size_t result_rows(const BatchQuery& query, std::size_t vertex_count) {
   return (scales ? scales->size() : 1) * query.vertices.count(vertex_count);
 }
 
+BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances) {
+  const BatchMemory memory = allocate(count);
+  const auto verify = [count](std::size_t size, const char* what) {
+    if (size == count) return;
+    raise(ErrorCode::InvalidOption,
+          "memory for " + std::to_string(size) + what + ", expected for " + std::to_string(count));
+  };
+  verify(memory.ids.size(), " ids");
+  if (distances) verify(memory.distances.size(), " distances");
+  return memory;
+}
+
 Rows::Rows(const BatchQuery& query, std::size_t vertex_count)
     : vertices_(copy(query.vertices.list())),
       radii_(copy(query.radius.list())),

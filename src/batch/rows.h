@@ -17,6 +17,10 @@ namespace meshhood {
 /// The number of rows of a result: #radii by #rows if there are scales.
 [[nodiscard]] std::size_t result_rows(const BatchQuery& query, std::size_t vertex_count);
 
+/// Memory for `count` ids, and as many distances if they are wanted. Throws Error{InvalidOption} if it is not for
+/// these.
+[[nodiscard]] BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances);
+
 /// The rows of a batch, checked. A copy: nothing that the caller changes later has an effect.
 class Rows {
  public:

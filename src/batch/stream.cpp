@@ -185,9 +185,9 @@ class Stream {
 
   Batch& batch_;
   const RowSink& sink_;
-  std::vector<std::size_t> row_of_;  // by place in the stream, if that is not in row order
-  std::vector<Store> stores_;        // by thread
-  std::vector<Waiting> waiting_;     // the rows of the window
+  RawVector<std::size_t> row_of_;  // by place in the stream, if that is not in row order
+  std::vector<Store> stores_;      // by thread
+  std::vector<Waiting> waiting_;   // the rows of the window
   std::atomic<std::size_t> bytes_{0};
 };
 

@@ -22,6 +22,7 @@
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
 #include "exact/index_access.h"
+#include "shared/large_pages.h"
 #include "surface/surface.h"
 
 namespace meshhood {
@@ -148,14 +149,12 @@ BatchRadius opened(const BatchRadius& radius, std::vector<double>& memory) {
 CurvatureOptions like_libigl() { return {.filter = true, .open_ball = true, .shape_operator = ShapeOperator::Libigl}; }
 
 Curvatures make_curvatures(std::size_t rows) {
-  Curvatures result;
-  result.k1.resize(rows);
-  result.k2.resize(rows);
-  result.d1.resize(3 * rows);
-  result.d2.resize(3 * rows);
-  result.state.resize(rows);
-  result.count.resize(rows);
-  return result;
+  return {.k1 = make_values<double>(rows),
+          .k2 = make_values<double>(rows),
+          .d1 = make_values<double>(3 * rows),
+          .d2 = make_values<double>(3 * rows),
+          .state = make_values<CurvatureState>(rows),
+          .count = make_values<std::uint32_t>(rows)};
 }
 
 CurvatureMemory memory_of(Curvatures& curvatures) {

@@ -14,6 +14,7 @@
 #include "batch/position_sort.h"
 #include "exact/layout.h"
 #include "exact/query/arguments.h"
+#include "shared/large_pages.h"
 #include "shared/parallel.h"
 #include "surface/face_tree.h"
 #include "surface/surface.h"
@@ -143,24 +144,32 @@ SurfacePoint Surface::closest_point(const SpacePoint& point) const {
 }
 
 std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> points, const Run& run) const {
+  std::vector<SurfacePoint> found = make_values<SurfacePoint>(points.size());
+  for_each_closest_point(points, [&](std::size_t row, const SurfacePoint& point) { found[row] = point; }, run);
+  return found;
+}
+
+void Surface::for_each_closest_point(std::span<const SpacePoint> points, const SurfacePointVisitor& visit,
+                                     const Run& run) const {
   const State& state = SurfaceAccess::state(*this);
-  for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points: row " + std::to_string(i) + ": ");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!is_valid(points[i])) check_point(points[i], "points: row " + std::to_string(i) + ": ");
+  }
   TaskContext task(run.threads, run.progress, points.size());
   const FaceTree& tree = state.tree(task);
-  const std::vector<std::size_t> in_order = rows_along_curve(points.size(), [&](std::size_t i) {
+  const auto in_frame = [&](std::size_t i) {
     return state.index->frame.to_frame({points[i][0], points[i][1], points[i][2]});
-  });
-  std::vector<SurfacePoint> found(points.size());
+  };
+  const RawVector<std::size_t> in_order = rows_along_curve(points.size(), in_frame, task);
   task.parallel_for(points.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     ClosestPoint search(*state.index, state.faces(), tree);
     for (std::size_t i = begin; i < end; ++i) {
       const auto& [x, y, z] = points[in_order[i]];
-      found[in_order[i]] = search.run({x, y, z});
+      visit(in_order[i], search.run({x, y, z}));
     }
     task.advance(thread, end - begin);
   });
   task.finish();
-  return found;
 }
 
 }  // namespace meshhood

@@ -17,6 +17,7 @@
 #include "batch/position_sort.h"
 #include "exact/query/arguments.h"
 #include "patch/twofold.h"
+#include "shared/large_pages.h"
 #include "shared/parallel.h"
 #include "shared/text.h"
 #include "surface/surface.h"
@@ -62,6 +63,10 @@ std::array<double, 3> weights_on_side(const std::array<Point, 3>& corners, const
   weights[j] = share_of_side(flat(seen[i]), flat(seen[j]));
   weights[i] = 1 - weights[j];
   return weights;
+}
+
+bool is_direction(const SpacePoint& d) {
+  return std::ranges::all_of(d, [](double coordinate) { return std::isfinite(coordinate); }) && d != SpacePoint{};
 }
 
 void check_direction(const SpacePoint& d, std::string_view where) {
@@ -147,37 +152,44 @@ SurfacePoint Surface::first_hit(const SpacePoint& origin, const SpacePoint& dire
 
 std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origins,
                                               std::span<const SpacePoint> directions, const Run& run) const {
+  std::vector<SurfacePoint> found = make_values<SurfacePoint>(origins.size());
+  for_each_first_hit(origins, directions, [&](std::size_t row, const SurfacePoint& point) { found[row] = point; }, run);
+  return found;
+}
+
+void Surface::for_each_first_hit(std::span<const SpacePoint> origins, std::span<const SpacePoint> directions,
+                                 const SurfacePointVisitor& visit, const Run& run) const {
   const State& state = SurfaceAccess::state(*this);
   if (origins.size() != directions.size()) {
     raise(ErrorCode::InvalidOption, std::to_string(directions.size()) + " directions, expected one for each of " +
                                         std::to_string(origins.size()) + " origins");
   }
   for (std::size_t i = 0; i < origins.size(); ++i) {
-    check_point(origins[i], "origins: row " + std::to_string(i) + ": ");
-    check_direction(directions[i], "directions: row " + std::to_string(i) + ": ");
+    if (is_valid(origins[i]) && is_direction(directions[i])) continue;
+    const std::string row = ": row " + std::to_string(i) + ": ";
+    check_point(origins[i], "origins" + row);
+    check_direction(directions[i], "directions" + row);
   }
   TaskContext task(run.threads, run.progress, origins.size());
   const FaceTree& tree = state.tree(task);
   const auto ray_of = [&](std::size_t i) { return make_ray(state, origins[i], directions[i]); };
-  const std::vector<std::size_t> in_order = rows_along_curve(origins.size(), [&](std::size_t i) {
+  const auto entry_of = [&](std::size_t i) {
     const Ray ray = ray_of(i);
     return ray.origin() + way_to_frame(ray.origin(), ray.direction()) * ray.direction();
-  });
-  std::vector<SurfacePoint> found(origins.size());
+  };
+  const RawVector<std::size_t> in_order = rows_along_curve(origins.size(), entry_of, task);
   const auto fetch_row = [&](std::size_t row) {  // rays that follow each other along the curve lie anywhere
     prefetch(&origins[row]);
     prefetch(&directions[row]);
-    fetch_lines(&found[row], 1 + sizeof(SurfacePoint) / kCacheLine);
   };
   task.parallel_for(origins.size(), kRaysOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i + kRaysAhead < end) fetch_row(in_order[i + kRaysAhead]);
-      found[in_order[i]] = hit(state, tree, ray_of(in_order[i]));
+      visit(in_order[i], hit(state, tree, ray_of(in_order[i])));
     }
     task.advance(thread, end - begin);
   });
   task.finish();
-  return found;
 }
 
 }  // namespace meshhood

@@ -116,8 +116,8 @@ std::vector<double> thickness(const Surface& surface, const BatchVertices& verti
   const FaceTree& tree = state.tree(task);
   const NormalCones* const cones = method == ThicknessMethod::Sphere ? &state.cones(task) : nullptr;
   const OrientedIndex oriented = SurfaceAccess::oriented(surface, task);
-  const std::vector<std::size_t> in_order =
-      rows_by_position(rows.size(), [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; });
+  const RawVector<std::size_t> in_order =
+      rows_by_position(rows.size(), [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; }, task);
   std::vector<double> result(rows.size());
   task.parallel_for(rows.size(), kVerticesOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {

@@ -187,6 +187,32 @@ TEST(KNearest, RefusesWrongArguments) {
                  [&] { static_cast<void>(discs(index, {}, 1, std::span(areas).first(2))); });
 }
 
+TEST(KNearest, WritesAllOfTheMemoryOfTheCaller) {
+  const TestMesh mesh = make_grid(2, 3, false);
+  const Index index = build(mesh.view());
+  const std::vector<VertexId> vertices{4, 0};
+  const std::size_t k = mesh.size() + 1;
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  const auto write = [&](std::size_t missing_ids, std::size_t missing_distances) {
+    const auto allocate = [&](std::size_t count) -> BatchMemory {
+      ids.assign(count - missing_ids, 77);
+      distances.assign(count - missing_distances, -1);
+      return {ids, distances};
+    };
+    k_nearest(index, vertices, k, allocate);
+  };
+  write(0, 0);
+  const KNearest expected = k_nearest(index, vertices, k);
+  EXPECT_EQ(ids, expected.ids);
+  EXPECT_EQ(distances, expected.distances);
+  EXPECT_EQ(ids.back(), kNoVertex);
+  EXPECT_EQ(distances.back(), std::numeric_limits<double>::infinity());
+  const std::string size = std::to_string(vertices.size() * k - 1);
+  expect_refused(ErrorCode::InvalidOption, "memory for " + size + " ids", [&] { write(1, 0); });
+  expect_refused(ErrorCode::InvalidOption, "memory for " + size + " distances", [&] { write(0, 1); });
+}
+
 TEST(KNearest, RefusesAResultBeyondTheLimit) {
   const TestMesh mesh = bumpy_grid(30);
   const Index index = build(mesh.view());

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,45 +15,41 @@
 namespace meshhood::test {
 namespace {
 
-using Row = std::pair<std::uint32_t, std::size_t>;
+using Rows = RawVector<std::uint64_t>;
 
-std::uint32_t position_of(const Row& row) { return row.first; }
-
-/// Rows numbered in order, at random positions below `bound`.
-std::vector<Row> random_rows(Random& random, std::size_t count, std::uint64_t bound) {
-  std::vector<Row> rows;
-  rows.reserve(count);
-  for (std::size_t row = 0; row < count; ++row) {
-    rows.emplace_back(static_cast<std::uint32_t>(random.below(bound)), row);
-  }
+/// Rows numbered in order, at the given positions.
+Rows rows_at(const std::vector<std::uint32_t>& positions) {
+  Rows rows;
+  for (const std::uint64_t position : positions) rows.push_back((position << 32) + rows.size());
   return rows;
+}
+
+/// The sort agrees with that of the standard library, on any number of threads.
+void expect_sorted(const std::vector<std::uint32_t>& positions) {
+  Rows expected = rows_at(positions);
+  std::ranges::sort(expected);  // ties by the number of the row
+  for (const unsigned threads : {1U, 3U}) {
+    TaskContext task(threads);
+    Rows rows = rows_at(positions);
+    sort_by_position(rows, task);
+    ASSERT_EQ(rows, expected) << positions.size() << " rows, " << threads << " threads";
+  }
 }
 
 TEST(PositionSort, PositionsAscendAndRowsOfOnePositionKeepTheirOrder) {
   Random random(31);
   std::size_t lists = 0;
   for (unsigned bits = 0; bits <= 32; ++bits) {
-    for (const std::size_t count : {0U, 1U, 2U, 100U, 5000U}) {
-      std::vector<Row> rows = random_rows(random, count, std::uint64_t{1} << bits);
-      std::vector<Row> expected = rows;
-      std::sort(expected.begin(), expected.end());  // ties by the number of the row
-      sort_by_position(std::span(rows), position_of);
-      ASSERT_EQ(rows, expected) << bits << " bits, " << count << " rows";
+    for (const std::size_t count : {0U, 1U, 2U, 100U, 5000U, 70000U}) {
+      std::vector<std::uint32_t> positions(count);
+      for (std::uint32_t& position : positions) {
+        position = static_cast<std::uint32_t>(random.below(std::uint64_t{1} << bits));
+      }
+      expect_sorted(positions);
       ++lists;
     }
   }
   std::printf("%zu lists of rows\n", lists);
-}
-
-/// The sort agrees with that of the standard library.
-void expect_sorted(const std::vector<std::uint32_t>& positions) {
-  std::vector<Row> rows;
-  rows.reserve(positions.size());
-  for (const std::uint32_t position : positions) rows.emplace_back(position, rows.size());
-  std::vector<Row> expected = rows;
-  std::sort(expected.begin(), expected.end());
-  sort_by_position(std::span(rows), position_of);
-  ASSERT_EQ(rows, expected);
 }
 
 TEST(PositionSort, ExtremeLists) {
@@ -78,9 +73,7 @@ TEST(PositionSort, ExtremeLists) {
 
 TEST(PositionSort, TheLargestPositionsAreSortedToo) {
   constexpr std::uint32_t kLargest = std::numeric_limits<std::uint32_t>::max();
-  std::vector<Row> rows{{kLargest, 0}, {0, 1}, {kLargest - 1, 2}, {kLargest, 3}, {1U << 31U, 4}};
-  sort_by_position(std::span(rows), position_of);
-  EXPECT_EQ(rows, (std::vector<Row>{{0, 1}, {1U << 31U, 4}, {kLargest - 1, 2}, {kLargest, 0}, {kLargest, 3}}));
+  expect_sorted({kLargest, 0, kLargest - 1, kLargest, 1U << 31U});
 }
 
 }  // namespace

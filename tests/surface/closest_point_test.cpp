@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "meshhood/error.h"
 #include "meshhood/index.h"
 #include "meshhood/refit.h"
 #include "meshhood/search.h"
@@ -285,6 +286,10 @@ TEST(ClosestPoint, AnswersManyPointsOnSeveralThreadsAsOneByOne) {
     EXPECT_EQ(found[i].face, expected.face);
     EXPECT_EQ(found[i].point, expected.point);
   }
+  const auto refuse = [](std::size_t row, const SurfacePoint&) {
+    if (row == 7) raise(ErrorCode::Cancelled, "row 7");
+  };
+  expect_refused(ErrorCode::Cancelled, "row 7", [&] { surface.for_each_closest_point(points, refuse); });
 }
 
 TEST(ClosestPoint, GivesTheStartOfARegion) {

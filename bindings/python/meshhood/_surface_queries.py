@@ -237,7 +237,7 @@ class SurfaceQueries(Held):
         """Faces, barycentric coordinates in them, points and distances, as a call of the surface of `F` finds them."""
         key, (corners, offsets) = self._keyed_faces(F)
         find = getattr(self._surface_of(key, (corners, offsets)), name)
-        faces, places, weights, found, distances = find(
+        distances, faces, places, weights, found = find(
             *points, threads=_convert.threads(workers), progress=report
         )
         if offsets is not None:

@@ -11,7 +11,7 @@
 namespace meshhood {
 void check_point(const SpacePoint& p, std::string_view where) {
   for (std::size_t axis = 0; axis < p.size(); ++axis) {
-    if (std::abs(p[axis]) <= kLargestCoordinate) continue;
+    if (is_valid_coordinate(p[axis])) continue;
     raise(ErrorCode::InvalidOption, std::string(where) + "coordinate " + std::to_string(axis) + " is " +
                                         to_text(p[axis]) + ", expected a finite number of magnitude up to 2^500");
   }

@@ -8,12 +8,16 @@
 #include "meshhood/metric.h"
 #include "meshhood/start.h"
 
+#include "base/validate.h"
 #include "exact/layout.h"
 #include "shared/distance.h"
 
 /// The arguments of queries that start anywhere. Each check throws unless its argument is as the public header says;
 /// the message begins with `where`.
 namespace meshhood {
+
+/// Whether `check_point` passes.
+[[nodiscard]] inline bool is_valid(const SpacePoint& p) { return is_valid_position({p[0], p[1], p[2]}); }
 
 /// Error{InvalidOption}: the coordinate that is not finite or too large.
 void check_point(const SpacePoint& p, std::string_view where);
