@@ -18,7 +18,7 @@ set(parts
   exact/build_threads exact/collect_rows exact/edge_buckets exact/edge_source exact/masked exact/link_points
   exact/nearest_packet exact/node_parts exact/path_packet exact/quality exact/refit exact/check exact/damage exact/file exact/index exact/verify
   exact/search_order exact/search_rare exact/search_traps exact/threads
-  exact/query/any_center exact/query/nearest exact/query/path_order exact/query/path_search exact/query/single_queries exact/query/space_search
+  exact/query/any_center exact/query/nearest exact/query/path_order exact/query/path_search exact/query/single_queries
   exact/search/component exact/search/group_states exact/search/leaf_bits
   exact/output exact/search/vertex_bfs exact/vertex_set
   paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Batches by paths and by the number of edges have the rows of `Searcher`, on every instruction set.
+// Batches by each metric have the rows of `Searcher`, on every instruction set.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <vector>
@@ -22,16 +23,17 @@
 namespace meshhood::test {
 namespace {
 
-class PathRowsOfFamily : public testing::TestWithParam<Family> {};
+class RowsOfFamily : public testing::TestWithParam<Family> {};
 
-TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
+TEST_P(RowsOfFamily, AreThoseOfASearcher) {
   Random random(37);
   std::size_t rows = 0;
-  for (std::uint64_t seed = 0; seed < scaled(32, 8); ++seed) {
-    const Metric metric = seed % 2 == 0 ? Metric::Path : Metric::Rings;
+  constexpr std::array kMetrics{Metric::Path, Metric::Rings, Metric::Straight, Metric::Space};
+  for (std::uint64_t seed = 0; seed < scaled(64, 16); ++seed) {
+    const Metric metric = kMetrics[seed % 4];
     const TestMesh mesh = make_mesh(GetParam(), seed, 300);
     const Index index = build(mesh.view());
-    const LimitedIsa limited(available_isas()[seed / 2 % available_isas().size()]);
+    const LimitedIsa limited(available_isas()[seed / 4 % available_isas().size()]);
     const std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), random.below(2) * 9);
     const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), random.below(2) * 4);
     Searcher searcher(index, metric);
@@ -51,7 +53,7 @@ TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
     Searcher masked_searcher(searched, metric);
     const SearchMethod method = SearchMethod(searched).by(metric);
     const BatchQuery query{.vertices = vertices, .radius = radii};
-    const unsigned threads = 1 + static_cast<unsigned>(seed / 2 % 2);
+    const unsigned threads = 1 + static_cast<unsigned>(seed / 4 % 2);
     const std::vector<std::uint64_t> sizes = counts(method, query, {.threads = threads});
     const Neighborhoods found = neighborhoods(method, query, {}, {.threads = threads});
     const Neighborhoods measured = neighborhoods(method, query, {.distances = true}, {.threads = threads});
@@ -68,7 +70,7 @@ TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
   std::printf("%zu rows\n", rows);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, PathRowsOfFamily, testing::ValuesIn(families()), family_name);
+INSTANTIATE_TEST_SUITE_P(Families, RowsOfFamily, testing::ValuesIn(families()), family_name);
 
 TEST(Rings, HaveScalesInCounts) {
   const TestMesh mesh = make_grid(5, 5, true).finish(false);

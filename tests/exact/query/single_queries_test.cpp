@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The answers to single queries by the straight distance, by paths and by the number of edges: regions, nested radii,
-// membership, connecting radii and strokes, against the plain searches of the oracle on small meshes of every kind.
+// The answers to single queries by each metric: regions, nested radii, membership, connecting radii and strokes,
+// against the plain searches of the oracle on small meshes of every kind.
 
 #include "exact/query/single_queries.h"
 
@@ -33,17 +33,29 @@ namespace {
 
 using testing::ElementsAre;
 
-constexpr std::array kMetrics{Metric::Straight, Metric::Path, Metric::Rings};
+constexpr std::array kMetrics{Metric::Straight, Metric::Path, Metric::Rings, Metric::Space};
+
+/// The distances of the vertices that are neither walls nor ignored; infinite for others, and from a wall.
+std::vector<double> radii_in_space(const RegionOracle& oracle, const DrawnStart& drawn) {
+  const PlainStart& start = drawn.plain;
+  std::vector<double> radii(oracle.graph().size(), kInfinity);
+  if (drawn.is_vertex && start.walls[start.seeds[0]] != 0) return radii;
+  for (std::size_t v = 0; v < radii.size(); ++v) {
+    if (start.walls[v] == 0 && start.ignored[v] == 0) radii[v] = oracle.distance(start, v);
+  }
+  return radii;
+}
 
 /// The least radius whose neighborhood has each vertex, infinite for ignored ones.
-std::vector<double> least_radii(const RegionOracle& oracle, Metric metric, const PlainStart& start) {
-  if (metric == Metric::Straight) return oracle.connecting_radii(start);
+std::vector<double> least_radii(const RegionOracle& oracle, Metric metric, const DrawnStart& drawn) {
+  if (metric == Metric::Straight) return oracle.connecting_radii(drawn.plain);
+  if (metric == Metric::Space) return radii_in_space(oracle, drawn);
   const Oracle& graph = oracle.graph();
-  std::vector<double> radii = oracle.path_lengths(start, kInfinity, [&](std::size_t a, std::size_t b) {
+  std::vector<double> radii = oracle.path_lengths(drawn.plain, kInfinity, [&](std::size_t a, std::size_t b) {
     return metric == Metric::Path ? graph.distance(a, b) : 1;
   });
   for (std::size_t v = 0; v < radii.size(); ++v) {
-    if (start.ignored[v] != 0) radii[v] = kInfinity;
+    if (drawn.plain.ignored[v] != 0) radii[v] = kInfinity;
   }
   return radii;
 }
@@ -61,7 +73,8 @@ struct Case {
 
   /// What a neighborhood gives as the distance of a vertex.
   [[nodiscard]] double distance(VertexId w) const {
-    return metric == Metric::Straight ? oracle.distance(drawn.plain, w) : least[w];
+    const bool is_straight = metric == Metric::Straight || metric == Metric::Space;
+    return is_straight ? oracle.distance(drawn.plain, w) : least[w];
   }
 
   /// The vertices of the neighborhood, ascending.
@@ -98,15 +111,16 @@ class SingleQueries : public testing::TestWithParam<Family> {
       SCOPED_TRACE(mesh.name);
       const Index index = build(mesh.view());
       const RegionOracle oracle(mesh);
-      std::array searchers{Searcher(index, kMetrics[0]), Searcher(index, kMetrics[1]), Searcher(index, kMetrics[2])};
+      std::vector<Searcher> searchers;
+      for (const Metric metric : kMetrics) searchers.emplace_back(index, metric);
       Random random(vertices);
-      for (std::size_t i = 0; i < scaled(3 * cases, 6) && !HasFailure(); ++i, ++count) {
-        const Metric metric = kMetrics[i % 3];
-        Case one{mesh, oracle, searchers[i % 3], metric, draw_start_for(metric, random, mesh), {}};
-        one.least = least_radii(oracle, metric, one.drawn.plain);
+      for (std::size_t i = 0; i < scaled(4 * cases, 8) && !HasFailure(); ++i, ++count) {
+        const Metric metric = kMetrics[i % 4];
+        Case one{mesh, oracle, searchers[i % 4], metric, draw_start_for(metric, random, mesh), {}};
+        one.least = least_radii(oracle, metric, one.drawn);
         const Index searched = one.drawn.on(index);
         one.searcher.rebind(searched);
-        SearcherAccess::set_isa(one.searcher, isas[i / 3 % isas.size()]);
+        SearcherAccess::set_isa(one.searcher, isas[i / 4 % isas.size()]);
         f(one, random);
       }
     }
@@ -186,6 +200,7 @@ TEST_P(SingleQueries, ContainAVertexFromItsConnectingRadiusOn) {
     if (radius > 0) {
       ASSERT_FALSE(one.searcher.contains(one.start(), w, std::nextafter(radius, 0)));
     }
+    if (one.metric == Metric::Space) return;  // refused: whole/metrics_test.cpp
     std::vector<VertexId> all;
     std::vector<double> radii;
     one.searcher.nearest_connected(one.start(), one.least.size() + 1, all, radii);
@@ -211,7 +226,7 @@ TEST_P(SingleQueries, OfAStrokeAreTheirUnion) {
       another = draw_start_for(one.metric, random, one.mesh);
       another.plain.walls = one.drawn.plain.walls;
       another.plain.ignored = one.drawn.plain.ignored;
-      const std::vector<double> least = least_radii(one.oracle, one.metric, another.plain);
+      const std::vector<double> least = least_radii(one.oracle, one.metric, another);
       const double radius = least[random.below(least.size())];
       dabs.push_back({another.start(), radius});
       for (VertexId w = 0; w < least.size(); ++w) {
@@ -254,7 +269,7 @@ TEST(Region, SaysWhetherASeedLiesInTheBall) {
   EXPECT_THAT(ids, testing::ElementsAre(0));
 }
 
-TEST(Region, WithoutSeedsIsEmpty) {
+TEST(Region, WithoutSeedsIsEmptyButInSpace) {
   const TestMesh mesh = make_grid(5, 5, false);
   const Index index = build(mesh.view());
   for (const Metric metric : {Metric::Straight, Metric::Path}) {
@@ -262,6 +277,9 @@ TEST(Region, WithoutSeedsIsEmpty) {
     EXPECT_EQ(searcher.count({{1, 1, 0}, {}}, 10), 0U);
     EXPECT_EQ(searcher.connecting_radius({{1, 1, 0}, {}}, 0), kInfinity);
   }
+  EXPECT_EQ(Searcher(index, Metric::Space).count({{1, 1, 0}, {}}, 10), 25U);
+  const Index empty = build(TestMesh{}.view());
+  EXPECT_EQ(Searcher(empty, Metric::Space).count({{0, 0, 0}, {}}, kInfinity), 0U);
 }
 
 TEST(Region, EndsAtWallsAndPassesIgnoredVertices) {
