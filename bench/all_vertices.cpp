@@ -12,6 +12,7 @@
 #include <ctime>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -298,18 +299,13 @@ std::string take(std::vector<std::string>& arguments, const char* name, std::siz
   return last;
 }
 
-int run(std::vector<std::string> arguments) {
+int run(Arguments arguments) {
   const bool json = !take(arguments, "--json", 0).empty();
   const std::string index = take(arguments, "--index", 1);
-  if (arguments.empty()) {
-    std::fprintf(stderr, "usage: all_vertices [--json] [--index FILE] MESH [RADIUS IN MEAN EDGES...]\n");
-    return 2;
-  }
+  if (arguments.empty()) throw std::invalid_argument("a mesh is missing");
   AllVertices all(MeshArgument(arguments.front()).view());
   if (!index.empty()) all.save(index);
-  std::vector<double> radii;
-  for (std::size_t i = 1; i < arguments.size(); ++i) radii.push_back(std::stod(arguments[i]));
-  if (radii.empty()) radii = {2, 3, 5, 10, 20, 65};
+  const std::vector<double> radii = numbers(arguments, 1, {2, 3, 5, 10, 20, 65});
   json ? print_json(all, radii) : print_table(all, radii);
   return 0;
 }
@@ -318,5 +314,6 @@ int run(std::vector<std::string> arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  return meshhood::bench::exit_status("all_vertices", [&] { return meshhood::bench::run({argv + 1, argv + argc}); });
+  return meshhood::bench::run_program(
+      argc, argv, {"all_vertices [--json] [--index FILE] MESH [RADIUS IN MEAN EDGES...]", 1}, meshhood::bench::run);
 }

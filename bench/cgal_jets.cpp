@@ -63,13 +63,10 @@ void measure_jets(const MeshView& mesh, double edges) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: cgal_jets MESH RADIUS_IN_MEAN_EDGES\n");
-    return 2;
-  }
-  return meshhood::bench::exit_status("cgal_jets", [&] {
-    const meshhood::bench::MeshArgument mesh(argv[1]);
-    meshhood::bench::measure_jets(mesh.view(), std::stod(argv[2]));
+  using namespace meshhood::bench;
+  return run_program(argc, argv, {"cgal_jets MESH RADIUS_IN_MEAN_EDGES", 2, 2}, [](const Arguments& arguments) {
+    const MeshArgument mesh(arguments[0]);
+    measure_jets(mesh.view(), std::stod(arguments[1]));
     return 0;
   });
 }

@@ -20,12 +20,8 @@ namespace {
 constexpr std::size_t kPoints = 40000;
 constexpr std::size_t kSingle = 4000;
 
-int run(std::span<char*> arguments) {
-  if (arguments.size() != 2) {
-    std::fprintf(stderr, "usage: bench_closest_points MESH\n");
-    return 2;
-  }
-  const MeshArgument mesh(arguments[1]);
+int run(const Arguments& arguments) {
+  const MeshArgument mesh(arguments[0]);
   const Index index = build(mesh.view());
   const double mean_edge = mean_edge_length(index);
   const Surface surface(index, mesh.view().faces);
@@ -50,6 +46,5 @@ int run(std::span<char*> arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  return meshhood::bench::exit_status("bench_closest_points",
-                                      [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
+  return meshhood::bench::run_program(argc, argv, {"bench_closest_points MESH", 1, 1}, meshhood::bench::run);
 }

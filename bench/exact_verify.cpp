@@ -95,11 +95,12 @@ class Verify {
   std::size_t differences_ = 0;
 };
 
-int run(const std::string& name, std::size_t step, const std::vector<double>& edges) {
+int run(const Arguments& arguments) {
+  const std::string& name = arguments[0];
   const MeshArgument mesh(name);
   if (mesh.view().positions.size() == 0) return 0;
   Verify verify(mesh.view());
-  verify.run(step, edges);
+  verify.run(std::stoul(arguments[1]), numbers(arguments, 2));
   std::printf("%s: %zu queries, %zu differences\n", name.substr(name.find_last_of('/') + 1).c_str(), verify.queries(),
               verify.differences());
   return verify.differences() == 0 ? 0 : 1;
@@ -109,13 +110,5 @@ int run(const std::string& name, std::size_t step, const std::vector<double>& ed
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  if (argc < 4) {
-    std::fprintf(stderr, "usage: exact_verify MESH STEP RADIUS...\n");
-    return 2;
-  }
-  return meshhood::bench::exit_status("exact_verify", [&] {
-    std::vector<double> edges;
-    for (int i = 3; i < argc; ++i) edges.push_back(std::stod(argv[i]));
-    return meshhood::bench::run(argv[1], std::stoul(argv[2]), edges);
-  });
+  return meshhood::bench::run_program(argc, argv, {"exact_verify MESH STEP RADIUS...", 3}, meshhood::bench::run);
 }

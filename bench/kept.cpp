@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "meshhood/meshhood.h"
@@ -42,18 +41,12 @@ void compare(const SearchMethod& method, const char* name, double edges, double 
   std::fflush(stdout);
 }
 
-int run(std::span<char*> arguments) {
-  if (arguments.size() < 2) {
-    std::fprintf(stderr, "usage: bench_kept MESH [RADIUS IN MEAN EDGES...]\n");
-    return 2;
-  }
-  const MeshArgument mesh(arguments[1]);
+int run(const Arguments& arguments) {
+  const MeshArgument mesh(arguments[0]);
   const Index index = build(mesh.view());
   const GraphData graph = extract_graph(index);
   const double mean_edge = mean_edge_length(graph.view());
-  std::vector<double> radii{2, 3, 5, 10};
-  if (arguments.size() > 2) radii.clear();
-  for (const char* argument : arguments.subspan(2)) radii.push_back(std::stod(argument));
+  const std::vector<double> radii = numbers(arguments, 1, {2, 3, 5, 10});
   std::printf("%-6s %6s %9s %8s %8s %8s %6s\n", "", "edges", "vertices", "counts", "once", "twice", "ratio");
   for (const double edges : radii) compare(index, "exact", edges, edges * mean_edge);
   for (const double edges : radii) compare(SearchMethod(index).by(Metric::Rings), "rings", edges, edges);
@@ -64,6 +57,6 @@ int run(std::span<char*> arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  return meshhood::bench::exit_status("bench_kept",
-                                      [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
+  return meshhood::bench::run_program(argc, argv, {"bench_kept MESH [RADIUS IN MEAN EDGES...]", 1},
+                                      meshhood::bench::run);
 }

@@ -8,7 +8,6 @@
 #include <iostream>
 #include <memory>
 #include <numeric>
-#include <string>
 #include <vector>
 
 #include "meshhood/meshhood.h"
@@ -31,8 +30,8 @@ double microseconds(const Index& index, const std::vector<VertexId>& rows, doubl
   return 1e6 * (measure::processor_time() - start) / static_cast<double>(rows.size());
 }
 
-int run(const std::string& file) {
-  const Index index = io::load(file);
+int run(const Arguments& arguments) {
+  const Index index = io::load(arguments[0]);
   VertexId first = 0;
   std::size_t count = 0;
   double radius = 0;
@@ -49,9 +48,5 @@ int run(const std::string& file) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: kept_rows INDEX < LINES\n");
-    return 2;
-  }
-  return meshhood::bench::exit_status("kept_rows", [&] { return meshhood::bench::run(argv[1]); });
+  return meshhood::bench::run_program(argc, argv, {"kept_rows INDEX < LINES", 1, 1}, meshhood::bench::run);
 }

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "meshhood/meshhood.h"
@@ -112,17 +111,10 @@ class KernelTargets {
   std::vector<VertexId> ids_;
 };
 
-int run(const std::vector<std::string>& arguments) {
-  if (arguments.empty()) {
-    std::fprintf(stderr, "usage: kernel_targets MESH [RADIUS IN MEAN EDGES...]\n");
-    return 2;
-  }
+int run(const Arguments& arguments) {
   KernelTargets targets(MeshArgument(arguments.front()).view());
   targets.print_header();
-  std::vector<double> radii;
-  for (std::size_t i = 1; i < arguments.size(); ++i) radii.push_back(std::stod(arguments[i]));
-  if (radii.empty()) radii = {2, 5, 10, 20};
-  for (const double edges : radii) targets.run(edges);
+  for (const double edges : numbers(arguments, 1, {2, 5, 10, 20})) targets.run(edges);
   return 0;
 }
 
@@ -130,5 +122,6 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  return meshhood::bench::exit_status("kernel_targets", [&] { return meshhood::bench::run({argv + 1, argv + argc}); });
+  return meshhood::bench::run_program(argc, argv, {"kernel_targets MESH [RADIUS IN MEAN EDGES...]", 1},
+                                      meshhood::bench::run);
 }

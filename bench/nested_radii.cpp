@@ -3,32 +3,22 @@
 // each vertex, and the ratio; beside them eight queries that only count, and the query of the largest radius alone.
 //
 //   nested_radii MESH [LARGEST RADIUS IN MEAN EDGES...]
-#include <algorithm>
+#include <array>
 #include <cstdio>
-#include <limits>
-#include <string>
+#include <functional>
 #include <vector>
 
 #include "meshhood/meshhood.h"
 
-#include "measure/timing.h"
 #include "mesh_argument.h"
 #include "program.h"
+#include "rounds.h"
 
 namespace meshhood::bench {
 namespace {
 
-constexpr int kRounds = 5;
 constexpr std::size_t kRadii = 8;
 constexpr std::size_t kVertices = 300;
-
-/// Processor time of the fastest round, in microseconds a vertex.
-template <class F>
-void measure_round(double& least, F&& f) {
-  const double start = measure::processor_time();
-  f();
-  least = std::min(least, 1e6 * (measure::processor_time() - start) / kVertices);
-}
 
 class NestedRadii {
  public:
@@ -43,42 +33,40 @@ class NestedRadii {
   void run(double edges) {
     std::vector<double> radii;
     for (std::size_t i = 1; i <= kRadii; ++i) radii.push_back(edges * mean_edge_ * static_cast<double>(i) / kRadii);
-    double one_by_one = std::numeric_limits<double>::infinity();
-    double at_once = one_by_one;
-    double counts_only = one_by_one;
-    double largest = one_by_one;
     std::vector<VertexId> ids;
     std::vector<std::size_t> counts;
     std::size_t found = 0;
     std::size_t found_at_once = 0;
-    for (int round = 0; round < kRounds; ++round) {
-      found = found_at_once = 0;
-      measure_round(one_by_one, [&] {
-        for (const VertexId v : vertices_) {
-          for (const double radius : radii) {
-            single_.neighborhood(v, radius, ids);
-            found += ids.size();
-          }
-        }
-      });
-      measure_round(at_once, [&] {
-        for (const VertexId v : vertices_) {
-          nested_.nested(v, radii, ids, counts);
-          for (const std::size_t count : counts) found_at_once += count;
-        }
-      });
-      measure_round(counts_only, [&] {
-        for (const VertexId v : vertices_) {
-          for (const double radius : radii) static_cast<void>(single_.count(v, radius));
-        }
-      });
-      measure_round(largest, [&] {
-        for (const VertexId v : vertices_) single_.neighborhood(v, radii.back(), ids);
-      });
-    }
-    std::printf("%6.4g %10.0f %12.2f %12.2f %8.2f %12.2f %10.2f%s\n", edges, static_cast<double>(found) / kVertices,
-                one_by_one, at_once, one_by_one / at_once, counts_only, largest,
-                found == found_at_once ? "" : "  DIFFERENT COUNTS");
+    const std::array<std::function<void()>, 4> runs{[&] {
+                                                      for (const VertexId v : vertices_) {
+                                                        for (const double radius : radii) {
+                                                          single_.neighborhood(v, radius, ids);
+                                                          found += ids.size();
+                                                        }
+                                                      }
+                                                    },
+                                                    [&] {
+                                                      for (const VertexId v : vertices_) {
+                                                        nested_.nested(v, radii, ids, counts);
+                                                        for (const std::size_t count : counts) found_at_once += count;
+                                                      }
+                                                    },
+                                                    [&] {
+                                                      for (const VertexId v : vertices_) {
+                                                        for (const double radius : radii)
+                                                          static_cast<void>(single_.count(v, radius));
+                                                      }
+                                                    },
+                                                    [&] {
+                                                      for (const VertexId v : vertices_)
+                                                        single_.neighborhood(v, radii.back(), ids);
+                                                    }};
+    std::array<double, 4> least = fastest(runs);
+    for (double& seconds : least) seconds *= 1e6 / kVertices;
+    const auto [one_by_one, at_once, counts_only, largest] = least;
+    std::printf("%6.4g %10.0f %12.2f %12.2f %8.2f %12.2f %10.2f%s\n", edges,
+                static_cast<double>(found) / kRounds / kVertices, one_by_one, at_once, one_by_one / at_once,
+                counts_only, largest, found == found_at_once ? "" : "  DIFFERENT COUNTS");
     std::fflush(stdout);
   }
 
@@ -90,19 +78,12 @@ class NestedRadii {
   std::vector<VertexId> vertices_;
 };
 
-int run(std::span<char*> arguments) {
-  if (arguments.size() < 2) {
-    std::fprintf(stderr, "usage: nested_radii MESH [LARGEST RADIUS IN MEAN EDGES...]\n");
-    return 2;
-  }
-  const MeshArgument mesh(arguments[1]);
+int run(const Arguments& arguments) {
+  const MeshArgument mesh(arguments[0]);
   NestedRadii nested(mesh.view());
   std::printf("%6s %10s %12s %12s %8s %12s %10s\n", "edges", "vertices", "8 queries us", "nested us", "ratio",
               "8 counts us", "largest us");
-  std::vector<double> edges{20, 65};
-  if (arguments.size() > 2) edges.clear();
-  for (const char* argument : arguments.subspan(2)) edges.push_back(std::stod(argument));
-  for (const double radius : edges) nested.run(radius);
+  for (const double radius : numbers(arguments, 1, {20, 65})) nested.run(radius);
   return 0;
 }
 
@@ -110,6 +91,6 @@ int run(std::span<char*> arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  return meshhood::bench::exit_status("nested_radii",
-                                      [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
+  return meshhood::bench::run_program(argc, argv, {"nested_radii MESH [LARGEST RADIUS IN MEAN EDGES...]", 1},
+                                      meshhood::bench::run);
 }

@@ -79,13 +79,9 @@ void compare(const Surface& surface, const Reference& reference, double edges, d
   std::fflush(stdout);
 }
 
-int run(std::span<char*> arguments) {
-  if (arguments.size() < 3) {
-    std::fprintf(stderr, "usage: bench_patches MESH THREADS [RADIUS IN MEAN EDGES...]\n");
-    return 2;
-  }
-  const MeshArgument mesh(arguments[1]);
-  const auto threads = static_cast<unsigned>(std::stoul(arguments[2]));
+int run(const Arguments& arguments) {
+  const MeshArgument mesh(arguments[0]);
+  const auto threads = static_cast<unsigned>(std::stoul(arguments[1]));
   const Index index = build(mesh.view(), {.threads = threads});
   const double mean_edge = mean_edge_length(index);
   const double start = measure::processor_time();
@@ -95,17 +91,16 @@ int run(std::span<char*> arguments) {
   const Reference reference = make_reference(mesh.view());
   std::printf("%6s %8s %10s %10s %8s %10s %10s %10s\n", "edges", "faces", "plain us", "us", "ratio", "gap us", "area",
               "volume");
-  std::vector<double> edges{1, 3, 5, 10, 16};
-  if (arguments.size() > 3) edges.clear();
-  for (std::size_t i = 3; i < arguments.size(); ++i) edges.push_back(std::stod(arguments[i]));
-  for (const double count : edges) compare(surface, reference, count, count * mean_edge, threads);
+  for (const double count : numbers(arguments, 2, {1, 3, 5, 10, 16})) {
+    compare(surface, reference, count, count * mean_edge, threads);
+  }
   return 0;
 }
 
 }  // namespace
 }  // namespace meshhood::bench
 
-int main(int count, char** arguments) {
-  return meshhood::bench::exit_status(
-      "patches", [&] { return meshhood::bench::run({arguments, static_cast<std::size_t>(count)}); });
+int main(int argc, char** argv) {
+  return meshhood::bench::run_program(argc, argv, {"bench_patches MESH THREADS [RADIUS IN MEAN EDGES...]", 2},
+                                      meshhood::bench::run);
 }

@@ -4,26 +4,22 @@
 // how many times as fast the call is. Then the same along the surface, if the mesh has faces.
 //
 //   bench_paths MESH [RADIUS IN MEAN EDGES...]
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <functional>
-#include <limits>
-#include <string>
 #include <vector>
 
 #include "meshhood/meshhood.h"
 
-#include "measure/timing.h"
 #include "mesh_argument.h"
 #include "program.h"
+#include "rounds.h"
 
 namespace meshhood::bench {
 namespace {
 
-constexpr int kRounds = 3;
 const Run kOneThread{.threads = 1};
 
 class Paths {
@@ -77,15 +73,7 @@ class Paths {
           for (const double mean : aggregate(index_, {std::span<const double>(map_)}, smooth, kOneThread))
             found[5] += mean;
         }};
-    std::array<double, 6> least;
-    least.fill(std::numeric_limits<double>::infinity());
-    for (int round = 0; round < kRounds; ++round) {
-      for (std::size_t i = 0; i < runs.size(); ++i) {
-        const double start = measure::processor_time();
-        runs[i]();
-        least[i] = std::min(least[i], measure::processor_time() - start);
-      }
-    }
+    const std::array<double, 6> least = fastest(runs);
     std::printf("%6.4g %9.1f", radius_in_edges, found[0] / kRounds / size);
     for (std::size_t i = 0; i < runs.size(); i += 2) {
       std::printf(" %10.3f %10.3f %6.2f", 1e6 * least[i] / size, 1e6 * least[i + 1] / size, least[i] / least[i + 1]);
@@ -120,15 +108,8 @@ class Paths {
   std::vector<double> kept_lengths_;
 };
 
-int run(std::span<char*> arguments) {
-  if (arguments.size() < 2) {
-    std::fprintf(stderr, "usage: bench_paths MESH [RADIUS IN MEAN EDGES...]\n");
-    return 2;
-  }
-  const MeshArgument mesh(arguments[1]);
-  std::vector<double> radii{5, 10, 20};
-  if (arguments.size() > 2) radii.clear();
-  for (const char* argument : arguments.subspan(2)) radii.push_back(std::stod(argument));
+int run(const Arguments& arguments) {
+  const MeshArgument mesh(arguments[0]);
   const Index index = build(mesh.view());
   const double mean_edge = mean_edge_length(index);
   const auto compare = [&](const char* along, const Index& searched) {
@@ -136,7 +117,7 @@ int run(std::span<char*> arguments) {
     for (const char* what : {"count", "ids", "smooth"}) std::printf(" %10s %10s %6s", what, "batch", "ratio");
     std::printf("\n");
     Paths paths(searched, mean_edge);
-    for (const double radius : radii) paths.run(radius);
+    for (const double radius : numbers(arguments, 1, {5, 10, 20})) paths.run(radius);
   };
   compare("edges", index);
   if (mesh.view().faces.size() > 0) compare("the surface", surface_paths(Surface(index, mesh.view().faces)));
@@ -147,6 +128,6 @@ int run(std::span<char*> arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  return meshhood::bench::exit_status("bench_paths",
-                                      [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
+  return meshhood::bench::run_program(argc, argv, {"bench_paths MESH [RADIUS IN MEAN EDGES...]", 1},
+                                      meshhood::bench::run);
 }

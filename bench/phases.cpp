@@ -93,15 +93,10 @@ void profile(const MeshView& mesh, std::size_t queries, const std::vector<double
 }  // namespace
 }  // namespace meshhood::bench
 
-int main(int arguments, char** values) {
-  if (arguments < 4) {
-    std::fprintf(stderr, "usage: phases MESH QUERIES RADIUS...\n");
-    return 2;
-  }
-  return meshhood::bench::exit_status("phases", [&] {
-    std::vector<double> radii;
-    for (int i = 3; i < arguments; ++i) radii.push_back(std::stod(values[i]));
-    meshhood::bench::profile(meshhood::bench::MeshArgument(values[1]).view(), std::stoul(values[2]), radii);
+int main(int argc, char** argv) {
+  using namespace meshhood::bench;
+  return run_program(argc, argv, {"phases MESH QUERIES RADIUS...", 3}, [](const Arguments& arguments) {
+    profile(MeshArgument(arguments[0]).view(), std::stoul(arguments[1]), numbers(arguments, 2));
     return 0;
   });
 }

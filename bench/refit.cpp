@@ -203,11 +203,7 @@ class Refits {
   std::size_t changed_ = 0;
 };
 
-int run(const std::vector<std::string>& arguments) {
-  if (arguments.empty()) {
-    std::fprintf(stderr, "usage: bench_refit MESH [CHANGED VERTICES]\n");
-    return 2;
-  }
+int run(const Arguments& arguments) {
   const MeshArgument mesh(arguments.front());
   Refits(mesh.view(), arguments.size() > 1 ? std::stoul(arguments[1]) : 10'000).run();
   return 0;
@@ -217,5 +213,5 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  return meshhood::bench::exit_status("bench_refit", [&] { return meshhood::bench::run({argv + 1, argv + argc}); });
+  return meshhood::bench::run_program(argc, argv, {"bench_refit MESH [CHANGED VERTICES]", 1}, meshhood::bench::run);
 }

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "meshhood/meshhood.h"
@@ -106,19 +105,12 @@ class Rings {
   SearchMethod method_;
 };
 
-int run(std::span<char*> arguments) {
-  if (arguments.size() < 2) {
-    std::fprintf(stderr, "usage: bench_rings MESH [K...]\n");
-    return 2;
-  }
-  const MeshArgument mesh(arguments[1]);
+int run(const Arguments& arguments) {
+  const MeshArgument mesh(arguments[0]);
   Rings rings(mesh.view());
   std::printf("%3s %9s %10s %10s %6s %10s %10s %6s %10s\n", "k", "vertices", "BFS count", "batch", "ratio", "BFS ids",
               "batch", "ratio", "searcher");
-  std::vector<std::size_t> numbers{2, 3, 5};
-  if (arguments.size() > 2) numbers.clear();
-  for (const char* argument : arguments.subspan(2)) numbers.push_back(std::stoul(argument));
-  for (const std::size_t k : numbers) rings.run(k);
+  for (const double k : numbers(arguments, 1, {2, 3, 5})) rings.run(static_cast<std::size_t>(k));
   return 0;
 }
 
@@ -126,6 +118,5 @@ int run(std::span<char*> arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  return meshhood::bench::exit_status("bench_rings",
-                                      [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
+  return meshhood::bench::run_program(argc, argv, {"bench_rings MESH [K...]", 1}, meshhood::bench::run);
 }

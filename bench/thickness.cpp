@@ -54,17 +54,13 @@ void measure_thickness(const Surface& surface, std::size_t count) {
   }
 }
 
-int run(std::span<char*> arguments) {
-  if (arguments.size() != 2 && arguments.size() != 3) {
-    std::fprintf(stderr, "usage: bench_thickness MESH [VERTICES]\n");
-    return 2;
-  }
-  const MeshArgument mesh(arguments[1]);
+int run(const Arguments& arguments) {
+  const MeshArgument mesh(arguments[0]);
   const Index index = build(mesh.view());
   const std::size_t all = mesh.view().positions.size();
   const Surface surface(index, mesh.view().faces);
   measure_rays(surface, mesh.view());
-  measure_thickness(surface, arguments.size() == 3 ? std::min<std::size_t>(std::stoul(arguments[2]), all) : all);
+  measure_thickness(surface, arguments.size() == 2 ? std::min<std::size_t>(std::stoul(arguments[1]), all) : all);
   return 0;
 }
 
@@ -72,6 +68,5 @@ int run(std::span<char*> arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  return meshhood::bench::exit_status("bench_thickness",
-                                      [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
+  return meshhood::bench::run_program(argc, argv, {"bench_thickness MESH [VERTICES]", 1, 2}, meshhood::bench::run);
 }

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdio>
 #include <limits>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -46,21 +45,14 @@ void compare(const Index& index, double edges, double mean_edge, unsigned thread
   std::fflush(stdout);
 }
 
-int run(std::span<char*> arguments) {
-  if (arguments.size() < 3) {
-    std::fprintf(stderr, "usage: unconnected MESH THREADS [RADIUS IN MEAN EDGES...]\n");
-    return 2;
-  }
-  const MeshArgument mesh(arguments[1]);
-  const auto threads = static_cast<unsigned>(std::stoul(arguments[2]));
+int run(const Arguments& arguments) {
+  const MeshArgument mesh(arguments[0]);
+  const auto threads = static_cast<unsigned>(std::stoul(arguments[1]));
   const Index index = build(mesh.view(), {.threads = threads});
   const GraphData graph = extract_graph(index);
   const double mean_edge = mean_edge_length(graph.view());
   std::printf("%6s %12s %12s %8s %10s\n", "edges", "counts us", "nearest us", "ratio", "found %");
-  std::vector<double> edges{5, 10};
-  if (arguments.size() > 3) edges.clear();
-  for (const char* argument : arguments.subspan(3)) edges.push_back(std::stod(argument));
-  for (const double radius : edges) compare(index, radius, mean_edge, threads);
+  for (const double radius : numbers(arguments, 2, {5, 10})) compare(index, radius, mean_edge, threads);
   return 0;
 }
 
@@ -68,6 +60,6 @@ int run(std::span<char*> arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  return meshhood::bench::exit_status("unconnected",
-                                      [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
+  return meshhood::bench::run_program(argc, argv, {"unconnected MESH THREADS [RADIUS IN MEAN EDGES...]", 2},
+                                      meshhood::bench::run);
 }

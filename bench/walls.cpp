@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <string>
 #include <vector>
 
 #include "meshhood/meshhood.h"
@@ -96,18 +95,11 @@ class Walls {
   std::vector<NamedMask> masks_;
 };
 
-int run(std::span<char*> arguments) {
-  if (arguments.size() < 2) {
-    std::fprintf(stderr, "usage: bench_walls MESH [RADIUS IN MEAN EDGES...]\n");
-    return 2;
-  }
-  const MeshArgument mesh(arguments[1]);
+int run(const Arguments& arguments) {
+  const MeshArgument mesh(arguments[0]);
   Walls walls(mesh.view());
   std::printf("%6s %-10s %-8s %10s %8s %10s %8s\n", "edges", "mask", "as", "counts us", "ratio", "ids us", "ratio");
-  std::vector<double> edges{5, 10, 20};
-  if (arguments.size() > 2) edges.clear();
-  for (const char* argument : arguments.subspan(2)) edges.push_back(std::stod(argument));
-  for (const double radius : edges) walls.run(radius);
+  for (const double radius : numbers(arguments, 1, {5, 10, 20})) walls.run(radius);
   return 0;
 }
 
@@ -115,6 +107,6 @@ int run(std::span<char*> arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  return meshhood::bench::exit_status("bench_walls",
-                                      [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
+  return meshhood::bench::run_program(argc, argv, {"bench_walls MESH [RADIUS IN MEAN EDGES...]", 1},
+                                      meshhood::bench::run);
 }

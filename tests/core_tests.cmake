@@ -14,12 +14,12 @@ set(parts
   base/adjacency base/frame base/mesh base/triangulate shared/coarse_float shared/distance base/sphere base/reference base/error shared/helper_threads shared/parallel shared/raw_vector
   base/cut_edges base/epoch_array base/number_set base/packed_positions base/face_graph base/kd_order
   aggregate/aggregate aggregate/listed_sums aggregate/smoothing
-  batch/batch batch/packets batch/path_rows batch/position_sort batch/kept_packets batch/ring_rows batch/k_nearest batch/unconnected
+  batch/batch batch/packets batch/path_rows batch/position_sort batch/kept_packets batch/k_nearest batch/unconnected
   exact/build_threads exact/collect_rows exact/edge_buckets exact/edge_source exact/masked exact/link_points
   exact/nearest_packet exact/node_parts exact/path_packet exact/quality exact/refit exact/check exact/damage exact/file exact/index exact/verify
-  exact/search_differential exact/search_order exact/search_rare exact/search_traps exact/threads
-  exact/query/any_center exact/query/length_queries exact/query/nearest exact/query/path_order exact/query/path_queue exact/query/path_search exact/query/space_search exact/query/straight_queries
-  exact/search/component exact/search/group_states exact/search/leaf_bfs exact/search/leaf_bits
+  exact/search_order exact/search_rare exact/search_traps exact/threads
+  exact/query/any_center exact/query/nearest exact/query/path_order exact/query/path_search exact/query/single_queries
+  exact/search/component exact/search/group_states exact/search/leaf_bits
   exact/output exact/search/vertex_bfs exact/vertex_set
   paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
   patch/clip patch/packet_patches patch/patch surface/box_tree surface/closest_point surface/first_hit surface/normal_cones surface/submesh surface/surface surface/surface_paths surface/thickness
@@ -42,10 +42,8 @@ if(NOT WIN32) # aligned_alloc
 endif()
 
 if(TARGET meshhood_test_support)
-  meshhood_test(exact/query_meshes meshhood_test_support meshhood_families)
   meshhood_test(exact/reorder meshhood_families meshhood_test_support)
   meshhood_test(exact/index_meshes meshhood_test_support)
-  meshhood_test(paper/meshes meshhood_test_support)
   meshhood_test(surface/submesh_meshes meshhood_test_support)
   meshhood_test(whole/all_meshes meshhood_test_support)
 endif()

@@ -96,13 +96,10 @@ class BreadthFirst {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: breadth_first MESH THREADS < LINES\n");
-    return 2;
-  }
-  return meshhood::bench::exit_status("breadth_first", [&] {
-    const meshhood::bench::MeshArgument mesh(argv[1]);
-    const meshhood::bench::BreadthFirst search(mesh.view(), static_cast<unsigned>(std::stoul(argv[2])));
+  using namespace meshhood::bench;
+  return run_program(argc, argv, {"breadth_first MESH THREADS < LINES", 2, 2}, [](const Arguments& arguments) {
+    const MeshArgument mesh(arguments[0]);
+    const BreadthFirst search(mesh.view(), static_cast<unsigned>(std::stoul(arguments[1])));
     std::string question;
     double radius = 0;
     while (std::cin >> question >> radius) search.answer(question, radius);

@@ -149,14 +149,13 @@ void serve(const Search& search, unsigned threads) {
 }  // namespace
 }  // namespace meshhood::bench
 
-int main(int arguments, char** values) {
+int main(int argc, char** argv) {
   using namespace meshhood::bench;
-  if (arguments != 4) return 2;
-  return exit_status("native", [&] {
-    const MeshArgument mesh(values[2]);
-    const auto threads = static_cast<unsigned>(std::stoul(values[3]));
+  return run_program(argc, argv, {"native SEARCH MESH THREADS", 3, 3}, [](const Arguments& arguments) {
+    const MeshArgument mesh(arguments[1]);
+    const auto threads = static_cast<unsigned>(std::stoul(arguments[2]));
     const auto begin = Clock::now();
-    const Search search = make(values[1], mesh.view(), threads);
+    const Search search = make(arguments[0], mesh.view(), threads);
     std::cout << seconds_since(begin) << '\n' << std::flush;
     serve(search, threads);
     return 0;

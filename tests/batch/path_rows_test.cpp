@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Batches along the edges have the rows of `Searcher`, on every instruction set.
+// Batches by each metric have the rows of `Searcher`, on every instruction set.
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <vector>
@@ -21,23 +23,25 @@
 namespace meshhood::test {
 namespace {
 
-class PathRowsOfFamily : public testing::TestWithParam<Family> {};
+class RowsOfFamily : public testing::TestWithParam<Family> {};
 
-TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
+TEST_P(RowsOfFamily, AreThoseOfASearcher) {
   Random random(37);
   std::size_t rows = 0;
-  for (std::uint64_t seed = 0; seed < scaled(16, 4); ++seed) {
+  constexpr std::array kMetrics{Metric::Path, Metric::Rings, Metric::Straight, Metric::Space};
+  for (std::uint64_t seed = 0; seed < scaled(64, 16); ++seed) {
+    const Metric metric = kMetrics[seed % 4];
     const TestMesh mesh = make_mesh(GetParam(), seed, 300);
     const Index index = build(mesh.view());
-    const LimitedIsa limited(available_isas()[seed % available_isas().size()]);
+    const LimitedIsa limited(available_isas()[seed / 4 % available_isas().size()]);
     const std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), random.below(2) * 9);
     const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), random.below(2) * 4);
-    Searcher searcher(index, Metric::Path);
+    Searcher searcher(index, metric);
     std::vector<VertexId> ids;
     std::vector<double> lengths;
     double longest = 0;
     if (mesh.size() > 0) searcher.neighborhood(0, kInfinity, ids, lengths);
-    if (!lengths.empty()) longest = lengths.back();
+    if (!lengths.empty()) longest = *std::ranges::max_element(lengths);
     std::vector<VertexId> vertices;
     std::vector<double> radii;
     const std::size_t size = random.below(300);  // few rows of a leaf, and many
@@ -46,10 +50,10 @@ TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
       radii.push_back(random.below(10) == 0 ? kInfinity : longest * random.uniform(0, 0.6));
     }
     const Index searched = masked(index, {walls, ignored});
-    Searcher masked_searcher(searched, Metric::Path);
-    const SearchMethod method = SearchMethod(searched).by(Metric::Path);
+    Searcher masked_searcher(searched, metric);
+    const SearchMethod method = SearchMethod(searched).by(metric);
     const BatchQuery query{.vertices = vertices, .radius = radii};
-    const unsigned threads = 1 + static_cast<unsigned>(seed % 2);
+    const unsigned threads = 1 + static_cast<unsigned>(seed / 4 % 2);
     const std::vector<std::uint64_t> sizes = counts(method, query, {.threads = threads});
     const Neighborhoods found = neighborhoods(method, query, {}, {.threads = threads});
     const Neighborhoods measured = neighborhoods(method, query, {.distances = true}, {.threads = threads});
@@ -66,7 +70,15 @@ TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
   std::printf("%zu rows\n", rows);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, PathRowsOfFamily, testing::ValuesIn(families()), family_name);
+INSTANTIATE_TEST_SUITE_P(Families, RowsOfFamily, testing::ValuesIn(families()), family_name);
+
+TEST(Rings, HaveScalesInCounts) {
+  const TestMesh mesh = make_grid(5, 5, true).finish(false);
+  const Index index = build(mesh.view());
+  const std::vector<VertexId> middle{12};
+  EXPECT_THAT(counts(SearchMethod(index).by(Metric::Rings), {middle, BatchRadius::scales({0, 1, 2, 100})}),
+              testing::ElementsAre(1, 5, 13, 25));
+}
 
 }  // namespace
 }  // namespace meshhood::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The nearest vertices that are not connected, against a scan of all vertices.
+// The nearest vertices that are not connected, against a scan of all vertices. With masks: whole/metrics_test.cpp.
 #include "meshhood/unconnected.h"
 
 #include <cstddef>
@@ -10,10 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "meshhood/adjacency.h"
 #include "meshhood/index.h"
-#include "meshhood/masks.h"
-#include "meshhood/reference.h"
 #include "meshhood/start.h"
 
 #include "support/families.h"
@@ -23,7 +20,6 @@
 #include "support/refusal.h"
 #include "support/scale.h"
 #include "support/sheets.h"
-#include "support/without_walls.h"
 
 namespace meshhood::test {
 namespace {
@@ -89,36 +85,6 @@ TEST(Unconnected, OfAFoldedSheetAreThoseOfAScan) {
     ASSERT_EQ(result.vertex[row], expected.vertex) << v;
     ASSERT_EQ(result.distance[row], expected.distance) << v;
   }
-}
-
-TEST(Unconnected, IsNeitherAWallNorIgnored) {
-  const TestMesh mesh = make_folded_sheet(24);
-  const Index index = build(mesh.view());
-  std::vector<std::uint8_t> walls(mesh.size());
-  std::vector<std::uint8_t> ignored(mesh.size());
-  for (std::size_t v = 0; v < mesh.size(); ++v) {
-    walls[v] = static_cast<std::uint8_t>(v % 5 == 0);
-    ignored[v] = static_cast<std::uint8_t>(v % 7 == 3);
-  }
-  const Adjacency graph = without_walls(mesh, walls);
-  ReferenceSearcher reference(GraphView{mesh.positions_view(), graph.view()});
-  const Oracle oracle(mesh);
-  const Unconnected result = nearest_unconnected(masked(index, {walls, ignored}), {.radius = 2.5}, {.threads = 2});
-  std::size_t found = 0;
-  for (VertexId v = 0; v < mesh.size(); ++v) {
-    std::vector<bool> is_out(mesh.size());
-    for (VertexId w = 0; w < mesh.size(); ++w) is_out[w] = walls[w] != 0 || ignored[w] != 0 || walls[v] != 0;
-    for (const VertexId w : reference.neighborhood(v, 2.5)) is_out[w] = true;
-    NearestVertex expected{kNoVertex, kInfinity};
-    for (VertexId w = 0; w < mesh.size(); ++w) {
-      const double distance = oracle.distance(v, w);
-      if (!is_out[w] && distance <= 2.5 && distance < expected.distance) expected = {w, distance};
-    }
-    ASSERT_EQ(result.vertex[v], expected.vertex) << v;
-    ASSERT_EQ(result.distance[v], expected.distance) << v;
-    found += static_cast<std::size_t>(expected.vertex != kNoVertex);
-  }
-  EXPECT_GT(found, mesh.size() / 2);
 }
 
 TEST(Unconnected, RefusesARowThatDoesNotExistAndARadiusThatIsNone) {

@@ -239,19 +239,26 @@ class Plain:
         return best
 
 
-def aggregate(ids, distances, values, reduce, kernel="box", weights=None, missing="propagate", quantile=0.5, radius=1.0):
+def fall(kernel, distances, radius):
+    """How much each vertex counts by its distance."""
+    share = 1 - (np.asarray(distances, float) / radius) ** 2
+    return {"box": np.ones(len(share)), "epanechnikov": share, "biweight": share**2, "gaussian": 1000 ** (share - 1)}[kernel]
+
+
+def aggregate(
+    ids, distances, values, reduce, kernel="box", weights=None, missing="propagate", quantile=0.5, radius=1.0, ddof=0
+):
     """Of one channel over one neighborhood, as include/meshhood/aggregate.h says."""
     x, w = values[ids], np.ones(len(ids)) if weights is None else weights[ids]
-    share = 1 - (np.asarray(distances) / radius) ** 2 if len(ids) else np.zeros(0)
+    falls = fall(kernel, distances, radius)
     kept = (w != 0) if weights is not None and reduce not in ("min", "max", "count", "median", "quantile") else np.ones(len(ids), bool)
     if missing == "omit":
         kept &= ~np.isnan(x)
-    x, w, share = x[kept], w[kept], share[kept]
+    x, w, falls = x[kept], w[kept], falls[kept]
     if reduce == "count":
         return float(len(x))
     if reduce in ("sum", "mean"):
-        falls = {"box": np.ones(len(w)), "epanechnikov": share, "biweight": share**2, "gaussian": 1000 ** (share - 1)}
-        w = w * falls[kernel]
+        w = w * falls
     with np.errstate(all="ignore"):
         if reduce == "sum":
             return float(np.sum(w * x))
@@ -260,5 +267,5 @@ def aggregate(ids, distances, values, reduce, kernel="box", weights=None, missin
         if reduce in ("min", "max", "median", "quantile"):
             return float(np.quantile(x, {"min": 0, "max": 1, "median": 0.5, "quantile": quantile}[reduce]))
         mean = np.sum(w * x) / np.sum(w)
-        variance = np.sum(w * (x - mean) ** 2) / np.sum(w)
+        variance = np.sum(w * (x - mean) ** 2) / (np.sum(w) - ddof or math.nan)
         return float({"mean": mean, "var": variance, "std": math.sqrt(variance)}[reduce])

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Moments, curvatures and features with walls are those of an index that was built without the edges at the walls.
+// Curvatures and features with walls are those of an index that was built without the edges at the walls.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,6 @@
 #include "meshhood/curvature.h"
 #include "meshhood/features.h"
 #include "meshhood/masks.h"
-#include "meshhood/moments.h"
 
 #include "support/draw_start.h"
 #include "support/families.h"
@@ -21,9 +20,6 @@
 
 namespace meshhood::test {
 namespace {
-
-using testing::Each;
-using testing::IsNan;
 
 /// A wavy sheet with normals and walls, and the index that was built without the walls.
 class WithWalls : public testing::Test {
@@ -84,31 +80,6 @@ class WithWalls : public testing::Test {
   Index with_walls = masked(index, {.walls = walls});
 };
 
-TEST_F(WithWalls, MomentsAreThoseWithoutTheEdgesAtWalls) {
-  const MomentOptions options{.degree = 4};
-  const std::vector<double> found = moments(with_walls, {.radius = 4}, options);
-  expect_same(found, moments(expected_index, {.radius = 4}, options), moment_count(4), 1e-11);
-  for (std::size_t v = 0; v < mesh.size(); ++v) {
-    if (walls[v] != 0) {
-      ASSERT_THAT(std::span(found).subspan(moment_count(4) * v, moment_count(4)), Each(0));
-    }
-  }
-  const PrincipalComponents patches = principal_components(with_walls, {.radius = 4});
-  expect_same(patches.variances, principal_components(expected_index, {.radius = 4}).variances, 3, 1e-10);
-}
-
-TEST_F(WithWalls, IgnoredVerticesHaveNoMoments) {
-  const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), 3);
-  std::vector<double> weights(mesh.size(), 1.0);
-  for (std::size_t v = 0; v < mesh.size(); ++v) {
-    if (ignored[v] != 0) weights[v] = 0;
-  }
-  for (const double radius : {1.5, 6.0}) {
-    const std::vector<double> found = moments(masked(index, {walls, ignored}), {.radius = radius});
-    expect_same(found, moments(with_walls, {.radius = radius}, {.weights = weights}), moment_count(2), 1e-11);
-  }
-}
-
 TEST_F(WithWalls, CurvaturesAreThoseWithoutTheEdgesAtWalls) {
   const Surface surface = Surface::of_normals(with_walls, normals);
   const Surface expected_surface = Surface::of_normals(expected_index, normals);
@@ -124,26 +95,6 @@ TEST_F(WithWalls, CurvaturesAreThoseWithoutTheEdgesAtWalls) {
       }
     }
   }
-}
-
-TEST_F(WithWalls, IgnoredVerticesAreFittedAsLittleAsWallsThatDivideNothing) {
-  std::vector<std::uint8_t> scattered(mesh.size());
-  for (std::size_t v = 0; v < mesh.size(); v += 13) scattered[v] = 1;  // no two are neighbors
-  const Surface surface = Surface::of_normals(index, normals);
-  const Index ignoring = masked(index, {.ignored = scattered});
-  const Index walled = masked(index, {.walls = scattered});
-  const Curvatures found = curvatures(surface.on(ignoring), {.radius = 5});
-  const Curvatures expected = curvatures(surface.on(walled), {.radius = 5});
-  const std::vector<std::uint64_t> of_ignoring = counts(ignoring, {.radius = 5});
-  const std::vector<std::uint64_t> of_walled = counts(walled, {.radius = 5});
-  std::size_t compared = 0;
-  for (std::size_t v = 0; v < mesh.size(); ++v) {
-    // At the rim of the ball a wall may be the only way to a vertex.
-    if (scattered[v] != 0 || of_ignoring[v] != of_walled[v]) continue;
-    ASSERT_NEAR(found.k1[v], expected.k1[v], 1e-9) << "vertex " << v;
-    ++compared;
-  }
-  EXPECT_GT(compared, mesh.size() / 4);
 }
 
 TEST_F(WithWalls, FeaturesHaveScalesOrARadiusForEachRow) {

@@ -66,31 +66,6 @@ Expected moments_of(const TestMesh& mesh, const std::vector<std::uint32_t>& ids,
   return expected;
 }
 
-TEST(Moments, AreTheSumsOfTheirDefinitionOnEveryFamily) {
-  std::size_t rows = 0;
-  for (const Family& family : surface_families()) {
-    const TestMesh mesh = make_mesh(family, 1, scaled(300));
-    const Oracle oracle(mesh);
-    const Index index = build(mesh.view());
-    Random random(5);
-    const double radius = 4 * oracle.mean_edge();
-    for (const std::vector<double>& weights : {std::vector<double>(), some_weights(random, mesh.size())}) {
-      const std::vector<double> found = moments(index, {.radius = radius}, {.degree = 4, .weights = weights});
-      for (std::uint32_t v = 0; v < mesh.size(); ++v) {
-        const Expected expected = moments_of(mesh, oracle.exact(v, radius), v, weights);
-        for (std::size_t column = 0; column < 35; ++column) {
-          const double tolerance = 1e-13 * static_cast<double>(expected.sizes[column]);
-          ASSERT_NEAR(found[35 * v + column], static_cast<double>(expected.sums[column]), tolerance)
-              << family.name << ", vertex " << v << ", column " << column;
-        }
-        ++rows;
-      }
-    }
-  }
-  std::printf("%zu rows\n", rows);
-  EXPECT_GT(rows, 100U);
-}
-
 /// A curved patch of 24 by 24 vertices of spacing 0.01, joined at its corners to four faces of size `far`. Some of its
 /// leaves hold far vertices, too.
 TestMesh graded_mesh(double far) {

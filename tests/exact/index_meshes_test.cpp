@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The indexes of real meshes. Answers on them: query_meshes_test.cpp and tools/verify.
+// The indexes of real meshes, among them the data sets of the paper's section 4, or stand-ins. Answers on them:
+// whole/all_meshes_test.cpp and tools/verify.
 #include <cstdio>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meshhood/index.h"
+#include "meshhood/paper.h"
 
 #include "support/shared_meshes.h"
 
@@ -22,6 +24,16 @@ TEST_P(RealMeshes, IndexIsSoundAndTakesAtMost34BytesAVertex) {
   std::printf("%s: %.2f bytes a vertex\n", GetParam(), per_vertex);
   EXPECT_LE(per_vertex, 35);
   EXPECT_THAT(index.check(mesh.view()), testing::IsEmpty());
+}
+
+TEST_P(RealMeshes, IndexOfThePaperIsAtMostThreeFifthsOfTheMesh) {
+  MESHHOOD_NEED_SHARED_MESHES();
+  const io::Mesh mesh = shared_mesh(GetParam(), {.precision = io::Precision::Float});
+  const MeshView view = mesh.view();
+  const double mesh_bytes = 12.0 * static_cast<double>(view.positions.size() + view.faces.size());
+  const double ratio = static_cast<double>(paper::build(view).bytes().total()) / mesh_bytes;
+  std::printf("%s: index %.3f of the mesh\n", GetParam(), ratio);
+  EXPECT_LE(ratio, 0.60);
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, RealMeshes,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// An answer depends on index, vertex and radius alone, bit for bit: the ids in index order, their distances, ranges and
-// count. The same queries are asked in many orders, after long histories, by several threads, one by one and in
-// batches.
+// An answer is that of the oracle with each instruction set, and depends on index, vertex and radius alone, bit for
+// bit: the ids in index order, their distances, ranges and count. The same queries are asked in many orders, after long
+// histories, by several threads, one by one and in batches.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -123,6 +123,24 @@ class OneOrder : public testing::TestWithParam<Family> {
     }
   }
 };
+
+TEST_P(OneOrder, OnManyMeshesOfAnySize) {
+  constexpr std::size_t kVertices = 56;
+  std::size_t queries = 0;
+  for (std::uint64_t seed = 0; seed < scaled(152, 2); ++seed) {
+    const std::size_t size = seed % 8 == 7 ? 1 + seed / 8 % 4 : std::min<std::size_t>(draw_size(seed), 1500);
+    const TestMesh mesh = make_mesh(GetParam(), seed, size);
+    if (mesh.size() == 0) continue;
+    SCOPED_TRACE(mesh.name);
+    const Index index = build(mesh.view());
+    const Questions questions(mesh, index, seed, kVertices);
+    std::vector<Searcher> searchers = searchers_of(index);
+    for (std::size_t i = 0; i < questions.asked.size() && !HasFatalFailure(); ++i, ++queries) {
+      questions.expect(searchers[i % searchers.size()], index, i);
+    }
+  }
+  std::printf("%zu queries\n", queries);
+}
 
 TEST_P(OneOrder, OfFreshAndUsedSearchersWhateverWasAskedBefore) {
   std::size_t compared = 0;

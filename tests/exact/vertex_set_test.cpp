@@ -17,12 +17,6 @@ namespace {
 
 using Vertices = std::set<std::size_t>;  // in index order
 
-Vertices vertices_of(const VertexSet& set) {
-  Vertices result;
-  set.for_each([&](std::size_t v) { EXPECT_TRUE(result.insert(v).second) << "vertex " << v << " comes twice"; });
-  return result;
-}
-
 Vertices vertices_of(const IndexView& index, const LeafSubset& subset) {
   Vertices result;
   for_each_lane(subset.lanes, [&](unsigned lane) { result.insert(index.leaf_begin[subset.leaf] + lane); });
@@ -62,36 +56,6 @@ class VertexSetTest : public testing::Test {
   Random random{4};
 };
 
-TEST_F(VertexSetTest, ListsThemInIndexOrderInRunsThatDoNotTouch) {
-  VertexSet set(index);
-  for (std::size_t round = 0; round < scaled(2000, 100); ++round) {
-    set.clear();
-    const Vertices expected = fill(set);
-    std::vector<std::size_t> listed;
-    set.for_each([&](std::size_t v) { listed.push_back(v); });
-    ASSERT_THAT(listed, testing::ElementsAreArray(expected));
-    ASSERT_EQ(set.count(), expected.size());
-    for (std::size_t i = 1; i < set.parts().size(); ++i) {
-      const VertexSet::Part& before = set.parts()[i - 1];
-      const VertexSet::Part& part = set.parts()[i];
-      ASSERT_LE(before.end, part.begin);
-      ASSERT_FALSE(before.is_run() && part.is_run() && before.end == part.begin);
-    }
-  }
-}
-
-TEST_F(VertexSetTest, AddLanesMakesARunOfAWholeLeaf) {
-  VertexSet set(index);
-  set.add_lanes({1, all_lanes(1)});
-  set.add_lanes({2, all_lanes(2)});
-  set.add_lanes({3, 5});
-  ASSERT_EQ(set.parts().size(), 2U);
-  EXPECT_EQ(set.parts()[0].begin, index.leaf_begin[1]);
-  EXPECT_EQ(set.parts()[0].end, index.leaf_begin[3]);
-  EXPECT_TRUE(set.parts()[0].is_run());
-  EXPECT_EQ(set.parts()[1].lanes, 5U);
-}
-
 TEST_F(VertexSetTest, AddsUnderAConditionOnly) {
   VertexSet set(index);
   set.make_room(4);
@@ -102,51 +66,6 @@ TEST_F(VertexSetTest, AddsUnderAConditionOnly) {
   EXPECT_EQ(set.count(), 12U);
   set.add_if(true, {30, 40}, 0);
   EXPECT_EQ(set.parts().size(), 3U) << "a run does not become a part of a subset";
-}
-
-TEST_F(VertexSetTest, AlignedToLeavesHasRunsOfWholeLeavesAndSubsetsOfLeaves) {
-  for (int round = 0; round < 200; ++round) {
-    VertexSet set(index);
-    Vertices expected;
-    for (VertexId begin = 0; begin < mesh.size(); begin += kLeafCapacity) {
-      const VertexRange range{begin, std::min(begin + kLeafCapacity, static_cast<VertexId>(mesh.size()))};
-      const LaneMask all = first_lanes(static_cast<unsigned>(range.size()));
-      const LaneMask lanes = round % 2 == 0 ? all : static_cast<LaneMask>(random.bits() | random.bits()) & all;
-      set.add_lanes(range, lanes);
-      for_each_lane(lanes, [&](unsigned lane) { expected.insert(begin + lane); });
-    }
-    set.align_to_leaves();
-    ASSERT_EQ(vertices_of(set), expected);
-    for (const VertexSet::Part& part : set.parts()) {
-      ASSERT_THAT(index.leaf_begin, testing::Contains(part.begin));
-      ASSERT_THAT(index.leaf_begin, testing::Contains(part.end));
-      ASSERT_TRUE(part.is_run() || part.end - part.begin <= kLeafCapacity);
-    }
-  }
-}
-
-TEST_F(VertexSetTest, AssignTakesSubsetsInAnyOrderAndLeavesSeveralTimes) {
-  VertexSet set(index);
-  std::size_t several = 0;
-  for (std::size_t round = 0; round < scaled(2000, 100); ++round) {
-    Vertices expected;
-    std::vector<LeafSubset> subsets;
-    for (std::size_t i = random.below(30); i > 0; --i) {
-      const auto leaf = static_cast<LeafId>(random.below(index.leaf_count()));
-      const LeafSubset subset{leaf, draw_lanes(leaf)};
-      if (subset.lanes == 0) continue;
-      const std::size_t before = expected.size();
-      expected.merge(vertices_of(index, subset));
-      several += static_cast<std::size_t>(expected.size() < before + count_of(subset.lanes));
-      subsets.push_back(subset);
-    }
-    set.assign(subsets);
-    std::vector<std::size_t> listed;
-    set.for_each([&](std::size_t v) { listed.push_back(v); });
-    ASSERT_THAT(listed, testing::ElementsAreArray(expected));
-    ASSERT_EQ(set.count(), expected.size());
-  }
-  EXPECT_GT(several, 0U) << "subsets that overlap";
 }
 
 TEST_F(VertexSetTest, DifferenceHasTheVerticesThatThePartDoesNotHave) {
@@ -176,23 +95,6 @@ TEST_F(VertexSetTest, DifferenceHasTheVerticesThatThePartDoesNotHave) {
   rest.assign_difference(all, all);
   EXPECT_EQ(rest.count(), 0U);
   EXPECT_THAT(rest.parts(), testing::IsEmpty());
-}
-
-TEST_F(VertexSetTest, RangesAreTheSameVerticesInAsFewAsPossible) {
-  VertexSet set(index);
-  for (std::size_t round = 0; round < scaled(2000, 100); ++round) {
-    set.clear();
-    const Vertices expected = fill(set);
-    std::vector<std::size_t> listed;
-    std::size_t end = 0;
-    for (const VertexRange& range : set.ranges()) {
-      ASSERT_LT(range.begin, range.end);
-      ASSERT_TRUE(listed.empty() || range.begin > end) << "two ranges that touch";
-      end = range.end;
-      for (std::size_t v = range.begin; v < range.end; ++v) listed.push_back(v);
-    }
-    ASSERT_THAT(listed, testing::ElementsAreArray(expected));
-  }
 }
 
 }  // namespace

@@ -143,14 +143,6 @@ TEST(Build, LevelSummariesAgreeWithTheMesh) {
   EXPECT_LT(index.bytes().total(), bytes + std::size_t{4} * 2000);
 }
 
-TEST(Build, PermutationHasEachVertexOnce) {
-  const TestMesh mesh = make_grid(30, 30, false);
-  const paper::Index index = paper::build(mesh.view());
-  std::vector<VertexId> ids(index.permutation().begin(), index.permutation().end());
-  std::sort(ids.begin(), ids.end());
-  for (std::size_t v = 0; v < mesh.size(); ++v) ASSERT_EQ(ids[v], v);
-}
-
 TEST(Build, IndexOutlivesTheMeshAndCanBeMoved) {
   const TestMesh mesh = make_grid(10, 10, false);
   paper::Index index = [&] {

@@ -28,29 +28,11 @@ TEST(Create, ACandidateHasItsClusterAndAllSiblings) {
   EXPECT_THAT(paper::create(level_on_line({0, 1}, {})), ElementsAre(1, 1));
 }
 
-TEST(CandidateQueue, NearestToTheAverageComesFirst) {
-  CandidateQueue queue({2, 9, 4, 5});  // average 5
-  EXPECT_THAT(order_of(queue), ElementsAre(3, 2, 0, 1));
-}
-
-TEST(CandidateQueue, TiesAreBrokenById) {
-  CandidateQueue queue({4, 6, 4, 6});
-  EXPECT_THAT(order_of(queue), ElementsAre(0, 1, 2, 3));
-}
-
 TEST(CandidateQueue, TheAverageStaysWhenACandidateIsQueuedAgain) {
   CandidateQueue queue({4, 6, 5});  // average 5
   EXPECT_EQ(queue.pop().cluster, 2U);
   queue.insert(2, 1);
   EXPECT_THAT(order_of(queue), ElementsAre(0, 1, 2));
-}
-
-TEST(CandidateQueue, ACandidateCarriesItsCountAndKey) {
-  CandidateQueue queue({7});
-  const CandidateQueue::Candidate top = queue.pop();
-  EXPECT_EQ(top.children, 7U);
-  EXPECT_EQ(top.from_average, 0.0);
-  EXPECT_TRUE(queue.empty());
 }
 
 TEST(CandidateQueue, OrderIsByKeyThenId) {

@@ -11,6 +11,7 @@
 #include "meshhood/meshhood.h"
 
 #include "support/families.h"
+#include "support/sorted.h"
 
 namespace meshhood::paper {
 
@@ -33,11 +34,6 @@ TestMesh hairpin() {
     if (i > 0) mesh.add_face({i - 1, i});
   }
   return mesh.finish(true);
-}
-
-std::vector<VertexId> sorted(std::vector<VertexId> ids) {
-  std::sort(ids.begin(), ids.end());
-  return ids;
 }
 
 TEST(Query, ClimbsUpToTheFirstLevelWithALargeEnoughMeanRadius) {
@@ -91,34 +87,6 @@ TEST(Query, ProfileCountsClustersAndTestedVertices) {
   EXPECT_EQ(searcher.profile().vertices_tested, tested);
 }
 
-TEST(Query, DistancesBelongToTheIds) {
-  const TestMesh mesh = make_grid(60, 60, false);
-  const paper::Index index = paper::build(mesh.view());
-  paper::Searcher searcher(index);
-  std::vector<VertexId> out;
-  std::vector<VertexId> ids;
-  std::vector<double> distances;
-  for (const double radius : {0.0, 1.0, 7.5, 30.0, kInfinity}) {
-    searcher.neighborhood(1830, radius, out);
-    searcher.neighborhood(1830, radius, ids, distances);
-    EXPECT_EQ(ids, out);
-    ASSERT_EQ(distances.size(), ids.size());
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      EXPECT_EQ(distances[i], distance(mesh.positions_view(), 1830, ids[i]));
-    }
-  }
-}
-
-TEST(Query, InfiniteRadiusGivesTheWholeComponent) {
-  TestMesh mesh = make_grid(20, 20, false);
-  append(mesh, make_grid(10, 10, false));
-  const paper::Index index = paper::build(mesh.view());
-  paper::Searcher searcher(index);
-  EXPECT_EQ(searcher.count(7, kInfinity), 400U);
-  EXPECT_EQ(searcher.count(450, kInfinity), 100U);
-  EXPECT_EQ(searcher.profile().vertices_tested, 0U);
-}
-
 TEST(Query, AnswersDoNotDependOnEarlierQueries) {
   const TestMesh mesh = make_grid(40, 40, false);
   const paper::Index index = paper::build(mesh.view());
@@ -158,14 +126,6 @@ TEST(Query, ResultsReuseTheirBuffer) {
   const VertexId* const buffer = out.data();
   for (VertexId v = 0; v < mesh.size(); ++v) searcher.neighborhood(v, 10, out);
   EXPECT_EQ(out.data(), buffer);
-}
-
-TEST(Query, SeveralSearchersCanShareAnIndex) {
-  const TestMesh mesh = make_grid(40, 40, false);
-  const paper::Index index = paper::build(mesh.view());
-  paper::Searcher first(index);
-  paper::Searcher second(index);
-  for (VertexId v = 0; v < mesh.size(); v += 7) ASSERT_EQ(first.count(v, 6), second.count(v, 6));
 }
 
 }  // namespace

@@ -151,64 +151,6 @@ def test_the_normals_are_kept_only_for_the_same_faces():
     np.testing.assert_array_equal(index.curvature(1, F=F).k1, index.curvature(1, F=turned).k1)
 
 
-@pytest.mark.parametrize("unit", (1e-30, 1e-9, 1e9, 1e30))
-def test_curvatures_are_right_in_any_unit(unit):
-    V, F = ellipsoid(3)
-    one = meshhood.MeshIndex(V, F).curvature(0.8, F=F)
-    c = meshhood.MeshIndex(V * unit, F).curvature(0.8 * unit, F=F)
-    assert c.ok.all()
-    np.testing.assert_allclose(c.k1 * unit, one.k1, rtol=1e-9)
-    np.testing.assert_allclose(c.k2 * unit, one.k2, rtol=1e-9)
-    np.testing.assert_allclose(c.shape_index, one.shape_index, atol=1e-7)
-
-
-def test_a_vertex_whose_normal_is_nan_has_a_state_and_no_influence_on_filtered_fits():
-    V, F = ellipsoid(3)
-    index = meshhood.MeshIndex(V, F)
-    normals = V / np.linalg.norm(V, axis=1)[:, None]
-    normals[5] = np.nan
-    c = index.curvature(0.8, normals=normals)
-    assert np.flatnonzero(c.state).tolist() == [5]
-    assert c.k1[5] == c.k2[5] == 0
-    assert np.isfinite(c.k1).all()
-    with pytest.raises(ValueError, match="normals: the normal of vertex 7 is infinite"):
-        normals[7, 1] = np.inf
-        index.curvature(0.8, normals=normals)
-
-
-def test_a_small_neighborhood_is_extended_by_the_nearest_linked_vertices():
-    V, F = ellipsoid(3)
-    V = V + np.random.default_rng(1).normal(scale=0.02, size=V.shape)  # no two at the same distance
-    normals = V / np.linalg.norm(V, axis=1)[:, None]
-    got = meshhood.MeshIndex(V, F).curvature(0, normals=normals, filter=False)
-    neighbors = [set() for _ in V]
-    for a, b, c in F.tolist():
-        neighbors[a] |= {b, c}
-        neighbors[b] |= {a, c}
-        neighbors[c] |= {a, b}
-    for v in range(0, len(V), 17):
-        found = [v]
-        while len(found) < 6:
-            linked = set().union(*(neighbors[w] for w in found)) - set(found)
-            found.append(min(linked, key=lambda w: np.linalg.norm(V[w] - V[v])))
-        axes = np.linalg.svd(normals[v][None])[2]
-        x, y, z = np.array([axes[1], axes[2], normals[v]]) @ (V[found] - V[v]).T
-        (a, b, c, d, e), *_ = np.linalg.lstsq(np.column_stack([x * x, x * y, y * y, x, y]), z, rcond=None)
-        first = np.array([[1 + d * d, d * e], [d * e, 1 + e * e]])
-        second = np.array([[2 * a, b], [b, 2 * c]]) / np.sqrt(1 + d * d + e * e)
-        k = np.sort(-np.linalg.eigvals(np.linalg.solve(first, second)).real)
-        np.testing.assert_allclose([got.k2[v], got.k1[v]], k, rtol=1e-6, atol=1e-6 * abs(k).max())
-
-
-def test_a_filter_that_leaves_fewer_than_six_vertices_is_not_used():
-    V = np.array([[x, y, z] for x in (-1.0, 1) for y in (-1.0, 1) for z in (-1.0, 1)])
-    F = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    index = meshhood.MeshIndex(V, F)
-    filtered, whole = (index.curvature(9, normals=V, filter=filter) for filter in (True, False))
-    np.testing.assert_allclose(filtered.k1, whole.k1, rtol=1e-9)
-    np.testing.assert_array_equal(filtered.state, whole.state)
-
-
 def test_states_name_rows_without_a_fit():
     V, F = ellipsoid(2)
     alone = np.concatenate([V, [[9.0, 9, 9]]])

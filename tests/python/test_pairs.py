@@ -18,7 +18,7 @@ import pytest
 from scale import scaled
 
 sys.path.append(str(Path(__file__).parents[1] / "cli"))
-from plain import Plain  # noqa: E402: beside the pairs of the command line
+import plain  # noqa: E402: beside the pairs of the command line
 
 RANDOM = np.random.default_rng(11)
 V, F = meshes.folded(100)
@@ -44,7 +44,7 @@ def index_without(walls):
 
 WITHOUT_WALLS = index_without(WALLS)
 MASKS = {"walls": np.flatnonzero(WALLS), "ignored": np.flatnonzero(IGNORED)}
-PLAIN = Plain(V, 3 * np.arange(len(F) + 1), F.ravel(), MASKS)
+PLAIN = plain.Plain(V, 3 * np.arange(len(F) + 1), F.ravel(), MASKS)
 
 
 def masks_of(words):
@@ -269,28 +269,9 @@ def weights_of(words):
     return np.ones(COUNT) if given is None else AREAS if isinstance(given, str) else given
 
 
-def kernel_of(kernel, distances, radius):
-    square = (distances / radius) ** 2
-    weights = {"epanechnikov": 1 - square, "biweight": (1 - square) ** 2, "gaussian": 1000.0**-square}
-    return np.ones(len(distances)) if kernel is None else weights[kernel]
-
-
 def reduced(words, ids, distances, radius):
-    reduce, kernel = words.get("reduce", "mean"), words.get("kernel")
-    result = []
-    for x in VALUES[ids].T:
-        w = weights_of(words)[ids] * kernel_of(kernel, distances, radius)
-        if words.get("nan") == "omit":
-            x, w = x[~np.isnan(x)], w[~np.isnan(x)]
-        if not len(x):
-            result.append(0 if reduce in ("sum", "count") else np.nan)
-            continue
-        mean = np.sum(w * x) / np.sum(w)
-        square = np.sum(w * (x - mean) ** 2) / (np.sum(w) * (1 - words.get("ddof", 0) / len(x)) or np.nan)
-        result.append({"sum": np.sum(w * x), "mean": mean, "min": np.min(x), "max": np.max(x), "var": square,
-                       "std": np.sqrt(square), "count": len(x), "median": np.median(x),
-                       "quantile": np.quantile(x, words.get("q", 0.5))}[reduce])  # fmt: skip
-    return np.array(result)
+    how = words.get("kernel") or "box", weights_of(words), words.get("nan"), words.get("q", 0.5), radius, words.get("ddof", 0)
+    return np.array([plain.aggregate(ids, distances, x, words.get("reduce", "mean"), *how) for x in VALUES.T])
 
 
 def by_hand(call, words, v, radius):
@@ -323,7 +304,7 @@ def by_hand(call, words, v, radius):
             return (reduced({**words, "kernel": "gaussian"}, ids, distances, radius),)
         if not len(ids):
             return [v], [np.nan]
-        w = weights_of(words)[ids] * kernel_of("gaussian", distances, radius)
+        w = weights_of(words)[ids] * plain.fall("gaussian", distances, radius)
         return ids, w / w.sum()
     w, offsets = weights_of(words)[ids], V[ids].astype(float) - V[v]
     if call.name == "moments":

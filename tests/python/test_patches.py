@@ -4,7 +4,6 @@
 import meshhood
 import numpy as np
 import pytest
-from scale import scaled
 
 PI = np.pi
 
@@ -29,51 +28,6 @@ def box(cells, size=1.0):
                         square.append(vertex(p))
                     faces += [[square[0], square[1], square[2]], [square[0], square[2], square[3]]]
     return size * np.array(list(ids), float), np.array(faces)
-
-
-def test_the_corner_an_edge_and_a_side_of_a_cube_are_exact():
-    V, F = box((2, 2, 2))
-    index = meshhood.MeshIndex(V, F)
-    area, volume = index.invariants(scales=[0.5, 1])
-    for row, r in enumerate((0.5, 1)):
-        on = (V == 1).sum(axis=1)
-        assert area[row] == pytest.approx(np.choose(on, [0.75, 1, 1]) * PI * r**2, rel=1e-14)
-        assert volume[row] == pytest.approx(np.choose(on, [1 / 6, 1 / 3, 2 / 3]) * PI * r**3, rel=1e-14)
-
-
-def test_features_are_invariants_and_gaps_without_unit():
-    V, F = box((2, 2, 2))
-    index = meshhood.MeshIndex(np.vstack([V, V + [0, 0, 2.5]]), np.vstack([F, F + len(V)]))
-    found = index.features(scales=[0.25, 1], kinds=("area", "volume", "gap"))
-    area, volume = index.invariants(scales=[0.25, 1])
-    r = np.array([[0.25], [1]])
-    np.testing.assert_allclose(found[..., 0], area / (PI * r**2), rtol=1e-15)
-    np.testing.assert_allclose(found[..., 1], volume / (4 / 3 * PI * r**3), rtol=1e-15)
-    assert np.isnan(found[0, :, 2]).all()
-    near = np.flatnonzero(V[:, 2] == 2)
-    assert found[1, near, 2] == pytest.approx(0.5)
-    np.testing.assert_array_equal(index.features(1, [3], kinds="volume"), found[1, [3], 1])
-    walls = index.invariants(1, walls=[0]).area / PI
-    np.testing.assert_allclose(index.features(1, kinds="area", walls=[0]), np.where(walls > 0, walls, np.nan), rtol=1e-15)
-    with pytest.raises(ValueError, match="expected the straight metric"):
-        index.features(1, kinds=("crease", "gap"), metric="path")
-
-
-def test_the_gap_of_a_plate_is_its_thickness_whatever_its_triangles():
-    V, F = box((1, 1, 1))
-    V *= [100, 100, 1]
-    index = meshhood.MeshIndex(V, F)
-    face, _, point, _ = index.closest_point([30, 60, 2.0])
-    faces = index.patch(point, 2, face=face)
-    assert face in faces
-    assert (V[F[faces]][:, :, 2] == 1).all()
-    V, F = box((20, 20, 1))
-    V *= [1, 1, 0.5]
-    gaps = meshhood.MeshIndex(V, F).gaps(1.0)
-    inner = (abs(V[:, :2] - 10) < 8.5).all(axis=1)
-    assert (gaps.distance[inner] == 0.5).all()
-    np.testing.assert_allclose(np.einsum("ij,ijk->ik", gaps.barycentric[inner], V[gaps.vertices[inner]]), gaps.point[inner])
-    np.testing.assert_array_equal(np.sort(gaps.vertices[inner]), np.sort(F[gaps.face[inner]]))
 
 
 def test_points_of_a_plate_of_twelve_triangles_have_area_volume_and_gap():
@@ -116,23 +70,6 @@ def test_area_volume_and_gap_of_a_vertex_are_rows_of_all():
             np.testing.assert_allclose(value, getattr(gaps, name)[v], rtol=1e-14, atol=1e-15)
     assert tuple(index.measure(7, 0.6, walls=walls)) == pytest.approx((0, np.nan), nan_ok=True)
     assert index.gap(7, 0.6, walls=walls).face == -1
-
-
-def test_faces_with_a_wall_are_not_there():
-    V, F = box((4, 4, 4))
-    index = meshhood.MeshIndex(V, F)
-    wall = int(np.flatnonzero((V == [2, 2, 0]).all(axis=1))[0])
-    vertex = int(np.flatnonzero((V == [1, 2, 0]).all(axis=1))[0])
-    kept = ~(F == wall).any(axis=1)
-    other = meshhood.MeshIndex(V, F[kept])
-    area, volume = index.invariants(0.9, walls=[wall])
-    assert area == pytest.approx(other.invariants(0.9).area, rel=1e-13)
-    assert area[wall] == 0
-    assert np.isnan(volume[[wall, vertex]]).all()
-    assert wall not in F[index.patch(vertex, 0.9, walls=[wall])]
-    masked = index.masked(walls=[wall])
-    np.testing.assert_array_equal(masked.invariants(0.9).area, area)
-    np.testing.assert_array_equal(index.invariants(0.9).area, meshhood.MeshIndex(V, F).invariants(0.9).area)
 
 
 def test_polygons_and_other_faces():
@@ -206,54 +143,6 @@ def test_a_clip_around_a_point_of_a_face_that_has_no_vertex_in_the_ball():
     np.testing.assert_array_equal(index.clip(40, 2, unit="edge").V, index.clip(40, 2 * index.mean_edge_length).V)
 
 
-# The outward faces of elements of the package overlap.
-ELEMENTS = {
-    "Tetrahedron": [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
-    "Wedge": [(0, 2, 1), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5), (3, 4, 5)],
-    "Hexahedron": [(0, 3, 2, 1), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (0, 4, 7, 3), (4, 5, 6, 7)],
-}
-CORNERS = {
-    "Tetrahedron": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
-    "Wedge": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1)],
-    "Hexahedron": [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)],
-}
-
-
-@pytest.mark.parametrize("kind", ELEMENTS)
-def test_areas_of_facets_and_volumes_of_convex_pieces_are_those_of_overlap(kind):
-    """Strobl, Formella, Poeschel, "Exact calculation of the overlap volume of spheres and mesh elements", J. Comput.
-    Phys. 2016. The ball is around a corner, or a point of a face, which is then a fan. The areas of overlap 0.2 are off
-    by up to 5e-7 of the disc; the reference of tests/patch is not."""
-    overlap = pytest.importorskip("overlap")
-    random = np.random.default_rng(1)
-    pieces, whole = scaled(400, 40), 0
-    for i in range(pieces):
-        V = np.array(CORNERS[kind]) @ (np.eye(3) + random.uniform(-0.4, 0.4, (3, 3))) + random.uniform(-1, 1, 3)
-        faces, owners = list(ELEMENTS[kind]), list(range(len(ELEMENTS[kind])))
-        v = int(random.integers(len(V)))
-        if i % 2:
-            owner = int(random.integers(len(faces)))
-            face = faces.pop(owner)
-            owners.pop(owner)
-            V = np.vstack([V, random.dirichlet(np.ones(len(face))) @ V[list(face)]])
-            v = len(V) - 1
-            faces += [(a, b, v) for a, b in zip(face, face[1:] + face[:1])]
-            owners += [owner] * len(face)
-        r = random.uniform(0.05, 1.5)
-        index = meshhood.MeshIndex(V, (np.cumsum([0, *map(len, faces)]), np.concatenate(faces)))
-        area, volume = index.invariants(r, v)
-        ball = overlap.Sphere(V[v], r)
-        piece = getattr(overlap, kind)(V[: len(CORNERS[kind])])
-        areas = np.array(overlap.overlap_area(ball, piece))[1:-1]
-        patch = np.unique(np.array(owners)[index.patch(v, r)])
-        assert area == pytest.approx(areas[patch].sum(), abs=1e-6 * PI * r**2)
-        if areas[patch].sum() == areas.sum():  # the patch is all that is in the ball
-            whole += 1
-            assert volume == pytest.approx(overlap.overlap_volume(ball, piece), abs=1e-13 * r**3)
-    print(f"{pieces} areas, {whole} volumes")
-    assert whole > pieces / 2
-
-
 @pytest.mark.parametrize(
     ("call", "error", "cause"),
     [
@@ -270,6 +159,7 @@ def test_areas_of_facets_and_volumes_of_convex_pieces_are_those_of_overlap(kind)
         (lambda index: index.gap(0, -1), ValueError, "radius"),
         (lambda index: index.clip(0, 1, tolerance=0), ValueError, "tolerance: 0.0, expected a finite number > 0"),
         (lambda index: index.gaps(1, F=[[0, 1, 99]]), ValueError, "F"),
+        (lambda index: index.features(1, kinds=("crease", "gap"), metric="path"), ValueError, "expected the straight metric"),
         (lambda index: index.invariants(1, unit="m"), ValueError, "unit"),
     ],
 )

@@ -7,9 +7,6 @@ from meshes import folded, grid, two_plates
 
 import meshhood
 
-# Many of the starts below are drawn at random.
-pytestmark = pytest.mark.filterwarnings("ignore:.*point is farther than r")
-
 
 @pytest.fixture(params=[two_plates, folded], ids=["plates", "folded"])
 def mesh(request):
@@ -22,13 +19,6 @@ def distances(V, p):
     return np.sqrt((dx * dx + dy * dy) + dz * dz)
 
 
-def random_starts(V, F, random, count):
-    for _ in range(count):
-        face = F[random.integers(len(F))]
-        weights = random.dirichlet(np.ones(3))
-        yield weights @ V[face].astype(np.float64), face
-
-
 def test_nearest_is_that_of_a_scan(mesh):
     V, _, index = mesh
     p = V[30] + [0.2, 0.1, 0]
@@ -38,27 +28,6 @@ def test_nearest_is_that_of_a_scan(mesh):
         assert [len(found) for found in index.nearest(none)] == [0, 0]
     vertices, _ = index.nearest(V[:50])
     np.testing.assert_array_equal(vertices, np.arange(50))
-
-
-@pytest.mark.parametrize("metric", ("path", "surface"))
-def test_paths_from_a_picked_point_begin_with_the_line_to_a_corner(mesh, metric):
-    V, F, index = mesh
-    face, weights, point, _ = index.first_hit(V[F[5]].mean(axis=0) + [0.01, 0.02, 3], [0, 0, -1])
-    assert face >= 0 and weights.min() > 0
-    whole = [
-        d + index.neighborhood(v, np.inf, metric=metric, return_distance=True, sort="id")[1]
-        for v, d in zip(F[face], distances(V[F[face]], point))
-    ]
-    of_sheet = index.neighborhood(F[face][0], np.inf, metric=metric, sort="id")
-    expected = np.full(len(V), np.inf)
-    expected[of_sheet] = np.min(whole, axis=0)
-    r = 2.5 * index.mean_edge_length
-    ids, lengths = index.neighborhood(point, r, face=face, metric=metric, return_distance=True)
-    assert len(ids) > 5 and (np.diff(lengths) >= 0).all()
-    np.testing.assert_allclose(lengths, expected[ids], rtol=1e-14)
-    np.testing.assert_array_equal(np.sort(ids), np.flatnonzero(expected <= r))
-    np.testing.assert_array_equal(index.stroke([point], r, face=[face], metric=metric, sort="id"), np.sort(ids))
-    assert index.count(point, r, face=face, metric=metric) == len(ids)
 
 
 def test_cut_edges_are_not_crossed():
@@ -79,16 +48,6 @@ def test_faces_and_submesh_of_a_region(mesh):
     part = mesher.submesh(ids, "any")
     np.testing.assert_array_equal(part.vertices[part.F], F[part.faces])
     np.testing.assert_array_equal(part.V, V[part.vertices])
-
-
-def test_rim_lies_at_the_radius(mesh):
-    V, F, index = mesh
-    p, face = next(random_starts(V, F, np.random.default_rng(8), 1))
-    lines = meshhood.RegionMesh(V, F).rim(index.neighborhood(p, 2.7, seeds=face), p, 2.7)
-    assert lines
-    for line in lines:
-        np.testing.assert_allclose(np.linalg.norm(line.points - p, axis=1), 2.7, rtol=1e-12)
-        assert line.edges.shape == (len(line.points), 2)
 
 
 def test_rim_of_polygons_on_a_sheet_is_one_loop():

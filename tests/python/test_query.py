@@ -1,13 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Every kind of query, compared with SciPy."""
+"""Parameters of the paper, workers and sizes. test_pairs.py has the answers."""
 
 import meshes
 import meshhood
 import numpy as np
-import oracle
-import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 
 def test_paper_with_other_parameters():
@@ -42,29 +38,3 @@ def test_length_and_bytes():
     assert len(index) == len(V)
     assert index.nbytes > V.nbytes
     assert str(len(V)) in repr(index)
-
-
-coordinate = st.integers(-3, 3).map(lambda x: x / 2)
-
-
-@st.composite
-def random_meshes(draw):
-    """Any polygons over points of a coarse lattice, so that many lie at exactly the radius or on top of each other."""
-    V = np.array(draw(st.lists(st.tuples(coordinate, coordinate, coordinate), min_size=1, max_size=40)))
-    corner = st.integers(0, len(V) - 1)
-    faces = draw(st.lists(st.lists(corner, max_size=6), max_size=40))
-    return V.astype(draw(st.sampled_from([np.float32, np.float64]))), faces
-
-
-@pytest.mark.filterwarnings("ignore:.*Weld the mesh")
-@settings(deadline=None, max_examples=200, derandomize=True)
-@given(mesh=random_meshes(), r=st.sampled_from([0.0, 0.5, 1.0, 1.5, 3.0]))
-def test_random_meshes(mesh, r):
-    V, faces = mesh
-    offsets = np.cumsum([0, *map(len, faces)])
-    corners = np.array([corner for face in faces for corner in face], int)
-    index = meshhood.MeshIndex(V, (offsets, corners))
-    edges = oracle.graph(len(V), faces)
-    wanted = np.concatenate([oracle.neighborhood(V, edges, v, r) for v in range(len(V))])
-    for method in ("exact", "bfs"):
-        np.testing.assert_array_equal(index.neighborhoods(r, sort="id", method=method)[1], wanted)

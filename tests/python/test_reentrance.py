@@ -19,6 +19,7 @@ SUMS = {
     "aggregate": "index.aggregate(index.positions, 2.5, workers=2)",
     "curvature": "index.curvature(2.5, F=F, workers=2).k1",
 }
+COUNTS = [f"index.counts(3.0, range(20), method={method!r}, workers=2)" for method in METHODS]
 SECONDS = 120
 
 
@@ -117,51 +118,24 @@ for child in children:
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
-@pytest.mark.parametrize("method", METHODS)
-def test_a_fork_at_any_moment_of_other_threads_leaves_a_child_that_works(method):
-    run(f"""
-import os, threading
-index = meshhood.MeshIndex(*meshes.two_plates(20))
-wanted = index.count(5, 3.0, method={method!r})
-stop = threading.Event()
-def run_query():
-    while not stop.is_set():
-        index.neighborhood(5, 3.0, method={method!r})
-        index.neighborhoods(3.0, range(20), method={method!r}, workers=2)
-threads = [threading.Thread(target=run_query) for _ in range(3)]
-for thread in threads:
-    thread.start()
-for _ in range(50):
-    child = os.fork()
-    if child == 0:
-        answers = index.count(5, 3.0, method={method!r}), *index.counts(3.0, [5, 5], workers=2)
-        os._exit(0 if answers[0] == wanted else 1)
-    assert os.waitpid(child, 0)[1] == 0
-stop.set()
-for thread in threads:
-    thread.join()
-""")
-
-
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
-@pytest.mark.parametrize("call", SUMS)
-def test_a_fork_during_sums_over_neighborhoods_leaves_a_child_that_works(call):
+@pytest.mark.parametrize("call", [*SUMS.values(), *COUNTS])
+def test_a_fork_at_any_moment_of_other_threads_leaves_a_child_that_works(call):
     run(f"""
 import os, threading
 V, F = meshes.two_plates(20)
 index = meshhood.MeshIndex(V, F)
-wanted = {SUMS[call]}
+wanted = {call}
 stop = threading.Event()
 def run_query():
     while not stop.is_set():
-        {SUMS[call]}
+        {call}
 threads = [threading.Thread(target=run_query) for _ in range(3)]
 for thread in threads:
     thread.start()
 for _ in range(50):
     child = os.fork()
     if child == 0:
-        os._exit(0 if ({SUMS[call]} == wanted).all() else 1)
+        os._exit(0 if ({call} == wanted).all() else 1)
     assert os.waitpid(child, 0)[1] == 0
 stop.set()
 for thread in threads:

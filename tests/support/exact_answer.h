@@ -67,16 +67,6 @@ class ExactAnswer {
     mismatches_ += static_cast<std::size_t>(!right);
   }
 
-  /// Compares the ids alone, for long runs.
-  void query_ids(VertexId v, double radius) {
-    Searcher& searcher = searchers_[queries_++ % searchers_.size()];
-    reference_.neighborhood(v, radius, expected_);
-    searcher.neighborhood(v, radius, ids_);
-    const bool right = same_set();
-    EXPECT_TRUE(right) << "vertex " << v << ", radius " << radius;
-    mismatches_ += static_cast<std::size_t>(!right);
-  }
-
   [[nodiscard]] const Index& index() const { return index_; }
   [[nodiscard]] const IndexView& storage() const { return IndexAccess::view(index_); }
   [[nodiscard]] std::vector<Searcher>& searchers() { return searchers_; }

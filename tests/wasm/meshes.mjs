@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes by formula, and answers by definition. Shares no code with the library.
+// Meshes by formula. Shares no code with the library.
 
 /** Random numbers in [0, 1), the same on every machine (xorshift). */
 export function random(seed) {
@@ -58,42 +58,9 @@ export function polygons(vertices, faces) {
   return { positions, corners: Uint32Array.from(corners), offsets: Uint32Array.from(offsets) };
 }
 
-export function neighbors({ positions, corners, offsets }) {
-  const rows = Array.from({ length: positions.length / 3 }, () => new Set());
-  const faces = offsets === null ? corners.length / 3 : offsets.length - 1;
-  for (let face = 0; face < faces; ++face) {
-    const begin = offsets === null ? 3 * face : offsets[face];
-    const end = offsets === null ? 3 * face + 3 : offsets[face + 1];
-    for (let i = begin; i < end; ++i) {
-      const [v, w] = [corners[i], corners[i + 1 < end ? i + 1 : begin]];
-      if (v === w) continue;
-      rows[v].add(w);
-      rows[w].add(v);
-    }
-  }
-  return rows;
-}
-
 export function distance(positions, v, w) {
   const [x, y, z] = [0, 1, 2].map((axis) => positions[3 * v + axis] - positions[3 * w + axis]);
   return Math.sqrt(x * x + y * y + z * z);
-}
-
-/** The neighborhood by breadth-first search, ascending. */
-export function neighborhood(positions, rows, v, radius) {
-  const found = new Set([v]);
-  for (const w of found) {
-    for (const next of rows[w]) {
-      if (!found.has(next) && distance(positions, v, next) <= radius) found.add(next);
-    }
-  }
-  return Uint32Array.from(found).sort();
-}
-
-/** All vertices in the ball, ascending. */
-export function ball(positions, v, radius) {
-  return Uint32Array.from({ length: positions.length / 3 }, (_, w) => w)
-    .filter((w) => distance(positions, v, w) <= radius);
 }
 
 /** An ASCII PLY file. */

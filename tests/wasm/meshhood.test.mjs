@@ -6,8 +6,8 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 
-import { ball, distance, grid, neighborhood, neighbors, plates, polygons, random, roll, toPly } from './meshes.mjs';
-import { build, library, meshhood, read as readFile, scaled, write } from './setup.mjs';
+import { distance, grid, plates, polygons, random, roll, toPly } from './meshes.mjs';
+import { build, library, meshhood, read as readFile, readArrays, scaled, write } from './setup.mjs';
 
 const { MeshIndex, MeshhoodError, RegionMesh, initialize, readMesh } = library;
 
@@ -25,28 +25,24 @@ const golden = (name) => readFileSync(join(process.env.MESHHOOD_GOLDEN, name));
 const families = { roll: roll(60, 12), 'double roll': roll(40, 9, Float64Array), plates: plates(18), polygons: polygons(300, 260) };
 
 for (const [name, mesh] of Object.entries(families)) {
-  test(`random queries on ${name} equal breadth-first search`, () => {
+  test(`rows of ${name} by each method are those of the command line`, () => {
+    write('family.ply', toPly(mesh));
     const index = build(mesh);
-    const rows = neighbors(mesh);
     const next = random(1);
-    let found = 0;
-    for (let i = 0; i < scaled(1000); ++i) {
-      const v = Math.floor(rows.length * next());
-      // Also radii at which a vertex lies exactly on the boundary.
-      const radius = i % 3 === 0 ? distance(mesh.positions, v, Math.floor(rows.length * next())) : 6 * next();
-      const expected = neighborhood(mesh.positions, rows, v, radius);
-      found += expected.length;
-      assert.deepEqual(index.neighborhood(v, radius, { sort: 'id' }), expected, `vertex ${v}, radius ${radius}`);
-      assert.deepEqual(index.neighborhood(v, radius, { sort: 'id', method: 'bfs' }), expected);
-      assert.equal(index.count(v, radius), expected.length);
-      assert.deepEqual(index.neighborhood(v, radius, { method: 'ball', sort: 'id' }), ball(mesh.positions, v, radius));
-      const all = new Set(index.viewNeighborhood(v, radius, { method: 'ball' }));
-      const paper = new Set(index.neighborhood(v, radius, { method: 'paper' }));
-      assert.ok(expected.every((w) => paper.has(w)));
-      assert.ok([...paper].every((w) => all.has(w)));
+    const vertices = Uint32Array.from({ length: scaled(1000) }, () => Math.floor(index.vertexCount * next()));
+    // Also radii at which a vertex lies exactly on the boundary.
+    const radii = Float64Array.from(vertices, (v, i) =>
+      (i % 3 === 0 ? distance(mesh.positions, v, Math.floor(index.vertexCount * next())) : 6 * next()));
+    write('rows.txt', `${vertices.join('\n')}\n`);
+    write('radii.txt', `${radii.join('\n')}\n`);
+    for (const method of ['exact', 'bfs', 'paper', 'ball']) {
+      meshhood('batch', 'family.ply', '--vertices', 'rows.txt', '--radii', 'radii.txt', '--method', method, '-o', 'rows.npz');
+      const { indptr, indices } = readArrays('rows.npz');
+      const found = index.neighborhoods(radii, { vertices, method, sort: 'id' });
+      assert.deepEqual(Array.from(found.offsets), Array.from(indptr, Number));
+      assert.deepEqual(Array.from(found.ids), Array.from(indices), method);
+      assert.ok(found.ids.length > 5 * scaled(1000));
     }
-    console.log(`${name}: ${found} vertices in ${scaled(1000)} answers`);
-    assert.ok(found > 5 * scaled(1000));
   });
 }
 

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { distance, grid, neighborhood, neighbors, plates, toPly } from './meshes.mjs';
+import { grid, plates, toPly } from './meshes.mjs';
 import { build, library, meshhood, readArrays, write } from './setup.mjs';
 
 const { initialize } = library;
@@ -42,6 +42,9 @@ for (const metric of METRICS) {
       assert.deepEqual(numbers(found.ids), numbers(expected.indices));
       assert.deepEqual(found.distances, expected.data);
       assert.deepEqual(index.neighborhoods(4, { vertices, ...by, sort, walls, ignored }).ids, found.ids);
+      const one = index.neighborhood(400, 4, { ...by, sort, walls, ignored, distances: true });
+      assert.deepEqual(one, { ids: found.ids.slice(0, one.ids.length), distances: found.distances.slice(0, one.ids.length) });
+      assert.equal(one.ids.length, found.offsets[1]);
       assert.equal(found.offsets[3] - found.offsets[2], 0); // 387 is a wall
       assert.ok(found.ids.length > 50);
     });
@@ -57,12 +60,6 @@ for (const metric of METRICS) {
       Uint32Array.of(...found.subarray(10, 14), found[4]));
   });
 }
-
-test('the neighborhood of one vertex with masks is a row', () => {
-  const rows = index.neighborhoods(4, { vertices: Uint32Array.of(400), walls, sort: 'distance', distances: true });
-  assert.deepEqual(index.neighborhood(400, 4, { walls, sort: 'distance', distances: true }), { ids: rows.ids, distances: rows.distances });
-  assert.equal(index.neighborhood(387, 4, { walls }).length, 0);
-});
 
 test('aggregates with masks, paths, scales and a radius for each row are those of the command line', () => {
   const values = Float64Array.from({ length: count }, (_, v) => mesh.positions[3 * v + 2]);
@@ -138,7 +135,7 @@ test('masks whose content changes are other masks, and calls without have none',
   assert.equal(index.count(400, 3, { method: 'ball', walls: barrier }), index.count(400, 3, { metric: 'space' }) - 1);
 });
 
-test('the nearest unconnected vertices are those of the command line and of a scan', () => {
+test('the nearest unconnected vertices are those of the command line', () => {
   const sheets = plates(12);
   write('plates.ply', toPly(sheets));
   const index = build(sheets);
@@ -146,11 +143,6 @@ test('the nearest unconnected vertices are those of the command line and of a sc
   const found = index.nearestUnconnected(1.5);
   assert.deepEqual(found.distance, expected.distance);
   assert.deepEqual(numbers(found.vertex).map((v) => (v === 2 ** 32 - 1 ? -1 : v)), numbers(expected.other));
-  const rows = neighbors(sheets);
-  const near = new Set(neighborhood(sheets.positions, rows, 5, 1.5));
-  let least = Infinity;
-  for (let w = 0; w < index.vertexCount; ++w) if (!near.has(w)) least = Math.min(least, distance(sheets.positions, 5, w));
-  assert.equal(found.distance[5], least <= 1.5 ? least : Infinity);
   assert.ok(found.distance.some(Number.isFinite));
   const other = new Uint8Array(index.vertexCount);
   other[found.vertex[5]] = 1;
@@ -183,38 +175,24 @@ function near(found, expected) {
   assert.ok(Math.abs(found - expected) < 1e-14, `${found} for ${expected}`);
 }
 
-test('areas, volumes and gaps are those of the surface in the ball', () => {
+test('areas, volumes and gaps are those of the command line', () => {
+  write('corners.ply', toPly(corners));
+  write('wall.txt', '3\n');
   const two = build(corners);
-  const options = { faces: corners, vertices: Uint32Array.of(4, 0) };
-  const scales = Float64Array.of(0.1, 0.4);
-  const { area, volume } = two.invariants(null, { ...options, scales });
-  for (let i = 0; i < 4; ++i) {
-    const r = scales[i >> 1];
-    near(area[i], (3 / 4) * Math.PI * r ** 2);
-    near(volume[i], (Math.PI / 6) * r ** 3);
-  }
-  const gaps = two.gaps(Float64Array.of(0.4, 0.1), options);
-  assert.deepEqual([...gaps.face], [0, 2 ** 32 - 1]);
-  assert.deepEqual([...gaps.vertices.subarray(0, 3)].sort(), [0, 1, 2]);
-  near(gaps.distance[0], 0.2);
-  assert.equal(gaps.distance[1], Infinity);
-  assert.deepEqual([...gaps.point].map(Math.abs), [0, 0, 0, NaN, NaN, NaN]);
-  assert.deepEqual([...gaps.barycentric.subarray(0, 3)].sort(), [0, 0, 1]);
-  const walled = two.invariants(0.4, { ...options, walls: Uint8Array.of(0, 0, 0, 1, 0, 0, 0, 0) });
-  near(walled.area[1], (1 / 4) * Math.PI * 0.16);
-  assert.ok(Number.isNaN(walled.volume[1]));
-  assert.equal(walled.area[0], area[2]);
+  const options = { faces: corners, walls: Uint8Array.of(0, 0, 0, 1, 0, 0, 0, 0), scales: Float64Array.of(0.1, 0.4) };
+  const asked = ['corners.ply', '-r', '0.1,0.4', '--walls', 'wall.txt'];
+  const expected = ofCommandLine('invariants', ...asked);
+  const { area, volume } = two.invariants(null, options);
+  assert.deepEqual([area, volume], [expected.area, expected.volume]);
+  const wanted = ofCommandLine('gaps', ...asked);
+  const gaps = two.gaps(null, options);
+  const signed = (ids) => numbers(ids).map((id) => (id === 2 ** 32 - 1 ? -1 : id));
+  assert.deepEqual([signed(gaps.face), signed(gaps.vertices)], [numbers(wanted.face), numbers(wanted.corners)]);
+  for (const part of ['distance', 'point', 'barycentric']) assert.deepEqual(gaps[part], wanted[part], part);
+  assert.ok(gaps.distance.includes(Infinity) && gaps.distance.some(Number.isFinite));
+  const rows = two.invariants(Float64Array.of(0.4, 0.1), { ...options, scales: null, vertices: Uint32Array.of(4, 0) });
+  assert.deepEqual(rows.area, Float64Array.of(area[12], area[0]));
   two.dispose();
-});
-
-test('areas and volumes with masks and scales are those of the command line', () => {
-  const expected = ofCommandLine('features', 'hills.ply', '-r', '3,5', '--kinds', 'area,volume', ...ROWS).features;
-  const { area, volume } = index.invariants(null, { faces: mesh, vertices, walls, ignored, scales: Float64Array.of(3, 5) });
-  area.forEach((a, i) => {
-    const r = i < vertices.length ? 3 : 5;
-    assert.equal(a > 0 ? a / r / r / Math.PI : NaN, expected[2 * i]);
-    assert.equal(a > 0 ? volume[i] / r / r / r / ((4 * Math.PI) / 3) : NaN, expected[2 * i + 1]);
-  });
 });
 
 test('a clipped patch ends at the sphere, and its points lie on the faces', () => {

@@ -349,10 +349,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         (2, 642)
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        searched = rows.index._method(method, metric)
-        with rows.reporter("counts") as report:
-            found = searched.counts(rows.vertices, rows.radius, threads=rows.threads, progress=report)
-        counts = rows.shaped(found)
+        counts = rows.shaped(rows.ask("counts", rows.index._method(method, metric).counts))
         return counts if counts.ndim else int(counts)
 
     def radius_neighbors_graph(

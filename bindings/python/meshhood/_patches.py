@@ -138,10 +138,7 @@ class Patches(Held):
         """
         metric = _convert.choice(metric, "metric", ("straight",))
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        patches = rows.index._patches(F)
-        with rows.reporter("invariants") as report:
-            found = patches.invariants(rows.vertices, rows.radius, threads=rows.threads, progress=report)
-        return Invariants(*map(rows.shaped, found))
+        return Invariants(*map(rows.shaped, rows.ask("invariants", rows.index._patches(F).invariants)))
 
     def gaps(
         self,
@@ -169,10 +166,7 @@ class Patches(Held):
         """
         metric = _convert.choice(metric, "metric", ("straight",))
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        patches = rows.index._patches(F)
-        with rows.reporter("gaps") as report:
-            found = patches.gaps(rows.vertices, rows.radius, threads=rows.threads, progress=report)
-        return Gaps(*map(rows.shaped, found))
+        return Gaps(*map(rows.shaped, rows.ask("gaps", rows.index._patches(F).gaps)))
 
     def patch(
         self,

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Optional, Union
@@ -45,6 +46,11 @@ class Rows:
 
     def reporter(self, title: str) -> AbstractContextManager[Report]:
         return reporter(self.progress, title, "vertices", self.count * len(self.radii))
+
+    def ask(self, title: str, call: Callable[..., Any], *first: Any, **options: Any) -> Any:
+        """What a call of the library returns for these rows."""
+        with self.reporter(title) as report:
+            return call(*first, self.vertices, self.radius, threads=self.threads, progress=report, **options)
 
     def shaped(self, array: Any) -> Any:
         """A result with a row for each vertex, of one scale after the other."""

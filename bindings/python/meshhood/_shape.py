@@ -80,10 +80,8 @@ class Shape(Held):
             raise ValueError(f"like: {like!r}, expected None with fit='jet'")
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
-        options |= {"filter": bool(filter), "threads": rows.threads, "metric": rows.core_metric}
-        surface = rows.index._surface(F, normals)
-        with rows.reporter("curvature") as report:
-            found = surface.curvatures(rows.vertices, rows.radius, progress=report, **options)
+        options |= {"filter": bool(filter), "metric": rows.core_metric}
+        found = rows.ask("curvature", rows.index._surface(F, normals).curvatures, **options)
         return Curvature(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def corrected_curvature(
@@ -115,9 +113,7 @@ class Shape(Held):
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         surface = rows.index._surface(F, normals, needs_faces=True)
-        options = {"threads": rows.threads, "metric": rows.core_metric}
-        with rows.reporter("corrected_curvature") as report:
-            found = surface.corrected(rows.vertices, rows.radius, progress=report, **options)
+        found = rows.ask("corrected_curvature", surface.corrected, metric=rows.core_metric)
         return CorrectedCurvature(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def moments(
@@ -152,9 +148,7 @@ class Shape(Held):
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": area_weights(self, weights, F)}
-        options |= {"threads": rows.threads, "metric": rows.core_metric}
-        with rows.reporter("moments") as report:
-            found = _core.moments(rows.index._exact, rows.vertices, rows.radius, progress=report, **options)
+        found = rows.ask("moments", _core.moments, rows.index._exact, metric=rows.core_metric, **options)
         return _of_type(rows.shaped(found), dtype)
 
     def principal_components(
@@ -182,9 +176,8 @@ class Shape(Held):
         ((642, 3), (642,))
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        options = {"weights": area_weights(self, weights, F), "threads": rows.threads, "metric": rows.core_metric}
-        with rows.reporter("principal_components") as report:
-            found = _core.principal_components(rows.index._exact, rows.vertices, rows.radius, progress=report, **options)
+        options = {"weights": area_weights(self, weights, F), "metric": rows.core_metric}
+        found = rows.ask("principal_components", _core.principal_components, rows.index._exact, **options)
         return PrincipalComponents(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def features(
@@ -228,13 +221,9 @@ class Shape(Held):
         options = {
             "kinds": [getattr(_core.Feature, name) for name in _convert.some_choices(kinds, "kinds", get_args(Kind))],
             "filter": bool(filter),
-            "threads": rows.threads,
             "metric": rows.core_metric,
         }
-        surface = rows.index._surface(F)
-        with rows.reporter("features") as report:
-            found = surface.features(rows.vertices, rows.radius, progress=report, **options)
-        found = _of_type(rows.shaped(found), dtype)
+        found = _of_type(rows.shaped(rows.ask("features", rows.index._surface(F).features, **options)), dtype)
         return found[..., 0] if isinstance(kinds, str) else found
 
 

@@ -166,15 +166,8 @@ class SurfaceQueries(Held):
         >>> thin = distance < 0.1
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        with rows.reporter("nearest_unconnected") as report:
-            found = _core.nearest_unconnected(
-                rows.index._exact,
-                rows.vertices,
-                rows.radius,
-                threads=rows.threads,
-                progress=report,
-                metric=rows.core_metric,
-            )
+        exact, by = rows.index._exact, rows.core_metric
+        found = rows.ask("nearest_unconnected", _core.nearest_unconnected, exact, metric=by)
         vertex, distance = map(rows.shaped, found)
         return Unconnected(vertex, distance) if vertex.ndim else Unconnected(int(vertex), float(distance))
 
