@@ -36,7 +36,7 @@ std::span<const int> ending_signals() {
   return kSignals;
 }
 
-bool is_error_on_terminal() { return ::isatty(STDERR_FILENO) != 0; }
+bool shows_messages_on_terminal() { return ::isatty(STDERR_FILENO) != 0; }
 
 std::optional<std::size_t> terminal_columns() {
   winsize size{};

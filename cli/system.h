@@ -19,13 +19,14 @@ namespace meshhood::cli {
 /// written into it. A closed pipe, and a file-size limit for standard output, become errors of the write.
 void prepare_streams();
 
-/// Whether a write to a standard stream failed because its reader has closed it.
+/// Whether a write to standard output failed because its reader has closed it.
 [[nodiscard]] bool is_closed_pipe(int error_number);
 
 /// The signals by which the user or the system ends a program.
 [[nodiscard]] std::span<const int> ending_signals();
 
-[[nodiscard]] bool is_error_on_terminal();
+/// Whether standard error is a terminal.
+[[nodiscard]] bool shows_messages_on_terminal();
 
 /// Of the terminal that shows standard output, if there is one.
 [[nodiscard]] std::optional<std::size_t> terminal_columns();

@@ -27,7 +27,10 @@ constexpr const char* kClearLine = "\r\x1b[K";
 
 volatile std::sig_atomic_t caught = 0;
 
-void remember(int /*signal*/) { caught = 1; }
+void remember(int signal) {
+  caught = 1;
+  std::signal(signal, remember);  // Windows has reset it
+}
 
 void replace_handlers(void (*expected)(int), void (*handler)(int)) {
   for (const int signal : ending_signals()) {
@@ -41,7 +44,7 @@ void replace_handlers(void (*expected)(int), void (*handler)(int)) {
 
 Task::Task(std::string_view description, Unit unit) : description_(io::printable_name(description)), unit_(unit) {
   replace_handlers(SIG_DFL, remember);
-  if (!is_error_on_terminal()) return;
+  if (!shows_messages_on_terminal()) return;
   display_ = std::thread([this] { show(); });
 }
 

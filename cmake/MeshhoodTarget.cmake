@@ -124,6 +124,6 @@ function(meshhood_harden target)
   endif()
   target_link_options(${target} PRIVATE $<$<PLATFORM_ID:Linux>:LINKER:-z,relro,-z,now>)
   if(MINGW)
-    target_link_libraries(${target} PUBLIC ssp) # which has both
+    target_link_libraries(${target} PRIVATE ssp) # what the protected stack and fortified functions call
   endif()
 endfunction()

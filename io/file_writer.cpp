@@ -40,10 +40,13 @@ bool is_read_only(const std::filesystem::path& file, std::filesystem::perms mode
 }
 
 // Recognisable as a leftover if the process is killed. Short enough even if the name of the target has maximal length.
-std::string temporary_name(const std::filesystem::path& target) {
+std::filesystem::path temporary_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> serial = 0;
   constexpr std::size_t kMost = 200;
-  return fmt::format(".{}.meshhood-{}-{}.tmp", target.filename().string().substr(0, kMost), process_number(), serial++);
+  std::filesystem::path name = ".";
+  name += target.filename().native().substr(0, kMost);
+  name += fmt::format(".meshhood-{}-{}.tmp", process_number(), serial++);
+  return name;
 }
 
 }  // namespace
@@ -108,7 +111,7 @@ void FileWriter::open_beside(bool is_private) {
 
 FileWriter::~FileWriter() {
   if (temporary_.empty()) return;
-  static_cast<void>(file_.close());  // Windows removes no open file
+  static_cast<void>(file_.close());  // first: Windows removes no open file
   remove_file(temporary_);
 }
 

@@ -75,7 +75,7 @@ class BlockedFileSizeSignal {
 
 }  // namespace
 
-/// An interruption by a signal is no error: Linux has released the descriptor by then, and a second close might hit a
+/// An interruption by a signal is none: Linux has released the descriptor by then, and a second close might hit a
 /// file that another thread has opened since.
 bool Descriptor::close() {
   const int number = std::exchange(number_, -1);
@@ -135,7 +135,7 @@ FileStatus status_of(const Descriptor& file, const std::filesystem::path& path) 
   const Kind kind = S_ISREG(status.st_mode) ? Kind::Regular : S_ISFIFO(status.st_mode) ? Kind::Pipe : Kind::Other;
   const timespec written = written_at(status);
   return {kind, static_cast<std::uint64_t>(status.st_size),
-          std::chrono::seconds(written.tv_sec) + std::chrono::nanoseconds(written.tv_nsec)};
+          static_cast<std::uint64_t>(written.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(written.tv_nsec)};
 }
 
 bool may_write(const std::filesystem::path& file) { return ::access(file.c_str(), W_OK) == 0 || errno != EACCES; }
@@ -182,7 +182,7 @@ bool move_to(const Descriptor& file, std::uint64_t position) {
   return uninterrupted([&] { return ::lseek(file.number(), static_cast<off_t>(position), SEEK_SET); }) >= 0;
 }
 
-bool is_ready(const Descriptor& file, Ready ready, std::chrono::milliseconds limit) {
+bool becomes_ready(const Descriptor& file, Ready ready, std::chrono::milliseconds limit) {
   pollfd waiting = {file.number(), static_cast<short>(ready == Ready::ToRead ? POLLIN : POLLOUT), 0};
   return ::poll(&waiting, 1, static_cast<int>(limit.count())) > 0;
 }

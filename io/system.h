@@ -12,8 +12,8 @@
 
 /// What mesh files and parts need of the operating system: by POSIX in posix.cpp, on Windows in windows.cpp.
 ///
-/// A function that fails returns a closed descriptor, a negative number or false, and sets `errno`, unless it says that
-/// it throws.
+/// A function that fails returns a closed descriptor, a negative number, false or an empty span, and sets `errno`,
+/// unless it says that it throws.
 namespace meshhood::io {
 
 /// Calls `call()` until no signal interrupts it, and returns its result. Not for calls that wait for another process
@@ -41,6 +41,7 @@ class Descriptor {
   [[nodiscard]] bool is_open() const { return number_ >= 0; }
   [[nodiscard]] int number() const { return number_; }
 
+  /// Closes the file and returns whether there was no error.
   [[nodiscard]] bool close();
 
  private:
@@ -64,20 +65,21 @@ inline constexpr int kOutputNumber = 1;
 /// A file that exists. ENXIO for a named pipe that no process reads.
 [[nodiscard]] Descriptor open_to_write(const std::filesystem::path& path);
 
-/// A new file: EEXIST if there is one. The others may read what is not private, as far as the process lets them.
+/// A new file: EEXIST if there is one. Other users may read it unless it is private, as the umask allows; on Windows,
+/// as its folder does.
 [[nodiscard]] Descriptor create(const std::filesystem::path& path, bool is_private);
 
-/// A private file, which is made if there is none.
+/// A private file, which is made if there is none; on Windows, as private as its folder.
 [[nodiscard]] Descriptor open_to_append(const std::filesystem::path& path);
 
-/// A file that ends when it is closed. Throws Error{IoFailure}.
+/// A temporary file, to write and to read, which is gone when it is closed. Throws Error{IoFailure}.
 [[nodiscard]] Descriptor create_unnamed();
 
-/// To sync it. Windows has no such thing.
+/// To sync it. On Windows EACCES, as for one that may not be read.
 [[nodiscard]] Descriptor open_folder(const std::filesystem::path& path);
 
-/// Locks a folder for this process, until it ends or `unlock` is called; no file remains. EWOULDBLOCK if another run
-/// has it.
+/// Locks a folder for this process, until it ends, `unlock` is called, or on Windows the descriptor is closed; no file
+/// remains. EWOULDBLOCK if another run has it.
 [[nodiscard]] Descriptor lock_folder(const std::filesystem::path& path);
 void unlock(const Descriptor& folder);
 
@@ -86,17 +88,18 @@ struct FileStatus {
 
   Kind kind;
   std::uint64_t size;
-  std::chrono::nanoseconds written;  // since the epoch of the system
+  std::uint64_t written;  // the time of the last write, in the unit of the system: only to be compared
 };
 
 /// The status of a file that has been opened. Throws Error{IoFailure} if that failed, and for a folder.
 [[nodiscard]] FileStatus status_of(const Descriptor& file, const std::filesystem::path& path);
 
-/// Whether the process may write to a file that exists, or create files in a folder.
+/// False only if the rights of a file forbid it.
 [[nodiscard]] bool may_write(const std::filesystem::path& file);
 [[nodiscard]] bool may_create_in(const std::filesystem::path& folder);
 
-/// The number of bytes read or written, which may be fewer. EAGAIN and EINTR as the system has them.
+/// The number of bytes read, which may be fewer than asked for. EAGAIN and EINTR as the system has them. On Windows,
+/// the second moves the position.
 [[nodiscard]] std::ptrdiff_t read_some(const Descriptor& file, std::span<char> out);
 [[nodiscard]] std::ptrdiff_t read_some_at(const Descriptor& file, std::uint64_t offset, std::span<char> out);
 
@@ -106,13 +109,14 @@ struct FileStatus {
 /// The same to a pipe, a terminal or a device, which is waited for as `WhileWaiting` says.
 [[nodiscard]] bool write_when_ready(const Descriptor& file, std::string_view bytes);
 
-/// The offset in a file, from its start: where it is, or moved to. ESPIPE if it has none.
+/// The offset in a file from its start. ESPIPE if the file has none.
 [[nodiscard]] std::int64_t position_of(const Descriptor& file);
 [[nodiscard]] bool move_to(const Descriptor& file, std::uint64_t position);
 
-/// Whether a file has something to read, has room to write, or is over. Waits for it, at most for `limit`.
 enum class Ready { ToRead, ToWrite };
-[[nodiscard]] bool is_ready(const Descriptor& file, Ready ready, std::chrono::milliseconds limit);
+
+/// Waits until a file has something to read, has room to write, or is over, at most for `limit`.
+[[nodiscard]] bool becomes_ready(const Descriptor& file, Ready ready, std::chrono::milliseconds limit);
 
 /// Writes the file, or the names in a folder, to the disk.
 [[nodiscard]] bool sync(const Descriptor& file);
@@ -126,7 +130,7 @@ enum class Ready { ToRead, ToWrite };
 
 void remove_file(const std::filesystem::path& path) noexcept;
 
-/// With all that is in it. Allocates nothing.
+/// With all that is in it, as far as it can be removed.
 void remove_folder(const std::filesystem::path& path) noexcept;
 
 /// Maps a whole file into memory, read-only; it is not empty.

@@ -20,7 +20,7 @@ void report_wait() {
 bool wait_for(const Descriptor& file, Ready ready, std::chrono::steady_clock::duration limit) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  while (!is_ready(file, ready, kPollInterval)) {
+  while (!becomes_ready(file, ready, kPollInterval)) {
     report_wait();
     if (Clock::now() - start >= limit) return false;
   }

@@ -10,7 +10,8 @@ namespace meshhood::io {
 
 /// While it lives, files of this thread that wait for another process call `f` about ten times a second, and whenever a
 /// signal interrupts them: while a pipe has no partner, while there is nothing to read, and while there is no room to
-/// write. What `f` throws ends the wait. One object within another replaces it meanwhile.
+/// write. What `f` throws ends the wait. One object within another replaces it meanwhile. On Windows, reading and
+/// writing wait without calling it.
 class WhileWaiting {
  public:
   explicit WhileWaiting(std::function<void()> f);

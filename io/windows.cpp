@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <atomic>
+#include <cstdio>
+#include <new>
 #include <string>
 #include <system_error>
 
@@ -13,8 +15,8 @@
 #include "io/messages.h"
 #include "io/system.h"
 
-// Files are binary, and no child process gets them. Reading and writing wait as long as they must: there is no signal
-// that could interrupt them, and nothing to ask whether they would wait.
+// Files are binary, and no child process gets them. Reading and writing wait as long as they must: no signal interrupts
+// them, but Ctrl-C ends the read of a console, and there is nothing to ask whether they would wait.
 namespace meshhood::io {
 namespace {
 
@@ -31,7 +33,8 @@ HANDLE handle_of(const Descriptor& file) { return reinterpret_cast<HANDLE>(::_ge
 
 /// As `errno`.
 bool fail_with_last_error() {
-  errno = std::system_category().default_error_condition(static_cast<int>(::GetLastError())).value();
+  const auto condition = std::system_category().default_error_condition(static_cast<int>(::GetLastError()));
+  errno = condition.category() == std::generic_category() ? condition.value() : EIO;
   return false;
 }
 
@@ -44,15 +47,22 @@ bool Descriptor::close() {
 
 Descriptor duplicate(int number) {
   Descriptor copy(::_dup(number));
-  if (copy.is_open()) ::_setmode(copy.number(), _O_BINARY);
+  if (copy.is_open()) {
+    ::_setmode(copy.number(), _O_BINARY);
+    ::SetHandleInformation(handle_of(copy), HANDLE_FLAG_INHERIT, 0);
+  }
   return copy;
 }
 
 Descriptor open_to_read(const std::filesystem::path& path) {
   if (path == kStandardInput) return duplicate(kInputNumber);
-  if (!std::filesystem::is_directory(path)) return open_file(path, _O_RDONLY);
-  errno = EISDIR;  // the system says that access is denied
-  return Descriptor();
+  Descriptor file = open_file(path, _O_RDONLY);
+  if (file.is_open()) return file;
+  const int error = errno;
+  std::error_code ignored;
+  // Of a folder, the system says that access is denied.
+  errno = error == EACCES && std::filesystem::is_directory(path, ignored) ? EISDIR : error;
+  return file;
 }
 
 Descriptor open_to_write(const std::filesystem::path& path) { return open_file(path, _O_WRONLY); }
@@ -67,11 +77,15 @@ Descriptor open_to_append(const std::filesystem::path& path) {
 
 Descriptor create_unnamed() {
   static std::atomic<unsigned> serial = 0;
-  const std::filesystem::path name = std::filesystem::temp_directory_path() /
-                                     (".meshhood-" + std::to_string(process_number()) + '-' + std::to_string(serial++));
-  Descriptor file = open_file(name, _O_RDWR | _O_CREAT | _O_EXCL | _O_TEMPORARY);
-  if (!file.is_open()) raise_errno(name, errno, "create");
-  return file;
+  std::error_code none;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(none);
+  for (;;) {
+    const std::string name = ".meshhood-" + std::to_string(process_number()) + '-' + std::to_string(serial++);
+    const std::filesystem::path path = (none ? std::filesystem::path(".") : folder) / name;
+    Descriptor file = open_file(path, _O_RDWR | _O_CREAT | _O_EXCL | _O_TEMPORARY);
+    if (file.is_open()) return file;
+    if (errno != EEXIST) raise_errno(path, errno, "create");
+  }
 }
 
 Descriptor open_folder(const std::filesystem::path& /*path*/) {
@@ -83,13 +97,18 @@ Descriptor open_folder(const std::filesystem::path& /*path*/) {
 Descriptor lock_folder(const std::filesystem::path& path) {
   const HANDLE file = ::CreateFileW((path / ".meshhood-lock").c_str(), GENERIC_WRITE, 0, nullptr, OPEN_ALWAYS,
                                     FILE_FLAG_DELETE_ON_CLOSE | FILE_ATTRIBUTE_HIDDEN, nullptr);
-  if (file != INVALID_HANDLE_VALUE) return Descriptor(::_open_osfhandle(reinterpret_cast<std::intptr_t>(file), 0));
-  const bool is_locked = ::GetLastError() == ERROR_SHARING_VIOLATION;
-  fail_with_last_error();
-  if (is_locked) errno = EWOULDBLOCK;
-  return Descriptor();
+  if (file == INVALID_HANDLE_VALUE) {
+    const bool is_locked = ::GetLastError() == ERROR_SHARING_VIOLATION;
+    fail_with_last_error();
+    if (is_locked) errno = EWOULDBLOCK;
+    return Descriptor();
+  }
+  Descriptor lock(::_open_osfhandle(reinterpret_cast<std::intptr_t>(file), 0));
+  if (!lock.is_open()) ::CloseHandle(file);
+  return lock;
 }
 
+/// It is released when its file is closed, which no child process has.
 void unlock(const Descriptor& /*folder*/) {}
 
 FileStatus status_of(const Descriptor& file, const std::filesystem::path& path) {
@@ -105,10 +124,9 @@ FileStatus status_of(const Descriptor& file, const std::filesystem::path& path) 
     return {type == FILE_TYPE_PIPE ? Kind::Pipe : Kind::Other, 0, {}};
   }
   const auto joined = [](DWORD high, DWORD low) { return std::uint64_t{high} << 32U | low; };
-  using Ticks = std::chrono::duration<std::uint64_t, std::ratio<1, 10'000'000>>;
   const FILETIME& written = status.ftLastWriteTime;
   return {Kind::Regular, joined(status.nFileSizeHigh, status.nFileSizeLow),
-          std::chrono::nanoseconds(Ticks(joined(written.dwHighDateTime, written.dwLowDateTime)).count())};
+          joined(written.dwHighDateTime, written.dwLowDateTime)};
 }
 
 bool may_write(const std::filesystem::path& file) {
@@ -149,7 +167,7 @@ bool write_all(const Descriptor& file, std::string_view bytes) {
 /// The C library has EINVAL for a pipe that its reader has closed.
 bool write_when_ready(const Descriptor& file, std::string_view bytes) {
   if (write_all(file, bytes)) return true;
-  if (errno == EINVAL) errno = EPIPE;
+  if (errno == EINVAL && ::GetFileType(handle_of(file)) == FILE_TYPE_PIPE) errno = EPIPE;
   return false;
 }
 
@@ -163,8 +181,9 @@ bool move_to(const Descriptor& file, std::uint64_t position) {
   return false;
 }
 
-bool is_ready(const Descriptor& /*file*/, Ready /*ready*/, std::chrono::milliseconds /*limit*/) { return true; }
+bool becomes_ready(const Descriptor& /*file*/, Ready /*ready*/, std::chrono::milliseconds /*limit*/) { return true; }
 
+/// The names in a folder need it not: `move_over` has written them through.
 bool sync(const Descriptor& file) { return ::_commit(file.number()) == 0; }
 
 /// A file takes those of its folder.
@@ -180,8 +199,11 @@ bool move_over(const std::filesystem::path& from, const std::filesystem::path& t
 void remove_file(const std::filesystem::path& path) noexcept { static_cast<void>(::_wunlink(path.c_str())); }
 
 void remove_folder(const std::filesystem::path& path) noexcept {
-  std::error_code ignored;
-  std::filesystem::remove_all(path, ignored);
+  try {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  } catch (const std::bad_alloc&) {  // then it remains
+  }
 }
 
 std::span<const std::byte> map(const Descriptor& file, std::size_t size) {

@@ -17,7 +17,7 @@ class FolderLock {
   explicit FolderLock(const std::filesystem::path& folder) : path_(folder), folder_(io::lock_folder(folder)) {
     if (folder_.is_open()) return;
     if (errno == EWOULDBLOCK) io::raise_io(folder, EWOULDBLOCK, "another run writes into this folder");
-    io::raise_errno(folder, errno, "lock");
+    io::raise_errno(folder, errno, "open and lock");
   }
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

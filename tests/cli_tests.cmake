@@ -7,7 +7,7 @@ if(MESHHOOD_BUILD_CLI)
   if(MESHHOOD_LONG_TESTS AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     list(APPEND transcripts limits)
   endif()
-  if(WIN32) # these are of streams, limits and names that only POSIX has
+  if(WIN32) # these have steps that need POSIX
     list(REMOVE_ITEM transcripts errors names shell streams view)
   endif()
   foreach(name ${transcripts})

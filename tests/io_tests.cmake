@@ -1,6 +1,6 @@
 # The tests of mesh and index files.
 set(stems ply obj off stl vtk freesurfer float_keeps blocks text index_progress weld unplaced)
-if(WIN32) # the others are tests of what only POSIX has: links, modes, named pipes
+if(WIN32) # the others use POSIX, in part only to set up
   foreach(stem IN LISTS stems)
     meshhood_test(io/${stem} meshhood::io meshhood_families fmt::fmt)
   endforeach()

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Runs a transcript and compares the output of the program with it.
 
-usage: run_transcript.py TRANSCRIPT [EMULATOR] PROGRAM
+usage: run_transcript.py TRANSCRIPT [EMULATOR...] PROGRAM
 
 A transcript is a text of
 
@@ -17,6 +17,7 @@ SIGPIPE and SIGXFSZ.
 """
 import os
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -84,7 +85,7 @@ def main():
         (Path(folder) / "bin").mkdir()
         command = Path(folder) / "bin" / "meshhood"
         if emulator:
-            command.write_text(f'#!/bin/sh\nexec {" ".join(emulator)} {program} "$@"\n', encoding="utf-8")
+            command.write_text(f'#!/bin/sh\nexec {shlex.join([*emulator, str(program)])} "$@"\n', encoding="utf-8")
             command.chmod(0o700)
         else:
             command.symlink_to(program)
