@@ -86,7 +86,7 @@ class Patches {
                  nb::handle progress) const {
     const BatchQuery query = query_of(vertices, radius);
     const Run run{.threads = threads, .progress = progress_to(progress)};
-    GapColumns columns(result_rows(query, surface_.vertex_count()));
+    GapColumns columns(query.result_rows(surface_.vertex_count()));
     without_lock([&] {
       for_each_gap(surface_, query, [&](std::size_t row, const SurfacePoint& gap) { columns.set(row, gap); }, run);
     });

@@ -32,11 +32,6 @@ std::vector<BatchRadius> radius_of_passes(const BatchRadius& radius) {
   return passes;
 }
 
-std::size_t result_rows(const BatchQuery& query, std::size_t vertex_count) {
-  const auto& scales = query.radius.scales();
-  return (scales ? scales->size() : 1) * query.vertices.count(vertex_count);
-}
-
 Rows::Rows(const BatchQuery& query, std::size_t vertex_count)
     : vertices_(copy(query.vertices.list())),
       radii_(copy(query.radius.list())),

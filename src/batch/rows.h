@@ -14,9 +14,6 @@ namespace meshhood {
 /// Throws Error{InvalidRadius}, naming the scale, and Error{InvalidOption} if there are scales, but none.
 [[nodiscard]] std::vector<BatchRadius> radius_of_passes(const BatchRadius& radius);
 
-/// The number of rows of a result: #radii by #rows if there are scales.
-[[nodiscard]] std::size_t result_rows(const BatchQuery& query, std::size_t vertex_count);
-
 /// The rows of a batch, checked. A copy: nothing that the caller changes later has an effect.
 class Rows {
  public:
