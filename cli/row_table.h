@@ -116,7 +116,7 @@ struct RowTask {
 
   /// What `find(run)` returns, which finds all scales. `description` is for the display of the progress.
   template <class F>
-  auto while_shown(std::string_view description, std::size_t scales, const F& find) const {
+  [[nodiscard]] auto while_shown(std::string_view description, std::size_t scales, const F& find) const {
     Task shown(description, {"rows", static_cast<double>(scales)});
     return find(Run{.threads = options.threads, .progress = shown.progress()});
   }

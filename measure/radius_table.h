@@ -51,7 +51,7 @@ struct Plan {
 };
 
 /// Times all contestants at every radius of `plan`. They answer each block of queries in turn, so that a disturbance of
-/// the machine affects all of them. Outside the timed section, answers are compared with those of the first. A
+/// the machine affects all of them. Outside the timed part, answers are compared with those of the first. A
 /// contestant that visits all vertices is timed on fewer queries of each block; one that does not list vertices is not
 /// compared.
 ///

@@ -24,7 +24,7 @@ set(parts
   paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
   patch/clip patch/packet_patches patch/patch surface/box_tree surface/closest_point surface/first_hit surface/normal_cones surface/submesh surface/surface surface/surface_paths surface/thickness
   curvature/bits curvature/corrected curvature/curvatures curvature/features curvature/filter curvature/moments curvature/packet_moments curvature/quadric curvature/sure_leaves
-  simd/joint_kernels simd/kernels simd/moment_kernels simd/path_kernels simd/section_kernels
+  simd/joint_kernels simd/kernels simd/moment_kernels simd/patch_kernels simd/path_kernels
   whole/arguments whole/metrics whole/outlives whole/robustness whole/same_bits whole/differential)
 if(WIN32)
   list(REMOVE_ITEM parts base/packed_positions shared/parallel) # mmap and fork

@@ -43,12 +43,6 @@ using Radius = std::variant<double, Reals, std::vector<double>>;
   return {.vertices = vertices_of(vertices), .radius = radius_of(radius), .metric = metric};
 }
 
-/// The number of rows of a result, of all scales.
-[[nodiscard]] inline std::size_t result_rows(const BatchQuery& query, std::size_t vertex_count) {
-  const auto& scales = query.radius.scales();
-  return (scales ? scales->size() : 1) * query.vertices.count(vertex_count);
-}
-
 /// Rows in memory of NumPy.
 struct FoundRows {
   nanobind::object ids;

@@ -38,7 +38,7 @@ auto curvatures_of(const Surface& surface, const std::optional<Ids>& vertices, c
   options.filter = filter;
   const Run run{.threads = threads, .progress = progress_to(progress)};
   const BatchQuery query = query_of(vertices, radius, metric);
-  const std::size_t rows = result_rows(query, surface.vertex_count());
+  const std::size_t rows = query.result_rows(surface.vertex_count());
   const nb::object k1 = unset(rows, "float64");
   const nb::object k2 = unset(rows, "float64");
   // In one block: glibc gives memory back to the system, which costs page faults in the next call, as soon as more than

@@ -56,7 +56,7 @@ class Patches {
                  nb::handle progress) const {
     const BatchQuery query = query_of(vertices, radius);
     const Run run{.threads = threads, .progress = progress_to(progress)};
-    SurfaceColumns columns(result_rows(query, surface_.vertex_count()));
+    SurfaceColumns columns(query.result_rows(surface_.vertex_count()));
     without_lock([&] {
       const auto set = [&](std::size_t row, const SurfacePoint& gap) { columns.set(row, gap, gap.vertices); };
       for_each_gap(surface_, query, set, run);

@@ -156,6 +156,11 @@ struct BatchQuery {
   /// By what an `Index` finds the neighborhoods; radii are meant by it. Other methods have their own, and take
   /// `Straight` alone.
   Metric metric = Metric::Straight;
+
+  /// The number of rows of a result for a mesh of so many vertices: #radii by #rows if there are scales.
+  [[nodiscard]] std::size_t result_rows(std::size_t vertex_count) const {
+    return (radius.scales() ? radius.scales()->size() : 1) * vertices.count(vertex_count);
+  }
 };
 
 /// What the rows of a batch have, and their order. A row depends on the index, its vertex and its radius alone, not on

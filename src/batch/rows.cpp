@@ -32,11 +32,6 @@ std::vector<BatchRadius> radius_of_passes(const BatchRadius& radius) {
   return passes;
 }
 
-std::size_t result_rows(const BatchQuery& query, std::size_t vertex_count) {
-  const auto& scales = query.radius.scales();
-  return (scales ? scales->size() : 1) * query.vertices.count(vertex_count);
-}
-
 BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances) {
   const BatchMemory memory = allocate(count);
   const auto verify = [count](std::size_t size, const char* what) {

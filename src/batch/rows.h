@@ -14,9 +14,6 @@ namespace meshhood {
 /// Throws Error{InvalidRadius}, naming the scale, and Error{InvalidOption} if there are scales, but none.
 [[nodiscard]] std::vector<BatchRadius> radius_of_passes(const BatchRadius& radius);
 
-/// The number of rows of a result: #radii by #rows if there are scales.
-[[nodiscard]] std::size_t result_rows(const BatchQuery& query, std::size_t vertex_count);
-
 /// Memory for `count` ids, and as many distances if they are wanted. Throws Error{InvalidOption} if it is not for
 /// these.
 [[nodiscard]] BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances);

@@ -16,7 +16,6 @@
 
 #include "base/vector.h"
 #include "batch/packets.h"
-#include "batch/rows.h"
 #include "exact/index_access.h"
 #include "exact/query/any_center.h"
 #include "exact/query/arguments.h"
@@ -202,7 +201,7 @@ class UnconnectedSearch {
 
 Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const Run& run) {
   check_connects(query.metric);
-  const std::size_t rows = result_rows(query, index.vertex_count());
+  const std::size_t rows = query.result_rows(index.vertex_count());
   Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kInfinite)};
   const IndexView& view = IndexAccess::view(index);
   const auto make_visitor = [&](unsigned /*thread*/) -> PacketVisitor {

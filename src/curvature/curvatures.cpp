@@ -15,7 +15,6 @@
 
 #include "base/prefetch.h"
 #include "base/vector.h"
-#include "batch/rows.h"
 #include "curvature/direct_fit.h"
 #include "curvature/packet_moments.h"
 #include "curvature/quadric.h"
@@ -171,7 +170,7 @@ PacketVisitor curvature_visitor(const OrientedIndex& surface, Metric metric, con
 
 Curvatures curvatures(const Surface& surface, const BatchQuery& query, const CurvatureOptions& options,
                       const Run& run) {
-  Curvatures result = make_curvatures(result_rows(query, surface.vertex_count()));
+  Curvatures result = make_curvatures(query.result_rows(surface.vertex_count()));
   curvatures(surface, query, memory_of(result), options, run);
   return result;
 }
@@ -182,7 +181,7 @@ void curvatures(const Surface& surface, const BatchQuery& query, const Curvature
     raise(ErrorCode::InvalidOption, "libigl's shape operator requires the quadric, not the jet");
   }
   const OrientedIndex state = SurfaceAccess::oriented(surface, run.threads);
-  check_sizes(out, result_rows(query, surface.vertex_count()));
+  check_sizes(out, query.result_rows(surface.vertex_count()));
   BatchQuery closed = query;
   std::vector<double> radii;
   if (options.open_ball && query.metric != Metric::Rings) closed.radius = opened(query.radius, radii);

@@ -137,7 +137,7 @@ class FeatureExtraction {
       weights_.emplace(*surface_.index, given.empty() ? surface.vertex_areas() : given);
     }
     if (metric_ == Metric::Rings) unit_ = mean_edge_length(*surface_.searched);
-    values_.resize(result_rows(query, surface.vertex_count()) * kinds_.size());
+    values_.resize(query.result_rows(surface.vertex_count()) * kinds_.size());
   }
 
   std::vector<double> run(const BatchQuery& query, const Run& run) {

@@ -11,7 +11,6 @@
 
 #include "meshhood/error.h"
 
-#include "batch/rows.h"
 #include "curvature/direct_moments.h"
 #include "curvature/packet_moments.h"
 #include "curvature/symmetric.h"
@@ -92,7 +91,7 @@ std::vector<double> moments(const Index& index, const BatchQuery& query, const M
           "degree is " + std::to_string(options.degree) + ", expected at most " + std::to_string(kLargestMomentDegree));
   }
   const std::size_t columns = moment_count(options.degree);
-  std::vector<double> result(columns * result_rows(query, index.vertex_count()));
+  std::vector<double> result(columns * query.result_rows(index.vertex_count()));
   const MomentWeights weights(IndexAccess::view(index), options.weights);
   const auto write = [&](std::size_t row, const RowMoments& m) {
     for (unsigned i = 0; i <= options.degree; ++i) {
@@ -125,7 +124,7 @@ PrincipalComponents make_components(std::size_t rows) {
 PrincipalComponents principal_components(const Index& index, const BatchQuery& query, const MomentOptions& options,
                                          const Run& run) {
   const MomentWeights weights(IndexAccess::view(index), options.weights);
-  PrincipalComponents result = make_components(result_rows(query, index.vertex_count()));
+  PrincipalComponents result = make_components(query.result_rows(index.vertex_count()));
   for_each_packet(
       index, query, [&](unsigned /*thread*/) { return component_visitor(index, query.metric, weights, result); }, {},
       run);

@@ -13,8 +13,8 @@
 
 #include "base/vector.h"
 #include "exact/query/arguments.h"
+#include "patch/clipped_triangle.h"
 #include "patch/patches.h"
-#include "patch/section.h"
 #include "surface/face_triangles.h"
 #include "surface/triangle_point.h"
 
@@ -61,7 +61,7 @@ class Clip {
     if (triangle_.inside[0] && triangle_.inside[1] && triangle_.inside[2]) {
       for (const VertexId v : vertices_) outline_.push_back(vertex_name(v));
     } else if (std::isfinite(ball_.unit)) {
-      add_section();
+      add_clipped();
     }
     outlines_.emplace_back(state_->triangles.face[t], outline_.size());
   }
@@ -73,17 +73,17 @@ class Clip {
   }
 
  private:
-  void add_section() {
-    Section section(ball_, triangle_);
-    section.find_outline();
-    if (section.has_disc()) return add_disc(section.circle());
+  void add_clipped() {
+    ClippedTriangle clipped(ball_, triangle_);
+    clipped.find_outline();
+    if (clipped.has_disc()) return add_disc(clipped.circle());
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!section.meets(i)) continue;
-      outline_.push_back(triangle_.inside[i] ? vertex_name(vertices_[i]) : add_on_side(section, i, true));
-      if (!section.has_arc(i)) continue;
-      outline_.push_back(add_on_side(section, i, false));
-      const auto [to, angle] = section.arc_from(i);
-      divide(section.circle(), angle, section.exit(i), section.entry(to));
+      if (!clipped.meets(i)) continue;
+      outline_.push_back(triangle_.inside[i] ? vertex_name(vertices_[i]) : add_on_side(clipped, i, true));
+      if (!clipped.has_arc(i)) continue;
+      outline_.push_back(add_on_side(clipped, i, false));
+      const auto [to, angle] = clipped.arc_from(i);
+      divide(clipped.circle(), angle, clipped.exit(i), clipped.entry(to));
     }
   }
 
@@ -96,17 +96,17 @@ class Clip {
   }
 
   /// The point where side `i` enters the ball, or leaves it.
-  PointName add_on_side(const Section& section, std::size_t i, bool enters) {
+  PointName add_on_side(const ClippedTriangle& clipped, std::size_t i, bool enters) {
     const std::size_t beyond = enters ? i : (i + 1) % 3;
     const std::size_t other = enters ? (i + 1) % 3 : i;
     const PointName name = side_name(vertices_[beyond], vertices_[other]);
     const PointName opposite =
         triangle_.inside[other] ? vertex_name(vertices_[other]) : side_name(vertices_[other], vertices_[beyond]);
-    const SpacePoint at = in_space(enters ? section.entry(i) : section.exit(i));
+    const SpacePoint at = in_space(enters ? clipped.entry(i) : clipped.exit(i));
     const double share = share_of_side(from_point(at, beyond), from_point(at, other));
     new_points_.push_back({name,
                            new_points_.size(),
-                           section.touches(i) ? std::min(name, opposite) : name,
+                           clipped.touches(i) ? std::min(name, opposite) : name,
                            {vertices_[beyond], vertices_[other], vertices_[other]},
                            {1 - share, share, 0},
                            at});

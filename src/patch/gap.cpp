@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "patch/clipped_triangle.h"
 #include "patch/patches.h"
-#include "patch/section.h"
 #include "patch/twofold.h"
 #include "surface/face_triangles.h"
 #include "surface/triangle_point.h"
@@ -155,7 +155,7 @@ class GapSearch {
 
   const PatchState* state_;
   const Patches* patches_;
-  const SectionKernels* kernels_ = &section_kernels(best_isa());
+  const PatchKernels* kernels_ = &patch_kernels(best_isa());
   QueryWord queries_;
   double scale_;
   Point middle_{};                  // of the centers, in the frame

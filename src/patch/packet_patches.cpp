@@ -11,7 +11,7 @@
 namespace meshhood {
 PacketPatches::PacketPatches(const PatchState& state)
     : state_(&state),
-      kernels_(&section_kernels(best_isa())),
+      kernels_(&patch_kernels(best_isa())),
       words_(state.index->vertex_count()),
       all_(state.meshlets.size()) {}
 
@@ -189,32 +189,32 @@ void PacketPatches::measure_cut() {
   const auto lanes = static_cast<unsigned>(std::exchange(cut_count_, 0));
   if (lanes == 0) return;
   const LaneMask left =
-      measures_ ? first_lanes(lanes) & ~kernels_->measure(cut_, lanes, parts_) : kernels_->may_dip(cut_, lanes);
+      measures_ ? first_lanes(lanes) & ~kernels_->measure(cut_, lanes, clipped_) : kernels_->may_dip(cut_, lanes);
   for (unsigned i = 0; i < lanes; ++i) {
     const std::size_t q = cut_queries_[i];
     if ((left >> i & 1U) != 0) {
-      add_section(cut_triangles_[i], q);
+      add_clipped(cut_triangles_[i], q);
     } else if (measures_) {
-      sums_[q].add_cut(parts_.area[i], parts_.distance[i], balls_[q]);
-      sums_[q].rim().add_measured(parts_.turn[i], {parts_.real[i], parts_.imaginary[i]},
-                                  {parts_.real_from_pole[i], parts_.imaginary_from_pole[i]}, parts_.from.at(i),
-                                  parts_.to.at(i));
+      sums_[q].add_cut(clipped_.area[i], clipped_.distance[i], balls_[q]);
+      sums_[q].rim().add_measured(clipped_.turn[i], {clipped_.real[i], clipped_.imaginary[i]},
+                                  {clipped_.real_from_pole[i], clipped_.imaginary_from_pole[i]}, clipped_.from.at(i),
+                                  clipped_.to.at(i));
     }
   }
 }
 
-void PacketPatches::add_section(TriangleId t, std::size_t query) {
+void PacketPatches::add_clipped(TriangleId t, std::size_t query) {
   const Triangles& all = state_->triangles;
   const auto [a, b, c] = words_of(t);
   const auto has = [&](QueryWord word) { return (word >> query & 1U) != 0; };
   const PatchTriangle triangle{corners_of(*state_->index, all.corners[t]), all.corners[t], {has(a), has(b), has(c)}};
-  Section section(balls_[query], triangle);
+  ClippedTriangle clipped(balls_[query], triangle);
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!section.dips(i)) continue;
+    if (!clipped.dips(i)) continue;
     dips_.push_back({query, t, i});
     if (all.is_border(t, static_cast<unsigned>(i))) sums_[query].meet_border();
   }
-  if (measures_) sums_[query].add_cut(section, balls_[query]);
+  if (measures_) sums_[query].add_cut(clipped, balls_[query]);
 }
 
 /// In the order in which they were found, which may find more.
@@ -232,7 +232,7 @@ void PacketPatches::follow(const Dip& dip) {
     const auto is_inside = [&](const Point& corner) { return balls_[dip.query].contains(corner); };
     if (extras_[dip.query].size() == kMostExtras || std::ranges::any_of(corners, is_inside)) return leave(dip.query);
     extras_[dip.query].push_back(t);
-    add_section(t, dip.query);
+    add_clipped(t, dip.query);
   });
 }
 

@@ -10,10 +10,10 @@
 
 #include "base/epoch_array.h"
 #include "exact/joint/packet_answer.h"
+#include "patch/clipped_triangle.h"
 #include "patch/meshlets.h"
-#include "patch/section.h"
 #include "patch/sums.h"
-#include "simd/sections.h"
+#include "simd/patches.h"
 
 namespace meshhood {
 
@@ -74,7 +74,7 @@ class PacketPatches {
   void add_whole(const WholeTriangles& triangles, QueryWord queries);
   void add_cut(TriangleId t, const std::array<Point, 3>& corners, std::size_t first, QueryWord queries);
   void measure_cut();
-  void add_section(TriangleId t, std::size_t query);
+  void add_clipped(TriangleId t, std::size_t query);
   void follow_dips();
   void follow(const Dip& dip);
 
@@ -87,7 +87,7 @@ class PacketPatches {
   }
 
   const PatchState* state_;
-  const SectionKernels* kernels_;
+  const PatchKernels* kernels_;
   bool measures_ = false;
   QueryWord queries_ = 0;  // that are found
   std::array<PatchBall, kPacketCapacity> balls_{};
@@ -102,7 +102,7 @@ class PacketPatches {
   std::array<TriangleId, kPacketCapacity> cut_triangles_{};
   std::array<std::size_t, kPacketCapacity> cut_queries_{};
   CutTriangles cut_{};
-  CutParts parts_{};
+  ClippedTriangles clipped_{};
 
   std::vector<Dip> dips_;
   std::array<std::vector<TriangleId>, kPacketCapacity> extras_;  // without a corner in the ball

@@ -12,7 +12,6 @@
 
 #include "base/validate.h"
 #include "batch/packets.h"
-#include "batch/rows.h"
 #include "exact/query/arguments.h"
 #include "patch/meshlets.h"
 #include "patch/packet_patches.h"
@@ -163,7 +162,7 @@ PacketVisitor patch_visitor(const PatchState& state, bool measures, RowPatchVisi
 }
 
 Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run) {
-  const std::size_t size = result_rows(query, surface.vertex_count());
+  const std::size_t size = query.result_rows(surface.vertex_count());
   Invariants result{std::vector<double>(size), std::vector<double>(size)};
   for_each_patch(surface, query, true, run, [&](std::size_t row, const FoundPatch& patch) {
     result.area[row] = patch.area();
@@ -173,7 +172,7 @@ Invariants invariants(const Surface& surface, const BatchQuery& query, const Run
 }
 
 std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, const Run& run) {
-  std::vector<SurfacePoint> result(result_rows(query, surface.vertex_count()));
+  std::vector<SurfacePoint> result(query.result_rows(surface.vertex_count()));
   for_each_gap(surface, query, [&](std::size_t row, const SurfacePoint& gap) { result[row] = gap; }, run);
   return result;
 }

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/vector.h"
-#include "simd/sections.h"
+#include "simd/patches.h"
 
 namespace meshhood {
 namespace {

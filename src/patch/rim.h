@@ -44,7 +44,7 @@ class RimArcs {
   /// An arc of the angle `theta` counterclockwise about the normal, from `u` to `w`. O(1).
   void add(const Circle& circle, double theta, const Point& u, const Point& w);
 
-  /// An arc that `SectionKernels` have measured: what its angle adds, and its factors of the products.
+  /// An arc that `PatchKernels` have measured: what its angle adds, and its factors of the products.
   void add_measured(double turn, const Complex& factor, const Complex& from_pole, const Point& u, const Point& w);
 
   /// A whole circle.

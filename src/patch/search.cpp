@@ -131,12 +131,12 @@ void PatchSearch::add_cut(TriangleId t, const PatchTriangle& triangle) {
     for (std::size_t i = 0; i < 3; ++i) add_side(i, triangle.inside[i] || triangle.inside[(i + 1) % 3]);
     return;
   }
-  Section section(ball_, triangle);
+  ClippedTriangle clipped(ball_, triangle);
   for (std::size_t i = 0; i < 3; ++i) {
-    if (section.dips(i)) state_->triangles.for_each_beside(t, i, [&](TriangleId other) { visit(other); });
-    add_side(i, section.meets(i));
+    if (clipped.dips(i)) state_->triangles.for_each_beside(t, i, [&](TriangleId other) { visit(other); });
+    add_side(i, clipped.meets(i));
   }
-  if (measures_) sums_.add_cut(section, ball_);
+  if (measures_) sums_.add_cut(clipped, ball_);
 }
 
 }  // namespace meshhood

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/epoch_array.h"
+#include "patch/clipped_triangle.h"
 #include "patch/meshlets.h"
-#include "patch/section.h"
 #include "patch/sums.h"
 #include "shared/distance.h"
 

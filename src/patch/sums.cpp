@@ -20,8 +20,8 @@ void PatchSums::add_cut(double area, double distance, const PatchBall& ball) {
   moment_ += area * distance * r * r * r;
 }
 
-void PatchSums::add_cut(Section& section, const PatchBall& ball) {
-  const auto [area, distance] = section.measure(rim_);
+void PatchSums::add_cut(ClippedTriangle& clipped, const PatchBall& ball) {
+  const auto [area, distance] = clipped.measure(rim_);
   add_cut(area, distance, ball);
 }
 

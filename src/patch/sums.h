@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "patch/clipped_triangle.h"
 #include "patch/rim.h"
-#include "patch/section.h"
 #include "shared/distance.h"
 
 namespace meshhood {
@@ -27,7 +27,7 @@ class PatchSums {
   /// `rim`.
   void add_cut(double area, double distance, const PatchBall& ball);
   /// The same, with its arcs.
-  void add_cut(Section& section, const PatchBall& ball);
+  void add_cut(ClippedTriangle& clipped, const PatchBall& ball);
 
   [[nodiscard]] RimArcs& rim() { return rim_; }
 

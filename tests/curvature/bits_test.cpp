@@ -44,8 +44,7 @@ void append(std::vector<double>& out, const std::vector<double>& values, std::si
 
 /// All results of each row, one after the other.
 std::vector<std::vector<double>> results(const Subject& s, const BatchQuery& query, unsigned threads) {
-  const auto& scales = query.radius.scales();
-  const std::size_t rows = (scales ? scales->size() : 1) * query.vertices.count(s.mesh.size());
+  const std::size_t rows = query.result_rows(s.mesh.size());
   std::vector<std::vector<double>> out(rows);
   const auto sums = moments(s.index, query, {.degree = 4, .weights = s.areas}, {.threads = threads});
   const PrincipalComponents patch = principal_components(s.index, query, {}, {.threads = threads});

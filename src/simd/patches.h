@@ -7,7 +7,7 @@
 #include "simd/kernels.h"
 #include "simd/leaf.h"
 
-/// The parts of triangles in balls: the inner loop of areas and volumes. As in `Kernels`, each function gives the same
+/// Triangles in balls: the inner loops of areas, volumes and gaps. As in `Kernels`, each function gives the same
 /// result on every processor, bit for bit.
 namespace meshhood {
 
@@ -37,8 +37,8 @@ struct CutTriangles {
   std::array<PerLane<double>, 3> directions;
 };
 
-/// What `Section::measure` finds of each, and adds to the rim: an arc from `from` to `to`.
-struct CutParts {
+/// What `ClippedTriangle::measure` finds of each, and adds to the rim: an arc from `from` to `to`.
+struct ClippedTriangles {
   PerLane<double> area;
   PerLane<double> distance;
   PerLane<double> turn;  // what the angle of the arc adds to the area behind
@@ -64,7 +64,7 @@ struct WholeSums {
   PerLane<double> moment;  // area times the distance of the plane
 };
 
-struct SectionKernels {
+struct PatchKernels {
   /// Adds triangles to the sums of the queries of a word: their area, and their moment from the center of the query,
   /// where `moment` is that from `point`.
   void (*add_whole)(const WholeTriangles& triangles, QueryWord queries, const PointPerLane<double>& centers,
@@ -72,7 +72,7 @@ struct SectionKernels {
 
   /// Measures the first `count` triangles; reads and writes whole vectors. Returns those that it has measured: not one
   /// with a corner far away, without an area, with an arc that is not short, or whose third side may dip into the ball.
-  LaneMask (*measure)(const CutTriangles& cut, std::size_t count, CutParts& parts);
+  LaneMask (*measure)(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped);
 
   /// Which of them have one corner in the ball, and a third side that may dip into it or a corner far away.
   LaneMask (*may_dip)(const CutTriangles& cut, std::size_t count);
@@ -84,6 +84,6 @@ struct SectionKernels {
 };
 
 /// Those compiled for `isa`, which this processor must have.
-[[nodiscard]] const SectionKernels& section_kernels(Isa isa);
+[[nodiscard]] const PatchKernels& patch_kernels(Isa isa);
 
 }  // namespace meshhood

@@ -11,7 +11,7 @@
 #include "patch/twofold.h"
 #include "shared/distance.h"
 #include "simd/angle.h"
-#include "simd/sections.h"
+#include "simd/patches.h"
 
 namespace meshhood {
 
@@ -47,9 +47,9 @@ struct PatchTriangle {
 /// to where the next one enters it. All of it follows from the point of each side's line that is nearest to the center.
 /// Where a corner is far away beside the radius, this point is computed in twice the precision. Triangles that share a
 /// side have the same point, bit for bit.
-class Section {
+class ClippedTriangle {
  public:
-  Section(const PatchBall& ball, const PatchTriangle& triangle);
+  ClippedTriangle(const PatchBall& ball, const PatchTriangle& triangle);
 
   /// Whether side `i`, from corner `i`, has a point in the ball, and whether it has one although no corner is.
   [[nodiscard]] bool meets(std::size_t i) const { return sides_[i].is_cut; }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// `SectionKernels`, compiled once for each target; see lanes-inl.h. The formulas are those of `Section` and `RimArcs`
-// for the one arc of a triangle of which no corner is far.
+// `PatchKernels`, compiled once for each target; see lanes-inl.h. The formulas are those of `ClippedTriangle` and
+// `RimArcs` for the one arc of a triangle of which no corner is far.
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
 
 #include "simd/angle.h"
-#include "simd/sections.h"
+#include "simd/patches.h"
 
-#define HWY_TARGET_INCLUDE "simd/section_kernels.cpp"
+#define HWY_TARGET_INCLUDE "simd/patch_kernels.cpp"
 #include "simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -105,7 +105,7 @@ struct Line {
   Numbers offset{};  // from the foot of the center on the plane
 };
 
-/// `Section::may_dip`.
+/// `ClippedTriangle::may_dip`.
 HWY_INLINE Lanes may_dip(const Vectors& a, const Vectors& b) {
   const auto more = splat(1 + kTouchSlack);
   const auto side = difference(b, a);
@@ -143,7 +143,7 @@ struct Corners {
 };
 
 /// Those from `i` on, a vector.
-HWY_INLINE LaneMask measure_vector(const CutTriangles& cut, std::size_t i, CutParts& parts) {
+HWY_INLINE LaneMask measure_vector(const CutTriangles& cut, std::size_t i, ClippedTriangles& clipped) {
   const Doubles d;
   const auto zero = hn::Zero(d);
   const auto one = splat(1.0);
@@ -184,26 +184,26 @@ HWY_INLINE LaneMask measure_vector(const CutTriangles& cut, std::size_t i, CutPa
   const auto disc = hn::Mul(hn::Sub(one, distance), hn::Add(one, distance));
   const auto chords = hn::Add(hn::Add(hn::Mul(first.offset, first_chord), hn::Mul(middle.offset, middle_chord)),
                               hn::Mul(last.offset, last_chord));
-  store(hn::Mul(splat(0.5), hn::Add(chords, hn::Mul(disc, angle))), parts.area[i]);
-  store(distance, parts.distance[i]);
+  store(hn::Mul(splat(0.5), hn::Add(chords, hn::Mul(disc, angle))), clipped.area[i]);
+  store(distance, clipped.distance[i]);
 
   const auto at_first = sum(first.nearest, scaled(first.along, hn::Mul(sign, first.half)));
   const auto at_last = difference(last.nearest, scaled(last.along, hn::Mul(sign, last.half)));
   const auto from = chosen(inside, at_first, at_last);
   const auto to = chosen(inside, at_last, at_first);
   const auto from_pole = half_areas(load_rows(d, cut.poles, i), from, to);
-  store(from_pole.real, parts.real_from_pole[i]);
-  store(from_pole.imaginary, parts.imaginary_from_pole[i]);
+  store(from_pole.real, clipped.real_from_pole[i]);
+  store(from_pole.imaginary, clipped.imaginary_from_pole[i]);
   const auto side = chosen(hn::Lt(distance, zero), splat(-1.0), one);
   const auto pole = scaled(normal, side);
-  store(hn::Mul(hn::Mul(side, angle), hn::Sub(one, hn::Mul(side, distance))), parts.turn[i]);
+  store(hn::Mul(hn::Mul(side, angle), hn::Sub(one, hn::Mul(side, distance))), clipped.turn[i]);
   const auto factor = half_areas(pole, from, to);
-  store(factor.real, parts.real[i]);
-  store(negated(factor.imaginary), parts.imaginary[i]);
-  store_rows(from, parts.from, i);
-  store_rows(to, parts.to, i);
+  store(factor.real, clipped.real[i]);
+  store(negated(factor.imaginary), clipped.imaginary[i]);
+  store_rows(from, clipped.from, i);
+  store_rows(to, clipped.to, i);
 
-  // See `Section::angle_of_arc`.
+  // See `ClippedTriangle::angle_of_arc`.
   const auto is_clear = hn::Gt(hn::Abs(arc.imaginary), hn::Mul(splat(kClearTurn), arc.real));
   const auto is_simple = hn::Or(hn::And(inside, hn::AndNot(may_dip(b, c), is_clear)),
                                 hn::AndNot(inside, hn::And(hn::Ge(angle, zero), hn::Gt(middle.square, zero))));
@@ -212,9 +212,9 @@ HWY_INLINE LaneMask measure_vector(const CutTriangles& cut, std::size_t i, CutPa
   return bits_of(d, hn::And(hn::And(is_simple, corners.are_near()), hn::And(has_area, is_short)));
 }
 
-LaneMask measure(const CutTriangles& cut, std::size_t count, CutParts& parts) {
+LaneMask measure(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped) {
   LaneMask measured = 0;
-  for (std::size_t i = 0; i < count; i += kLanes<Doubles>) measured |= measure_vector(cut, i, parts) << i;
+  for (std::size_t i = 0; i < count; i += kLanes<Doubles>) measured |= measure_vector(cut, i, clipped) << i;
   return measured & first_lanes(static_cast<unsigned>(count));
 }
 
@@ -266,12 +266,12 @@ QueryWord may_reach(const std::array<Point, 3>& corners, QueryWord queries, cons
   return queries & ~beyond;
 }
 
-constexpr SectionKernels kSectionKernels{add_whole, measure, may_dip_of, may_reach};
+constexpr PatchKernels kPatchKernels{add_whole, measure, may_dip_of, may_reach};
 
 }  // namespace
 }  // namespace meshhood::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-const meshhood::SectionKernels& meshhood::section_kernels(Isa isa) { return MESHHOOD_TABLE(kSectionKernels, isa); }
+const meshhood::PatchKernels& meshhood::patch_kernels(Isa isa) { return MESHHOOD_TABLE(kPatchKernels, isa); }
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kernels of sections give what `Section` gives, with the same bits on every processor.
+// The kernels of patches give what `ClippedTriangle` gives, with the same bits on every processor.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,9 +14,9 @@
 #include <gtest/gtest.h>
 
 #include "base/vector.h"
+#include "patch/clipped_triangle.h"
 #include "patch/rim.h"
-#include "patch/section.h"
-#include "simd/sections.h"
+#include "simd/patches.h"
 #include "support/exact_answer.h"
 #include "support/random.h"
 #include "support/scale.h"
@@ -27,14 +27,14 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A triangle and a ball, with what `Section` needs.
+/// A triangle and a ball, with what `ClippedTriangle` needs.
 struct Cut {
   PatchTriangle triangle;
   PatchBall ball;
   std::size_t first;  // the corner that is alone inside or outside
 };
 
-class EverySectionKernel : public testing::TestWithParam<Isa> {
+class EveryPatchKernel : public testing::TestWithParam<Isa> {
  protected:
   double coordinate(double size) { return size * random.uniform(-1, 1); }
   Point point(double size) { return {coordinate(size), coordinate(size), coordinate(size)}; }
@@ -83,51 +83,52 @@ class EverySectionKernel : public testing::TestWithParam<Isa> {
   }
 
   [[nodiscard]] std::array<double, 13> lane_of(std::size_t i) const {
-    const Point from = parts->from.at(i);
-    const Point to = parts->to.at(i);
-    return {parts->area[i],
-            parts->distance[i],
-            parts->turn[i],
-            parts->real[i],
-            parts->imaginary[i],
-            parts->real_from_pole[i],
+    const Point from = clipped->from.at(i);
+    const Point to = clipped->to.at(i);
+    return {clipped->area[i],
+            clipped->distance[i],
+            clipped->turn[i],
+            clipped->real[i],
+            clipped->imaginary[i],
+            clipped->real_from_pole[i],
             from.x,
             from.y,
             from.z,
             to.x,
             to.y,
             to.z,
-            parts->imaginary_from_pole[i]};
+            clipped->imaginary_from_pole[i]};
   }
 
   Random random{91};
   std::array<Cut, kPacketCapacity> cuts;
   std::unique_ptr<CutTriangles> given = std::make_unique<CutTriangles>();
-  std::unique_ptr<CutParts> parts = std::make_unique<CutParts>();
+  std::unique_ptr<ClippedTriangles> clipped = std::make_unique<ClippedTriangles>();
 };
 
-TEST_P(EverySectionKernel, MeasuresAsASection) {
+TEST_P(EveryPatchKernel, MeasuresAsAClippedTriangle) {
   std::size_t drawn = 0;
   std::size_t measured_count = 0;
   for (std::size_t round = 0; round < scaled(4000, 400); ++round) {
     const std::size_t count = draw_some();
-    const LaneMask measured = section_kernels(GetParam()).measure(*given, count, *parts);
+    const LaneMask measured = patch_kernels(GetParam()).measure(*given, count, *clipped);
     ASSERT_EQ(measured & ~first_lanes(static_cast<unsigned>(count)), 0U);
     drawn += count;
     measured_count += count_of(measured);
     for_each_query(measured, [&](std::size_t i) {
       RimArcs expected;
       expected.clear({0, 3, -4});
-      Section section(cuts[i].ball, cuts[i].triangle);
-      for (std::size_t side = 0; side < 3; ++side) EXPECT_FALSE(section.dips(side));
-      const Section::Measure measure = section.measure(expected);
-      EXPECT_NEAR(parts->area[i], measure.area, 1e-12);
+      ClippedTriangle one(cuts[i].ball, cuts[i].triangle);
+      for (std::size_t side = 0; side < 3; ++side) EXPECT_FALSE(one.dips(side));
+      const ClippedTriangle::Measure measure = one.measure(expected);
+      EXPECT_NEAR(clipped->area[i], measure.area, 1e-12);
       // Where a triangle is nearly a line, its normal is inexact, but its area is next to nothing.
-      EXPECT_LT(std::abs(parts->distance[i] - measure.distance) * measure.area, 1e-13);
+      EXPECT_LT(std::abs(clipped->distance[i] - measure.distance) * measure.area, 1e-13);
       RimArcs found;
       found.clear({0, 3, -4});
-      found.add_measured(parts->turn[i], {parts->real[i], parts->imaginary[i]},
-                         {parts->real_from_pole[i], parts->imaginary_from_pole[i]}, parts->from.at(i), parts->to.at(i));
+      found.add_measured(clipped->turn[i], {clipped->real[i], clipped->imaginary[i]},
+                         {clipped->real_from_pole[i], clipped->imaginary_from_pole[i]}, clipped->from.at(i),
+                         clipped->to.at(i));
       const double error = std::abs(found.area_behind() - expected.area_behind());
       EXPECT_LT(std::min(error, std::abs(4 * kPi - error)), 1e-11);
     });
@@ -138,17 +139,17 @@ TEST_P(EverySectionKernel, MeasuresAsASection) {
   EXPECT_LT(measured_count, drawn);
 }
 
-TEST_P(EverySectionKernel, FindsSidesThatMayDip) {
+TEST_P(EveryPatchKernel, FindsSidesThatMayDip) {
   std::size_t dips = 0;
   std::size_t others = 0;
   for (std::size_t round = 0; round < scaled(4000, 400); ++round) {
     const std::size_t count = draw_some();
-    const LaneMask found = section_kernels(GetParam()).may_dip(*given, count);
+    const LaneMask found = patch_kernels(GetParam()).may_dip(*given, count);
     ASSERT_EQ(found & ~first_lanes(static_cast<unsigned>(count)), 0U);
-    ASSERT_EQ(found, section_kernels(Isa{}).may_dip(*given, count));
+    ASSERT_EQ(found, patch_kernels(Isa{}).may_dip(*given, count));
     for (std::size_t i = 0; i < count; ++i) {
-      const Section section(cuts[i].ball, cuts[i].triangle);
-      const bool does = section.dips(0) || section.dips(1) || section.dips(2);
+      const ClippedTriangle one(cuts[i].ball, cuts[i].triangle);
+      const bool does = one.dips(0) || one.dips(1) || one.dips(2);
       dips += does ? 1 : 0;
       others += (found >> i & 1U) == 0 ? 1 : 0;
       ASSERT_TRUE(!does || (found >> i & 1U) != 0);
@@ -159,22 +160,22 @@ TEST_P(EverySectionKernel, FindsSidesThatMayDip) {
   EXPECT_GT(others, dips);
 }
 
-TEST_P(EverySectionKernel, GivesTheSameBits) {
+TEST_P(EveryPatchKernel, GivesTheSameBits) {
   for (std::size_t round = 0; round < scaled(1000, 100); ++round) {
     for (std::size_t i = 0; i < kPacketCapacity; ++i) set(i, draw());
-    const LaneMask measured = section_kernels(Isa{}).measure(*given, kPacketCapacity, *parts);
-    const CutParts expected = *parts;
-    ASSERT_EQ(section_kernels(GetParam()).measure(*given, kPacketCapacity, *parts), measured);
+    const LaneMask measured = patch_kernels(Isa{}).measure(*given, kPacketCapacity, *clipped);
+    const ClippedTriangles expected = *clipped;
+    ASSERT_EQ(patch_kernels(GetParam()).measure(*given, kPacketCapacity, *clipped), measured);
     for_each_query(measured, [&](std::size_t i) {
       const std::array<double, 13> found = lane_of(i);
-      const CutParts other = std::exchange(*parts, expected);
+      const ClippedTriangles other = std::exchange(*clipped, expected);
       EXPECT_EQ(std::memcmp(lane_of(i).data(), found.data(), sizeof(found)), 0);
-      *parts = other;
+      *clipped = other;
     });
   }
 }
 
-TEST_P(EverySectionKernel, AddsWholeTriangles) {
+TEST_P(EveryPatchKernel, AddsWholeTriangles) {
   PointPerLane<double> centers{};
   for (std::size_t round = 0; round < scaled(1000, 100); ++round) {
     for (std::size_t q = 0; q < kPacketCapacity; ++q) centers.set(q, point(3));
@@ -183,7 +184,7 @@ TEST_P(EverySectionKernel, AddsWholeTriangles) {
     WholeSums sums{};
     sums.area.fill(0.5);
     sums.moment.fill(0.25);
-    section_kernels(GetParam()).add_whole(triangles, queries, centers, 0.5, sums);
+    patch_kernels(GetParam()).add_whole(triangles, queries, centers, 0.5, sums);
     for (std::size_t q = 0; q < kPacketCapacity; ++q) {
       const bool has = (queries >> q & 1U) != 0;
       const Point offset = 0.5 * (triangles.point - centers.at(q));
@@ -193,7 +194,7 @@ TEST_P(EverySectionKernel, AddsWholeTriangles) {
   }
 }
 
-TEST_P(EverySectionKernel, LeavesOutTrianglesBeyondReach) {
+TEST_P(EveryPatchKernel, LeavesOutTrianglesBeyondReach) {
   std::size_t near = 0;
   std::size_t left = 0;
   std::size_t others = 0;
@@ -212,8 +213,8 @@ TEST_P(EverySectionKernel, LeavesOutTrianglesBeyondReach) {
       squared_reaches[q] = reach * reach;
     }
     const auto queries = static_cast<QueryWord>(random.below(std::uint64_t{1} << 32));
-    const QueryWord found = section_kernels(GetParam()).may_reach(corners, queries, centers, squared_reaches);
-    ASSERT_EQ(found, section_kernels(Isa{}).may_reach(corners, queries, centers, squared_reaches));
+    const QueryWord found = patch_kernels(GetParam()).may_reach(corners, queries, centers, squared_reaches);
+    ASSERT_EQ(found, patch_kernels(Isa{}).may_reach(corners, queries, centers, squared_reaches));
     ASSERT_EQ(found & ~queries, 0U);
     for_each_query(queries, [&](std::size_t q) {
       const bool reaches = distances[q] <= std::sqrt(squared_reaches[q]);
@@ -226,7 +227,7 @@ TEST_P(EverySectionKernel, LeavesOutTrianglesBeyondReach) {
   EXPECT_GT(left, 10 * others);
 }
 
-INSTANTIATE_TEST_SUITE_P(Isas, EverySectionKernel, testing::ValuesIn(available_isas()));
+INSTANTIATE_TEST_SUITE_P(Isas, EveryPatchKernel, testing::ValuesIn(available_isas()));
 
 }  // namespace
 }  // namespace meshhood::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "patch/section.h"
+#include "patch/clipped_triangle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,8 @@ RealVector<Real> offset(const PatchBall& ball, const Point& p) {
 
 }  // namespace
 
-Section::Section(const PatchBall& ball, const PatchTriangle& triangle) : ball_(&ball), triangle_(&triangle) {
+ClippedTriangle::ClippedTriangle(const PatchBall& ball, const PatchTriangle& triangle)
+    : ball_(&ball), triangle_(&triangle) {
   double farthest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     corners_[i] = ball.unit * (triangle.corners[i] - ball.center);
@@ -36,8 +37,8 @@ Section::Section(const PatchBall& ball, const PatchTriangle& triangle) : ball_(&
 
 /// The nearest point of the line from `begin` along `whole`, both times `unit`. `sign`: of the direction of the side.
 template <class Real>
-void Section::set_line(Side& side, const RealVector<Real>& begin, const RealVector<Real>& whole, double unit,
-                       double sign) {
+void ClippedTriangle::set_line(Side& side, const RealVector<Real>& begin, const RealVector<Real>& whole, double unit,
+                               double sign) {
   const Real square = dot(whole, whole);
   const auto rounded = static_cast<double>(square);
   if (rounded == 0) {
@@ -53,7 +54,7 @@ void Section::set_line(Side& side, const RealVector<Real>& begin, const RealVect
 }
 
 /// Whether the nearest point of a line lies between the ends and in the ball, but for rounding.
-bool Section::may_dip(std::size_t i) const {
+bool ClippedTriangle::may_dip(std::size_t i) const {
   if (is_far_) return true;
   const Point& a = corners_[i];
   const Point side = corners_[after(i)] - a;
@@ -64,7 +65,7 @@ bool Section::may_dip(std::size_t i) const {
 }
 
 /// From the same end for all triangles that have the side.
-void Section::find_nearest(std::size_t i) {
+void ClippedTriangle::find_nearest(std::size_t i) {
   const bool is_reversed = triangle_->places[after(i)] < triangle_->places[i];
   const std::size_t begin = is_reversed ? after(i) : i;
   const std::size_t end = is_reversed ? i : after(i);
@@ -79,7 +80,7 @@ void Section::find_nearest(std::size_t i) {
   }
 }
 
-void Section::find_chord(std::size_t i) {
+void ClippedTriangle::find_chord(std::size_t i) {
   Side& side = sides_[i];
   if (!side.dips) find_nearest(i);
   side.half = std::sqrt(std::max(0.0, 1 - dot(side.nearest, side.nearest)));
@@ -88,7 +89,7 @@ void Section::find_chord(std::size_t i) {
 }
 
 /// The turn of the boundary at a corner between two sides that are cut.
-Complex Section::turn_at(std::size_t corner) const {
+Complex ClippedTriangle::turn_at(std::size_t corner) const {
   const Point& before = sides_[after(after(corner))].along;
   const Point& behind = sides_[corner].along;
   return {dot(before, behind), dot(plane_.circle.normal, cross(before, behind))};
@@ -101,7 +102,7 @@ Complex Section::turn_at(std::size_t corner) const {
 /// that both sides have; or 2 pi for the same side again. So the numbers are divided, and the angle is an argument, in
 /// [0, 2 pi]; in [0, pi] for the next side, since both ends of the arc are seen from the corner that is outside. Near
 /// the ends of the first range the angles themselves are subtracted.
-double Section::angle_of_arc(std::size_t from, std::size_t steps) const {
+double ClippedTriangle::angle_of_arc(std::size_t from, std::size_t steps) const {
   const Side& to = sides_[(from + steps) % 3];
   const Complex leaves{sides_[from].offset, sides_[from].half};
   const Complex enters{to.offset, to.half};
@@ -115,7 +116,7 @@ double Section::angle_of_arc(std::size_t from, std::size_t steps) const {
 }
 
 /// From the longest chord, whose line is near.
-double Section::distance_of_plane() const {
+double ClippedTriangle::distance_of_plane() const {
   double longest = -1;
   Point nearest{0, 0, 0};
   for (const Side& side : sides_) {
@@ -128,7 +129,7 @@ double Section::distance_of_plane() const {
 
 /// The vector area of the triangle and whether the foot of the center on its plane lies in it, in the frame.
 template <class Real>
-Section::Plane Section::find_plane() const {
+ClippedTriangle::Plane ClippedTriangle::find_plane() const {
   std::array<RealVector<Real>, 3> corners{offset<Real>(*ball_, triangle_->corners[0]),
                                           offset<Real>(*ball_, triangle_->corners[1]),
                                           offset<Real>(*ball_, triangle_->corners[2])};
@@ -145,7 +146,7 @@ Section::Plane Section::find_plane() const {
   return {{(1 / size) * rounded, distance}, has_foot};
 }
 
-void Section::find_outline() {
+void ClippedTriangle::find_outline() {
   for (std::size_t i = 0; i < 3; ++i) {
     if (sides_[i].is_cut) find_chord(i);
   }
@@ -163,20 +164,20 @@ void Section::find_outline() {
   }
 }
 
-bool Section::touches(std::size_t i) const {
+bool ClippedTriangle::touches(std::size_t i) const {
   constexpr double kDepth = 0x1p-45;  // twice that of the deepest point
   const Side& side = sides_[i];
   const double deepest = std::clamp(0.0, side.from, std::max(side.from, side.to));
   return (side.half - deepest) * (side.half + deepest) <= kDepth;
 }
 
-Section::Arc Section::arc_from(std::size_t i) const {
+ClippedTriangle::Arc ClippedTriangle::arc_from(std::size_t i) const {
   std::size_t steps = 1;
   while (!sides_[(i + steps) % 3].is_cut) ++steps;
   return {(i + steps) % 3, plane_.circle.exists() ? angle_of_arc(i, steps) : 0};
 }
 
-Section::Measure Section::measure(RimArcs& rim) {
+ClippedTriangle::Measure ClippedTriangle::measure(RimArcs& rim) {
   find_outline();
   const double distance = plane_.circle.distance;
   if (has_disc()) {
