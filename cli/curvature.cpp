@@ -56,9 +56,11 @@ class CurvatureQuantity : public Quantity {
     const std::size_t scales = table.scales;
     describe(table, all.state);
     std::vector<double> mean(all.k1.size());
-    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = (all.k1[i] + all.k2[i]) / 2;
-    std::vector<std::int32_t> state;
-    for (const CurvatureState one : all.state) state.push_back(static_cast<std::int32_t>(one));
+    std::vector<std::int32_t> state(mean.size());
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+      mean[i] = (all.k1[i] + all.k2[i]) / 2;
+      state[i] = static_cast<std::int32_t>(all.state[i]);
+    }
     table.columns = {{"k1", std::move(all.k1), scales},    {"k2", std::move(all.k2), scales},
                      {"d1", std::move(all.d1), scales, 3}, {"d2", std::move(all.d2), scales, 3},
                      {"state", std::move(state), scales},  {"mean", std::move(mean), scales, 0, false}};

@@ -138,8 +138,8 @@ class FeaturesQuantity : public Quantity {
   }
 
   [[nodiscard]] std::vector<double> values_of(const RowTask& task, const std::vector<double>& scales) const {
-    std::vector<Feature> kinds;
-    for (const std::string& name : kinds_) kinds.push_back(value_of(kKinds, name));
+    std::vector<Feature> kinds(kinds_.size());
+    std::ranges::transform(kinds_, kinds.begin(), [](const std::string& name) { return value_of(kKinds, name); });
     const Surface surface(task.input.exact_index(task.options.threads), task.input.surface());
     const bool has_rows = !task.options.row_radii.empty();
     const BatchQuery query = has_rows ? task.rows.query() : task.rows.query(BatchRadius::scales(scales));

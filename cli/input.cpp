@@ -194,8 +194,7 @@ void Input::set_masks(OwnedMasks masks) {
   masks_ = std::move(masks);
   if (!mesh_ || mesh_->walls.empty()) return;
   masks_.walls.resize(mesh_->walls.size());
-  std::transform(masks_.walls.begin(), masks_.walls.end(), mesh_->walls.begin(), masks_.walls.begin(),
-                 std::bit_or<std::uint8_t>());
+  std::transform(masks_.walls.begin(), masks_.walls.end(), mesh_->walls.begin(), masks_.walls.begin(), std::bit_or<>());
 }
 
 void Input::need_positions(const std::string& method) const {

@@ -139,10 +139,12 @@ void write_meshes(const ValueFiles& files, const RowTable& table, Input& input) 
   const MeshView mesh = input.surface();
   const std::span<const std::uint8_t> walls = input.unplaced();
   const std::vector<Property> of_mesh = mesh_properties(table);
-  std::vector<std::vector<float>> values;
-  for (const Property& property : of_mesh) values.push_back(values_of(table, property));
-  std::vector<io::VertexProperty> properties;
-  for (std::size_t i = 0; i < values.size(); ++i) properties.push_back({of_mesh[i].name, values[i]});
+  std::vector<std::vector<float>> values(of_mesh.size());
+  std::vector<io::VertexProperty> properties(of_mesh.size());
+  for (std::size_t i = 0; i < of_mesh.size(); ++i) {
+    values[i] = values_of(table, of_mesh[i]);
+    properties[i] = {of_mesh[i].name, values[i]};
+  }
   if (!files.vtk.empty()) {
     Task task("writing " + files.vtk);
     io::write_vtk(files.vtk, mesh, {.properties = properties, .walls = walls, .progress = task.progress()});
@@ -252,7 +254,7 @@ void RowTable::add_properties(std::initializer_list<std::string_view> names) {
   }
 }
 
-void add_quantity(CLI::App& program, const QuantityName& name, std::shared_ptr<Quantity> quantity) {
+void add_quantity(CLI::App& program, const QuantityName& name, const std::shared_ptr<Quantity>& quantity) {
   auto options = std::make_shared<TableCommand>();
   CLI::App* command = program.add_subcommand(name.name, name.description);
   name.needs_faces ? add_surface(*command, options->file) : add_file(*command, options->file);

@@ -145,6 +145,6 @@ struct QuantityName {
 };
 
 /// Adds the command `name`.
-void add_quantity(CLI::App& program, const QuantityName& name, std::shared_ptr<Quantity> quantity);
+void add_quantity(CLI::App& program, const QuantityName& name, const std::shared_ptr<Quantity>& quantity);
 
 }  // namespace meshhood::cli

@@ -25,8 +25,9 @@ class UnconnectedQuantity : public Quantity {
     RowTable table = task.table();
     Unconnected all = task.while_shown(
         "searching", table.scales, [&](const Run& run) { return nearest_unconnected(index, task.rows.query(), run); });
-    std::vector<std::int64_t> others;  // -1 where there is none
-    for (const VertexId v : all.vertex) others.push_back(v == kNoVertex ? -1 : std::int64_t{v});
+    std::vector<std::int64_t> others(all.vertex.size());  // -1 where there is none
+    std::ranges::transform(all.vertex, others.begin(),
+                           [](VertexId v) { return v == kNoVertex ? -1 : std::int64_t{v}; });
     const auto none = static_cast<std::size_t>(std::count(others.begin(), others.end(), -1));
     const std::size_t found = others.size() - none;
     table.columns = {{"other", std::move(others), table.scales}, {"distance", std::move(all.distance), table.scales}};

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <csignal>
 #include <optional>
 #include <string>
@@ -50,8 +51,8 @@ cli::OtherReader reader_by(nb::handle reader) {
 }
 
 int run_command(const std::vector<nb::bytes>& words, nb::handle read_other) {
-  std::vector<std::string> arguments;
-  for (const nb::bytes& word : words) arguments.emplace_back(word.c_str());
+  std::vector<std::string> arguments(words.size());
+  std::ranges::transform(words, arguments.begin(), &nb::bytes::c_str);
   cli::read_others_by(reader_by(read_other));
   restore_interrupt();
   return without_lock([&] { return cli::run_program(std::move(arguments)); });

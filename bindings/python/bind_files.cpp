@@ -80,6 +80,7 @@ void write(const std::filesystem::path& path, const Input& positions, const Inpu
            const std::optional<Colors>& colors, const std::optional<Bytes>& walls, bool vtk) {
   const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
   std::vector<io::VertexProperty> properties;
+  properties.reserve(values.size());
   for (const auto& [name, numbers] : values) {
     properties.push_back({name, std::span(numbers.data(), numbers.size())});
   }

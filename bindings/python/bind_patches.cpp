@@ -44,16 +44,16 @@ class Patches {
  public:
   explicit Patches(Surface surface) : surface_(std::move(surface)) {}
 
-  auto measure_rows(const std::optional<Ids>& vertices, const Radius& radius, unsigned threads,
-                    nb::handle progress) const {
+  [[nodiscard]] auto measure_rows(const std::optional<Ids>& vertices, const Radius& radius, unsigned threads,
+                                  nb::handle progress) const {
     const BatchQuery query = query_of(vertices, radius);
     const Run run{.threads = threads, .progress = progress_to(progress)};
     Invariants found = without_lock([&] { return invariants(surface_, query, run); });
     return std::pair(owned<double>(std::move(found.area)), owned<double>(std::move(found.volume)));
   }
 
-  auto find_gaps(const std::optional<Ids>& vertices, const Radius& radius, unsigned threads,
-                 nb::handle progress) const {
+  [[nodiscard]] auto find_gaps(const std::optional<Ids>& vertices, const Radius& radius, unsigned threads,
+                               nb::handle progress) const {
     const BatchQuery query = query_of(vertices, radius);
     const Run run{.threads = threads, .progress = progress_to(progress)};
     SurfaceColumns columns(query.result_rows(surface_.vertex_count()));

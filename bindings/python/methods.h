@@ -30,16 +30,15 @@ struct Answer {
 class Method {
  public:
   /// `owner` owns what `method` borrows.
-  Method(SearchMethod method, std::shared_ptr<const void> owner)
-      : owner_(std::move(owner)), method_(std::move(method)) {}
+  Method(const SearchMethod& method, std::shared_ptr<const void> owner) : owner_(std::move(owner)), method_(method) {}
   Method(const Method&) = delete;
   Method& operator=(const Method&) = delete;
 
   Answer neighborhood(VertexId v, double radius, bool distances);
   std::size_t count(VertexId v, double radius);
-  std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
-                                           const BatchOptions& options, const Run& run) const;
-  std::vector<std::uint64_t> counts(const BatchQuery& query, const Run& run) const;
+  [[nodiscard]] std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
+                                                         const BatchOptions& options, const Run& run) const;
+  [[nodiscard]] std::vector<std::uint64_t> counts(const BatchQuery& query, const Run& run) const;
 
  private:
   template <class F>

@@ -104,8 +104,8 @@ double SumColumns::result(const Channel& channel, std::span<const RowSums> sums,
 }
 
 ReducerFactory sum_reducers(const NodeTree& tree, SumColumns columns) {
-  std::vector<std::vector<double>> of_nodes;
-  for (std::size_t i = 0; i < columns.size(); ++i) of_nodes.push_back(reduced_by_node(tree, columns.column(i), sum_of));
+  std::vector<std::vector<double>> of_nodes(columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) of_nodes[i] = reduced_by_node(tree, columns.column(i), sum_of);
   return factory_of<SumReducer>(SumTables{std::move(columns), std::move(of_nodes)});
 }
 

@@ -45,7 +45,9 @@ constexpr double kAreaSlack = 1e-6;
 class NearestRows {
  public:
   NearestRows(const Index& index, const BatchVertices& vertices, const NearestOptions& options, const Run& run)
-      : index_(index), options_(checked(options)), run_(run), rows_({vertices, options.radius}, index.vertex_count()) {}
+      : index_(index), options_(options), run_(run), rows_({vertices, options.radius}, index.vertex_count()) {
+    check_connects(options.metric);
+  }
 
   NearestRows(const NearestRows&) = delete;
   NearestRows& operator=(const NearestRows&) = delete;
@@ -73,11 +75,6 @@ class NearestRows {
   }
 
  private:
-  static const NearestOptions& checked(const NearestOptions& options) {
-    check_connects(options.metric);
-    return options;
-  }
-
   BoundIndex index_;
   const NearestOptions& options_;
   const Run& run_;

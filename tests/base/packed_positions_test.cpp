@@ -14,6 +14,12 @@ namespace {
 
 using testing::ElementsAre;
 
+TEST(PackedPositions, AreRowsOfPositionsByColumns) {
+  const std::vector<double> columns{0, 1, 2, 3, 4, 5};
+  const PackedPositions<double> packed({columns.data(), 2, 1, 2});
+  EXPECT_THAT(packed.view(), ElementsAre(0, 2, 4, 1, 3, 5));
+}
+
 TEST(RowsOf, AreInTheOrderOfTheVertices) {
   const std::vector<double> xyz{0, 1, 2, 3, 4, 5, 6, 7, 8};
   const std::vector<VertexId> vertices{2, 0, 2};

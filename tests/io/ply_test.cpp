@@ -206,7 +206,7 @@ TEST(Ply, RowsAreToldFromLinesInAnyLayout) {
     const std::size_t vertices = 2 + random() % 5;
     std::vector<std::string> rows;
     while (rows.size() < vertices) rows.push_back(number() + ' ' + number() + ' ' + number());
-    for (int face = 0; face < 4; ++face) rows.push_back(face % 2 == 0 ? "3 0 1 0" : "2 1 0");
+    for (int face = 0; face < 4; ++face) rows.emplace_back(face % 2 == 0 ? "3 0 1 0" : "2 1 0");
     const std::string head = header("ascii", fmt::format("element vertex {}\n", vertices) + kAxes +
                                                  "element face 4\nproperty list uchar int vertex_indices\n");
     std::string plain = head;
