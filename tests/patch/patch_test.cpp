@@ -268,6 +268,19 @@ TEST(Patch, OfASphereHasItsMeanCurvature) {
   EXPECT_NEAR((2 * kPi / 3 * r * r * r - found.volume) * 4 / (kPi * r * r * r * r), 1, 4e-3);
 }
 
+TEST(Patch, AGapAtTheRadiusCountsAcrossTheWholeMesh) {
+  TestMesh mesh;
+  for (const double at : {0.0, 1.0}) {
+    const std::uint32_t first = mesh.add_vertex(6 * at, 6 * at, 7 * at);
+    mesh.add_vertex(6 * at + 1, 6 * at, 7 * at);
+    mesh.add_vertex(6 * at, 6 * at + 1, 7 * at);
+    mesh.add_face({first, first + 1, first + 2});
+  }
+  Case far(mesh.finish(false));
+  EXPECT_EQ(far.searcher.gap(0, 11).distance, 11);
+  EXPECT_EQ(far.searcher.gap(0, std::nextafter(11, 0)).face, kNoFace);
+}
+
 TEST(Patch, OfAPlateOfTwelveTrianglesHasItsThickness) {
   TestMesh mesh = make_box({1, 1, 1}, 1);
   for (std::size_t v = 0; v < mesh.size(); ++v) {
