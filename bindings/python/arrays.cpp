@@ -5,6 +5,8 @@
 #include <span>
 #include <string>
 
+#include "interpreter.h"
+
 namespace nb = nanobind;
 
 namespace meshhood::python {
@@ -45,8 +47,13 @@ FacesView faces_of(const Input& corners, const std::optional<Input>& offsets) {
   return offsets ? FacesView::polygons(indices_of(*offsets, "F"), flat) : FacesView::triangles(flat);
 }
 
-nb::object unset(std::size_t size, const char* dtype) {
-  return nb::module_::import_("numpy").attr("empty")(size, dtype);
+// The name of a type with a shape, as "(3,)float64", would run Python code, in which a thread may be ended while it has
+// other arrays.
+nb::object unset(std::size_t rows, const char* dtype, std::size_t columns) {
+  return stop_at_shutdown([&] {
+    const nb::object empty = nb::module_::import_("numpy").attr("empty");
+    return columns == 0 ? empty(rows, dtype) : empty(nb::make_tuple(rows, columns), dtype);
+  });
 }
 
 }  // namespace meshhood::python

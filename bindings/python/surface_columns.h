@@ -21,9 +21,9 @@ class SurfaceColumns {
   explicit SurfaceColumns(std::size_t rows)
       : distances_(rows, "float64"),
         faces_(rows, "int64"),
-        corners_(rows, "(3,)int32"),
-        barycentric_(rows, "(3,)float64"),
-        points_(rows, "(3,)float64") {}
+        corners_(rows, "int32", 3),
+        barycentric_(rows, "float64", 3),
+        points_(rows, "float64", 3) {}
 
   /// On any thread. `corners`: of its triangle.
   void set(std::size_t row, const SurfacePoint& found, const std::array<VertexId, 3>& corners) {
@@ -46,7 +46,8 @@ class SurfaceColumns {
     nanobind::object array;
     std::span<Value> values;
 
-    Column(std::size_t rows, const char* dtype) : array(unset(rows, dtype)), values(values_of<Value>(array)) {}
+    Column(std::size_t rows, const char* dtype, std::size_t columns = 0)
+        : array(unset(rows, dtype, columns)), values(values_of<Value>(array)) {}
   };
 
   Column<double> distances_;
