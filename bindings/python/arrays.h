@@ -68,8 +68,8 @@ auto owned(std::vector<Value>&& values) {
   return owned<T>(std::move(values), {size});
 }
 
-/// An array in memory of NumPy, of `rows` values, or by `columns` if these are not 0, that are not set. For large arrays
-/// this is faster than a vector, which would be initialized first: NumPy asks the system for large pages.
+/// An array in memory of NumPy, of `rows` values, or by `columns` if these are not 0, that are not set. For large
+/// arrays this is faster than a vector, which would be initialized first: NumPy asks the system for large pages.
 [[nodiscard]] nanobind::object unset(std::size_t rows, const char* dtype, std::size_t columns = 0);
 
 /// The values of such an array as `T`, which has as many bytes as one or several of them.
