@@ -27,9 +27,11 @@ constexpr const char* kClearLine = "\r\x1b[K";
 
 volatile std::sig_atomic_t caught = 0;
 
-void remember(int signal) {
+void remember([[maybe_unused]] int signal) {
   caught = 1;
-  std::signal(signal, remember);  // Windows has reset it
+#if defined(_WIN32)
+  std::signal(signal, remember);  // which the system has reset
+#endif
 }
 
 void replace_handlers(void (*expected)(int), void (*handler)(int)) {

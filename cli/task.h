@@ -26,7 +26,7 @@ struct Unit {
 ///    and removed at the end;
 ///  - SIGINT, SIGHUP, SIGTERM and SIGXCPU do not end the program. `progress()` then returns false, so that the
 ///    operation throws Error{Cancelled} and removes its temporary file. So does one that waits for another process at
-///    a pipe, or for a terminal.
+///    a pipe, or for a terminal. On Windows, Ctrl-C and Ctrl-Break, but not during such a wait.
 class Task {
  public:
   explicit Task(std::string_view description, Unit unit = {});

@@ -8,13 +8,12 @@
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>
-// After windows.h, whose types they use:
+// After windows.h, whose types it uses:
 #include <shellapi.h>
 
 #include "system.h"
 
 namespace meshhood::cli {
-
 namespace {
 
 /// What is not UTF-16 becomes U+FFFD, so that a file of such a name is not found.

@@ -31,7 +31,7 @@ Descriptor open_file(const std::filesystem::path& path, int flags) {
 
 HANDLE handle_of(const Descriptor& file) { return reinterpret_cast<HANDLE>(::_get_osfhandle(file.number())); }
 
-/// As `errno`.
+/// Sets `errno` to what the last error of the system is there, EIO for one that it has not. Returns false.
 bool fail_with_last_error() {
   const auto condition = std::system_category().default_error_condition(static_cast<int>(::GetLastError()));
   errno = condition.category() == std::generic_category() ? condition.value() : EIO;

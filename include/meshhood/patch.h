@@ -4,7 +4,6 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -149,7 +148,7 @@ struct Invariants {
 
 /// Calls `visit(row, gap)` once for each row instead, in any order and on the threads of the call, several at a time:
 /// for a caller that keeps only a part of each gap. An exception of `visit` ends the call, and is passed on.
-void for_each_gap(const Surface& surface, const BatchQuery& query,
-                  const std::function<void(std::size_t row, const SurfacePoint& gap)>& visit, const Run& run = {});
+void for_each_gap(const Surface& surface, const BatchQuery& query, const SurfacePointVisitor& visit,
+                  const Run& run = {});
 
 }  // namespace meshhood

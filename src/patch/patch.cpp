@@ -177,8 +177,7 @@ std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, 
   return result;
 }
 
-void for_each_gap(const Surface& surface, const BatchQuery& query,
-                  const std::function<void(std::size_t row, const SurfacePoint& gap)>& visit, const Run& run) {
+void for_each_gap(const Surface& surface, const BatchQuery& query, const SurfacePointVisitor& visit, const Run& run) {
   for_each_patch(surface, query, false, run,
                  [&](std::size_t row, const FoundPatch& patch) { visit(row, patch.gap()); });
 }
