@@ -41,7 +41,7 @@ void refuse_parts(const std::string& file) {
       ErrorCode::InvalidOption,
       fmt::format("{}: is a folder of parts; name the index of one, such as {}, whose vertices.npy has the numbers of "
                   "its vertices, or use meshhood.open_parts of the Python package for all",
-                  printable_name(file), printable_name((folder / "part-00000" / "index.mhi").string())));
+                  printable_name(file), printable_name((folder / "part-00000" / "index.mhi").generic_string())));
 }
 
 std::string task_of(const std::string& file) { return "reading " + file; }

@@ -100,6 +100,8 @@ Descriptor lock_folder(const std::filesystem::path& path) {
   if (file == INVALID_HANDLE_VALUE) {
     const bool is_locked = ::GetLastError() == ERROR_SHARING_VIOLATION;
     fail_with_last_error();
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored)) errno = ENOTDIR;
     if (is_locked) errno = EWOULDBLOCK;
     return Descriptor();
   }

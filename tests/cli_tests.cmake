@@ -7,9 +7,6 @@ if(MESHHOOD_BUILD_CLI)
   if(MESHHOOD_LONG_TESTS AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     list(APPEND transcripts limits)
   endif()
-  if(WIN32) # these have steps that need POSIX
-    list(REMOVE_ITEM transcripts errors names shell streams view)
-  endif()
   foreach(name ${transcripts})
     add_test(NAME cli.${name}
       COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_transcript.py

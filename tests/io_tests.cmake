@@ -1,12 +1,12 @@
 # The tests of mesh and index files.
-set(stems ply obj off stl vtk freesurfer float_keeps blocks text index_progress weld unplaced)
+set(stems file ply obj off stl vtk freesurfer float_keeps blocks text index_progress weld unplaced)
 if(WIN32) # the others use POSIX, in part only to set up
   foreach(stem IN LISTS stems)
     meshhood_test(io/${stem} meshhood::io meshhood_families fmt::fmt)
   endforeach()
   return()
 endif()
-foreach(stem IN LISTS stems ITEMS shared_meshes file progress index write)
+foreach(stem IN LISTS stems ITEMS special_file shared_meshes progress index write)
   meshhood_test(io/${stem} meshhood_test_support meshhood_families)
 endforeach()
 meshhood_test(io/zip ALONE meshhood_test_support meshhood_npz)

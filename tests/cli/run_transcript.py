@@ -11,6 +11,8 @@ A transcript is a text of
     ! a line of standard error
     ? the exit code, where it is not 0
 
+and `%` in place of `$` where the command needs POSIX: it is left out for a program of Windows.
+
 `<number>` matches any number, `<size>` a number of bytes with its unit, `<any>` anything on the line; `#` begins a
 comment. All commands of a transcript run in one folder, which is empty at the start, with the default disposition of
 SIGPIPE and SIGXFSZ.
@@ -27,8 +29,9 @@ PLACEHOLDERS = {"<number>": r"-?[0-9.]+(e[-+]?[0-9]+)?", "<size>": r"[0-9.]+ (by
 
 
 class Step:
-    def __init__(self, command, line_number):
-        self.command = command
+    def __init__(self, line, line_number):
+        self.command = line[2:]
+        self.needs_posix = line[0] == "%"
         self.line_number = line_number
         self.stdout = []
         self.stderr = []
@@ -38,8 +41,8 @@ class Step:
 def parse(text):
     steps = []
     for number, line in enumerate(text.splitlines(), 1):
-        if line.startswith("$ "):
-            steps.append(Step(line[2:], number))
+        if line.startswith(("$ ", "% ")):
+            steps.append(Step(line, number))
         elif line.startswith("! "):
             steps[-1].stderr.append(line[2:])
         elif line.startswith("? "):
@@ -80,6 +83,8 @@ def main():
     transcript, *emulator, program = sys.argv[1:]
     transcript, program = Path(transcript), Path(program).resolve()
     steps = parse(transcript.read_text(encoding="utf-8"))
+    if program.suffix == ".exe":
+        steps = [step for step in steps if not step.needs_posix]
     failures = 0
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "bin").mkdir()

@@ -3,7 +3,6 @@
 // succeeds without the memory; no temporary file stays, and the next run completes the folder.
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,15 +27,6 @@ namespace fs = std::filesystem;
 class PartitionAllocation : public testing::Test {
  protected:
   void run(const fs::path& target) const { partition(*chunked(mesh), target, {.parts = 2, .halo = 2}); }
-
-  /// Name -> content of the files of a complete folder.
-  static std::map<std::string, std::string> contents(const fs::path& folder) {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-      if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = read_file(entry.path());
-    }
-    return files;
-  }
 
   Scratch scratch;
   fs::path folder = scratch.path() / "parts";

@@ -203,7 +203,17 @@ TEST_F(ChunkedMeshes, NameTheFaultOfAFile) {
   std::string length = npy(V, 3);
   length[9] = '\x7f';
   refused(ErrorCode::MalformedFile, "a header of", length, npy(F, 3));
+
+  const auto folder = scratch.path() / "folder.ply";
+  create_directory(folder);
+  const std::string directory = "folder.ply: is a directory, expected a file";
+  expect_refused(ErrorCode::IoFailure, directory, [&] { static_cast<void>(parts::open_mesh(folder, 1)); });
+  expect_refused(ErrorCode::IoFailure, directory,
+                 [&] { static_cast<void>(parts::open_arrays(folder, scratch.path() / "F.npy")); });
 }
+
+/// By a rename, as programs do, so that the open file is the old one. Not on Windows.
+constexpr bool kOpenFilesCanBeReplaced = std::filesystem::path::preferred_separator == '/';
 
 /// Opens a mesh, reads its positions, changes its files, and reads its faces.
 template <class Open, class Change>
@@ -221,8 +231,9 @@ TEST_F(ChunkedMeshes, AreThoseOfTheFileThatWasOpened) {
   const auto file = scratch.path() / "mesh.ply";
   const auto open = [&] { return parts::open_mesh(file, 1); };
   io::write_ply(file, mesh.view());
-  // By rename, as programs replace a file: the open file is the old one.
-  EXPECT_TRUE(content_with_change(open, [&] { io::write_ply(file, other.view()); }) == content_of(mesh));
+  if (kOpenFilesCanBeReplaced) {
+    EXPECT_TRUE(content_with_change(open, [&] { io::write_ply(file, other.view()); }) == content_of(mesh));
+  }
 
   io::write_ply(file, mesh.view());
   const auto bytes = std::filesystem::file_size(file);
@@ -254,7 +265,9 @@ TEST_F(ChunkedMeshes, OfArraysAreThoseOfTheFilesThatWereOpened) {
   const auto v = write(1);
   const auto f = scratch.write("f.npy", npy(faces, 3));
   const auto open = [&] { return parts::open_arrays(v, f); };
-  EXPECT_EQ(content_with_change(open, [&] { write(7); }).positions[0], 1);
+  if (kOpenFilesCanBeReplaced) {
+    EXPECT_EQ(content_with_change(open, [&] { write(7); }).positions[0], 1);
+  }
   for (const auto& array : {v, f}) {
     expect_refused(ErrorCode::IoFailure, array.string(), [&] {
       static_cast<void>(content_with_change(

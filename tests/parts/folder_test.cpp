@@ -1,50 +1,27 @@
 // SPDX-License-Identifier: MIT
-// A folder of parts under faults: runs that are stopped, killed or run out of disk, two runs at once, and files that
-// have been changed.
-#include <array>
-#include <chrono>
-#include <csignal>
+// A folder of parts under faults: runs that are cancelled, two runs at once, and files that have been changed.
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <string>
-#include <thread>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "parts/folder_lock.h"
 #include "parts/partition.h"
 #include "shared/checksum.h"
 #include "support/families.h"
 #include "support/parts_folder.h"
-#include "support/random.h"
 #include "support/refusal.h"
-#include "support/scale.h"
-#include "support/scratch.h"
-#include "support/small_disk.h"
 
 namespace meshhood::test {
 namespace {
 
 namespace fs = std::filesystem;
 using parts::PartitionOptions;
-using parts::PartitionResult;
 
-const PartitionOptions kOptions{.parts = 4, .halo = 3};
-
-/// Name -> content of all files below a folder.
-std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = read_file(entry.path());
-  }
-  return files;
-}
+class Folder : public PartsFolder {};
 
 void overwrite(const fs::path& file, const std::string& bytes) {
   fs::remove(file);  // a file that is mapped or linked keeps its content
@@ -55,23 +32,6 @@ void overwrite(const fs::path& file, const std::string& bytes) {
 std::string sealed(const std::string& rest) {
   return fmt::format("{{\"checksum\": \"{:016x}\",\n{}", checksum({std::as_bytes(std::span(rest))}), rest);
 }
-
-class Folder : public testing::Test {
- protected:
-  PartitionResult run(const fs::path& target, const Progress& progress = {}) const {
-    return partition(*chunked(mesh), target, kOptions, {.progress = progress});
-  }
-
-  /// A complete folder.
-  std::map<std::string, std::string> whole() const {
-    run(scratch.path() / "whole");
-    return contents(scratch.path() / "whole");
-  }
-
-  Scratch scratch;
-  fs::path folder = scratch.path() / "parts";
-  TestMesh mesh = bumpy_grid(30);
-};
 
 TEST_F(Folder, IsUnchangedByASecondRun) {
   EXPECT_EQ(run(folder).kept, 0U);
@@ -106,32 +66,25 @@ TEST_F(Folder, LosesNoFinishedPartWhenARunIsCancelled) {
   EXPECT_GT(stops, 20U);
 }
 
-TEST_F(Folder, IsCompletedAfterAKill) {
-  const auto expected = whole();
-  std::size_t with_leftovers = 0;
-  for (std::size_t trial = 0; trial < scaled(40, 10); ++trial) {
-    fs::remove_all(folder);
-    const pid_t child = ::fork();
-    if (child == 0) {
-      run(folder);
-      ::_exit(0);
-    }
-    std::this_thread::sleep_for(std::chrono::microseconds(1500 * trial));
-    ::kill(child, SIGKILL);
-    int status = 0;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
-    if (fs::exists(folder / ".partition.tmp")) ++with_leftovers;
-    run(folder);
-    EXPECT_EQ(contents(folder), expected);
-  }
-  std::printf("%zu kills left temporary files, which the next run has removed\n", with_leftovers);
-}
-
 TEST_F(Folder, IsWrittenByOneRunAtATime) {
   fs::create_directory(folder);
-  const parts::FolderLock lock(folder);
-  expect_refused(ErrorCode::IoFailure, "another run writes into this folder", [&] { run(folder); });
+  {
+    const parts::FolderLock lock(folder);
+    expect_refused(ErrorCode::IoFailure, "another run writes into this folder", [&] { run(folder); });
+  }
   EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(Folder, IsLockedOnceAndOnlyIfItExists) {
+  const fs::path missing = scratch.path() / "missing";
+  expect_refused(ErrorCode::IoFailure, "missing: cannot open and lock: No such file or directory",
+                 [&] { const parts::FolderLock lock(missing); });
+  for (int run = 0; run < 2; ++run) {
+    const parts::FolderLock lock(scratch.path());
+    expect_refused(ErrorCode::IoFailure, "another run writes into this folder",
+                   [&] { const parts::FolderLock second(scratch.path()); });
+  }
+  EXPECT_TRUE(fs::is_empty(scratch.path()));
 }
 
 TEST_F(Folder, IsWrittenByOneOfTwoRunsThatStartTogether) {
@@ -145,21 +98,6 @@ TEST_F(Folder, IsWrittenByOneOfTwoRunsThatStartTogether) {
   });
   EXPECT_EQ(refused, 1U);
   EXPECT_EQ(contents(folder), whole());
-}
-
-TEST_F(Folder, IsFreeAfterARunDuringWhichTheProcessWasForked) {
-  pid_t child = -1;
-  run(folder, [&](std::size_t done, std::size_t) {
-    if (done > 0 && child < 0) child = ::fork();
-    if (child == 0) {
-      ::pause();
-      ::_exit(0);
-    }
-    return true;
-  });
-  EXPECT_NO_THROW(run(folder));
-  ::kill(child, SIGKILL);
-  EXPECT_EQ(::waitpid(child, nullptr, 0), child);
 }
 
 TEST_F(Folder, HasItsDamagedPartsWrittenAgain) {
@@ -297,30 +235,6 @@ TEST_F(Folder, IsNotMadeForAMeshWithAFault) {
   EXPECT_TRUE(fs::is_empty(folder));
   expect_refused(ErrorCode::IoFailure, "No such file or directory", [&] { run(scratch.path() / "no" / "parts"); });
   expect_refused(ErrorCode::IoFailure, "Not a directory", [&] { run(scratch.write("file", "text")); });
-}
-
-TEST_F(Folder, IsCompletedAfterTheDiskWasFull) {
-  const auto expected = whole();
-  fs::create_directory(folder);
-  const auto disk = SmallDisk::mount(folder);
-  if (disk == nullptr) GTEST_SKIP() << "no tmpfs may be mounted here";
-  const fs::path inside = folder / "parts";
-  std::size_t failures = 0;
-  for (std::uint64_t pages = 1;; pages += 2) {
-    disk->leave_free(pages);
-    try {
-      run(inside);
-      break;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.error_number(), ENOSPC) << error.what();
-      EXPECT_FALSE(fs::exists(inside / ".partition.tmp"));
-      EXPECT_FALSE(fs::exists(inside / parts::kManifestFile));
-      ++failures;
-    }
-  }
-  EXPECT_EQ(contents(inside), expected);
-  std::printf("the disk was full %zu times\n", failures);
-  EXPECT_GT(failures, 10U);
 }
 
 }  // namespace

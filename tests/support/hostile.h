@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <filesystem>
 #include <ostream>
 #include <span>
 #include <string>
@@ -43,6 +44,28 @@ struct Refusal {
     return {};
   } catch (const Error& error) {
     return {true, error.code(), error.what()};
+  }
+}
+
+[[nodiscard]] inline Refusal file_refusal(const std::filesystem::path& path, const io::ReadOptions& options = {}) {
+  try {
+    static_cast<void>(io::read_mesh(path, options));
+    return {};
+  } catch (const Error& error) {
+    return {true, error.code(), error.what()};
+  }
+}
+
+/// Expects that `call(path)` fails with this error of the system. Bindings need path and number, for OSError of Python.
+template <class F>
+void expect_errno(const std::filesystem::path& path, int error_number, F&& call) {
+  try {
+    call(path);
+    ADD_FAILURE() << path << " was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::IoFailure) << error.what();
+    EXPECT_EQ(error.path(), path.string()) << error.what();
+    EXPECT_EQ(error.error_number(), error_number) << error.what();
   }
 }
 

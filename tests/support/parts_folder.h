@@ -7,9 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "meshhood/search.h"
 
@@ -18,6 +21,9 @@
 #include "io/npy.h"
 #include "parts/chunked_mesh.h"
 #include "parts/manifest.h"
+#include "parts/partition.h"
+#include "support/families.h"
+#include "support/scratch.h"
 #include "support/test_mesh.h"
 
 namespace meshhood::test {
@@ -66,6 +72,35 @@ struct OpenPart {
   std::vector<std::int32_t> owned;
   std::vector<std::int32_t> corners;
   std::vector<std::int64_t> offsets;
+};
+
+/// Name -> content of all files below a folder.
+inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files[relative(entry.path(), folder).string()] = read_file(entry.path());
+  }
+  return files;
+}
+
+inline const parts::PartitionOptions kOptions{.parts = 4, .halo = 3};
+
+/// Runs that write a mesh in four parts into a folder.
+class PartsFolder : public testing::Test {
+ protected:
+  parts::PartitionResult run(const std::filesystem::path& target, const Progress& progress = {}) const {
+    return partition(*chunked(mesh), target, kOptions, {.progress = progress});
+  }
+
+  /// A complete folder.
+  std::map<std::string, std::string> whole() const {
+    run(scratch.path() / "whole");
+    return contents(scratch.path() / "whole");
+  }
+
+  Scratch scratch;
+  std::filesystem::path folder = scratch.path() / "parts";
+  TestMesh mesh = bumpy_grid(30);
 };
 
 }  // namespace meshhood::test
