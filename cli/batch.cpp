@@ -32,6 +32,7 @@
 #include "row_query.h"
 #include "row_table.h"
 #include "size_limit.h"
+#include "system.h"
 #include "task.h"
 #include "vertex_order.h"
 
@@ -180,7 +181,7 @@ class Writer {
   }
 
   void write_arrays(std::span<const std::uint64_t> sizes, const BatchSize& total) {
-    io::NpzWriter npz(options_.output.name);
+    io::NpzWriter npz(path_of(options_.output.name));
     write_vertices(npz, listed());
     const std::uint64_t columns = method_.vertex_count();
     if (is_matrix(order_)) {

@@ -22,6 +22,7 @@
 #include "options.h"
 #include "output.h"
 #include "quantity.h"
+#include "system.h"
 #include "task.h"
 #include "vertex_files.h"
 
@@ -48,12 +49,12 @@ struct Summary {
 
 void save(const std::string& file, const Index& index, const std::optional<FacesView>& faces) {
   Task task("writing " + file);
-  io::save(file, index, {.faces = faces}, {.progress = task.progress()});
+  io::save(path_of(file), index, {.faces = faces}, {.progress = task.progress()});
 }
 
 void save(const std::string& file, const paper::Index& index, const std::optional<FacesView>& /*faces*/) {
   Task task("writing " + file);
-  io::save(file, index, {.progress = task.progress()});
+  io::save(path_of(file), index, {.progress = task.progress()});
 }
 
 template <class Build>
@@ -63,7 +64,7 @@ Summary build_and_save(const std::string& file, const std::optional<FacesView>& 
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   save(file, index, faces);
   std::error_code not_regular;
-  const std::uintmax_t bytes = std::filesystem::file_size(file, not_regular);
+  const std::uintmax_t bytes = std::filesystem::file_size(path_of(file), not_regular);
   const std::vector<LevelSummary> levels = index.levels();
   return {.vertices = index.vertex_count(),
           .clusters = levels.empty() ? 0 : levels.front().clusters,

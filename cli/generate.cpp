@@ -15,6 +15,7 @@
 #include "options.h"
 #include "output.h"
 #include "shapes/shapes.h"
+#include "system.h"
 #include "task.h"
 
 namespace meshhood::cli {
@@ -48,7 +49,7 @@ const shapes::Kind& find(const std::string& name) {
 
 void save(const std::string& file, const MeshView& mesh) {
   Task task("writing " + file);
-  io::write_ply(file, mesh, {.progress = task.progress()});
+  io::write_ply(path_of(file), mesh, {.progress = task.progress()});
 }
 
 void generate(const GenerateCommand& options) {

@@ -25,6 +25,7 @@
 #include "output.h"
 #include "parts/manifest.h"
 #include "program.h"
+#include "system.h"
 #include "task.h"
 
 namespace meshhood::cli {
@@ -35,7 +36,7 @@ constexpr Unit kMegabytes{"MB", 1e6};
 /// The readers would say that it is a directory.
 void refuse_parts(const std::string& file) {
   std::error_code none;
-  const std::filesystem::path folder(file);
+  const std::filesystem::path folder = path_of(file);
   if (!std::filesystem::is_regular_file(folder / parts::kManifestFile, none)) return;
   raise(
       ErrorCode::InvalidOption,
@@ -68,7 +69,7 @@ Content read_with(Content (*read)(const std::filesystem::path&, const io::ReadOp
                   const Reading& reading, io::ReadOptions options) {
   options.precision = precision_of(reading);
   try {
-    return read(file, options);
+    return read(path_of(file), options);
   } catch (const Error& refusal) {
     if (refusal.code() != ErrorCode::UnsupportedFormat || !other_reader) throw;
     const std::optional<OtherFile> other = other_reader(file);
@@ -255,7 +256,7 @@ io::Mesh read_mesh(const std::string& file, const Reading& reading, unsigned thr
 io::LoadedIndex load_index(const std::string& file) {
   refuse_parts(file);
   Task task(task_of(file), kMegabytes);
-  return io::load_any(file, {.progress = task.progress()});
+  return io::load_any(path_of(file), {.progress = task.progress()});
 }
 
 template <class Mesh>

@@ -29,6 +29,7 @@
 #include "io/system.h"
 #include "io/text.h"
 #include "output.h"
+#include "system.h"
 
 namespace meshhood::cli {
 namespace {
@@ -118,18 +119,21 @@ CLI::Validator output_name(const std::string& option, const std::string& extensi
 bool is_same_file(const std::string& a, const std::string& b) {
   namespace fs = std::filesystem;
   std::error_code missing;
-  return fs::path(a).lexically_normal() == fs::path(b).lexically_normal() || fs::equivalent(a, b, missing);
+  const fs::path first = path_of(a);
+  const fs::path second = path_of(b);
+  return first.lexically_normal() == second.lexically_normal() || fs::equivalent(first, second, missing);
 }
 
 /// Throws unless a file can be created there.
-void check_place(const std::string& output) {
+void check_place(const std::string& name) {
   namespace fs = std::filesystem;
-  if (output == io::kStandardOutput) return keep_standard_output_for_file();
+  if (name == io::kStandardOutput) return keep_standard_output_for_file();
+  const fs::path output = path_of(name);
   std::error_code ignored;
   const fs::file_status status = fs::status(output, ignored);
   if (fs::is_directory(status)) io::raise_errno(output, EISDIR, "create");
   if (fs::exists(status) && !fs::is_regular_file(status)) return;  // a pipe or a device
-  const fs::path folder = fs::path(output).parent_path();
+  const fs::path folder = output.parent_path();
   const fs::file_status status_of_folder = fs::status(folder.empty() ? "." : folder, ignored);
   if (fs::exists(status_of_folder) && !fs::is_directory(status_of_folder)) io::raise_errno(output, ENOTDIR, "create");
   if (!io::may_create_in(folder.empty() ? "." : folder)) io::raise_errno(output, errno, "create");

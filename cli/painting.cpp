@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/mesh_io.h"
+#include "system.h"
 #include "task.h"
 
 namespace meshhood::cli {
@@ -23,7 +24,7 @@ void Painting::paint(std::span<const VertexId> vertices, const Color& color) {
 
 void Painting::write(const std::string& file, Input& input) const {
   Task task("writing " + file);
-  io::write_ply(file, input.surface(),
+  io::write_ply(path_of(file), input.surface(),
                 {.colors = colors_, .properties = {}, .walls = input.unplaced(), .progress = task.progress()});
 }
 

@@ -18,6 +18,7 @@
 #include "options.h"
 #include "output.h"
 #include "quantity.h"
+#include "system.h"
 #include "task.h"
 
 namespace meshhood::cli {
@@ -39,16 +40,17 @@ struct PartitionCommand {
 };
 
 std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const Progress& progress) {
-  if (!options.faces.empty()) return parts::open_arrays(options.mesh, options.faces);
+  if (!options.faces.empty()) return parts::open_arrays(path_of(options.mesh), path_of(options.faces));
   // A mesh that is read into memory takes several times the bytes of its file.
   constexpr std::uint64_t kMemoryPerByte = 4;
   const std::uint64_t most = options.memory / kMemoryPerByte;
   if (options.reading.weld.empty() && options.reading.precision.empty()) {
     try {
-      return parts::open_mesh(options.mesh, most, progress);
+      return parts::open_mesh(path_of(options.mesh), most, progress);
     } catch (const Error& refusal) {
       // Such a file may be for another reader, which reads it from the beginning.
-      if (refusal.code() != ErrorCode::UnsupportedFormat || !std::filesystem::is_regular_file(options.mesh)) throw;
+      if (refusal.code() != ErrorCode::UnsupportedFormat || !std::filesystem::is_regular_file(path_of(options.mesh)))
+        throw;
     }
   }
   io::Mesh mesh = read_mesh(options.mesh, options.reading, options.threads, most);
@@ -58,7 +60,7 @@ std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const 
 
 parts::PartitionResult run(const PartitionCommand& options) {
   Task task("partitioning " + options.mesh);
-  return partition(*open(options, task.progress()), options.output,
+  return partition(*open(options, task.progress()), path_of(options.output),
                    {.parts = options.parts,
                     .vertices_per_part = options.vertices_per_part,
                     .halo = parse_radius("halo", options.halo),

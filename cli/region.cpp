@@ -24,6 +24,7 @@
 #include "options.h"
 #include "output.h"
 #include "start.h"
+#include "system.h"
 #include "task.h"
 
 namespace meshhood::cli {
@@ -43,7 +44,7 @@ struct RegionCommand {
 
 void write_mesh(const std::string& file, const MeshView& mesh) {
   Task task("writing " + file);
-  io::write_ply(file, mesh, {.progress = task.progress()});
+  io::write_ply(path_of(file), mesh, {.progress = task.progress()});
 }
 
 void write_mesh(const std::string& file, const PositionsView& whole, const Submesh& part) {
@@ -71,7 +72,7 @@ void add_rows(io::NpzWriter& npz, const std::string& name, const std::vector<std
 }
 
 void write_arrays(const std::string& file, const Submesh& part, const Rim& rim) {
-  io::NpzWriter npz(file);
+  io::NpzWriter npz(path_of(file));
   npz.add_converted<std::int64_t>("vertices", part.vertices);
   npz.add_converted<std::int64_t>("faces", part.faces);
   add_rows<double>(npz, "rim_points", rim.points);
@@ -97,7 +98,7 @@ void clip(const RegionCommand& options, const QueryStart& start, double radius, 
   const double gap = searcher.gap(from, radius).distance;
   write_mesh(options.output, part.view());
   if (!options.arrays.empty()) {
-    io::NpzWriter npz(options.arrays);
+    io::NpzWriter npz(path_of(options.arrays));
     add_rows<std::int64_t>(npz, "vertices", part.vertices);
     add_rows<double>(npz, "weights", part.weights);
     npz.add_converted<std::int64_t>("faces", part.faces);

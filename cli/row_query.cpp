@@ -14,13 +14,14 @@
 
 #include "io/messages.h"
 #include "methods.h"
+#include "system.h"
 
 namespace meshhood::cli {
 namespace {
 
 std::optional<std::vector<VertexId>> list_of(const std::string& file, const Input& input) {
   if (file.empty()) return std::nullopt;
-  if (file.find_first_not_of("0123456789,") == std::string::npos && !std::filesystem::exists(file)) {
+  if (file.find_first_not_of("0123456789,") == std::string::npos && !std::filesystem::exists(path_of(file))) {
     raise(ErrorCode::InvalidOption,
           fmt::format("--vertices {}: expected a file that lists vertices, or - for standard input", file));
   }

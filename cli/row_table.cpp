@@ -17,6 +17,7 @@
 #include "io/mesh_io.h"
 #include "methods.h"
 #include "options.h"
+#include "system.h"
 
 namespace meshhood::cli {
 namespace {
@@ -63,7 +64,7 @@ void write_column(io::NpzWriter& npz, const Column& column, std::size_t rows) {
 
 void write_npz(const std::string& file, const RowTable& table, const std::function<void(io::NpzWriter&)>& begin = {}) {
   const Task task("writing " + file);  // outlives the temporary file
-  io::NpzWriter npz(file);
+  io::NpzWriter npz(path_of(file));
   if (begin) begin(npz);
   if (!table.kinds.empty()) npz.add_texts("kinds", table.kinds);
   for (const Column& column : table.columns) {
@@ -147,12 +148,12 @@ void write_meshes(const ValueFiles& files, const RowTable& table, Input& input) 
   }
   if (!files.vtk.empty()) {
     Task task("writing " + files.vtk);
-    io::write_vtk(files.vtk, mesh, {.properties = properties, .walls = walls, .progress = task.progress()});
+    io::write_vtk(path_of(files.vtk), mesh, {.properties = properties, .walls = walls, .progress = task.progress()});
   }
   if (!files.ply.empty()) {
     Task task("writing " + files.ply);
     properties.insert(properties.begin(), {"quality", values.front()});
-    io::write_ply(files.ply, mesh,
+    io::write_ply(path_of(files.ply), mesh,
                   {.colors = table.colors, .properties = properties, .walls = walls, .progress = task.progress()});
   }
 }

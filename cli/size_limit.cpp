@@ -21,6 +21,7 @@
 #include "io/messages.h"
 #include "io/system.h"
 #include "quantity.h"
+#include "system.h"
 
 namespace meshhood::cli {
 namespace {
@@ -93,7 +94,7 @@ SizeLimit::SizeLimit(std::string output, std::optional<std::uint64_t> max_bytes)
     : output_(std::move(output)), is_free_space_(!max_bytes) {
   if (max_bytes) {
     bytes_ = static_cast<double>(*max_bytes);
-  } else if (const std::optional<double> space = free_space(output_)) {
+  } else if (const std::optional<double> space = free_space(path_of(output_))) {
     bytes_ = *space;
   }
 }

@@ -15,6 +15,11 @@ namespace meshhood::cli {
 /// The arguments of the program in UTF-8, without its name.
 [[nodiscard]] std::vector<std::string> arguments_of(std::span<char* const> given);
 
+/// The file of a name in UTF-8. A path that is made of the name itself would have another on Windows.
+[[nodiscard]] inline std::filesystem::path path_of(std::string_view name) {
+  return std::u8string(name.begin(), name.end());
+}
+
 /// Before the first file is opened: it must not get the number of a closed standard stream, as messages would be
 /// written into it. A closed pipe, and a file-size limit for standard output, become errors of the write.
 void prepare_streams();

@@ -13,6 +13,7 @@
 #include "options.h"
 #include "output.h"
 #include "quantity.h"
+#include "system.h"
 
 namespace meshhood::cli {
 
@@ -38,7 +39,7 @@ std::vector<std::string> pair_names(bool distances) {
 
 CsvWriter::CsvWriter(const std::string& file, const std::vector<std::string>& names,
                      std::optional<std::uint64_t> max_bytes)
-    : writer_(file), file_(file), max_bytes_(max_bytes) {
+    : writer_(path_of(file)), file_(file), max_bytes_(max_bytes) {
   for (const std::string& name : names) add_text(name);
   end_row();
 }

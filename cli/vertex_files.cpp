@@ -24,6 +24,7 @@
 #include "io/number.h"
 #include "io/text.h"
 #include "options.h"
+#include "system.h"
 
 namespace meshhood::cli {
 namespace {
@@ -48,7 +49,7 @@ void refuse_xml(io::InputBuffer& input) {
 /// Opens a file and calls `read(input)`. A malformed one is a wrong option, not a wrong mesh.
 template <class Read>
 auto read_file(const std::string& file, Read&& read) {
-  io::FileSource source(file);
+  io::FileSource source(path_of(file));
   io::InputBuffer input(source, file, io::ReadOptions{}.max_bytes);
   refuse_xml(input);
   try {

@@ -54,7 +54,7 @@ std::vector<float> as_floats(const std::vector<double>& values) {
 
 PageSettings settings_of(const ViewCommand& options, Input& input) {
   PageSettings settings;
-  settings.name = std::filesystem::path(options.file).filename().string();
+  settings.name = path_of(options.file).filename().string();
   if (options.vertex) settings.vertex = resolve_vertex(*options.vertex, input);
   if (!options.radius.value.empty()) {
     settings.radius = resolve(options.radius, input);
@@ -72,24 +72,23 @@ PageSettings settings_of(const ViewCommand& options, Input& input) {
   if (!options.values.empty()) {
     const std::vector<double> values = read_channel(options.values, input.vertex_count(), "values");
     settings.values = as_floats(values);
-    settings.values_name = std::filesystem::path(options.values).stem().string();
+    settings.values_name = path_of(options.values).stem().string();
   }
   return settings;
 }
 
 void view(const ViewCommand& options) {
-  const std::string output =
-      options.output.empty() ? std::filesystem::path(options.file).stem().string() + ".html" : options.output;
+  const std::string output = options.output.empty() ? path_of(options.file).stem().string() + ".html" : options.output;
   if (options.output.empty()) name_output("--output", output);
   check_outputs();
-  check_mesh_of_page(options.file);
+  check_mesh_of_page(path_of(options.file));
   static_cast<void>(find_page());  // before the work begins
   Input input(options.file, options.reading);
   input.need_edges("view");
-  write_page(output, options.file, input.other_as_ply(), settings_of(options, input));
+  write_page(path_of(output), path_of(options.file), input.other_as_ply(), settings_of(options, input));
   print_text(output + "\n");
   if (!options.open) return;
-  if (const auto program = open_in_browser(std::filesystem::absolute(output)); !program.empty()) {
+  if (const auto program = open_in_browser(std::filesystem::absolute(path_of(output))); !program.empty()) {
     print_error("warning: ", fmt::format("{} could not open {}", program, printable_name(output)));
   }
 }
