@@ -37,8 +37,8 @@ class Meshhood(ConanFile):
 
     def validate(self):
         check_min_cppstd(self, 20)
-        if self.settings.os == "Windows" and self.options.with_io:
-            raise ConanInvalidConfiguration("meshhood::io needs POSIX: on Windows, set with_io=False")
+        if self.settings.compiler == "msvc" and self.options.with_io:
+            raise ConanInvalidConfiguration("meshhood::io has not been tried with Visual C++: set with_io=False")
 
     def requirements(self):
         self.requires("highway/[>=1.0.3]", visible=False)

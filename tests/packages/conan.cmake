@@ -20,12 +20,16 @@ foreach(library fast_float/3.4.0 fmt/9.1.0 highway/1.0.3 xxhash/0.8.1)
   list(GET library 1 version)
   conan(create ${SOURCE_DIR}/tests/packages/system_library --name=${name} --version=${version})
 endforeach()
-# Windows has no meshhood::io, and the recipe says so before anything is built.
-execute_process(COMMAND ${programs}/conan graph info ${SOURCE_DIR}/packaging/conan -s os=Windows -s compiler.cppstd=20
-  --no-remote --format=json OUTPUT_VARIABLE graph ERROR_QUIET)
-if(NOT graph MATCHES "on Windows, set with_io=False")
-  message(FATAL_ERROR "the recipe accepts meshhood::io for Windows: ${graph}")
-endif()
+# For Windows, the recipe accepts meshhood::io with MinGW alone, and says so before anything is built.
+foreach(compiler "gcc;-s;compiler.version=12;-s;compiler.libcxx=libstdc++11"
+    "msvc;-s;compiler.version=193;-s;compiler.runtime=dynamic")
+  execute_process(COMMAND ${programs}/conan graph info ${SOURCE_DIR}/packaging/conan -s os=Windows
+    -s compiler=${compiler} -s compiler.cppstd=20 --no-remote --format=json OUTPUT_VARIABLE graph ERROR_QUIET)
+  string(FIND "${graph}" "with Visual C++: set with_io=False" refused)
+  if((compiler MATCHES msvc AND refused EQUAL -1) OR (compiler MATCHES gcc AND NOT refused EQUAL -1) OR NOT graph)
+    message(FATAL_ERROR "meshhood::io for Windows, ${compiler}: ${graph}")
+  endif()
+endforeach()
 # The test package is built outside of the sources, and leaves no presets there.
 foreach(COMPILER IN LISTS COMPILERS)
   set(compiler)
