@@ -96,7 +96,7 @@ class StraightRowSearch {
   template <class Take>
   void run(VertexId v, std::size_t /*enough*/, double /*enough_area*/, std::span<const double> /*areas*/, Take&& take) {
     const std::uint32_t slot = index_->slot[v];
-    if (index_->is_wall(leaf_of(slot), lane_of(slot))) return;
+    if (index_->is_wall(slot)) return;
     if (leaf_of(slot) != leaf_) begin(leaf_of(slot));
     std::size_t taken = 0;
     const auto is_short = [&](double radius) {

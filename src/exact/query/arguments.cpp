@@ -6,13 +6,19 @@
 
 #include "meshhood/error.h"
 
+#include "base/validate.h"
 #include "shared/text.h"
 
 namespace meshhood {
-void check_point(const SpacePoint& p, std::string_view where) {
+
+std::string named(std::string_view name, std::optional<std::size_t> row) {
+  return std::string(name) + (row ? ": row " + std::to_string(*row) + ": " : ": ");
+}
+
+void check_point(const SpacePoint& p, std::string_view name, std::optional<std::size_t> row) {
   for (std::size_t axis = 0; axis < p.size(); ++axis) {
     if (is_valid_coordinate(p[axis])) continue;
-    raise(ErrorCode::InvalidOption, std::string(where) + "coordinate " + std::to_string(axis) + " is " +
+    raise(ErrorCode::InvalidOption, named(name, row) + "coordinate " + std::to_string(axis) + " is " +
                                         to_text(p[axis]) + ", expected a finite number of magnitude up to 2^500");
   }
 }
@@ -28,7 +34,7 @@ void check_start(const Start& start, std::size_t vertices, std::string_view wher
     check_vertex(start.vertex(), vertices, prefix + "vertex");
     return;
   }
-  check_point(*start.center(), prefix + "center: ");
+  check_point(*start.center(), prefix + "center");
   for (std::size_t i = 0; i < start.seeds().size(); ++i) {
     check_vertex(start.seeds()[i], vertices, prefix + "seed " + std::to_string(i) + ": vertex");
   }
@@ -61,11 +67,6 @@ void check_weights(std::span<const double> weights, std::size_t vertices) {
     raise(ErrorCode::InvalidOption,
           "vertex " + std::to_string(v) + ": the weight is " + to_text(weights[v]) + ", expected a finite number >= 0");
   }
-}
-
-Point position_of(const IndexView& index, VertexId v) {
-  const std::uint32_t slot = index.slot[v];
-  return index.position(leaf_of(slot), lane_of(slot));
 }
 
 }  // namespace meshhood
