@@ -242,21 +242,6 @@ void check_sample(const Index& index, const BatchVertices& vertices, double area
   limit.check_sample(sizes, "at least about ");
 }
 
-void check_areas(double area, std::span<const double> areas, std::size_t vertices) {
-  if (!(area > 0 && std::isfinite(area))) {
-    raise(ErrorCode::InvalidOption, "area: " + to_text(area) + ", expected a finite number > 0");
-  }
-  if (areas.size() != vertices) {
-    raise(ErrorCode::InvalidOption, "areas: " + std::to_string(areas.size()) + " values, expected one for each of " +
-                                        std::to_string(vertices) + " vertices");
-  }
-  for (std::size_t v = 0; v < areas.size(); ++v) {
-    if (areas[v] >= 0 && std::isfinite(areas[v])) continue;
-    raise(ErrorCode::InvalidOption,
-          "areas: vertex " + std::to_string(v) + " has " + to_text(areas[v]) + ", expected a finite number >= 0");
-  }
-}
-
 }  // namespace
 
 KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k, const NearestOptions& options,
@@ -300,7 +285,10 @@ Neighborhoods discs(const Index& index, const BatchVertices& vertices, double ar
                     const NearestOptions& options, const Run& run) {
   const std::vector<double> copy(areas.begin(), areas.end());
   areas = copy;
-  check_areas(area, areas, index.vertex_count());
+  if (!(area > 0 && std::isfinite(area))) {
+    raise(ErrorCode::InvalidOption, "area: " + to_text(area) + ", expected a finite number > 0");
+  }
+  check_weights(areas, index.vertex_count(), "areas");
   NearestRows rows(index, vertices, options, run);
   SizeLimit limit(run.max_bytes, kItemBytes, rows.size());
   check_sample(index, vertices, area, areas, options, run, limit);

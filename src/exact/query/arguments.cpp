@@ -55,17 +55,17 @@ void check_connects(Metric metric) {
   raise(ErrorCode::InvalidOption, "metric: expected another than space, in which nothing is connected");
 }
 
-void check_weights(std::span<const double> weights, std::size_t vertices) {
+void check_weights(std::span<const double> weights, std::size_t vertices, std::string_view name) {
   if (weights.size() != vertices) {
-    raise(ErrorCode::InvalidOption, std::to_string(weights.size()) + " weights, expected one for each of " +
-                                        std::to_string(vertices) + " vertices");
+    raise(ErrorCode::InvalidOption, named(name, {}) + std::to_string(weights.size()) +
+                                        " values, expected one for each of " + std::to_string(vertices) + " vertices");
   }
   for (std::size_t v = 0; v < vertices; ++v) {
     if (weights[v] >= 0 && std::isfinite(weights[v])) [[likely]] {
       continue;
     }
-    raise(ErrorCode::InvalidOption,
-          "vertex " + std::to_string(v) + ": the weight is " + to_text(weights[v]) + ", expected a finite number >= 0");
+    raise(ErrorCode::InvalidOption, named(name, {}) + "vertex " + std::to_string(v) + " has " + to_text(weights[v]) +
+                                        ", expected a finite number >= 0");
   }
 }
 

@@ -34,8 +34,8 @@ void check_ascending(std::span<const double> radii);
 /// Error{InvalidOption} in space, of a question about what is connected.
 void check_connects(Metric metric);
 
-/// Error{InvalidOption} unless there is a finite number >= 0 for each vertex.
-void check_weights(std::span<const double> weights, std::size_t vertices);
+/// Error{InvalidOption} unless there is a finite number >= 0 for each vertex. `name`: of the argument.
+void check_weights(std::span<const double> weights, std::size_t vertices, std::string_view name = "weights");
 
 /// Whether neighborhoods by the metric need a vertex as start, and their distances are lengths along edges.
 [[nodiscard]] constexpr bool is_along_edges(Metric metric) { return metric == Metric::Path || metric == Metric::Rings; }
