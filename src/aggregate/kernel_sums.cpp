@@ -151,8 +151,7 @@ class KernelSumReducer final : public PacketReducer {
     for (RowSums& sums : sums_) sums = {};
     const IndexView& index = *tables_->index;
     for (std::size_t row = 0; row < packet.vertices.size(); ++row) {
-      const std::uint32_t slot = index.slot[packet.vertices[row]];
-      centers_.set(row, index.position(leaf_of(slot), lane_of(slot)));
+      centers_.set(row, index.position_of(packet.vertices[row]));
     }
     set_radii(packet.radii);
   }

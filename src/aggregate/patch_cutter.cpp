@@ -27,8 +27,7 @@ void PatchCutter::begin(const PacketAnswer& packet) {
   bounds.inner = -next_above(radius - static_cast<double>(bounds.inner));
   ball_ = TreeBall({leaf.x, leaf.y, leaf.z}, bounds);
   for (std::size_t row = 0; row < packet.vertices.size(); ++row) {
-    const std::uint32_t slot = index_->slot[packet.vertices[row]];
-    centers_[row] = index_->position(leaf_of(slot), lane_of(slot));
+    centers_[row] = index_->position_of(packet.vertices[row]);
   }
 }
 

@@ -62,8 +62,7 @@ class WeightedByDistance final : public WeightedReducer {
   void set_packet(const PacketAnswer& packet) override {
     const IndexView& index = *asked().index;
     for (std::size_t row = 0; row < packet.vertices.size(); ++row) {
-      const std::uint32_t slot = index.slot[packet.vertices[row]];
-      centers_.set(row, index.position(leaf_of(slot), lane_of(slot)));
+      centers_.set(row, index.position_of(packet.vertices[row]));
       // Within a radius of 0 all weights are 1. The least radii have no finite inverse.
       const double radius = packet.radii[row];
       centers_.unit[row] = radius > 0 ? std::min(1 / radius, std::numeric_limits<double>::max()) : 0;

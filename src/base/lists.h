@@ -8,8 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "meshhood/vertex_id.h"
-
 namespace meshhood {
 
 /// Lists of elements, one after the other.
@@ -31,23 +29,22 @@ struct Lists {
   [[nodiscard]] std::size_t bytes() const { return offsets.size() * sizeof(Offset) + elements.size() * sizeof(T); }
 };
 
-/// Fills the lists of vertices: `for_each(f)` calls `f(v, element)` for every element of the list of `v`, and does so
-/// twice, in the same order. A list has its elements in the reverse of that order. `offsets` can count them all.
-/// O(#V + #elements).
+/// Fills lists: `for_each(f)` calls `f(list, element)` for every element of each list, and does so twice, in the same
+/// order. A list has its elements in the reverse of that order. `offsets` can count them all. O(#lists + #elements).
 template <class Offset, class T, class ForEach>
-void gather_rows(std::size_t vertices, ForEach&& for_each, std::vector<Offset>& offsets, std::vector<T>& elements) {
-  offsets.assign(vertices + 1, 0);
-  for_each([&](VertexId v, const T&) { ++offsets[v]; });
+void gather_rows(std::size_t lists, ForEach&& for_each, std::vector<Offset>& offsets, std::vector<T>& elements) {
+  offsets.assign(lists + 1, 0);
+  for_each([&](std::size_t list, const T&) { ++offsets[list]; });
   std::inclusive_scan(offsets.begin(), offsets.end(), offsets.begin());
   elements.resize(offsets.back());
   // Each offset stands at the end of its list and moves to the beginning as the list fills.
-  for_each([&](VertexId v, const T& element) { elements[--offsets[v]] = element; });
+  for_each([&](std::size_t list, const T& element) { elements[--offsets[list]] = element; });
 }
 
 template <class T, class Offset, class ForEach>
-[[nodiscard]] Lists<T, Offset> gather_lists(std::size_t vertices, ForEach&& for_each) {
+[[nodiscard]] Lists<T, Offset> gather_lists(std::size_t lists, ForEach&& for_each) {
   Lists<T, Offset> result;
-  gather_rows(vertices, for_each, result.offsets, result.elements);
+  gather_rows(lists, for_each, result.offsets, result.elements);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "meshhood/error.h"
 #include "meshhood/mesh.h"
@@ -23,16 +24,10 @@ namespace meshhood {
 
 /// Throws Error{InvalidMesh}, naming vertex `v` and the first of its coordinates that is not valid.
 [[noreturn]] inline void refuse_position(std::size_t v, const Point& p) {
-  const bool is_x = !is_valid_coordinate(p.x);
-  const bool is_y = !is_x && !is_valid_coordinate(p.y);
-  raise(ErrorCode::InvalidMesh, "vertex " + std::to_string(v) + ": " +
-                                    (is_x   ? 'x'
-                                     : is_y ? 'y'
-                                            : 'z') +
-                                    " is " +
-                                    to_text(is_x   ? p.x
-                                            : is_y ? p.y
-                                                   : p.z) +
+  const auto [axis, coordinate] = !is_valid_coordinate(p.x)   ? std::pair('x', p.x)
+                                  : !is_valid_coordinate(p.y) ? std::pair('y', p.y)
+                                                              : std::pair('z', p.z);
+  raise(ErrorCode::InvalidMesh, "vertex " + std::to_string(v) + ": " + axis + " is " + to_text(coordinate) +
                                     ", expected a finite number of at most 2^500 in magnitude");
 }
 

@@ -96,7 +96,7 @@ class StraightRowSearch {
   template <class Take>
   void run(VertexId v, std::size_t /*enough*/, double /*enough_area*/, std::span<const double> /*areas*/, Take&& take) {
     const std::uint32_t slot = index_->slot[v];
-    if (index_->is_wall(leaf_of(slot), lane_of(slot))) return;
+    if (index_->is_wall(slot)) return;
     if (leaf_of(slot) != leaf_) begin(leaf_of(slot));
     std::size_t taken = 0;
     const auto is_short = [&](double radius) {
@@ -242,21 +242,6 @@ void check_sample(const Index& index, const BatchVertices& vertices, double area
   limit.check_sample(sizes, "at least about ");
 }
 
-void check_areas(double area, std::span<const double> areas, std::size_t vertices) {
-  if (!(area > 0 && std::isfinite(area))) {
-    raise(ErrorCode::InvalidOption, "area: " + to_text(area) + ", expected a finite number > 0");
-  }
-  if (areas.size() != vertices) {
-    raise(ErrorCode::InvalidOption, "areas: " + std::to_string(areas.size()) + " values, expected one for each of " +
-                                        std::to_string(vertices) + " vertices");
-  }
-  for (std::size_t v = 0; v < areas.size(); ++v) {
-    if (areas[v] >= 0 && std::isfinite(areas[v])) continue;
-    raise(ErrorCode::InvalidOption,
-          "areas: vertex " + std::to_string(v) + " has " + to_text(areas[v]) + ", expected a finite number >= 0");
-  }
-}
-
 }  // namespace
 
 KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k, const NearestOptions& options,
@@ -300,7 +285,10 @@ Neighborhoods discs(const Index& index, const BatchVertices& vertices, double ar
                     const NearestOptions& options, const Run& run) {
   const std::vector<double> copy(areas.begin(), areas.end());
   areas = copy;
-  check_areas(area, areas, index.vertex_count());
+  if (!(area > 0 && std::isfinite(area))) {
+    raise(ErrorCode::InvalidOption, "area: " + to_text(area) + ", expected a finite number > 0");
+  }
+  check_weights(areas, index.vertex_count(), "areas");
   NearestRows rows(index, vertices, options, run);
   SizeLimit limit(run.max_bytes, kItemBytes, rows.size());
   check_sample(index, vertices, area, areas, options, run, limit);

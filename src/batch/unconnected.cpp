@@ -52,11 +52,11 @@ class UnconnectedSearch {
     const Center center(index_->frame, center_of_leaf(leaf));
     for (std::size_t i = 0; i < packet.vertices.size(); ++i) {
       const std::uint32_t slot = index_->slot[packet.vertices[i]];
-      const Point p = index_->position(leaf_of(slot), lane_of(slot));
+      const Point p = index_->position_at(slot);
       const double from_center = std::sqrt(squared_distance(center.exact, p));
       const double radius = metric_ == Metric::Rings ? kInfinite : packet.radii[i];
       queries_.push_back({Center(index_->frame, p), LeafBall(p, LeafBounds(radius)), from_center, radius});
-      open_ |= QueryWord{!index_->is_wall(leaf_of(slot), lane_of(slot))} << i;
+      open_ |= QueryWord{!index_->is_wall(slot)} << i;
     }
     if (scans_left_ == 0) search(center);
     if (nodes_left_ > 0) return;

@@ -17,19 +17,14 @@ namespace meshhood {
 void DirectFit::extend(std::uint32_t place) {
   const IndexView& index = *surface_->index;
   const Point center = surface_->position(place);
-  const auto is_barred = [&](std::uint32_t i) {
-    const std::uint32_t slot = index.slot_at(i);
-    const LaneMask in_answers = index.open_lanes(leaf_of(slot)) & ~index.ignored_lanes(leaf_of(slot));
-    return (in_answers >> lane_of(slot) & 1U) == 0;
-  };
+  const auto is_barred = [&](std::uint32_t i) { return index.is_wall_at(i) || index.is_ignored_at(i); };
   while (found_.size() < kFewestPoints) {
     std::optional<std::uint32_t> nearest;
     const auto key = [&](std::uint32_t i) {
       return std::pair(squared_distance(surface_->position(i), center), index.id(i));
     };
     for (const std::uint32_t i : found_) {
-      const std::uint32_t slot = index.slot_at(i);
-      for_each_neighbor(index, leaf_of(slot), lane_of(slot), [&](std::size_t to) {
+      for_each_neighbor(index, index.slot_at(i), [&](std::size_t to) {
         const auto other = static_cast<std::uint32_t>(to);
         if (is_barred(other) || std::find(found_.begin(), found_.end(), other) != found_.end()) return;
         if (!nearest || key(other) < key(*nearest)) nearest = other;

@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "curvature/symmetric.h"
+
 /// Linear least squares with a few unknowns, by the rows themselves.
 namespace meshhood {
 
@@ -61,17 +63,9 @@ void orthogonalize(SmallMatrix<N>& a, SmallMatrix<N>& v) {
         const double pq = product(a[p], a[q]);
         if (std::abs(pq) <= kPrecision * std::sqrt(pp * qq)) continue;
         done = false;
-        const double ratio = (qq - pp) / (2 * pq);
-        const double t = (ratio >= 0 ? 1 : -1) / (std::abs(ratio) + std::sqrt(1 + ratio * ratio));
-        const double c = 1 / std::sqrt(1 + t * t);
-        const double s = c * t;
+        const JacobiRotation rotation(pp, qq, pq);
         for (SmallMatrix<N>* const m : {&a, &v}) {
-          for (std::size_t i = 0; i < N; ++i) {
-            const double x = (*m)[p][i];
-            const double y = (*m)[q][i];
-            (*m)[p][i] = c * x - s * y;
-            (*m)[q][i] = s * x + c * y;
-          }
+          for (std::size_t i = 0; i < N; ++i) rotation.turn((*m)[p][i], (*m)[q][i]);
         }
       }
     }

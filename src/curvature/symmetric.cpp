@@ -16,18 +16,10 @@ using Matrix3 = std::array<std::array<double, 3>, 3>;
 
 /// Makes element (p, q) 0 by a rotation of rows and columns p and q; `vectors` has the axes as columns.
 void rotate_to_zero(Matrix3& a, Matrix3& vectors, std::size_t p, std::size_t q) {
-  const double ratio = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-  const double t = (ratio >= 0 ? 1 : -1) / (std::abs(ratio) + std::sqrt(1 + ratio * ratio));
-  const double c = 1 / std::sqrt(1 + t * t);
-  const double s = c * t;
-  const auto turn = [&](double& x, double& y) {
-    const double before = x;
-    x = c * before - s * y;
-    y = s * before + c * y;
-  };
-  for (std::size_t i = 0; i < 3; ++i) turn(a[i][p], a[i][q]);
-  for (std::size_t i = 0; i < 3; ++i) turn(a[p][i], a[q][i]);
-  for (std::size_t i = 0; i < 3; ++i) turn(vectors[i][p], vectors[i][q]);
+  const JacobiRotation rotation(a[p][p], a[q][q], a[p][q]);
+  for (std::size_t i = 0; i < 3; ++i) rotation.turn(a[i][p], a[i][q]);
+  for (std::size_t i = 0; i < 3; ++i) rotation.turn(a[p][i], a[q][i]);
+  for (std::size_t i = 0; i < 3; ++i) rotation.turn(vectors[i][p], vectors[i][q]);
   a[p][q] = a[q][p] = 0;
 }
 

@@ -29,6 +29,26 @@ struct Eigen3 {
   std::array<Point, 3> vectors;
 };
 
+/// The rotation of two axes by which Jacobi's method makes the element `pq` of a symmetric matrix 0, between the
+/// elements `pp` and `qq` of its diagonal.
+struct JacobiRotation {
+  JacobiRotation(double pp, double qq, double pq) {
+    const double ratio = (qq - pp) / (2 * pq);
+    const double t = (ratio >= 0 ? 1 : -1) / (std::abs(ratio) + std::sqrt(1 + ratio * ratio));
+    c = 1 / std::sqrt(1 + t * t);
+    s = c * t;
+  }
+
+  void turn(double& x, double& y) const {
+    const double before = x;
+    x = c * before - s * y;
+    y = s * before + c * y;
+  }
+
+  double c;
+  double s;
+};
+
 /// By Jacobi's method: every eigenvalue is right to a few epsilon of the largest.
 [[nodiscard]] Eigen3 eigen(const Symmetric3& matrix);
 

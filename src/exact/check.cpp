@@ -93,15 +93,11 @@ class Check {
 
   void check_positions() {
     for (std::size_t v = 0; v < index_.vertex_count(); ++v) {
-      const Point mine = position(v);
+      const Point mine = index_.position_of(static_cast<VertexId>(v));
       const Point given = point(graph_.positions, v);
       faults_.expect(mine.x == given.x && mine.y == given.y && mine.z == given.z,
                      [&] { return "vertex " + std::to_string(v) + ": its position differs from the mesh"; });
     }
-  }
-
-  [[nodiscard]] Point position(std::size_t v) const {
-    return index_.position(leaf_of(index_.slot[v]), lane_of(index_.slot[v]));
   }
 
   void check_edges() {
@@ -175,7 +171,7 @@ class Check {
 
   void check_spheres() {
     for (std::size_t v = 0; v < index_.vertex_count(); ++v) {
-      const Point p = index_.frame.to_frame(position(v));
+      const Point p = index_.frame.to_frame(index_.position_of(static_cast<VertexId>(v)));
       NodeId node = leaf_of(index_.slot[v]);
       faults_.expect(encloses(index_.leaves[node].bounds, p), [&] {
         return leaf_name(node) + ": vertex " + std::to_string(v) + " lies outside the bounding sphere";

@@ -154,13 +154,13 @@ struct IndexView {
   /// The vertices of a leaf that are in no answer, although a search may pass them.
   [[nodiscard]] LaneMask ignored_lanes(LeafId leaf) const { return ignored.empty() ? LaneMask{0} : ignored[leaf]; }
 
-  [[nodiscard]] bool is_wall(LeafId leaf, unsigned lane) const {
-    return !walls.empty() && (walls[leaf] >> lane & 1U) != 0;
-  }
+  /// Whether the vertex at a slot is masked.
+  [[nodiscard]] bool is_wall(std::uint32_t at) const { return has(walls, at); }
+  [[nodiscard]] bool is_ignored(std::uint32_t at) const { return has(ignored, at); }
 
   /// The same of a vertex in index order.
-  [[nodiscard]] bool is_wall_at(std::size_t vertex) const { return has_at(walls, vertex); }
-  [[nodiscard]] bool is_ignored_at(std::size_t vertex) const { return has_at(ignored, vertex); }
+  [[nodiscard]] bool is_wall_at(std::size_t vertex) const { return !walls.empty() && is_wall(slot_at(vertex)); }
+  [[nodiscard]] bool is_ignored_at(std::size_t vertex) const { return !ignored.empty() && is_ignored(slot_at(vertex)); }
 
   /// The caller's id of a vertex in index order.
   [[nodiscard]] VertexId id(std::size_t vertex) const {
@@ -181,6 +181,9 @@ struct IndexView {
   /// The same in the frame.
   [[nodiscard]] Point in_frame(std::size_t vertex) const { return frame.to_frame(position(vertex)); }
 
+  /// The position at a slot, and that of a vertex of the caller.
+  [[nodiscard]] Point position_at(std::uint32_t at) const { return position(place_at(at)); }
+  [[nodiscard]] Point position_of(VertexId v) const { return position_at(slot[v]); }
   [[nodiscard]] Point position(LeafId leaf, unsigned lane) const {
     return position(std::size_t{leaf_begin[leaf]} + lane);
   }
@@ -204,8 +207,8 @@ struct IndexView {
   }
 
  private:
-  [[nodiscard]] bool has_at(std::span<const LaneMask> lanes, std::size_t vertex) const {
-    return !lanes.empty() && (lanes[leaf_of(slot_at(vertex))] >> lane_of(slot_at(vertex)) & 1U) != 0;
+  static bool has(std::span<const LaneMask> lanes, std::uint32_t at) {
+    return !lanes.empty() && (lanes[leaf_of(at)] >> lane_of(at) & 1U) != 0;
   }
 };
 

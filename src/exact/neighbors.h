@@ -22,9 +22,11 @@ void for_each_edge(const IndexView& index, F&& f) {
   }
 }
 
-/// Calls `f(to)` for the neighbors of the vertex in `lane` of `leaf`, by positions in index order.
+/// Calls `f(to)` for the neighbors of the vertex at a slot, by positions in index order.
 template <class F>
-void for_each_neighbor(const IndexView& index, LeafId leaf, unsigned lane, F&& f) {
+void for_each_neighbor(const IndexView& index, std::uint32_t slot, F&& f) {
+  const LeafId leaf = leaf_of(slot);
+  const unsigned lane = lane_of(slot);
   const std::size_t begin = index.leaf_begin[leaf];
   for_each_lane(index.adjacency[begin + lane], [&](unsigned other) { f(begin + other); });
   for (const Link& link : index.links_of(leaf)) {

@@ -14,6 +14,7 @@
 #include "exact/build/tree.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
+#include "exact/neighbors.h"
 
 namespace meshhood {
 namespace {
@@ -22,21 +23,6 @@ constexpr std::size_t kSamples = 16;
 constexpr std::size_t kSampleSize = 1024;
 // The part of a sample, nearest to its center, that is compared. Leaves at its surface are cut off.
 constexpr std::size_t kInnerSize = kSampleSize / 4;
-
-/// Calls `f(slot)` for every neighbor of a vertex.
-template <class F>
-void for_each_neighbor(const IndexView& index, std::uint32_t slot, F&& f) {
-  const LeafId leaf = leaf_of(slot);
-  const unsigned lane = lane_of(slot);
-  for_each_lane(index.adjacency[index.leaf_begin[leaf] + lane],
-                [&](unsigned other) { f(static_cast<std::uint32_t>(leaf * kLeafCapacity + other)); });
-  for (const Link& link : index.links_of(leaf)) {
-    if ((link.boundary >> lane & 1U) == 0) continue;
-    for (const CrossEdge& edge : index.cross_edges_of(link)) {
-      if (edge.from == lane) f(static_cast<std::uint32_t>(link.leaf * kLeafCapacity + edge.to));
-    }
-  }
-}
 
 /// Leaves that together hold the `size` vertices nearest to a point. If a ball around the point holds enough leaves for
 /// that many vertices, the leaves that meet the ball are sufficient.
@@ -75,14 +61,13 @@ std::vector<LeafId> leaves_around(const IndexView& index, const Point& center, s
   return leaves;
 }
 
-/// The slots of the `size` vertices nearest to the seed, in order of distance.
+/// The `size` vertices nearest to the seed, by places in index order, in order of distance.
 std::vector<std::uint32_t> take_sample(const IndexView& index, std::size_t seed, std::size_t size) {
   const Point center = index.in_frame(seed);
   std::vector<std::pair<double, std::uint32_t>> found;
   for (const LeafId leaf : leaves_around(index, center, size)) {
-    for (std::uint32_t lane = 0; lane < index.leaves[leaf].size; ++lane) {
-      const Point p = index.in_frame(index.leaf_begin[leaf] + std::size_t{lane});
-      found.emplace_back(squared_distance(center, p), leaf * kLeafCapacity + lane);
+    for (std::uint32_t place = index.leaf_begin[leaf]; place < index.leaf_begin[leaf + std::size_t{1}]; ++place) {
+      found.emplace_back(squared_distance(center, index.in_frame(place)), place);
     }
   }
   std::sort(found.begin(), found.end());
@@ -93,19 +78,19 @@ std::vector<std::uint32_t> take_sample(const IndexView& index, std::size_t seed,
 
 /// The part of the mesh between the vertices of a sample, which are numbered in the order given.
 GraphData graph_of(const IndexView& index, const std::vector<std::uint32_t>& sample) {
-  std::vector<std::pair<std::uint32_t, VertexId>> number;  // by slot
+  std::vector<std::pair<std::uint32_t, VertexId>> number;  // by place
   std::vector<double> positions;
   for (std::size_t i = 0; i < sample.size(); ++i) {
     number.emplace_back(sample[i], static_cast<VertexId>(i));
-    const Point p = index.position(leaf_of(sample[i]), lane_of(sample[i]));
+    const Point p = index.position(sample[i]);
     positions.insert(positions.end(), {p.x, p.y, p.z});
   }
   std::sort(number.begin(), number.end());
   Adjacency adjacency{{0}, {}};
-  for (const std::uint32_t slot : sample) {
+  for (const std::uint32_t place : sample) {
     const auto row = static_cast<std::ptrdiff_t>(adjacency.neighbors.size());
-    for_each_neighbor(index, slot, [&](std::uint32_t other) {
-      const auto at = std::lower_bound(number.begin(), number.end(), std::pair(other, VertexId{0}));
+    for_each_neighbor(index, index.slot_at(place), [&](std::size_t other) {
+      const auto at = std::ranges::lower_bound(number, other, {}, &std::pair<std::uint32_t, VertexId>::first);
       if (at != number.end() && at->first == other) adjacency.neighbors.push_back(at->second);
     });
     std::sort(adjacency.neighbors.begin() + row, adjacency.neighbors.end());
@@ -144,7 +129,8 @@ Radii compare_around(const IndexView& index, std::size_t seed) {
   const std::size_t inner = std::min(sample.size(), kInnerSize);
   Radii mean;
   for (std::size_t i = 0; i < inner; ++i) {
-    mean.present += static_cast<double>(index.leaves[leaf_of(sample[i])].bounds.radius) / static_cast<double>(inner);
+    const Leaf& leaf = index.leaves[leaf_of(index.slot_at(sample[i]))];
+    mean.present += static_cast<double>(leaf.bounds.radius) / static_cast<double>(inner);
     mean.rebuilt += rebuilt[i] / static_cast<double>(inner);
   }
   return mean;

@@ -59,8 +59,6 @@ bool stay_in_frame(std::span<const Move> moves, const Frame& frame) {
   return std::all_of(moves.begin(), moves.end(), [&](const Move& move) { return covers(frame, move.to); });
 }
 
-Point position_at(const IndexView& index, std::uint32_t slot) { return index.position(leaf_of(slot), lane_of(slot)); }
-
 /// The leaves of the vertices, ascending, as the moves do.
 std::vector<LeafId> leaves_to_measure(std::span<const Move> moves) {
   std::vector<LeafId> leaves;
@@ -90,7 +88,7 @@ class Backup {
  public:
   Backup(std::span<const Move> moves, std::span<const LeafId> leaves, IndexView& index)
       : index_(index), geometry_(*index.geometry), mean_radii_(geometry_.mean_radii) {
-    for (const Move& move : moves) positions_.push_back({move.slot, position_at(index, move.slot)});
+    for (const Move& move : moves) positions_.push_back({move.slot, index.position_at(move.slot)});
     for (const LeafId leaf : leaves) bounds_.emplace_back(leaf, geometry_.leaves[leaf].bounds);
     for (const std::size_t group : groups_above(leaves, index)) {
       groups_.emplace_back(group, geometry_.groups[group]);

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "exact/query/arguments.h"
 #include "patch/clipped_triangle.h"
 #include "patch/patches.h"
 #include "surface/face_triangles.h"
@@ -193,7 +192,7 @@ class Clip {
   void add_point(PointName name, ClippedMesh& mesh) const {
     if (is_vertex(name)) {
       const auto v = static_cast<VertexId>(name);
-      const Point p = position_of(*state_->index, v);
+      const Point p = state_->index->position_of(v);
       mesh.points.push_back({p.x, p.y, p.z});
       mesh.vertices.push_back({v, v, v});
       mesh.weights.push_back({1, 0, 0});

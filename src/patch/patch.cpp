@@ -29,7 +29,7 @@ namespace {
 bool run_at(const PatchState& state, PatchSearch& search, VertexId v, double radius, bool measures) {
   const std::uint32_t slot = state.index->slot[v];
   const std::span<const TriangleId> fan = state.triangles.fan(state.index->place_at(slot));
-  search.run(state.index->position(leaf_of(slot), lane_of(slot)), radius, fan, measures);
+  search.run(state.index->position_at(slot), radius, fan, measures);
   return !fan.empty();
 }
 
@@ -57,7 +57,7 @@ struct PatchSearcher::State {
       check_vertex(start.vertex(), surface->index->vertex_count(), "vertex");
       return run_at(*surface, search, start.vertex(), radius, measures);
     }
-    check_point(start.point(), "point: ");
+    check_point(start.point(), "point");
     find_start(*start.face(), {start.point()[0], start.point()[1], start.point()[2]});
     search.run({start.point()[0], start.point()[1], start.point()[2]}, radius, starts, measures);
     return !starts.empty();

@@ -159,8 +159,7 @@ namespace {
 void later_neighbors(const IndexView& index, std::uint32_t place, std::vector<std::uint32_t>& neighbors) {
   neighbors.clear();
   if (index.is_wall_at(place)) return;
-  const std::uint32_t slot = index.slot_at(place);
-  for_each_neighbor(index, leaf_of(slot), lane_of(slot), [&](std::size_t other) {
+  for_each_neighbor(index, index.slot_at(place), [&](std::size_t other) {
     if (other > place && !index.is_wall_at(other)) neighbors.push_back(static_cast<std::uint32_t>(other));
   });
   std::sort(neighbors.begin(), neighbors.end());

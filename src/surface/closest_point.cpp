@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <utility>
 #include <variant>
 
@@ -138,7 +137,7 @@ class ClosestPoint {
 
 SurfacePoint Surface::closest_point(const SpacePoint& point) const {
   const State& state = SurfaceAccess::state(*this);
-  check_point(point, "point: ");
+  check_point(point, "point");
   TaskContext alone;
   return ClosestPoint(*state.index, state.faces(), state.tree(alone)).run({point[0], point[1], point[2]});
 }
@@ -152,9 +151,7 @@ std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> po
 void Surface::for_each_closest_point(std::span<const SpacePoint> points, const SurfacePointVisitor& visit,
                                      const Run& run) const {
   const State& state = SurfaceAccess::state(*this);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!is_valid(points[i])) check_point(points[i], "points: row " + std::to_string(i) + ": ");
-  }
+  for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points", i);
   TaskContext task(run.threads, run.progress, points.size());
   const FaceTree& tree = state.tree(task);
   const auto in_frame = [&](std::size_t i) {

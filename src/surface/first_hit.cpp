@@ -65,17 +65,13 @@ std::array<double, 3> weights_on_side(const std::array<Point, 3>& corners, const
   return weights;
 }
 
-bool is_direction(const SpacePoint& d) {
-  return std::ranges::all_of(d, [](double coordinate) { return std::isfinite(coordinate); }) && d != SpacePoint{};
-}
-
-void check_direction(const SpacePoint& d, std::string_view where) {
+void check_direction(const SpacePoint& d, std::string_view name, std::optional<std::size_t> row = {}) {
   for (std::size_t axis = 0; axis < d.size(); ++axis) {
     if (std::isfinite(d[axis])) continue;
-    raise(ErrorCode::InvalidOption, std::string(where) + "coordinate " + std::to_string(axis) + " is " +
+    raise(ErrorCode::InvalidOption, named(name, row) + "coordinate " + std::to_string(axis) + " is " +
                                         to_text(d[axis]) + ", expected a finite number");
   }
-  if (d == SpacePoint{}) raise(ErrorCode::InvalidOption, std::string(where) + "it is 0, expected a direction");
+  if (d == SpacePoint{}) raise(ErrorCode::InvalidOption, named(name, row) + "it is 0, expected a direction");
 }
 
 Ray make_ray(const SurfaceState& state, const SpacePoint& origin, const SpacePoint& direction) {
@@ -144,8 +140,8 @@ std::optional<TrianglePoint> Ray::meet(const std::array<Point, 3>& corners) cons
 
 SurfacePoint Surface::first_hit(const SpacePoint& origin, const SpacePoint& direction) const {
   const State& state = SurfaceAccess::state(*this);
-  check_point(origin, "origin: ");
-  check_direction(direction, "direction: ");
+  check_point(origin, "origin");
+  check_direction(direction, "direction");
   TaskContext alone;
   return hit(state, state.tree(alone), make_ray(state, origin, direction));
 }
@@ -165,10 +161,8 @@ void Surface::for_each_first_hit(std::span<const SpacePoint> origins, std::span<
                                         std::to_string(origins.size()) + " origins");
   }
   for (std::size_t i = 0; i < origins.size(); ++i) {
-    if (is_valid(origins[i]) && is_direction(directions[i])) continue;
-    const std::string row = ": row " + std::to_string(i) + ": ";
-    check_point(origins[i], "origins" + row);
-    check_direction(directions[i], "directions" + row);
+    check_point(origins[i], "origins", i);
+    check_direction(directions[i], "directions", i);
   }
   TaskContext task(run.threads, run.progress, origins.size());
   const FaceTree& tree = state.tree(task);

@@ -150,7 +150,7 @@ std::vector<SpacePoint> rim_points(const IndexView& index, std::span<const RimEd
   const Point middle{center[0], center[1], center[2]};
   std::vector<SpacePoint> points;
   for (const auto& [inner, outer] : edges) {
-    const auto at = [&](VertexId v) { return position_of(index, v); };
+    const auto at = [&](VertexId v) { return index.position_of(v); };
     if (!(squared_distance(at(inner), middle) <= squared_radius(radius))) {
       raise(ErrorCode::InvalidOption, "ids: vertex " + std::to_string(inner) + " is not within the radius " +
                                           to_text(radius) + " of the center, expected a region of this ball");
@@ -187,7 +187,7 @@ Point exit_point(const Point& inside, const Point& outside, const Point& center,
 
 Rim Surface::rim(std::span<const VertexId> ids, const SpacePoint& center, double radius) const {
   const State& state = SurfaceAccess::state(*this);
-  check_point(center, "center: ");
+  check_point(center, "center");
   check_radius(radius);
   const FaceSelection selection(state, ids, Corners::Any);
   const auto is_inside = [&](VertexId v) { return selection.has(v); };

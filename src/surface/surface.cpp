@@ -219,9 +219,8 @@ std::size_t Surface::bytes() const {
 std::span<const double> Surface::vertex_areas() const& { return SurfaceAccess::state(*this).areas(); }
 
 std::size_t OrientedIndex::first_neighbor(std::size_t place) const {
-  const std::uint32_t slot = index->slot[index->id(place)];
   std::size_t first = place;
-  for_each_neighbor(*index, leaf_of(slot), lane_of(slot), [&](std::size_t other) {
+  for_each_neighbor(*index, index->slot_at(place), [&](std::size_t other) {
     if (first == place || index->id(other) < index->id(first)) first = other;
   });
   return first;

@@ -644,10 +644,10 @@ TEST_F(Aggregate, RefusesWrongArguments) {
          {.radius = 1, .reduce = {Reduce::Variance}, .ddof = 1});
   for (const double bad : {-1.0, kNan, kInfinity}) {
     weights[0] = bad;
-    refuse(ErrorCode::InvalidOption, "vertex 0: the weight is ", {values, 1, weights}, query);
+    refuse(ErrorCode::InvalidOption, "weights: vertex 0 has ", {values, 1, weights}, query);
   }
   weights.pop_back();
-  refuse(ErrorCode::InvalidOption, "3599 weights", {values, 1, weights}, query);
+  refuse(ErrorCode::InvalidOption, "weights: 3599 values", {values, 1, weights}, query);
   const std::vector<VertexId> list{0, 3600};
   refuse(ErrorCode::VertexOutOfRange, "row 1", {values}, {.vertices = list, .radius = 1});
   expect_refused(ErrorCode::TooLarge, "limit of 10 numbers",

@@ -201,22 +201,22 @@ class Views : public testing::Test {
  protected:
   void expect_same(const MeshView& view) const {
     EXPECT_NO_THROW(validate(view));
-    EXPECT_EQ(saved(build(view)), saved(index));
-    EXPECT_EQ(saved(paper::build(view)), saved(paper::build(plain)));
-    EXPECT_EQ(fingerprint(view), fingerprint(plain));
-    EXPECT_THAT(index.check(view), testing::IsEmpty());
-    EXPECT_EQ(distance(view.positions, 3, 40), distance(plain.positions, 3, 40));
+    EXPECT_EQ(saved(build(view)), saved(index_));
+    EXPECT_EQ(saved(paper::build(view)), saved(paper::build(plain_)));
+    EXPECT_EQ(fingerprint(view), fingerprint(plain_));
+    EXPECT_THAT(index_.check(view), testing::IsEmpty());
+    EXPECT_EQ(distance(view.positions, 3, 40), distance(plain_.positions, 3, 40));
     std::vector<VertexId> expected;
     std::vector<VertexId> found;
-    BallSearcher(plain.positions).neighborhood(7, 2.5, expected);
+    BallSearcher(plain_.positions).neighborhood(7, 2.5, expected);
     BallSearcher(view.positions).neighborhood(7, 2.5, found);
     EXPECT_EQ(found, expected);
-    EXPECT_EQ(exact_neighborhood(view, 7, 2.5), exact_neighborhood(plain, 7, 2.5));
+    EXPECT_EQ(exact_neighborhood(view, 7, 2.5), exact_neighborhood(plain_, 7, 2.5));
   }
 
   static constexpr std::size_t kWidth = 12;
 
-  std::vector<double> xyz = [] {
+  std::vector<double> xyz_ = [] {
     std::vector<double> result;
     for (std::size_t v = 0; v < kWidth * kWidth; ++v) {
       const std::size_t row = v / kWidth;
@@ -226,7 +226,7 @@ class Views : public testing::Test {
     }
     return result;
   }();
-  std::vector<std::int32_t> corners = [] {
+  std::vector<std::int32_t> corners_ = [] {
     std::vector<std::int32_t> result;
     constexpr std::int32_t kRow = kWidth;
     for (std::int32_t v = 0; v + kRow + 1 < kRow * kRow; ++v) {
@@ -234,8 +234,8 @@ class Views : public testing::Test {
     }
     return result;
   }();
-  MeshView plain{xyz, FacesView::triangles(corners)};
-  Index index = build(plain);
+  MeshView plain_{xyz_, FacesView::triangles(corners_)};
+  Index index_ = build(plain_);
 
   /// Entry `(row, axis)` of a matrix with three columns is moved to where `place(row, axis)` says.
   template <class T, class Place>
@@ -247,8 +247,8 @@ class Views : public testing::Test {
 };
 
 TEST_F(Views, OfArraysOfThreeAreRead) {
-  const auto points = rows_of<double>(xyz);
-  const auto triangles = rows_of<std::int32_t>(corners);
+  const auto points = rows_of<double>(xyz_);
+  const auto triangles = rows_of<std::int32_t>(corners_);
   expect_same({points, FacesView::triangles(triangles)});
 }
 
@@ -261,36 +261,37 @@ void expect_built_from(const std::vector<double>& xyz, const std::vector<std::in
 }
 
 TEST_F(Views, AreMadeByBuildFromArraysOfEachType) {
-  expect_built_from<short>(xyz, corners, index);
-  expect_built_from<unsigned short>(xyz, corners, index);
-  expect_built_from<int>(xyz, corners, index);
-  expect_built_from<unsigned>(xyz, corners, index);
-  expect_built_from<long>(xyz, corners, index);
-  expect_built_from<unsigned long>(xyz, corners, index);
-  expect_built_from<long long>(xyz, corners, index);
-  expect_built_from<unsigned long long>(xyz, corners, index);
-  EXPECT_EQ(saved(build(PositionsView(xyz), plain.faces)), saved(index));
+  expect_built_from<short>(xyz_, corners_, index_);
+  expect_built_from<unsigned short>(xyz_, corners_, index_);
+  expect_built_from<int>(xyz_, corners_, index_);
+  expect_built_from<unsigned>(xyz_, corners_, index_);
+  expect_built_from<long>(xyz_, corners_, index_);
+  expect_built_from<unsigned long>(xyz_, corners_, index_);
+  expect_built_from<long long>(xyz_, corners_, index_);
+  expect_built_from<unsigned long long>(xyz_, corners_, index_);
+  EXPECT_EQ(saved(build(PositionsView(xyz_), plain_.faces)), saved(index_));
   const std::vector<short> negative{0, 1, -2};
   expect_refused(ErrorCode::InvalidMesh, "face 0: corner 2 is vertex -2",
-                 [&] { static_cast<void>(build(xyz, negative)); });
+                 [&] { static_cast<void>(build(xyz_, negative)); });
 }
 
 TEST_F(Views, OfColumnsAreRead) {
-  const std::size_t vertices = xyz.size() / 3;
-  const std::size_t faces = corners.size() / 3;
-  const auto columns = moved(xyz, xyz.size(), [&](std::size_t row, std::size_t axis) { return axis * vertices + row; });
+  const std::size_t vertices = xyz_.size() / 3;
+  const std::size_t faces = corners_.size() / 3;
+  const auto columns =
+      moved(xyz_, xyz_.size(), [&](std::size_t row, std::size_t axis) { return axis * vertices + row; });
   const auto triangles =
-      moved(corners, corners.size(), [&](std::size_t row, std::size_t axis) { return axis * faces + row; });
+      moved(corners_, corners_.size(), [&](std::size_t row, std::size_t axis) { return axis * faces + row; });
   expect_same({PositionsView::column_major(columns), FacesView::column_major_triangles(triangles)});
 }
 
 TEST_F(Views, OfRecordsWithOtherFieldsAreRead) {
   const auto records =
-      moved(xyz, 2 * xyz.size() + 1, [](std::size_t row, std::size_t axis) { return 6 * row + axis + 1; });
+      moved(xyz_, 2 * xyz_.size() + 1, [](std::size_t row, std::size_t axis) { return 6 * row + axis + 1; });
   const auto triangles =
-      moved(corners, 2 * corners.size(), [](std::size_t row, std::size_t axis) { return 6 * row + 2 * axis; });
-  expect_same({PositionsView::strided(records.data() + 1, xyz.size() / 3, 6),
-               FacesView::strided_triangles(triangles, corners.size() / 3, 6, 2)});
+      moved(corners_, 2 * corners_.size(), [](std::size_t row, std::size_t axis) { return 6 * row + 2 * axis; });
+  expect_same({PositionsView::strided(records.data() + 1, xyz_.size() / 3, 6),
+               FacesView::strided_triangles(triangles, corners_.size() / 3, 6, 2)});
 }
 
 TEST_F(Views, OfNoElementsAreEmpty) {
@@ -306,10 +307,11 @@ TEST_F(Views, OfNoElementsAreEmpty) {
 }
 
 TEST_F(Views, NameTheVertexThatIsInvalidInEveryLayout) {
-  const std::size_t vertices = xyz.size() / 3;
-  xyz[3 * 5 + 1] = std::numeric_limits<double>::infinity();
-  const auto columns = moved(xyz, xyz.size(), [&](std::size_t row, std::size_t axis) { return axis * vertices + row; });
-  for (const PositionsView& positions : {PositionsView(xyz), PositionsView::column_major(columns)}) {
+  const std::size_t vertices = xyz_.size() / 3;
+  xyz_[3 * 5 + 1] = std::numeric_limits<double>::infinity();
+  const auto columns =
+      moved(xyz_, xyz_.size(), [&](std::size_t row, std::size_t axis) { return axis * vertices + row; });
+  for (const PositionsView& positions : {PositionsView(xyz_), PositionsView::column_major(columns)}) {
     expect_refused(ErrorCode::InvalidMesh, "vertex 5: y is inf", [&] { validate(positions); });
   }
 }
@@ -320,18 +322,18 @@ TEST_F(Views, RefuseArraysThatAreTooShort) {
                  [&] { validate(PositionsView::column_major(seven)); });
   const std::vector<std::int32_t> four(4);
   expect_refused(ErrorCode::InvalidMesh, "4 corner",
-                 [&] { validate(MeshView{plain.positions, FacesView::column_major_triangles(four)}); });
+                 [&] { validate(MeshView{plain_.positions, FacesView::column_major_triangles(four)}); });
   expect_refused(ErrorCode::InvalidMesh, "2 triangles with strides 3 and 1 exceed the 4 corner indices",
-                 [&] { validate(MeshView{plain.positions, FacesView::strided_triangles(four, 2, 3, 1)}); });
+                 [&] { validate(MeshView{plain_.positions, FacesView::strided_triangles(four, 2, 3, 1)}); });
   expect_refused(ErrorCode::InvalidMesh, "1 triangles with strides 0 and 2 exceed the 4 corner indices",
-                 [&] { validate(MeshView{plain.positions, FacesView::strided_triangles(four, 1, 0, 2)}); });
+                 [&] { validate(MeshView{plain_.positions, FacesView::strided_triangles(four, 1, 0, 2)}); });
 }
 
 TEST_F(Views, AcceptAnIntegerRadius) {
-  EXPECT_EQ(neighborhoods(index, {.radius = 2}).ids, neighborhoods(index, {.radius = 2.0}).ids);
-  EXPECT_EQ(neighborhoods(index, {.radius = 2}).ids, neighborhoods(index, {.radius = 2.0F}).ids);
+  EXPECT_EQ(neighborhoods(index_, {.radius = 2}).ids, neighborhoods(index_, {.radius = 2.0}).ids);
+  EXPECT_EQ(neighborhoods(index_, {.radius = 2}).ids, neighborhoods(index_, {.radius = 2.0F}).ids);
   expect_refused(ErrorCode::InvalidRadius, "radius -3",
-                 [&] { static_cast<void>(neighborhoods(index, {.radius = -3})); });
+                 [&] { static_cast<void>(neighborhoods(index_, {.radius = -3})); });
 }
 
 #if __has_include(<Eigen/Core>)

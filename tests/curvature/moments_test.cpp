@@ -260,9 +260,9 @@ TEST(Moments, RefuseInvalidArgumentsAndNameThem) {
   const std::vector<VertexId> outside{25};
   expect_refused(ErrorCode::InvalidOption, "degree is 5",
                  [&] { (void)moments(index, {.radius = 1.0}, {.degree = 5}); });
-  expect_refused(ErrorCode::InvalidOption, "vertex 7: the weight is -2",
+  expect_refused(ErrorCode::InvalidOption, "weights: vertex 7 has -2",
                  [&] { (void)moments(index, {.radius = 1.0}, {.weights = weights}); });
-  expect_refused(ErrorCode::InvalidOption, "3 weights",
+  expect_refused(ErrorCode::InvalidOption, "weights: 3 values",
                  [&] { (void)principal_components(index, {.radius = 1.0}, {.weights = std::span(weights).first(3)}); });
   expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)moments(index, {.radius = -1.0}); });
   expect_refused(ErrorCode::VertexOutOfRange, "25",

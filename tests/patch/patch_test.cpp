@@ -40,8 +40,8 @@ constexpr double kPi = std::numbers::pi;
 
 /// A mesh with everything that is asked of it.
 struct Case {
-  explicit Case(const TestMesh& given)
-      : mesh(given),
+  explicit Case(TestMesh given)
+      : mesh(std::move(given)),
         triangles(mesh),
         reference(mesh.positions, triangles.corners, triangles.owners),
         index(build(mesh.view())),
@@ -546,7 +546,7 @@ TEST(Patch, AtEdgesThatAreNotManifold) {
 /// As if the faces with a wall were not there.
 TEST(Patch, DoesNotHaveFacesWithAWall) {
   const TestMesh mesh = make_ball(3);
-  Case all(mesh);
+  const Index index = build(mesh.view());
   std::vector<std::uint8_t> walls(mesh.size(), 0);
   Random random(5);
   for (std::uint8_t& wall : walls) wall = static_cast<std::uint8_t>(random.below(10) == 0);
@@ -560,7 +560,7 @@ TEST(Patch, DoesNotHaveFacesWithAWall) {
     kept.push_back(f);
   }
   Case without(cut);
-  const Index view = masked(all.index, {.walls = walls});
+  const Index view = masked(index, {.walls = walls});
   const Surface surface(view, mesh.view().faces);
   PatchSearcher searcher(surface);
   for (std::uint32_t v = 0; v < mesh.size(); ++v) {

@@ -36,21 +36,21 @@ struct Cut {
 
 class EveryPatchKernel : public testing::TestWithParam<Isa> {
  protected:
-  double coordinate(double size) { return size * random.uniform(-1, 1); }
+  double coordinate(double size) { return size * random_.uniform(-1, 1); }
   Point point(double size) { return {coordinate(size), coordinate(size), coordinate(size)}; }
 
   /// Some triangles are slivers, have sides that nearly touch the ball, or corners far away.
   Cut draw() {
     for (;;) {
-      const double size = std::exp2(random.uniform(-6, 8));
-      Cut cut{{{}, {}, {}}, patch_ball(point(3), std::exp2(random.uniform(-3, 3)), 0.25), 0};
+      const double size = std::exp2(random_.uniform(-6, 8));
+      Cut cut{{{}, {}, {}}, patch_ball(point(3), std::exp2(random_.uniform(-3, 3)), 0.25), 0};
       const Point start = cut.ball.center + point(1.2 / cut.ball.unit);
       for (std::size_t i = 0; i < 3; ++i) {
         cut.triangle.corners[i] = start + point(size / cut.ball.unit);
-        cut.triangle.places[i] = static_cast<std::uint32_t>(3 * random.below(9) + i);
+        cut.triangle.places[i] = static_cast<std::uint32_t>(3 * random_.below(9) + i);
       }
-      if (random.below(8) == 0) cut.triangle.corners[2] = cut.triangle.corners[random.below(2)] + point(1e-9);
-      if (random.below(30) == 0) cut.triangle.corners[2] = cut.triangle.corners[0];
+      if (random_.below(8) == 0) cut.triangle.corners[2] = cut.triangle.corners[random_.below(2)] + point(1e-9);
+      if (random_.below(30) == 0) cut.triangle.corners[2] = cut.triangle.corners[0];
       std::size_t inside = 0;
       for (std::size_t i = 0; i < 3; ++i) {
         cut.triangle.inside[i] = cut.ball.contains(cut.triangle.corners[i]);
@@ -64,46 +64,46 @@ class EveryPatchKernel : public testing::TestWithParam<Isa> {
 
   /// Sets `cuts` and what is given to the kernels. Returns how many there are.
   std::size_t draw_some() {
-    const std::size_t count = 1 + random.below(kPacketCapacity);
-    for (std::size_t i = 0; i < count; ++i) set(i, cuts[i] = draw());
+    const std::size_t count = 1 + random_.below(kPacketCapacity);
+    for (std::size_t i = 0; i < count; ++i) set(i, cuts_[i] = draw());
     return count;
   }
 
   void set(std::size_t lane, const Cut& cut) {
     std::size_t corner = cut.first;
     for (std::size_t k = 0; k < 3; ++k) {
-      given->corners[k].set(lane, cut.triangle.corners[corner]);
-      given->directions[k][lane] = cut.triangle.places[after(corner)] < cut.triangle.places[corner] ? -1 : 1;
+      given_->corners[k].set(lane, cut.triangle.corners[corner]);
+      given_->directions[k][lane] = cut.triangle.places[after(corner)] < cut.triangle.places[corner] ? -1 : 1;
       corner = after(corner);
     }
-    given->centers.set(lane, cut.ball.center);
-    given->poles.set(lane, {0, 0.6, -0.8});
-    given->units[lane] = cut.ball.unit;
-    given->insides[lane] = cut.triangle.inside[cut.first] ? 1 : -1;
+    given_->centers.set(lane, cut.ball.center);
+    given_->poles.set(lane, {0, 0.6, -0.8});
+    given_->units[lane] = cut.ball.unit;
+    given_->insides[lane] = cut.triangle.inside[cut.first] ? 1 : -1;
   }
 
   [[nodiscard]] std::array<double, 13> lane_of(std::size_t i) const {
-    const Point from = clipped->from.at(i);
-    const Point to = clipped->to.at(i);
-    return {clipped->area[i],
-            clipped->distance[i],
-            clipped->turn[i],
-            clipped->real[i],
-            clipped->imaginary[i],
-            clipped->real_from_pole[i],
+    const Point from = clipped_->from.at(i);
+    const Point to = clipped_->to.at(i);
+    return {clipped_->area[i],
+            clipped_->distance[i],
+            clipped_->turn[i],
+            clipped_->real[i],
+            clipped_->imaginary[i],
+            clipped_->real_from_pole[i],
             from.x,
             from.y,
             from.z,
             to.x,
             to.y,
             to.z,
-            clipped->imaginary_from_pole[i]};
+            clipped_->imaginary_from_pole[i]};
   }
 
-  Random random{91};
-  std::array<Cut, kPacketCapacity> cuts;
-  std::unique_ptr<CutTriangles> given = std::make_unique<CutTriangles>();
-  std::unique_ptr<ClippedTriangles> clipped = std::make_unique<ClippedTriangles>();
+  Random random_{91};
+  std::array<Cut, kPacketCapacity> cuts_;
+  std::unique_ptr<CutTriangles> given_ = std::make_unique<CutTriangles>();
+  std::unique_ptr<ClippedTriangles> clipped_ = std::make_unique<ClippedTriangles>();
 };
 
 TEST_P(EveryPatchKernel, MeasuresAsAClippedTriangle) {
@@ -111,24 +111,24 @@ TEST_P(EveryPatchKernel, MeasuresAsAClippedTriangle) {
   std::size_t measured_count = 0;
   for (std::size_t round = 0; round < scaled(4000, 400); ++round) {
     const std::size_t count = draw_some();
-    const LaneMask measured = patch_kernels(GetParam()).measure(*given, count, *clipped);
+    const LaneMask measured = patch_kernels(GetParam()).measure(*given_, count, *clipped_);
     ASSERT_EQ(measured & ~first_lanes(static_cast<unsigned>(count)), 0U);
     drawn += count;
     measured_count += count_of(measured);
     for_each_query(measured, [&](std::size_t i) {
       RimArcs expected;
       expected.clear({0, 3, -4});
-      ClippedTriangle one(cuts[i].ball, cuts[i].triangle);
+      ClippedTriangle one(cuts_[i].ball, cuts_[i].triangle);
       for (std::size_t side = 0; side < 3; ++side) EXPECT_FALSE(one.dips(side));
       const ClippedTriangle::Measure measure = one.measure(expected);
-      EXPECT_NEAR(clipped->area[i], measure.area, 1e-12);
+      EXPECT_NEAR(clipped_->area[i], measure.area, 1e-12);
       // Where a triangle is nearly a line, its normal is inexact, but its area is next to nothing.
-      EXPECT_LT(std::abs(clipped->distance[i] - measure.distance) * measure.area, 1e-13);
+      EXPECT_LT(std::abs(clipped_->distance[i] - measure.distance) * measure.area, 1e-13);
       RimArcs found;
       found.clear({0, 3, -4});
-      found.add_measured(clipped->turn[i], {clipped->real[i], clipped->imaginary[i]},
-                         {clipped->real_from_pole[i], clipped->imaginary_from_pole[i]}, clipped->from.at(i),
-                         clipped->to.at(i));
+      found.add_measured(clipped_->turn[i], {clipped_->real[i], clipped_->imaginary[i]},
+                         {clipped_->real_from_pole[i], clipped_->imaginary_from_pole[i]}, clipped_->from.at(i),
+                         clipped_->to.at(i));
       const double error = std::abs(found.area_behind() - expected.area_behind());
       EXPECT_LT(std::min(error, std::abs(4 * kPi - error)), 1e-11);
     });
@@ -144,11 +144,11 @@ TEST_P(EveryPatchKernel, FindsSidesThatMayDip) {
   std::size_t others = 0;
   for (std::size_t round = 0; round < scaled(4000, 400); ++round) {
     const std::size_t count = draw_some();
-    const LaneMask found = patch_kernels(GetParam()).may_dip(*given, count);
+    const LaneMask found = patch_kernels(GetParam()).may_dip(*given_, count);
     ASSERT_EQ(found & ~first_lanes(static_cast<unsigned>(count)), 0U);
-    ASSERT_EQ(found, patch_kernels(Isa{}).may_dip(*given, count));
+    ASSERT_EQ(found, patch_kernels(Isa{}).may_dip(*given_, count));
     for (std::size_t i = 0; i < count; ++i) {
-      const ClippedTriangle one(cuts[i].ball, cuts[i].triangle);
+      const ClippedTriangle one(cuts_[i].ball, cuts_[i].triangle);
       const bool does = one.dips(0) || one.dips(1) || one.dips(2);
       dips += does ? 1 : 0;
       others += (found >> i & 1U) == 0 ? 1 : 0;
@@ -163,14 +163,14 @@ TEST_P(EveryPatchKernel, FindsSidesThatMayDip) {
 TEST_P(EveryPatchKernel, GivesTheSameBits) {
   for (std::size_t round = 0; round < scaled(1000, 100); ++round) {
     for (std::size_t i = 0; i < kPacketCapacity; ++i) set(i, draw());
-    const LaneMask measured = patch_kernels(Isa{}).measure(*given, kPacketCapacity, *clipped);
-    const ClippedTriangles expected = *clipped;
-    ASSERT_EQ(patch_kernels(GetParam()).measure(*given, kPacketCapacity, *clipped), measured);
+    const LaneMask measured = patch_kernels(Isa{}).measure(*given_, kPacketCapacity, *clipped_);
+    const ClippedTriangles expected = *clipped_;
+    ASSERT_EQ(patch_kernels(GetParam()).measure(*given_, kPacketCapacity, *clipped_), measured);
     for_each_query(measured, [&](std::size_t i) {
       const std::array<double, 13> found = lane_of(i);
-      const ClippedTriangles other = std::exchange(*clipped, expected);
+      const ClippedTriangles other = std::exchange(*clipped_, expected);
       EXPECT_EQ(std::memcmp(lane_of(i).data(), found.data(), sizeof(found)), 0);
-      *clipped = other;
+      *clipped_ = other;
     });
   }
 }
@@ -179,8 +179,8 @@ TEST_P(EveryPatchKernel, AddsWholeTriangles) {
   PointPerLane<double> centers{};
   for (std::size_t round = 0; round < scaled(1000, 100); ++round) {
     for (std::size_t q = 0; q < kPacketCapacity; ++q) centers.set(q, point(3));
-    const WholeTriangles triangles{random.uniform(0, 2), point(1), point(4), coordinate(1)};
-    const auto queries = static_cast<QueryWord>(random.below(std::uint64_t{1} << 32));
+    const WholeTriangles triangles{random_.uniform(0, 2), point(1), point(4), coordinate(1)};
+    const auto queries = static_cast<QueryWord>(random_.below(std::uint64_t{1} << 32));
     WholeSums sums{};
     sums.area.fill(0.5);
     sums.moment.fill(0.25);
@@ -202,17 +202,17 @@ TEST_P(EveryPatchKernel, LeavesOutTrianglesBeyondReach) {
   PerLane<double> squared_reaches{};
   for (std::size_t round = 0; round < scaled(10000, 1000); ++round) {
     const Point start = point(2);
-    const double size = std::exp2(random.uniform(-12, 1));
+    const double size = std::exp2(random_.uniform(-12, 1));
     std::array corners{start + point(size), start + point(size), start + point(size)};
-    if (random.below(8) == 0) corners[2] = corners[random.below(2)];
+    if (random_.below(8) == 0) corners[2] = corners[random_.below(2)];
     std::array<double, kPacketCapacity> distances{};
     for (std::size_t q = 0; q < kPacketCapacity; ++q) {
-      centers.set(q, random.below(20) == 0 ? corners[0] : point(2));
+      centers.set(q, random_.below(20) == 0 ? corners[0] : point(2));
       distances[q] = nearest_in_triangle(centers.at(q), corners, 1).distance;
-      const double reach = reach_of(distances[q] * (random.below(2) == 0 ? 1 : random.uniform(0, 2)), 1);
+      const double reach = reach_of(distances[q] * (random_.below(2) == 0 ? 1 : random_.uniform(0, 2)), 1);
       squared_reaches[q] = reach * reach;
     }
-    const auto queries = static_cast<QueryWord>(random.below(std::uint64_t{1} << 32));
+    const auto queries = static_cast<QueryWord>(random_.below(std::uint64_t{1} << 32));
     const QueryWord found = patch_kernels(GetParam()).may_reach(corners, queries, centers, squared_reaches);
     ASSERT_EQ(found, patch_kernels(Isa{}).may_reach(corners, queries, centers, squared_reaches));
     ASSERT_EQ(found & ~queries, 0U);

@@ -135,6 +135,7 @@ class PatchReference {
         if (std::exchange(seen[f], 1) == 0) queue.push_back(f);
       }
     };
+    // NOLINTNEXTLINE(modernize-loop-convert): the queue grows meanwhile
     for (std::size_t next = 0; next < queue.size(); ++next) {
       const std::size_t f = queue[next];
       const auto p = relative(f, center);

@@ -43,49 +43,49 @@ class Arguments : public testing::Test {
   /// The answers of all methods to a query.
   std::vector<std::vector<VertexId>> answers(Vertex v, double radius) {
     std::vector<std::vector<VertexId>> result;
-    for (const auto& [name, search] : methods) search(v, radius, result.emplace_back());
+    for (const auto& [name, search] : methods_) search(v, radius, result.emplace_back());
     return result;
   }
 
   /// Every method throws and leaves the previous answer unchanged.
   void expect_all_refused(ErrorCode code, const std::string& cause, Vertex v, double radius) {
-    for (const auto& [name, search] : methods) {
+    for (const auto& [name, search] : methods_) {
       SCOPED_TRACE(name);
       std::vector<VertexId> out{7};
       expect_refused(code, cause, [&] { search(v, radius, out); });
       EXPECT_THAT(out, ElementsAre(7));
     }
     expect_refused(code, cause,
-                   [&] { static_cast<void>(BallSearcher(mesh.positions_view()).neighborhood(v, radius)); });
+                   [&] { static_cast<void>(BallSearcher(mesh_.positions_view()).neighborhood(v, radius)); });
   }
 
-  TestMesh mesh = two_grids();
-  Index index = build(mesh.view());
-  paper::Index paper_index = paper::build(mesh.view());
-  Searcher searcher{index};
-  paper::Searcher paper_searcher{paper_index};
-  ReferenceSearcher reference{mesh.view()};
-  std::vector<std::pair<std::string, Method>> methods{
-      {"exact", [this](Vertex v, double r, auto& out) { searcher.neighborhood(v, r, out); }},
-      {"paper", [this](Vertex v, double r, auto& out) { paper_searcher.neighborhood(v, r, out); }},
-      {"reference", [this](Vertex v, double r, auto& out) { reference.neighborhood(v, r, out); }},
-      {"once", [this](Vertex v, double r, auto& out) { out = exact_neighborhood(mesh.view(), v, r); }},
+  TestMesh mesh_ = two_grids();
+  Index index_ = build(mesh_.view());
+  paper::Index paper_index_ = paper::build(mesh_.view());
+  Searcher searcher_{index_};
+  paper::Searcher paper_searcher_{paper_index_};
+  ReferenceSearcher reference_{mesh_.view()};
+  std::vector<std::pair<std::string, Method>> methods_{
+      {"exact", [this](Vertex v, double r, auto& out) { searcher_.neighborhood(v, r, out); }},
+      {"paper", [this](Vertex v, double r, auto& out) { paper_searcher_.neighborhood(v, r, out); }},
+      {"reference", [this](Vertex v, double r, auto& out) { reference_.neighborhood(v, r, out); }},
+      {"once", [this](Vertex v, double r, auto& out) { out = exact_neighborhood(mesh_.view(), v, r); }},
       {"exact, distances",
        [this](Vertex v, double r, auto& out) {
          std::vector<double> distances;
-         searcher.neighborhood(v, r, out, distances);
+         searcher_.neighborhood(v, r, out, distances);
        }},
       {"exact, ranges",
        [this](Vertex v, double r, auto& out) {
-         const std::span<const VertexRange> ranges = searcher.ranges(v, r);
+         const std::span<const VertexRange> ranges = searcher_.ranges(v, r);
          out.clear();
          for (const VertexRange& range : ranges) {
-           const auto part = index.permutation().subspan(range.begin, range.end - range.begin);
+           const auto part = index_.permutation().subspan(range.begin, range.end - range.begin);
            out.insert(out.end(), part.begin(), part.end());
          }
        }},
-      {"exact, count", [this](Vertex v, double r, auto& out) { out.assign(searcher.count(v, r), v); }},
-      {"paper, count", [this](Vertex v, double r, auto& out) { out.assign(paper_searcher.count(v, r), v); }}};
+      {"exact, count", [this](Vertex v, double r, auto& out) { out.assign(searcher_.count(v, r), v); }},
+      {"paper, count", [this](Vertex v, double r, auto& out) { out.assign(paper_searcher_.count(v, r), v); }}};
 };
 
 TEST_F(Arguments, RadiusNaNOrNegativeIsRefused) {
@@ -104,7 +104,7 @@ TEST_F(Arguments, RadiusInfiniteIsTheComponent) {
 TEST_F(Arguments, RadiusRatioIsPositiveAndFinite) {
   for (const double factor : {kNan, 0.0, -0.0, -1.0, kInfinity}) {
     expect_refused(ErrorCode::InvalidOption, "radius_ratio is ",
-                   [&] { paper_searcher.set_options({.radius_ratio = factor}); });
+                   [&] { paper_searcher_.set_options({.radius_ratio = factor}); });
   }
 }
 
@@ -114,9 +114,9 @@ TEST_F(Arguments, VertexOutOfRangeIsRefusedAndNeverWraps) {
   expect_all_refused(ErrorCode::VertexOutOfRange, "vertex 4294967295, but", static_cast<VertexId>(-1), 1);
   expect_all_refused(ErrorCode::VertexOutOfRange, "vertex 4294967295, but", kWrapsToThree, 1);
   for (const auto& call : std::initializer_list<std::function<void()>>{
-           [&] { static_cast<void>(searcher.contains(0, kWrapsToThree, 1)); },
-           [&] { static_cast<void>(searcher.connecting_radius(0, kWrapsToThree)); },
-           [&] { static_cast<void>(distance(mesh.positions_view(), 0, kWrapsToThree)); }}) {
+           [&] { static_cast<void>(searcher_.contains(0, kWrapsToThree, 1)); },
+           [&] { static_cast<void>(searcher_.connecting_radius(0, kWrapsToThree)); },
+           [&] { static_cast<void>(distance(mesh_.positions_view(), 0, kWrapsToThree)); }}) {
     expect_refused(ErrorCode::VertexOutOfRange, "vertex 4294967295, but", call);
   }
 }
@@ -127,12 +127,12 @@ TEST_F(Arguments, ArraysOfTheWrongLengthAreRefused) {
                  [&] { static_cast<void>(build(MeshView{seven, {}})); });
   const std::vector<std::uint32_t> four(4, 0);
   expect_refused(ErrorCode::InvalidMesh, "4 corners, expected three a triangle",
-                 [&] { static_cast<void>(build(MeshView{mesh.positions_view(), FacesView::triangles(four)})); });
+                 [&] { static_cast<void>(build(MeshView{mesh_.positions_view(), FacesView::triangles(four)})); });
 }
 
 TEST_F(Arguments, AnswersMayReuseAnyBuffer) {
   std::vector<VertexId> out(1000, 7);
-  for (const auto& [name, search] : methods) {
+  for (const auto& [name, search] : methods_) {
     search(4, kInfinity, out);
     EXPECT_THAT(out, SizeIs(9)) << name;
   }
@@ -140,13 +140,13 @@ TEST_F(Arguments, AnswersMayReuseAnyBuffer) {
 
 TEST_F(Arguments, ACallbackThatThrowsOrQueriesLeavesTheIndexUsable) {
   const auto thrower = [](const BatchRow&) { throw std::runtime_error("enough"); };
-  EXPECT_THROW(for_each_neighborhood(index, {.radius = 1.0}, thrower, {}, {.threads = 2}), std::runtime_error);
-  EXPECT_THROW(for_each_neighborhood(paper_index, {.radius = 1.0}, thrower, {}, {.threads = 2}), std::runtime_error);
+  EXPECT_THROW(for_each_neighborhood(index_, {.radius = 1.0}, thrower, {}, {.threads = 2}), std::runtime_error);
+  EXPECT_THROW(for_each_neighborhood(paper_index_, {.radius = 1.0}, thrower, {}, {.threads = 2}), std::runtime_error);
   std::size_t rows = 0;
-  for_each_neighborhood(index, {.radius = 1.0}, [&](const BatchRow& row) {
+  for_each_neighborhood(index_, {.radius = 1.0}, [&](const BatchRow& row) {
     // The callback queries the vertices of the rows again.
-    rows += static_cast<std::size_t>(neighborhoods(index, {.radius = 1.0}, {}, {.threads = 2}).offsets.size() == 19);
-    EXPECT_EQ(searcher.count(static_cast<VertexId>(row.row), 1), row.ids.size());
+    rows += static_cast<std::size_t>(neighborhoods(index_, {.radius = 1.0}, {}, {.threads = 2}).offsets.size() == 19);
+    EXPECT_EQ(searcher_.count(static_cast<VertexId>(row.row), 1), row.ids.size());
   });
   EXPECT_EQ(rows, 18U);
   EXPECT_THAT(answers(4, kInfinity), Each(SizeIs(9)));
@@ -154,7 +154,7 @@ TEST_F(Arguments, ACallbackThatThrowsOrQueriesLeavesTheIndexUsable) {
 
 TEST_F(Arguments, ACancelledBuildLeaksNothing) {
   expect_refused(ErrorCode::Cancelled, "",
-                 [&] { static_cast<void>(build(mesh.view(), {.progress = [](auto&&...) { return false; }})); });
+                 [&] { static_cast<void>(build(mesh_.view(), {.progress = [](auto&&...) { return false; }})); });
 }
 
 }  // namespace

@@ -167,14 +167,11 @@ MergedComponents number_leaves(std::vector<std::uint32_t> merged_into, std::span
   std::uint32_t leaves = 0;
   for (std::uint32_t c = 0; c < number.size(); ++c) number[c] = merged_into[c] == c ? leaves++ : 0;
   result.leaf_of = std::move(merged_into);
-  result.begin.assign(std::size_t{leaves} + 1, 0);
-  for (std::uint32_t& leaf : result.leaf_of) {
-    leaf = number[leaf];
-    ++result.begin[leaf];
-  }
-  std::inclusive_scan(result.begin.begin(), result.begin.end(), result.begin.begin());
-  result.parts.resize(components.size());
-  for (std::size_t c = components.size(); c-- > 0;) result.parts[--result.begin[result.leaf_of[c]]] = components[c];
+  for (std::uint32_t& leaf : result.leaf_of) leaf = number[leaf];
+  const auto for_each = [&](auto&& f) {
+    for (std::size_t c = components.size(); c-- > 0;) f(result.leaf_of[c], components[c]);
+  };
+  gather_rows(leaves, for_each, result.offsets, result.elements);
   return result;
 }
 

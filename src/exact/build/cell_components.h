@@ -39,18 +39,9 @@ struct CellComponents : Lists<CellComponent> {
 /// `links`: of the cells. O(#V + #E).
 [[nodiscard]] CellComponents split_cells(const Cells& cells, const Links& links, TaskContext& task);
 
-/// Which components make a leaf together.
-struct MergedComponents {
+/// The components that make a leaf together, by leaf.
+struct MergedComponents : Lists<CellComponent> {
   std::vector<std::uint32_t> leaf_of;  // by component: its leaf
-  std::vector<std::uint32_t> begin;    // by leaf, and one more: its first component in `parts`
-  std::vector<CellComponent> parts;    // by leaf
-
-  /// The number of leaves.
-  [[nodiscard]] std::size_t size() const { return begin.size() - 1; }
-  [[nodiscard]] std::span<const CellComponent> operator[](std::size_t leaf) const {
-    assert(leaf < size());
-    return std::span(parts).subspan(begin[leaf], begin[leaf + 1] - begin[leaf]);
-  }
 };
 
 /// Merges small components into neighbors that have room, so that few leaves are small. What is merged is connected,

@@ -76,9 +76,10 @@ void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> quer
   balls_.maybe_inside.fill(kFloatInfinity);
   LeafPoints points;
   group.read_points(leaf_, points);
+  const LaneMask open = index_->open_lanes(leaf_);
   for (std::size_t i = 0; i < size_; ++i) {
     const unsigned lane = lanes_[i];
-    if (index_->is_wall(leaf_, lane)) continue;
+    if ((open >> lane & 1U) == 0) continue;
     balls_.queries |= QueryWord{1} << i;
     const Point q{static_cast<double>(points.x[lane]), static_cast<double>(points.y[lane]),
                   static_cast<double>(points.z[lane])};

@@ -219,7 +219,7 @@ void PathPacket::list_leaves() {
   place_of_.forget();
   for (std::uint32_t number = 0; number < search_.found().size(); ++number) {
     const std::uint32_t slot = index_->slot_at(vertex(number));
-    if ((index_->ignored_lanes(leaf_of(slot)) >> lane_of(slot) & 1U) != 0) continue;
+    if (index_->is_ignored(slot)) continue;
     const LeafId leaf = leaf_of(slot);
     if (!place_of_.is_known(leaf)) {
       place_of_.set(leaf, static_cast<std::uint32_t>(leaves_.size()));

@@ -39,7 +39,7 @@ inline void RowWriter::write_ids(unsigned query, std::span<VertexId> ids) const 
 }
 
 inline void RowWriter::write_distances(unsigned query, std::uint32_t slot, std::span<double> distances) const {
-  const Point center = index_->position(leaf_of(slot), lane_of(slot));
+  const Point center = index_->position_at(slot);
   double* next = distances.data();
   std::visit(
       [&](auto xyz) {

@@ -6,13 +6,19 @@
 
 #include "meshhood/error.h"
 
+#include "base/validate.h"
 #include "shared/text.h"
 
 namespace meshhood {
-void check_point(const SpacePoint& p, std::string_view where) {
+
+std::string named(std::string_view name, std::optional<std::size_t> row) {
+  return std::string(name) + (row ? ": row " + std::to_string(*row) + ": " : ": ");
+}
+
+void check_point(const SpacePoint& p, std::string_view name, std::optional<std::size_t> row) {
   for (std::size_t axis = 0; axis < p.size(); ++axis) {
     if (is_valid_coordinate(p[axis])) continue;
-    raise(ErrorCode::InvalidOption, std::string(where) + "coordinate " + std::to_string(axis) + " is " +
+    raise(ErrorCode::InvalidOption, named(name, row) + "coordinate " + std::to_string(axis) + " is " +
                                         to_text(p[axis]) + ", expected a finite number of magnitude up to 2^500");
   }
 }
@@ -28,7 +34,7 @@ void check_start(const Start& start, std::size_t vertices, std::string_view wher
     check_vertex(start.vertex(), vertices, prefix + "vertex");
     return;
   }
-  check_point(*start.center(), prefix + "center: ");
+  check_point(*start.center(), prefix + "center");
   for (std::size_t i = 0; i < start.seeds().size(); ++i) {
     check_vertex(start.seeds()[i], vertices, prefix + "seed " + std::to_string(i) + ": vertex");
   }
@@ -49,23 +55,18 @@ void check_connects(Metric metric) {
   raise(ErrorCode::InvalidOption, "metric: expected another than space, in which nothing is connected");
 }
 
-void check_weights(std::span<const double> weights, std::size_t vertices) {
+void check_weights(std::span<const double> weights, std::size_t vertices, std::string_view name) {
   if (weights.size() != vertices) {
-    raise(ErrorCode::InvalidOption, std::to_string(weights.size()) + " weights, expected one for each of " +
-                                        std::to_string(vertices) + " vertices");
+    raise(ErrorCode::InvalidOption, named(name, {}) + std::to_string(weights.size()) +
+                                        " values, expected one for each of " + std::to_string(vertices) + " vertices");
   }
   for (std::size_t v = 0; v < vertices; ++v) {
     if (weights[v] >= 0 && std::isfinite(weights[v])) [[likely]] {
       continue;
     }
-    raise(ErrorCode::InvalidOption,
-          "vertex " + std::to_string(v) + ": the weight is " + to_text(weights[v]) + ", expected a finite number >= 0");
+    raise(ErrorCode::InvalidOption, named(name, {}) + "vertex " + std::to_string(v) + " has " + to_text(weights[v]) +
+                                        ", expected a finite number >= 0");
   }
-}
-
-Point position_of(const IndexView& index, VertexId v) {
-  const std::uint32_t slot = index.slot[v];
-  return index.position(leaf_of(slot), lane_of(slot));
 }
 
 }  // namespace meshhood

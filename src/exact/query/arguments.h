@@ -2,25 +2,25 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "meshhood/metric.h"
 #include "meshhood/start.h"
 
-#include "base/validate.h"
-#include "exact/layout.h"
 #include "shared/distance.h"
 
 /// The arguments of queries that start anywhere. Each check throws unless its argument is as the public header says;
 /// the message begins with `where`.
 namespace meshhood {
 
-/// Whether `check_point` passes.
-[[nodiscard]] inline bool is_valid(const SpacePoint& p) { return is_valid_position({p[0], p[1], p[2]}); }
+/// The beginning of a message: an argument, and the row of it.
+[[nodiscard]] std::string named(std::string_view name, std::optional<std::size_t> row);
 
-/// Error{InvalidOption}: the coordinate that is not finite or too large.
-void check_point(const SpacePoint& p, std::string_view where);
+/// Error{InvalidOption}: the coordinate that is not finite or too large. `name`, `row`: of the argument.
+void check_point(const SpacePoint& p, std::string_view name, std::optional<std::size_t> row = {});
 
 /// Error{VertexOutOfRange}: `name` and the vertex.
 void check_vertex(VertexId v, std::size_t vertices, std::string_view name);
@@ -34,13 +34,10 @@ void check_ascending(std::span<const double> radii);
 /// Error{InvalidOption} in space, of a question about what is connected.
 void check_connects(Metric metric);
 
-/// Error{InvalidOption} unless there is a finite number >= 0 for each vertex.
-void check_weights(std::span<const double> weights, std::size_t vertices);
+/// Error{InvalidOption} unless there is a finite number >= 0 for each vertex. `name`: of the argument.
+void check_weights(std::span<const double> weights, std::size_t vertices, std::string_view name = "weights");
 
 /// Whether neighborhoods by the metric need a vertex as start, and their distances are lengths along edges.
 [[nodiscard]] constexpr bool is_along_edges(Metric metric) { return metric == Metric::Path || metric == Metric::Rings; }
-
-/// The position of a vertex.
-[[nodiscard]] Point position_of(const IndexView& index, VertexId v);
 
 }  // namespace meshhood

@@ -7,7 +7,6 @@
 #include <memory>
 #include <utility>
 
-#include "exact/query/arguments.h"
 #include "exact/query/length_search.h"
 #include "exact/query/single_queries.h"
 #include "shared/distance.h"
@@ -94,7 +93,7 @@ struct LengthQueries final : SingleQueries {
 
   /// Of the straight line with which a path begins.
   double length_to_seed(const Start& start, VertexId seed) {
-    return start.center() ? std::sqrt(squared_distance(center_of(start), position_of(*index, seed))) : 0;
+    return start.center() ? std::sqrt(squared_distance(center_of(start), index->position_of(seed))) : 0;
   }
 
   LengthSearch& run_checked(const Start& start, double radius) {

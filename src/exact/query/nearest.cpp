@@ -54,7 +54,7 @@ class NearestSearch {
 }  // namespace
 
 NearestVertex nearest(const Index& index, const SpacePoint& p) {
-  check_point(p, "point: ");
+  check_point(p, "point");
   if (index.vertex_count() == 0) raise(ErrorCode::VertexOutOfRange, "nearest: the mesh has no vertices");
   const NearestVertex found = NearestSearch(IndexAccess::view(index), {p[0], p[1], p[2]}).run();
   if (found.vertex >= index.vertex_count()) {
@@ -82,10 +82,10 @@ SpacePoint point_on_face(const Index& index, std::span<const VertexId> corners, 
       raise(ErrorCode::InvalidOption,
             "weights: value " + std::to_string(i) + " is " + to_text(weights[i]) + ", expected a finite number");
     }
-    const Point corner = position_of(IndexAccess::view(index), corners[i]);
+    const Point corner = IndexAccess::view(index).position_of(corners[i]);
     sum = {sum[0] + weights[i] * corner.x, sum[1] + weights[i] * corner.y, sum[2] + weights[i] * corner.z};
   }
-  check_point(sum, "point on the face: ");
+  check_point(sum, "point on the face");
   return sum;
 }
 

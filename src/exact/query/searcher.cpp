@@ -41,7 +41,7 @@ void SingleQueries::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) {
 }
 
 Point SingleQueries::center_of(const Start& start) const {
-  if (!start.center()) return position_of(*index, start.vertex());
+  if (!start.center()) return index->position_of(start.vertex());
   const auto& [x, y, z] = *start.center();
   return {x, y, z};
 }
@@ -108,7 +108,7 @@ bool Searcher::has_seed(const Start& start, Radius radius) const {
   if (!start.center() || metric_ == Metric::Space) return true;
   const SearchBall ball(queries_->center_of(start), radius);
   return std::ranges::any_of(start.seeds(),
-                             [&](VertexId seed) { return ball.contains(position_of(*queries_->index, seed)); });
+                             [&](VertexId seed) { return ball.contains(queries_->index->position_of(seed)); });
 }
 
 // Results may be the seeds, or what is borrowed by them: they change last.

@@ -45,7 +45,7 @@ struct SpaceQueries final : SingleQueries {
 
  private:
   [[nodiscard]] double distance_to(VertexId w, const Start& start) const {
-    return std::sqrt(squared_distance(position_of(*index, w), center_of(start)));
+    return std::sqrt(squared_distance(index->position_of(w), center_of(start)));
   }
 
   SpaceSearch search_;
@@ -62,7 +62,7 @@ SpaceSearch::SpaceSearch(const IndexView& index, const Kernels& kernels)
 
 void SpaceSearch::search(VertexId v, double radius) {
   if (index_->is_wall_at(index_->place(v))) return answer.clear();
-  search(position_of(*index_, v), radius);
+  search(index_->position_of(v), radius);
 }
 
 void SpaceSearch::search(const Point& center, double radius) {

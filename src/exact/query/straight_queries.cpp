@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "exact/query/straight_queries.h"
 
-#include "exact/query/arguments.h"
-
 namespace meshhood {
 namespace {
 
 /// Whether one search answers a query: the start is a vertex.
 bool is_neighborhood(const Start& start) { return !start.center(); }
-
-bool is_ignored(const IndexView& index, std::uint32_t slot) {
-  return (index.ignored_lanes(leaf_of(slot)) >> lane_of(slot) & 1U) != 0;
-}
 
 }  // namespace
 
@@ -69,8 +63,8 @@ void StraightQueries::nested(const Start& start, std::span<const double> radii, 
 
 bool StraightQueries::contains(const Start& start, VertexId w, double radius) {
   const std::uint32_t slot = index->slot[w];
-  if (!(squared_distance(position_of(*index, w), center_of(start)) <= squared_radius(radius))) return false;
-  if (is_ignored(*index, slot)) return false;
+  if (!(squared_distance(index->position_of(w), center_of(start)) <= squared_radius(radius))) return false;
+  if (index->is_ignored(slot)) return false;
   Flood& flood = begin(start);
   flood.grow(radius, slot);
   return flood.has_reached(slot);
@@ -78,9 +72,9 @@ bool StraightQueries::contains(const Start& start, VertexId w, double radius) {
 
 double StraightQueries::connecting_radius(const Start& start, VertexId w) {
   const std::uint32_t slot = index->slot[w];
-  if (is_ignored(*index, slot)) return kNoRadius;
+  if (index->is_ignored(slot)) return kNoRadius;
   // No smaller ball holds `w` itself.
-  double radius = std::sqrt(squared_distance(position_of(*index, w), center_of(start)));
+  double radius = std::sqrt(squared_distance(index->position_of(w), center_of(start)));
   Flood& flood = begin(start);
   flood.grow(radius, slot);
   while (!flood.has_reached(slot)) {

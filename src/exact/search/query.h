@@ -32,7 +32,7 @@ struct Query {
         slot(index.slot[v]),
         radius(bounds.radius),
         radius_in_frame(bounds.radius_in_frame),
-        ball(index.position(leaf(), lane_of(slot)), bounds.leaf),
+        ball(index.position_at(slot), bounds.leaf),
         tree_ball(index.frame.round(ball.center), bounds.tree) {}
 
   [[nodiscard]] LeafId leaf() const { return leaf_of(slot); }

@@ -32,7 +32,7 @@ void StraightSearch::search(VertexId v, double radius) {
   if (radius != bounds.radius) bounds = RadiusBounds(index->frame, radius);
   answer.clear();
   const std::uint32_t slot = index->slot[v];
-  if (index->is_wall(leaf_of(slot), lane_of(slot))) {
+  if (index->is_wall(slot)) {
     way = Way::Wall;
     return;
   }
@@ -94,11 +94,11 @@ bool StraightSearch::is_mostly_open() const { return 2 * component.open_leaves()
 /// Whether no neighbor of the vertex at a slot, the center of the ball, is in the ball. With walls the answer may be
 /// false although it is so.
 bool StraightSearch::is_alone(std::uint32_t slot) const {
-  const Point center = index->position(leaf_of(slot), lane_of(slot));
+  const Point center = index->position_at(slot);
   return std::visit(
       [&](auto xyz) {
         bool result = true;
-        for_each_neighbor(*index, leaf_of(slot), lane_of(slot), [&](std::size_t other) {
+        for_each_neighbor(*index, slot, [&](std::size_t other) {
           result &= !(squared_distance(point(xyz, other), center) <= bounds.leaf.squared_radius);
         });
         return result;
