@@ -3,10 +3,13 @@
 // mapped, destroyed, rejected and queried; the answers are compared with the oracle.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -267,6 +270,7 @@ class Session {
     }
     aggregate_ids(*place.index, vertices, radius, answer, run.threads);
     fit_rows(place, vertices, radius, run.threads);
+    find_patches(place, vertices, radius, run.threads);
   }
 
   /// Aggregates the ids of the vertices, as doubles, whose sums are exact.
@@ -311,6 +315,61 @@ class Session {
       if (most >= 6 && state == CurvatureState::TooFew) fail("too few vertices where there are enough");
       if (!(found.k1[row] >= found.k2[row])) fail("curvatures are not in order");
       if (without && found.k1[row] != 0) fail("a curvature without a fit");
+    }
+  }
+
+  /// Patches have the same bits however many threads there are, and those of a search alone but for rounding. They
+  /// have all faces at their neighborhoods, unless edges that are no sides of triangles join these.
+  static void find_patches(const Exact& place, const std::vector<VertexId>& vertices, double radius, unsigned threads) {
+    const test::TestMesh& mesh = place.subject->mesh;
+    std::size_t polygons = 0;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) polygons += static_cast<std::size_t>(mesh.face(f).size() > 2);
+    if (polygons == 0) return;
+    const Surface surface(*place.index, mesh.view().faces);
+    const BatchQuery query{.vertices = vertices, .radius = radius};
+    const Invariants found = invariants(surface, query, {.threads = threads});
+    const std::vector<SurfacePoint> nearest = gaps(surface, query, {.threads = threads});
+    if (!same_bits(found.area, invariants(surface, query, {.threads = 1}).area)) fail("areas depend on the threads");
+    PatchSearcher searcher(surface);
+    for (std::size_t row = 0; row < vertices.size(); ++row) {
+      const VertexId v = vertices[row];
+      const auto [area, volume] = searcher.measure(v, radius);
+      const double disc = std::numbers::pi * radius * radius;
+      if (std::abs(found.area[row] - area) > 1e-12 * std::max(area, disc)) fail("an area differs");
+      if (std::isnan(found.volume[row]) != std::isnan(volume)) fail("a volume differs");
+      const double distance = searcher.gap(v, radius).distance;
+      if (!(nearest[row].distance == distance)) fail("a gap differs");
+      if (distance > radius && nearest[row].face != kNoFace) fail("a gap outside the ball");
+      const std::vector<std::size_t> faces = searcher.patch(v, radius);
+      if (polygons == mesh.face_count()) expect_faces(mesh, place.subject->oracle.exact(v, radius), faces);
+      if (row == 0) clip_patch(searcher, v, radius, faces);
+    }
+  }
+
+  static bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
+  }
+
+  /// All faces at `vertices`, ascending, are among `faces`, ascending.
+  static void expect_faces(const test::TestMesh& mesh, const std::vector<VertexId>& vertices,
+                           const std::vector<std::size_t>& faces) {
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+      const bool is_met =
+          std::ranges::any_of(mesh.face(f), [&](VertexId v) { return std::ranges::binary_search(vertices, v); });
+      if (is_met && !std::ranges::binary_search(faces, f)) fail("a patch lacks a face");
+    }
+  }
+
+  /// The patch of these faces as a mesh.
+  static void clip_patch(PatchSearcher& searcher, VertexId v, double radius, const std::vector<std::size_t>& faces) {
+    const ClippedMesh part = searcher.clip(v, radius, 1e-2);
+    const bool is_valid =
+        std::ranges::is_sorted(part.faces) &&
+        std::ranges::all_of(part.faces, [&](std::size_t f) { return std::ranges::binary_search(faces, f); }) &&
+        part.faces.size() == part.triangles.size() && part.points.size() == part.weights.size();
+    if (!is_valid) fail("a clipped patch is not valid");
+    for (const std::array<VertexId, 3>& triangle : part.triangles) {
+      if (*std::ranges::max_element(triangle) >= part.points.size()) fail("a clipped triangle has no such point");
     }
   }
 

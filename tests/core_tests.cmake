@@ -44,7 +44,7 @@ endif()
 if(TARGET meshhood_test_support)
   meshhood_test(exact/reorder meshhood_families meshhood_test_support)
   meshhood_test(exact/index_meshes meshhood_test_support)
-  meshhood_test(surface/submesh_meshes meshhood_test_support)
+  meshhood_test(surface/submesh_meshes meshhood_families meshhood_test_support)
   meshhood_test(whole/all_meshes meshhood_test_support)
 endif()
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -32,9 +33,11 @@ namespace {
 
 Corners corners_of(bool all) { return all ? Corners::All : Corners::Any; }
 
+/// Borrows the arrays, which nobody writes to: `face_arrays` has made them.
 Surface of_faces(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets) {
   const FacesView faces = faces_of(corners, offsets);
-  return without_lock([&] { return Surface(method.index(), faces); });
+  const auto owner = std::make_shared<const Input>(corners);
+  return without_lock([&] { return Surface(method.index(), faces, owner); });
 }
 
 /// With an index of its own.

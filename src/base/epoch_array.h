@@ -18,7 +18,8 @@ class EpochArray {
 
   /// Begins a new search: nothing is known.
   void forget() {
-    if (++epoch_ != 0) return;
+    epoch_ = static_cast<Epoch>(epoch_ + 1);
+    if (epoch_ != 0) return;
     std::fill(slots_.begin(), slots_.end(), Slot{});
     epoch_ = 1;
   }

@@ -126,7 +126,8 @@ class Clip {
     constexpr double kLong = 2;
     const double size = circle.radius();
     const double half = length(to - from) / 2;
-    const double height = half * half / (size + std::sqrt(std::max(0.0, (size - half) * (size + half))));
+    // Of a circle that is a point, the ends may differ by their rounding.
+    const double height = half < size ? half * half / (size + std::sqrt((size - half) * (size + half))) : size;
     if (angle < kLong && !(height > tolerance_)) return;
     const Point middle = circle.middle(angle, from, to);
     divide(circle, angle / 2, from, middle);

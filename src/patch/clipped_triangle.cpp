@@ -115,6 +115,15 @@ double ClippedTriangle::angle_of_arc(std::size_t from, std::size_t steps) const 
   return std::clamp(all - argument(leaves) - argument(enters), 0.0, 2 * kPi);
 }
 
+/// Twice the area times the normal: that of a needle from its short side; none if the direction of this is rounding.
+Point ClippedTriangle::vector_area() const {
+  constexpr double kDust = 0x1p-88;  // of the square of a side
+  const std::array sides{corners_[1] - corners_[0], corners_[2] - corners_[1], corners_[2] - corners_[0]};
+  const std::array squares{dot(sides[0], sides[0]), dot(sides[1], sides[1]), dot(sides[2], sides[2])};
+  if (std::ranges::min(squares) < kDust) return {0, 0, 0};
+  return cross(sides[0], squares[1] < kNeedle * squares[0] ? sides[1] : sides[2]);
+}
+
 /// From the longest chord, whose line is near.
 double ClippedTriangle::distance_of_plane() const {
   double longest = -1;
@@ -154,7 +163,7 @@ void ClippedTriangle::find_outline() {
     plane_ = is_far_ ? find_plane<Twofold>() : find_plane<double>();
     if (!is_cut()) return;
   } else {
-    const Point area = cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
+    const Point area = vector_area();
     const double size = length(area);
     plane_.circle.normal = size > 0 ? (1 / size) * area : Point{0, 0, 0};
   }

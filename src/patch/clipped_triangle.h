@@ -115,6 +115,7 @@ class ClippedTriangle {
   template <class Real>
   [[nodiscard]] Plane find_plane() const;
   [[nodiscard]] bool may_dip(std::size_t i) const;
+  [[nodiscard]] Point vector_area() const;
   [[nodiscard]] Complex turn_at(std::size_t corner) const;
   [[nodiscard]] double angle_of_arc(std::size_t from, std::size_t steps) const;
   [[nodiscard]] double distance_of_plane() const;

@@ -208,8 +208,12 @@ HWY_INLINE LaneMask measure_vector(const CutTriangles& cut, std::size_t i, Clipp
   const auto is_simple = hn::Or(hn::And(inside, hn::AndNot(may_dip(b, c), is_clear)),
                                 hn::AndNot(inside, hn::And(hn::Ge(angle, zero), hn::Gt(middle.square, zero))));
   const auto has_area = hn::And(hn::Gt(size, zero), hn::Gt(hn::Mul(first.square, last.square), zero));
+  const auto short_square = hn::Mul(splat(kNeedle), hn::Max(first.square, last.square));
+  const auto is_needle = hn::Or(hn::Lt(middle.square, short_square),
+                                hn::Or(hn::Lt(first.square, short_square), hn::Lt(last.square, short_square)));
   const auto is_short = hn::Lt(angle, splat(kLongArc));
-  return bits_of(d, hn::And(hn::And(is_simple, corners.are_near()), hn::And(has_area, is_short)));
+  return bits_of(d,
+                 hn::And(hn::And(is_simple, corners.are_near()), hn::AndNot(is_needle, hn::And(has_area, is_short))));
 }
 
 LaneMask measure(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped) {

@@ -22,6 +22,10 @@ inline constexpr double kTouchSlack = 1e-9;
 /// The sign of the imaginary part of the turn of an arc is clear, unless that part is so small beside the real one.
 inline constexpr double kClearTurn = 1e-6;
 
+/// A triangle with a side whose square is so small beside that of another is a needle: the normal follows from the
+/// short side, since the others differ by little more than their rounding.
+inline constexpr double kNeedle = 0x1p-20;
+
 /// An arc of at least this angle has nearly opposite ends, or more than that, and is added in four parts.
 inline constexpr double kLongArc = 2;
 
@@ -71,7 +75,8 @@ struct PatchKernels {
                     double scale, WholeSums& sums);
 
   /// Measures the first `count` triangles; reads and writes whole vectors. Returns those that it has measured: not one
-  /// with a corner far away, without an area, with an arc that is not short, or whose third side may dip into the ball.
+  /// with a corner far away, without an area, a needle, with an arc that is not short, or whose third side may dip into
+  /// the ball.
   LaneMask (*measure)(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped);
 
   /// Which of them have one corner in the ball, and a third side that may dip into it or a corner far away.

@@ -325,6 +325,21 @@ TEST(Clip, OfAPolygonThatIsNotConvexIsItsOwn) {
   EXPECT_EQ(characteristic(corner), 1);
 }
 
+/// The plane of a triangle touches the ball at its corner: an arc of a circle that is a point.
+TEST(Clip, WhereAPlaneTouchesTheBallIsAPoint) {
+  TestMesh mesh;
+  for (const auto& [x, y, z] :
+       std::array<std::array<int, 3>, 5>{{{6, 4, 0}, {7, 3, 1}, {8, 3, 0}, {8, 4, 1}, {6, 3, 0}}}) {
+    mesh.add_vertex(x, y, z);
+  }
+  mesh.add_face({0, 1, 4});
+  mesh.add_face({1, 2, 3});
+  Whole shape(mesh.finish(true));
+  const ClippedMesh part = shape.clip(0, std::sqrt(3.0), 1e-2);
+  EXPECT_EQ(part.faces.back(), 1) << "the touching one";
+  EXPECT_LT(part.faces.size(), 5);
+}
+
 /// Needles, and a triangle without an area between others.
 TEST(Clip, OfSliversHasNoCrack) {
   Random random(17);

@@ -360,6 +360,35 @@ TEST(Patch, OfNeedlesIsExact) {
   }
 }
 
+/// The sphere passes between corners that differ by little more than their rounding, as those at the pole of a sphere.
+TEST(Patch, BetweenCornersOfANeedleIsExact) {
+  Random random(12);
+  for (std::size_t i = 0; i < scaled(200, 40); ++i) {
+    TestMesh mesh;
+    const std::size_t count = 9;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double angle = 2 * kPi * static_cast<double>(k) / count;
+      mesh.add_vertex(std::cos(angle), std::sin(angle), 0.3);
+      const double rounding = std::exp2(random.uniform(-52, -24));
+      mesh.add_vertex(rounding * std::cos(angle), rounding * std::sin(angle), 1 + rounding * random.uniform(-1, 1));
+    }
+    const std::size_t turn = random.below(3);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t next = (k + 1) % count;
+      std::array<std::uint32_t, 3> needle{2 * k, 2 * next + 1, 2 * k + 1};
+      std::rotate(needle.begin(), needle.begin() + static_cast<std::ptrdiff_t>(turn), needle.end());
+      mesh.add_face({2 * k, 2 * next, 2 * next + 1});
+      mesh.add_face(needle);
+    }
+    Case test(mesh.finish(false));
+    const auto v = static_cast<std::uint32_t>(2 * random.below(count));
+    const double radius = length(corner_of(mesh, v) - corner_of(mesh, 1));
+    SCOPED_TRACE(std::to_string(i) + ", vertex " + std::to_string(v));
+    EXPECT_NEAR(test.measure(v, radius).area, test.reference.measure(v, radius).area, 1e-12 * kPi * radius * radius);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
 /// Divides the face `f` around its point of these weights into rings of triangles, each half as large as the one
 /// before.
 void divide_towards(TestMesh& mesh, std::size_t f, const std::array<double, 3>& weights, int rings) {
