@@ -6,7 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/frame.h"
@@ -52,24 +54,18 @@ class BoxTree {
   template <class Reach, class Visit, class Enters>
   void search(const Point& center, Reach&& reach, Visit&& visit, Enters&& enters) const;
 
-  /// The same for the boxes that the ray from `origin` meets up to `reach()` times `direction`, whose largest component
-  /// is 1 or -1: those that it enters first are first.
-  template <class Reach, class Visit>
-  void cast(const Point& origin, const Point& direction, Reach&& reach, Visit&& visit) const;
+  template <class Shape>
+  class Walk;
+  template <class Reach>
+  class Line;
+
+  static constexpr auto kAll = [](std::size_t, std::size_t) { return true; };  // groups
 
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  static constexpr auto kAll = [](std::size_t, std::size_t) { return true; };  // groups
-
   template <class Reach>
   class Ball;
-  template <class Reach>
-  class Line;
-
-  /// Visits the items of a group for which `shape` has a bit, in the order of what it measures.
-  template <class Shape, class Visit, class Enters>
-  void descend(std::size_t level, std::size_t number, Shape& shape, Visit& visit, Enters& enters) const;
 
   /// That of all boxes of a group.
   [[nodiscard]] BoundingBox box_around(std::size_t level, std::size_t number) const;
@@ -130,36 +126,80 @@ inline BoundingBox BoxTree::box_around(std::size_t level, std::size_t number) co
   return box;
 }
 
-template <class Shape, class Visit, class Enters>
-void BoxTree::descend(std::size_t level, std::size_t number, Shape& shape, Visit& visit, Enters& enters) const {
-  struct Child {
-    float value;
-    unsigned place;
-  };
-  std::array<Child, kFanOut> children;
-  std::size_t size = 0;
+/// A search on its way from the root, near boxes before far ones. A loop that advances many by turns gives memory the
+/// time to follow. `Shape` measures boxes, never below 0.
+template <class Shape>
+class BoxTree::Walk {
+ public:
+  /// Both must outlive it.
+  Walk(const BoxTree& tree, Shape& shape) : tree_(&tree), shape_(&shape) {
+    boxes_[0] = 0;
+    heights_[0] = static_cast<std::uint8_t>(tree.levels_.size());
+  }
+
+  /// Calls `visit(item)` for the next items, then opens a group, for whose items that may be visited it calls
+  /// `fetch(item)`. False at the end.
+  template <class Visit, class Fetch, class Enters>
+  bool advance(Visit&& visit, Fetch&& fetch, Enters&& enters);
+
+ private:
+  template <class Fetch, class Enters>
+  void open(std::size_t level, std::size_t number, Fetch& fetch, Enters& enters);
+
+  static constexpr std::size_t kMostBoxes = 11 * kFanOut;  // of 2^32 items
+
+  const BoxTree* tree_;
+  Shape* shape_;
+  // What is left, the next one last: the bits of what is measured, which have its order, then those of the number.
+  std::array<std::uint64_t, kMostBoxes> boxes_;
+  std::array<std::uint8_t, kMostBoxes> heights_;  // 0 for items
+  std::size_t size_ = 1;
+};
+
+template <class Shape>
+template <class Visit, class Fetch, class Enters>
+bool BoxTree::Walk<Shape>::advance(Visit&& visit, Fetch&& fetch, Enters&& enters) {
+  while (size_ > 0) {
+    const std::uint64_t box = boxes_[--size_];
+    const std::size_t height = heights_[size_];
+    const auto number = static_cast<std::uint32_t>(box);
+    if (std::bit_cast<float>(static_cast<std::uint32_t>(box >> 32U)) > shape_->limit()) continue;
+    if (height > 0) {
+      open(height - 1, number, fetch, enters);
+      return true;
+    }
+    visit(std::size_t{number});
+    shape_->update();
+  }
+  return false;
+}
+
+template <class Shape>
+template <class Fetch, class Enters>
+void BoxTree::Walk<Shape>::open(std::size_t level, std::size_t number, Fetch& fetch, Enters& enters) {
   BoxGroup::Row values;
-  unsigned met = shape.compare(levels_[level][number], values);
-  met &= (1U << std::min<std::size_t>(kFanOut, sizes_[level] - number * kFanOut)) - 1;
+  const std::size_t first = number * kFanOut;
+  unsigned met = shape_->compare(tree_->levels_[level][number], values);
+  met &= (1U << std::min<std::size_t>(kFanOut, tree_->sizes_[level] - first)) - 1;
+  std::size_t size = size_;
   for (; met != 0; met &= met - 1) {
     const auto place = static_cast<unsigned>(std::countr_zero(met));
-    if (level > 0 && !enters(level - 1, number * kFanOut + place)) continue;
-    std::size_t at = size++;
-    for (; at > 0 && children[at - 1].value > values[place]; --at) children[at] = children[at - 1];
-    children[at] = {values[place], place};
-  }
-  for (std::size_t i = 0; level > 0 && i < size; ++i) {
-    fetch_lines(&levels_[level - 1][number * kFanOut + children[i].place], sizeof(BoxGroup) / kCacheLine);
-  }
-  for (std::size_t i = 0; i < size && !(children[i].value > shape.limit()); ++i) {
-    const std::size_t child = number * kFanOut + children[i].place;
-    if (level > 0) {
-      descend(level - 1, child, shape, visit, enters);
+    const std::size_t child = first + place;
+    if (level == 0) {
+      fetch(child);
     } else {
-      visit(child);
-      shape.update();
+      if (!enters(level - 1, child)) continue;
+      fetch_lines(&tree_->levels_[level - 1][child], sizeof(BoxGroup) / kCacheLine);
     }
+    std::uint64_t box = std::uint64_t{std::bit_cast<std::uint32_t>(values[place])} << 32U | child;
+    for (std::size_t at = size_; at < size; ++at) {  // without branches that depend on what is measured
+      const std::uint64_t other = std::exchange(boxes_[at], std::max(box, boxes_[at]));
+      box = std::min(box, other);
+    }
+    boxes_[size] = box;
+    heights_[size++] = static_cast<std::uint8_t>(level);
   }
+  size_ = size;
 }
 
 /// Measures squared distances from a point.
@@ -220,8 +260,9 @@ class BoxTree::Ball {
   Reach* reach_;
 };
 
-/// Measures the ways along a ray, from where it comes to the height of the frame along its main axis. All boxes are
-/// grown by `slack_`, more than the rounding of positions in single precision, and of origins far away.
+/// Measures the ways along the ray from `origin`, up to `reach()` times `direction`, whose largest component is 1 or
+/// -1, from where it comes to the height of the frame along its main axis. All are in the frame. All boxes are grown by
+/// `slack_`, more than the rounding of positions in single precision, and of origins far away.
 template <class Reach>
 class BoxTree::Line {
  public:
@@ -232,12 +273,9 @@ class BoxTree::Line {
         slack_(0x1p-20 + 0x1p-48 * (std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)}) + begin_)),
         ray_{axis(start_.x, direction.x), axis(start_.y, direction.y), axis(start_.z, direction.z)},
         reach_(&reach) {
-    update();
-  }
-
-  /// Whether the ray may meet the frame, in which its direction changes a coordinate by at most 2.
-  [[nodiscard]] bool may_meet() const {
-    return std::max({std::abs(start_.x), std::abs(start_.y), std::abs(start_.z)}) <= 3 + slack_;
+    // In the frame, the direction changes a coordinate by at most 2.
+    const bool may_meet = std::max({std::abs(start_.x), std::abs(start_.y), std::abs(start_.z)}) <= 3 + slack_;
+    if (may_meet) update();
   }
 
   unsigned compare(const BoxGroup& group, BoxGroup::Row& entries) const {
@@ -262,20 +300,16 @@ class BoxTree::Line {
   Point start_;
   double slack_;
   BoxRay ray_;
-  float limit_ = 0;
+  float limit_ = -1;
   Reach* reach_;
 };
 
 template <class Reach, class Visit, class Enters>
 void BoxTree::search(const Point& center, Reach&& reach, Visit&& visit, Enters&& enters) const {
   Ball ball(center, reach);
-  descend(levels_.size() - 1, 0, ball, visit, enters);
-}
-
-template <class Reach, class Visit>
-void BoxTree::cast(const Point& origin, const Point& direction, Reach&& reach, Visit&& visit) const {
-  Line line(origin, direction, reach);
-  if (line.may_meet()) descend(levels_.size() - 1, 0, line, visit, kAll);
+  Walk walk(*this, ball);
+  while (walk.advance(visit, [](std::size_t) {}, enters)) {
+  }
 }
 
 inline std::size_t BoxTree::bytes() const {

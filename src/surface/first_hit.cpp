@@ -3,7 +3,9 @@
 #include "surface/first_hit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,6 +29,7 @@ namespace {
 
 constexpr std::size_t kRaysOfTask = 256;
 constexpr std::size_t kRaysAhead = 8;
+constexpr std::size_t kRaysTogether = 8;  // memory follows for one while the others go on
 
 double largest_of(const Point& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
@@ -78,11 +81,42 @@ Ray make_ray(const SurfaceState& state, const SpacePoint& origin, const SpacePoi
   return {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, state.index->frame};
 }
 
-SurfacePoint hit(const SurfaceState& state, const FaceTree& tree, const Ray& ray) {
-  const TriangleHit first = find_first_hit(*state.index, tree, ray, [](auto&&...) { return true; });
+SurfacePoint surface_point(const SurfaceState& state, const FaceTree& tree, const TriangleHit& first) {
   if (first.at.distance == kInfinity) return {};
   const Triangle& triangle = tree.triangles()[first.triangle];
   return surface_point(*state.index, state.faces(), triangle.face, triangle.corners, first.at);
+}
+
+struct EachCounts {
+  bool operator()(std::size_t, const TrianglePoint&) const { return true; }
+};
+
+/// Those of the rays `begin` to `end`; calls `visit(i, point)`.
+template <class RayOf, class Visit>
+void search_together(const SurfaceState& state, const FaceTree& tree, std::size_t begin, std::size_t end,
+                     RayOf&& ray_of, Visit&& visit) {
+  struct Started {
+    std::optional<FirstHitSearch<EachCounts>> search;
+    std::size_t ray = 0;
+  };
+  std::array<Started, kRaysTogether> all;
+  std::size_t next = begin;
+  const auto start = [&](Started& free) {
+    free.search.reset();
+    if (next == end) return false;
+    free.ray = next++;
+    free.search.emplace(*state.index, tree, ray_of(free.ray), EachCounts{});
+    return true;
+  };
+  std::size_t running = 0;
+  for (Started& each : all) running += start(each) ? 1 : 0;
+  while (running > 0) {
+    for (Started& each : all) {
+      if (!each.search || each.search->advance()) continue;
+      visit(each.ray, surface_point(state, tree, each.search->first()));
+      if (!start(each)) --running;
+    }
+  }
 }
 
 }  // namespace
@@ -95,26 +129,15 @@ Ray::Ray(const Point& origin, const Point& direction, const Frame& frame)
       length_(length(direction_)),
       frame_scale_(frame.scale),
       scale_(std::ldexp(1.0, -std::ilogb(std::max(largest_of(origin - frame.origin), 1 / frame.scale)))),
-      main_axis_(std::abs(direction_.x) == 1   ? 0
-                 : std::abs(direction_.y) == 1 ? 1
-                                               : 2) {}
+      axes_(std::abs(direction_.x) == 1   ? Axes{&Point::y, &Point::z, &Point::x}
+            : std::abs(direction_.y) == 1 ? Axes{&Point::z, &Point::x, &Point::y}
+                                          : Axes{&Point::x, &Point::y, &Point::z}) {}
 
 Point Ray::see(const Point& p) const {
+  const auto [right, up, along] = axes_;
   const Point offset = scale_ * (p - origin_);
-  switch (main_axis_) {
-    case 0: {
-      const double way = offset.x * direction_.x;
-      return {offset.y - direction_.y * way, offset.z - direction_.z * way, way};
-    }
-    case 1: {
-      const double way = offset.y * direction_.y;
-      return {offset.z - direction_.z * way, offset.x - direction_.x * way, way};
-    }
-    default: {
-      const double way = offset.z * direction_.z;
-      return {offset.x - direction_.x * way, offset.y - direction_.y * way, way};
-    }
-  }
+  const double way = offset.*along * (direction_.*along);
+  return {offset.*right - direction_.*right * way, offset.*up - direction_.*up * way, way};
 }
 
 std::optional<TrianglePoint> Ray::meet(const std::array<Point, 3>& corners) const {
@@ -143,7 +166,9 @@ SurfacePoint Surface::first_hit(const SpacePoint& origin, const SpacePoint& dire
   check_point(origin, "origin");
   check_direction(direction, "direction");
   TaskContext alone;
-  return hit(state, state.tree(alone), make_ray(state, origin, direction));
+  const FaceTree& tree = state.tree(alone);
+  return surface_point(state, tree,
+                       find_first_hit(*state.index, tree, make_ray(state, origin, direction), EachCounts{}));
 }
 
 std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origins,
@@ -177,10 +202,12 @@ void Surface::for_each_first_hit(std::span<const SpacePoint> origins, std::span<
     prefetch(&directions[row]);
   };
   task.parallel_for(origins.size(), kRaysOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
+    const auto next_ray = [&](std::size_t i) {
       if (i + kRaysAhead < end) fetch_row(in_order[i + kRaysAhead]);
-      visit(in_order[i], hit(state, tree, ray_of(in_order[i])));
-    }
+      return ray_of(in_order[i]);
+    };
+    search_together(state, tree, begin, end, next_ray,
+                    [&](std::size_t i, const SurfacePoint& point) { visit(in_order[i], point); });
     task.advance(thread, end - begin);
   });
   task.finish();

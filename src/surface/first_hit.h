@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "base/frame.h"
+#include "base/prefetch.h"
 #include "exact/layout.h"
 #include "shared/distance.h"
 #include "surface/face_tree.h"
@@ -34,6 +36,8 @@ class Ray {
   [[nodiscard]] double way_to(double distance) const { return distance * frame_scale_ / length_; }
 
  private:
+  using Axes = std::array<double Point::*, 3>;
+
   /// A point from the origin of the ray; z is the way along it.
   [[nodiscard]] Point see(const Point& p) const;
 
@@ -43,21 +47,61 @@ class Ray {
   double length_;  // of `direction_`
   double frame_scale_;
   double scale_;  // makes what is seen about 1, from far away as well
-  std::size_t main_axis_;
+  Axes axes_;     // the main axis of the direction is the last
 };
 
-/// The first of the triangles that the ray meets and for which `counts(i, at)`.
+/// The first of the triangles that a ray meets and for which `counts(i, at)`.
+template <class Counts>
+class FirstHitSearch {
+ public:
+  /// `index` and `tree` must outlive it.
+  FirstHitSearch(const IndexView& index, const FaceTree& tree, const Ray& ray, Counts counts)
+      : index_(&index),
+        tree_(&tree),
+        ray_(ray),
+        counts_(std::move(counts)),
+        line_(ray.origin(), ray.direction(), reach_),
+        walk_(tree.boxes(), line_) {}
+  FirstHitSearch(const FirstHitSearch&) = delete;
+  FirstHitSearch& operator=(const FirstHitSearch&) = delete;
+
+  /// One step, at whose end memory is fetched for the next one. False at the end.
+  bool advance() {
+    return walk_.advance([&](std::size_t i) { meet(i); }, [&](std::size_t i) { prefetch(&tree_->triangles()[i]); },
+                         BoxTree::kAll);
+  }
+
+  /// So far; at an infinite distance if none was met.
+  [[nodiscard]] const TriangleHit& first() const { return first_; }
+
+ private:
+  struct Reach {
+    const FirstHitSearch* search;
+    double operator()() const { return search->ray_.way_to(search->first_.at.distance); }
+  };
+
+  void meet(std::size_t i) {
+    const std::optional<TrianglePoint> at = ray_.meet(corners_of(*index_, tree_->triangles()[i].corners));
+    if (at && precedes({i, *at}, first_, tree_->triangles()) && counts_(i, *at)) first_ = {i, *at};
+  }
+
+  const IndexView* index_;
+  const FaceTree* tree_;
+  Ray ray_;
+  Counts counts_;
+  TriangleHit first_;
+  Reach reach_{this};
+  BoxTree::Line<Reach> line_;
+  BoxTree::Walk<BoxTree::Line<Reach>> walk_;
+};
+
 template <class Counts>
 [[nodiscard]] TriangleHit find_first_hit(const IndexView& index, const FaceTree& tree, const Ray& ray,
                                          Counts&& counts) {
-  TriangleHit first;
-  tree.boxes().cast(
-      ray.origin(), ray.direction(), [&] { return ray.way_to(first.at.distance); },
-      [&](std::size_t i) {
-        const std::optional<TrianglePoint> at = ray.meet(corners_of(index, tree.triangles()[i].corners));
-        if (at && precedes({i, *at}, first, tree.triangles()) && counts(i, *at)) first = {i, *at};
-      });
-  return first;
+  FirstHitSearch search(index, tree, ray, std::forward<Counts>(counts));
+  while (search.advance()) {
+  }
+  return search.first();
 }
 
 }  // namespace meshhood
