@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -33,11 +32,9 @@ namespace {
 
 Corners corners_of(bool all) { return all ? Corners::All : Corners::Any; }
 
-/// Borrows the arrays, which nobody writes to: `face_arrays` has made them.
 Surface of_faces(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets) {
   const FacesView faces = faces_of(corners, offsets);
-  const auto owner = std::make_shared<const Input>(corners);
-  return without_lock([&] { return Surface(method.index(), faces, owner); });
+  return without_lock([&] { return Surface(method.index(), faces); });
 }
 
 /// With an index of its own.

@@ -92,11 +92,7 @@ class Surface {
   /// Throws Error{InvalidMesh, TooLarge} if they are invalid (see `validate`). O(#V + #corners).
   Surface(const Index& index, const FacesView& faces);
 
-  /// The same, without a copy of triangles whose corners have 32 bits, row by row. `owner` keeps these alive; they must
-  /// not change.
-  Surface(const Index& index, const FacesView& faces, std::shared_ptr<const void> owner);
-
-  /// The first, and Error{InvalidMesh} if `mesh` has other positions than the index.
+  /// The same, and Error{InvalidMesh} if `mesh` has other positions than the index.
   Surface(const Index& index, const MeshView& mesh);
 
   /// A surface with these normals instead of those of its faces. Without faces, it serves for curvature alone.

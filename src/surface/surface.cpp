@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -39,39 +37,19 @@ void check_positions(const IndexView& index, const MeshView& mesh) {
   });
 }
 
-void check_faces(const MeshView& mesh) {
+FaceArrays copy(const MeshView& mesh) {
   validate(mesh);
   constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
   if (mesh.faces.size() > kMost) {
     raise(ErrorCode::TooLarge, std::to_string(mesh.faces.size()) + " faces, expected at most 2^32 - 1");
   }
+  return make_face_arrays(mesh.faces);
 }
 
-std::shared_ptr<SurfaceFaces> copy(const MeshView& mesh) {
-  check_faces(mesh);
-  return std::make_shared<SurfaceFaces>(make_face_arrays(mesh.faces));
-}
-
-std::shared_ptr<SurfaceFaces> copy(const Index& index, const MeshView& mesh) {
-  auto faces = copy(mesh);
+FaceArrays copy(const Index& index, const MeshView& mesh) {
+  FaceArrays faces = copy(mesh);
   check_positions(IndexAccess::view(index), mesh);
   return faces;
-}
-
-/// The corners of triangles that are stored as a surface stores them.
-std::optional<std::span<const VertexId>> stored_corners(const FacesView& faces) {
-  if (!faces.are_triangles() || faces.face_stride() != 3 || faces.corner_stride() != 1) return std::nullopt;
-  return faces.corners().visit([&](auto corners) -> std::optional<std::span<const VertexId>> {
-    if constexpr (sizeof(corners[0]) != sizeof(VertexId)) return std::nullopt;
-    return std::span(reinterpret_cast<const VertexId*>(corners.data()), 3 * faces.size());
-  });
-}
-
-std::shared_ptr<SurfaceFaces> borrow(const MeshView& mesh, std::shared_ptr<const void> owner) {
-  const auto corners = stored_corners(mesh.faces);
-  if (!corners) return copy(mesh);
-  check_faces(mesh);
-  return std::make_shared<SurfaceFaces>(StoredFaces{*corners, {}}, std::move(owner));
 }
 
 /// Without repeats, ascending.
@@ -98,11 +76,11 @@ bool same(const Frame& a, const Frame& b) { return same(a.origin, b.origin) && a
 
 }  // namespace
 
-Surface::State::State(const Index& given, std::shared_ptr<SurfaceFaces> faces)
+Surface::State::State(const Index& given, FaceArrays faces)
     : searched(IndexAccess::alias(given)),
       index(searched),
       frame(index->frame),
-      topology(std::move(faces)),
+      topology(std::make_shared<SurfaceFaces>(std::move(faces))),
       geometry(std::make_shared<SurfaceGeometry>()) {}
 
 Surface::State::State(const Index& given, const State& other)
@@ -147,7 +125,7 @@ const PatchState& Surface::State::patches() const {
 // Of the positions in index order, for the sums and the bits of `vertex_areas`.
 const std::vector<double>& Surface::State::areas() const {
   return geometry->areas.get([&] {
-    FaceArrays in_order = make_face_arrays(faces().view());
+    FaceArrays in_order = topology->arrays;
     for (VertexId& corner : in_order.corners) corner = static_cast<VertexId>(index->place(corner));
     const StoredFaces all{in_order.corners, in_order.offsets};
     const std::vector<double> by_place = meshhood::vertex_areas(MeshView{searched.positions(), all.view()});
@@ -180,9 +158,6 @@ void Surface::State::renew(SurfaceGeometry& made, std::span<const VertexId> chan
 
 Surface::Surface(const Index& index, const FacesView& faces)
     : Surface(std::make_unique<State>(index, copy(MeshView{index.positions(), faces}))) {}
-
-Surface::Surface(const Index& index, const FacesView& faces, std::shared_ptr<const void> owner)
-    : Surface(std::make_unique<State>(index, borrow(MeshView{index.positions(), faces}, std::move(owner)))) {}
 
 Surface::Surface(const Index& index, const MeshView& mesh)
     : Surface(std::make_unique<State>(index, copy(index, mesh))) {}
@@ -230,8 +205,8 @@ std::size_t Surface::vertex_count() const { return state_->index->vertex_count()
 std::size_t Surface::face_count() const { return state_->faces().size(); }
 
 std::size_t Surface::bytes() const {
-  const FaceArrays& faces = state_->topology->arrays;
-  std::size_t bytes = sizeof(VertexId) * faces.corners.size() + sizeof(std::uint32_t) * faces.offsets.size();
+  const StoredFaces& faces = state_->faces();
+  std::size_t bytes = faces.corners.size_bytes() + faces.offsets.size_bytes();
   if (const FaceLists* const lists = state_->topology->lists.made()) bytes += lists->bytes();
   if (const FaceTree* const tree = state_->geometry->tree.made()) bytes += tree->bytes();
   if (const NormalCones* const cones = state_->geometry->cones.made()) bytes += cones->bytes();

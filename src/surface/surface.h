@@ -30,13 +30,11 @@ using FaceLists = Lists<std::uint32_t, std::uint64_t>;
 
 /// The faces of a surface, whatever the positions.
 struct SurfaceFaces {
-  FaceArrays arrays;                  // of its own, or
-  std::shared_ptr<const void> owner;  // of borrowed ones
-  StoredFaces faces;
+  FaceArrays arrays;
+  StoredFaces faces;  // the same
   Kept<FaceLists> lists;
 
   explicit SurfaceFaces(FaceArrays given) : arrays(std::move(given)), faces{arrays.corners, arrays.offsets} {}
-  SurfaceFaces(const StoredFaces& borrowed, std::shared_ptr<const void> of) : owner(std::move(of)), faces(borrowed) {}
 };
 
 /// Unit vectors in index order; NaN without one.
@@ -69,7 +67,7 @@ struct Surface::State {
   mutable Kept<PatchState> made_patches;  // of this index, with its walls
   bool has_own_normals = false;           // which do not follow from faces
 
-  State(const Index& given, std::shared_ptr<SurfaceFaces> faces);
+  State(const Index& given, FaceArrays faces);
   State(const Index& given, const State& other);
 
   [[nodiscard]] const StoredFaces& faces() const { return topology->faces; }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -118,22 +117,6 @@ TEST_F(OneSurface, CountsWhatHasBeenMade) {
   EXPECT_EQ(before, 3 * sizeof(VertexId) * surface.face_count());
   static_cast<void>(answers(surface, points));
   EXPECT_GT(surface.bytes(), before + 40 * surface.face_count() + 32 * surface.vertex_count());
-}
-
-/// Only triangles of the type of the surface's own arrays.
-TEST_F(OneSurface, BorrowsTriangles) {
-  const auto corners = std::make_shared<std::vector<int>>(mesh.corners.begin(), mesh.corners.end());
-  const std::vector<long long> wide(corners->begin(), corners->end());
-  const Surface borrowing(index, FacesView::triangles(*corners), corners);
-  EXPECT_EQ(corners.use_count(), 2);
-  EXPECT_EQ(borrowing.bytes(), 0);
-  EXPECT_EQ(answers(borrowing, points), answers(surface, points));
-  const std::vector<int> columns(corners->size());
-  for (const FacesView& faces : {FacesView::triangles(wide), FacesView::column_major_triangles(columns)}) {
-    EXPECT_EQ(Surface(index, faces, nullptr).bytes(), 3 * sizeof(VertexId) * surface.face_count());
-  }
-  const std::vector<int> wrong{0, 1, static_cast<int>(mesh.size())};
-  expect_refused(ErrorCode::InvalidMesh, "", [&] { Surface(index, FacesView::triangles(wrong), nullptr); });
 }
 
 TEST_F(OneSurface, RefusesIndexesOfOtherMeshes) {

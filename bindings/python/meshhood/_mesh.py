@@ -53,8 +53,6 @@ def _read_only(array, dtype):
     # Valid ids and offsets are the same numbers in a signed and an unsigned type of the same size.
     array = array.view(dtype) if array.itemsize == np.dtype(dtype).itemsize else array.astype(dtype)
     array.flags.writeable = False
-    if array.base is not None:
-        array.base.flags.writeable = False  # nobody sets that of the array again: surfaces borrow it
     return array
 
 
