@@ -350,9 +350,9 @@ static_assert(!MakesTriangles<const Eigen::MatrixXi&>);
 TEST_F(Views, OfMatricesOfEigenAreReadInBothOrders) {
   using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   using RowMajorXi = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
-  const RowMajorXd rows = Eigen::Map<const RowMajorXd>(xyz.data(), static_cast<Eigen::Index>(xyz.size() / 3), 3);
+  const RowMajorXd rows = Eigen::Map<const RowMajorXd>(xyz_.data(), static_cast<Eigen::Index>(xyz_.size() / 3), 3);
   const RowMajorXi row_faces =
-      Eigen::Map<const RowMajorXi>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+      Eigen::Map<const RowMajorXi>(corners_.data(), static_cast<Eigen::Index>(corners_.size() / 3), 3);
   const Eigen::MatrixXd columns = rows;
   const Eigen::MatrixXi column_faces = row_faces;
   expect_same(mesh_view(rows, row_faces));
@@ -366,21 +366,21 @@ TEST_F(Views, OfMatricesOfEigenAreReadInBothOrders) {
 
 TEST_F(Views, OfVectorsOfEigenAreReadAsRows) {
   std::vector<Eigen::RowVector3d> points;
-  for (const auto& p : rows_of<double>(xyz)) points.emplace_back(p[0], p[1], p[2]);
+  for (const auto& p : rows_of<double>(xyz_)) points.emplace_back(p[0], p[1], p[2]);
   std::vector<Eigen::Vector3i> triangles;
-  for (const auto& t : rows_of<int>(corners)) triangles.emplace_back(t[0], t[1], t[2]);
+  for (const auto& t : rows_of<int>(corners_)) triangles.emplace_back(t[0], t[1], t[2]);
   expect_same({points, FacesView::triangles(triangles)});
-  EXPECT_EQ(saved(build(points, triangles)), saved(index));
+  EXPECT_EQ(saved(build(points, triangles)), saved(index_));
 }
 
 TEST_F(Views, OfBlocksOfMatricesAreRead) {
-  Eigen::MatrixXd larger(static_cast<Eigen::Index>(xyz.size() / 3) + 4, 8);
+  Eigen::MatrixXd larger(static_cast<Eigen::Index>(xyz_.size() / 3) + 4, 8);
   larger.setConstant(99);
-  auto block = larger.block(2, 3, static_cast<Eigen::Index>(xyz.size() / 3), 3);
+  auto block = larger.block(2, 3, static_cast<Eigen::Index>(xyz_.size() / 3), 3);
   for (Eigen::Index i = 0; i < block.rows(); ++i) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) block(i, axis) = xyz[static_cast<std::size_t>(3 * i + axis)];
+    for (Eigen::Index axis = 0; axis < 3; ++axis) block(i, axis) = xyz_[static_cast<std::size_t>(3 * i + axis)];
   }
-  expect_same({positions_view(block), plain.faces});
+  expect_same({positions_view(block), plain_.faces});
 }
 
 TEST_F(Views, OfMatricesWithoutThreeColumnsAreRefused) {

@@ -118,7 +118,11 @@ TEST_P(TreeOf, VisitsEveryBoxThatARayMeetsOnce) {
     const Point origin = target.low - std::ldexp(random.uniform(), static_cast<int>(random.below(40)) - 20) * direction;
     const double reach = round % 4 == 0 ? std::numeric_limits<double>::infinity() : random.uniform(0, 2);
     std::vector<int> visits(boxes.size(), 0);
-    tree.cast(origin, direction, [&] { return reach; }, [&](std::size_t i) { ++visits[i]; });
+    const auto reach_of_ray = [&] { return reach; };
+    BoxTree::Line line(origin, direction, reach_of_ray);
+    BoxTree::Walk walk(tree, line);
+    while (walk.advance([&](std::size_t i) { ++visits[i]; }, [](std::size_t) {}, BoxTree::kAll)) {
+    }
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       ASSERT_LE(visits[i], 1);
       ASSERT_TRUE(visits[i] == 1 || !meets(origin, direction, boxes[i], reach)) << i;
