@@ -77,12 +77,14 @@ class FirstHitSearch {
  private:
   struct Reach {
     const FirstHitSearch* search;
-    double operator()() const { return search->ray_.way_to(search->first_.at.distance); }
+    double operator()() const { return search->way_; }
   };
 
   void meet(std::size_t i) {
     const std::optional<TrianglePoint> at = ray_.meet(corners_of(*index_, tree_->triangles()[i].corners));
-    if (at && precedes({i, *at}, first_, tree_->triangles()) && counts_(i, *at)) first_ = {i, *at};
+    if (!at || !precedes({i, *at}, first_, tree_->triangles()) || !counts_(i, *at)) return;
+    first_ = {i, *at};
+    way_ = ray_.way_to(first_.at.distance);
   }
 
   const IndexView* index_;
@@ -90,6 +92,7 @@ class FirstHitSearch {
   Ray ray_;
   Counts counts_;
   TriangleHit first_;
+  double way_ = kInfinity;  // to it
   Reach reach_{this};
   BoxTree::Line<Reach> line_;
   BoxTree::Walk<BoxTree::Line<Reach>> walk_;
