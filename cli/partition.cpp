@@ -40,17 +40,17 @@ struct PartitionCommand {
 };
 
 std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const Progress& progress) {
-  if (!options.faces.empty()) return parts::open_arrays(path_of(options.mesh), path_of(options.faces));
+  const std::filesystem::path file = path_of(options.mesh);
+  if (!options.faces.empty()) return parts::open_arrays(file, path_of(options.faces));
   // A mesh that is read into memory takes several times the bytes of its file.
   constexpr std::uint64_t kMemoryPerByte = 4;
   const std::uint64_t most = options.memory / kMemoryPerByte;
   if (options.reading.weld.empty() && options.reading.precision.empty()) {
     try {
-      return parts::open_mesh(path_of(options.mesh), most, progress);
+      return parts::open_mesh(file, most, progress);
     } catch (const Error& refusal) {
       // Such a file may be for another reader, which reads it from the beginning.
-      if (refusal.code() != ErrorCode::UnsupportedFormat || !std::filesystem::is_regular_file(path_of(options.mesh)))
-        throw;
+      if (refusal.code() != ErrorCode::UnsupportedFormat || !std::filesystem::is_regular_file(file)) throw;
     }
   }
   io::Mesh mesh = read_mesh(options.mesh, options.reading, options.threads, most);

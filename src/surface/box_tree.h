@@ -137,8 +137,8 @@ class BoxTree::Walk {
     heights_[0] = static_cast<std::uint8_t>(tree.levels_.size());
   }
 
-  /// Calls `visit(item)` for the next items, then opens a group, for whose items that may be visited it calls
-  /// `fetch(item)`. False at the end.
+  /// Calls `visit(item)` for the next items, then opens one group. If this group holds items, calls `fetch(item)` for
+  /// those that may be visited later. False at the end.
   template <class Visit, class Fetch, class Enters>
   bool advance(Visit&& visit, Fetch&& fetch, Enters&& enters);
 
@@ -150,9 +150,10 @@ class BoxTree::Walk {
 
   const BoxTree* tree_;
   Shape* shape_;
-  // What is left, the next one last: the bits of what is measured, which have its order, then those of the number.
+  // What is left, the next one last: the bits of what `Shape` measured, then the number of the box or the item. Such
+  // bits of floats, which are not negative, have the order of the floats.
   std::array<std::uint64_t, kMostBoxes> boxes_;
-  std::array<std::uint8_t, kMostBoxes> heights_;  // 0 for items
+  std::array<std::uint8_t, kMostBoxes> heights_;  // levels below the box; 0 for items
   std::size_t size_ = 1;
 };
 

@@ -90,11 +90,12 @@ SurfacePoint surface_point(const SurfaceState& state, const FaceTree& tree, cons
   return surface_point(*state.index, state.faces(), triangle.face, triangle.corners, first.at);
 }
 
+/// Every triangle that a ray meets counts.
 struct EachCounts {
   bool operator()(std::size_t, const TrianglePoint&) const { return true; }
 };
 
-/// Those of the rays `begin` to `end`; calls `visit(i, point)`.
+/// Finds the first hit of each ray from `begin` to `end`, of several rays by turns, and calls `visit(i, point)`.
 template <class RayOf, class Visit>
 void search_together(const SurfaceState& state, const FaceTree& tree, std::size_t begin, std::size_t end,
                      RayOf&& ray_of, Visit&& visit) {

@@ -98,6 +98,7 @@ class FirstHitSearch {
   BoxTree::Walk<BoxTree::Line<Reach>> walk_;
 };
 
+/// The same in one call.
 template <class Counts>
 [[nodiscard]] TriangleHit find_first_hit(const IndexView& index, const FaceTree& tree, const Ray& ray,
                                          Counts&& counts) {

@@ -361,15 +361,18 @@ TEST(Patch, OfNeedlesIsExact) {
 }
 
 /// The sphere passes between corners that differ by little more than their rounding, as those at the pole of a sphere.
+/// Where they differ by more, the radius is not that of a corner: rounding would decide whether that one is in the
+/// ball.
 TEST(Patch, BetweenCornersOfANeedleIsExact) {
   Random random(12);
   for (std::size_t i = 0; i < scaled(200, 40); ++i) {
+    const bool ends_at_corner = i % 2 == 0;
     TestMesh mesh;
     const std::size_t count = 9;
     for (std::size_t k = 0; k < count; ++k) {
       const double angle = 2 * kPi * static_cast<double>(k) / count;
       mesh.add_vertex(std::cos(angle), std::sin(angle), 0.3);
-      const double rounding = std::exp2(random.uniform(-52, -24));
+      const double rounding = std::exp2(random.uniform(-52, ends_at_corner ? -24 : -6));
       mesh.add_vertex(rounding * std::cos(angle), rounding * std::sin(angle), 1 + rounding * random.uniform(-1, 1));
     }
     const std::size_t turn = random.below(3);
@@ -382,7 +385,7 @@ TEST(Patch, BetweenCornersOfANeedleIsExact) {
     }
     Case test(mesh.finish(false));
     const auto v = static_cast<std::uint32_t>(2 * random.below(count));
-    const double radius = length(corner_of(mesh, v) - corner_of(mesh, 1));
+    const double radius = (ends_at_corner ? 1 : 1 + 1e-9) * length(corner_of(mesh, v) - corner_of(mesh, 1));
     SCOPED_TRACE(std::to_string(i) + ", vertex " + std::to_string(v));
     EXPECT_NEAR(test.measure(v, radius).area, test.reference.measure(v, radius).area, 1e-12 * kPi * radius * radius);
     if (testing::Test::HasFailure()) return;

@@ -326,7 +326,7 @@ TEST(FirstHit, FromFarAwayIsThatOfAScan) {
   EXPECT_GT(hits, 10U);
 }
 
-/// The faces of a grid of this side; rays advance by turns in a tree that no cache holds.
+/// Grids by their side. The tree of the larger one has more bytes than those in which rays are searched one by one.
 class FirstHits : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(FirstHits, OnSeveralThreadsAreThoseOfEachRay) {
