@@ -14,7 +14,7 @@
 #include "paper/query.cpp"  // NOLINT(bugprone-suspicious-include): its phases are timed
 #include "program.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 
 /// Climb up, breadth-first search, range search; the last includes the copy of the ids.
 using PhaseSeconds = std::array<double, 3>;
@@ -46,7 +46,7 @@ struct SearcherAccess {
   }
 };
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper
 
 namespace meshhood::bench {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "io/mesh_io.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 class InputBuffer;
 struct ReaderOptions;
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io
 
 namespace meshhood::fuzz {
 

@@ -8,7 +8,7 @@
 
 #include "io/input_buffer.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Reads the next value of a binary file; false at the end of the file.
 template <class T>
@@ -31,4 +31,4 @@ template <class T>
   return raw;
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

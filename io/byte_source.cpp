@@ -9,7 +9,7 @@
 #include "io/messages.h"
 #include "io/waiting.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 std::size_t MemorySource::read(std::span<char> out) {
   const std::size_t count = std::min(out.size(), left_.size());
@@ -82,4 +82,4 @@ std::size_t FileSource::read_file(std::span<char> out) {
   }
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

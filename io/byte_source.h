@@ -11,7 +11,7 @@
 
 #include "io/system.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// A sequence of bytes to read once.
 class ByteSource {
@@ -72,4 +72,4 @@ class FileSource final : public ByteSource {
   bool may_block_ = false;
 };
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

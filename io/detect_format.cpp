@@ -15,7 +15,7 @@
 #include "io/readers.h"
 #include "io/text.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr std::size_t kHead = std::size_t{1} << 16;
@@ -148,4 +148,4 @@ Format detect_format(InputBuffer& input, const std::string& name) {
         input.name() + ": is neither PLY, OBJ, OFF, STL, VTK nor FreeSurfer, by its first bytes or its extension");
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

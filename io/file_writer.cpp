@@ -13,7 +13,7 @@
 #include "io/messages.h"
 #include "io/waiting.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
@@ -189,4 +189,4 @@ void FileWriter::sync_names(const Descriptor& directory) const {
 
 void FileWriter::fail(std::string_view action) const { raise_errno(name_, errno, action); }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

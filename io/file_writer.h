@@ -9,7 +9,7 @@
 
 #include "io/system.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Writes a file atomically: to a temporary file beside the target, `.NAME.meshhood-PID-N.tmp`, which is renamed to the
 /// target by `commit`. If the process is killed, the temporary file remains. Standard output, and a target that is not
@@ -67,4 +67,4 @@ class FileWriter {
   std::uint64_t flushed_ = 0;  // offset of the buffer in the file
 };
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

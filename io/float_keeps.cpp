@@ -8,7 +8,7 @@
 
 #include "io/number.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 // From the first that is not 0.
@@ -32,4 +32,4 @@ bool float_keeps(std::string_view number, double value) {
   return significant_digits(fewest) == digits && parse_real<double>(fewest) == value;
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

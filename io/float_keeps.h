@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// The least double that overflows when it is rounded to float.
 inline constexpr double kFloatOverflow = 0x1.ffffffp127;
@@ -86,4 +86,4 @@ struct Decimal {
   return lost == 0 || decimal.in_last_digit(lost + 0x1p-52 * magnitude) < 0.5 - 0x1p-50;  // all rounding is less
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

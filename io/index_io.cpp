@@ -27,7 +27,7 @@
 #include "io/watched_source.h"
 #include "shared/aligned_buffer.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 /// Reads until `out` is full or the source ends. Returns the number of bytes read.
@@ -204,4 +204,4 @@ IndexHeader read_header(const std::filesystem::path& path) {
   return naming(path, [&] { return meshhood::read_header(bytes_of(head, known), source.size().value_or(known)); });
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -8,7 +8,7 @@
 #include "meshhood/serialize.h"
 
 /// Reading and writing index files. `meshhood/serialize.h` documents the content and its verification.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace io MESHHOOD_API {
 
 /// Writes `index` to a file atomically: to a temporary file beside the target, which is synced and renamed. Processes
@@ -45,4 +45,4 @@ void save(const std::filesystem::path& path, const paper::Index& index, const Ru
 [[nodiscard]] IndexHeader read_header(const std::filesystem::path& path);
 
 }  // namespace io
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -12,7 +12,7 @@
 
 #include "io/messages.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr std::size_t kWindow = std::size_t{1} << 20;
@@ -71,4 +71,4 @@ void InputBuffer::read_more() {
   }
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -10,7 +10,7 @@
 
 #include "io/byte_source.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// A file read through a window that moves forward. Only the window is in memory, because a text takes more memory than
 /// the numbers it contains.
@@ -61,4 +61,4 @@ class InputBuffer {
   bool exhausted_ = false;
 };
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -11,7 +11,7 @@
 #include "io/mesh_io.h"
 
 /// Reading files whose content is not known in advance. The implementation is in index_io.cpp.
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// An index of either kind and the header of its file.
 struct LoadedIndex {
@@ -26,4 +26,4 @@ struct LoadedIndex {
 [[nodiscard]] std::variant<Mesh, LoadedIndex> read_mesh_or_index(const std::filesystem::path& path,
                                                                  const ReadOptions& options = {});
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -7,7 +7,7 @@
 #include "io/messages.h"
 #include "io/system.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 MappedFile::MappedFile(const std::filesystem::path& path) {
   const Descriptor file = open_to_read(path);
@@ -22,4 +22,4 @@ MappedFile::~MappedFile() {
   if (!bytes_.empty()) unmap(bytes_);
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

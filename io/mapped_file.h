@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <span>
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// A file mapped into memory, read-only. The file may be replaced by renaming, but must not be truncated or changed.
 ///
@@ -24,4 +24,4 @@ class MappedFile {
   std::span<const std::byte> bytes_;
 };
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

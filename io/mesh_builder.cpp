@@ -16,7 +16,7 @@
 #include "shared/distance.h"
 #include "shared/unplaced.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 // What to do where float is coarse.
@@ -224,4 +224,4 @@ void check_vertex_count(std::uint64_t vertices, const std::string& file, const L
           fmt::format("{} vertices, but at most {} are supported", vertices, kMaxVertices));
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -18,7 +18,7 @@
 #include "io/messages.h"
 
 /// The arrays of a mesh that is being read.
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Reads a coordinate into `value`. Returns nothing, or the problem: "is not a number", "is not finite", "is too
 /// large". NaN is not finite, but becomes the value.
@@ -186,4 +186,4 @@ struct MeshBuilder {
 /// Throws Error{TooLarge} if `vertices` exceeds `kMaxVertices`.
 void check_vertex_count(std::uint64_t vertices, const std::string& file, const Location& location);
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -15,7 +15,7 @@
 #include "io/waiting.h"
 #include "io/watched_source.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 Mesh read_whole(WatchedSource& source, InputBuffer& input, const std::string& name, const ReadOptions& options) {
@@ -100,4 +100,4 @@ Mesh read_mesh(std::span<const std::byte> bytes, const std::string& name, const 
   return read(source, name, options);
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -14,7 +14,7 @@
 #include "meshhood/run.h"
 
 /// Reading and writing mesh files. Readers keep the vertex numbering and the polygons of the file.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace io MESHHOOD_API {
 
 enum class Format {
@@ -146,4 +146,4 @@ struct VtkOptions {
 void write_vtk(const std::filesystem::path& path, const MeshView& mesh, const VtkOptions& options = {});
 
 }  // namespace io
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 struct Character {
@@ -101,4 +101,4 @@ std::string escape(std::string_view text) {
 
 std::string quote(std::string_view text) { return "'" + escape(text) + "'"; }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -12,7 +12,7 @@
 #include "meshhood/run.h"
 
 /// How errors and warnings name a file, a location in it and what was found there.
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// A line and column of a text, both from 1, or a byte of a binary file.
 struct Location {
@@ -70,4 +70,4 @@ class RowProgress {
 /// The same between quotation marks.
 [[nodiscard]] std::string quote(std::string_view text);
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

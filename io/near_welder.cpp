@@ -8,7 +8,7 @@
 
 #include "io/seeded_hash.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr std::uint32_t kEnd = std::numeric_limits<std::uint32_t>::max();
@@ -101,4 +101,4 @@ void NearWelder<Real>::append(const Point& point) {
 template class NearWelder<float>;
 template class NearWelder<double>;
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

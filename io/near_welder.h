@@ -9,7 +9,7 @@
 
 #include "shared/distance.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Merges vertices at most `eps` > 0 apart, in the order in which they come (see io/weld.h).
 ///
@@ -52,4 +52,4 @@ class NearWelder {
 extern template class NearWelder<float>;
 extern template class NearWelder<double>;
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -12,7 +12,7 @@
 #include "io/messages.h"
 #include "io/number.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
@@ -111,4 +111,4 @@ NpyHeader parse_npy_header(std::string_view first_bytes, const std::string& file
           .shape = parse_shape(dictionary)};
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

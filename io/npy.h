@@ -10,7 +10,7 @@
 #include <vector>
 
 /// The header of a `.npy` file: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html.
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// The type of the values as NumPy writes it: '<f4'.
 template <class T>
@@ -43,4 +43,4 @@ inline constexpr std::size_t kNpyHeadBytes = 4096;
 /// name in messages. Throws Error{MalformedFile, UnsupportedFormat}.
 [[nodiscard]] NpyHeader parse_npy_header(std::string_view first_bytes, const std::string& file);
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -18,7 +18,7 @@
 
 #include "io/npy.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 void NpzWriter::begin_member(std::string_view name, std::string_view type, std::string_view shape,
                              std::uint64_t bytes) {
@@ -81,4 +81,4 @@ template void NpzWriter::append<std::int64_t>(std::span<const std::int64_t>);
 template void NpzWriter::append<std::uint64_t>(std::span<const std::uint64_t>);
 template void NpzWriter::append<double>(std::span<const double>);
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

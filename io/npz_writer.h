@@ -11,7 +11,7 @@
 
 #include "io/zip_writer.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Writes named arrays to a file for `numpy.load`, atomically (see `FileWriter`).
 ///
@@ -64,4 +64,4 @@ class NpzWriter {
   std::uint64_t bytes_left_ = 0;  // of the current array
 };
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -6,7 +6,7 @@
 
 #include <fast_float/fast_float.h>
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 std::string_view without_plus(std::string_view token) {
@@ -44,4 +44,4 @@ std::optional<std::int64_t> parse_integer(std::string_view token) { return parse
 
 std::optional<std::uint64_t> parse_count(std::string_view token) { return parse_whole<std::uint64_t>(token); }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Parses the whole token as a decimal number, correctly rounded, independent of the locale. Accepts a leading `+`, and
 /// `nan` and `inf` in the spellings of C. A number too large for `Real` becomes infinite, one too small becomes 0.
@@ -18,4 +18,4 @@ template <class Real>
 /// The same for counts: 0 to 2^64 - 1.
 [[nodiscard]] std::optional<std::uint64_t> parse_count(std::string_view token);
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

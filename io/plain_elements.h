@@ -12,7 +12,7 @@
 #include "io/plain_text.h"
 
 /// Plain rows of vertices and faces in text, a line each, as in PLY and OFF files.
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// A row of a vertex.
 struct VertexRow {
@@ -68,4 +68,4 @@ struct FaceRow {
   }
 };
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -13,7 +13,7 @@
 #include "io/text.h"
 #include "shared/parallel.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Takes rows in the form that nearly all files have from the front of a text, in blocks that threads parse together.
 /// It stops at the first row that is not *plain*. The reader of the format reads that row; it decides what a file means
@@ -168,4 +168,4 @@ class PlainRows {
   std::uint64_t searched_ = 0;  // blocks have all line ends before this byte; without it, CR as line end is quadratic
 };
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

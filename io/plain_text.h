@@ -15,7 +15,7 @@
 /// Text in the form that programs write: blanks are spaces and tabs, and numbers are digits. Each function takes a
 /// place in a text that ends with a line end, and returns the place after what it has read, or null if that is not
 /// plain. Null stays null.
-namespace meshhood::io::plain {
+namespace meshhood::inline v0_1::io::plain {
 
 [[nodiscard]] inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
 [[nodiscard]] inline bool is_digit(char c) { return '0' <= c && c <= '9'; }
@@ -99,4 +99,4 @@ template <class Real>
   return at != begin && ends_token(at) ? at : nullptr;
 }
 
-}  // namespace meshhood::io::plain
+}  // namespace meshhood::inline v0_1::io::plain

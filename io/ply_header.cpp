@@ -9,7 +9,7 @@
 #include "io/number.h"
 #include "io/text.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 // Keeps a forged header from filling the memory with properties.
@@ -162,4 +162,4 @@ std::size_t size_of(PlyType type) {
 
 PlyHeader read_ply_header(InputBuffer& input) { return HeaderParser(input).parse(); }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -10,7 +10,7 @@
 #include "io/messages.h"
 
 /// The header of a PLY file.
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 enum class PlyEncoding { Ascii, LittleEndian, BigEndian };
 
@@ -59,4 +59,4 @@ struct PlyHeader {
 /// Throws Error{MalformedFile, UnsupportedFormat}.
 [[nodiscard]] PlyHeader read_ply_header(InputBuffer& input);
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

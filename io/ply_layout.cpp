@@ -7,7 +7,7 @@
 #include "io/number.h"
 #include "io/text.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 using std::uint64_t;
@@ -89,4 +89,4 @@ bool fits(const PlyRest& rest, PlyLayout layout) {
   return walk.is_over();
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -6,7 +6,7 @@
 
 #include "io/ply_header.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// How the rows of a PLY file in text lie in its lines. Writers put each row into a line of its own, but the format
 /// does not require that.
@@ -28,4 +28,4 @@ struct PlyRest {
 /// numbers to a row adds as many to each row of the element, so that one row with more numbers proves nothing.
 [[nodiscard]] bool fits(const PlyRest& rest, PlyLayout layout);
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

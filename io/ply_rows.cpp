@@ -15,7 +15,7 @@
 #include "io/plain_rows.h"
 #include "shared/distance.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 using std::uint64_t;
@@ -184,4 +184,4 @@ PlyRows face_rows(InputBuffer& input, const ReaderOptions& options, const PlyEle
   return binary_rows(input, options, take_some);
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -12,7 +12,7 @@
 #include "io/readers.h"
 #include "io/text.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// The plain rows of an element of a PLY file (see `PlainRows`): takes some, up to `most`, and appends what they hold.
 /// Returns how many there were: the next row, if there is one, is to be read value by value. Empty if none is plain.
@@ -32,4 +32,4 @@ using PlyRows = std::function<std::uint64_t(std::uint64_t most)>;
 [[nodiscard]] PlyRows face_rows(InputBuffer& input, const ReaderOptions& options, const PlyElement& element,
                                 std::size_t list, std::uint64_t vertices, Faces& faces);
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -15,7 +15,7 @@
 #include "io/ply_layout.h"
 #include "io/text.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 // Calls `f` with a value of the C++ type of `type`.
@@ -232,4 +232,4 @@ std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& heade
   return std::make_unique<BinaryValues>(input, is_big ? std::endian::big : std::endian::little, options);
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -16,7 +16,7 @@
 #include "io/ply_rows.h"
 #include "io/readers.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Why a value could not be read; empty if it could.
 using Problem = std::optional<std::string>;
@@ -79,4 +79,4 @@ class PlyValues {
 [[nodiscard]] std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& header,
                                                     const ReaderOptions& options = {});
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

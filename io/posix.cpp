@@ -18,7 +18,7 @@
 #include "io/system.h"
 #include "io/waiting.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr mode_t kSharedMode = 0666;  // reduced by the umask
@@ -225,4 +225,4 @@ void unmap(std::span<const std::byte> bytes) { ::munmap(const_cast<std::byte*>(b
 
 long process_number() { return ::getpid(); }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

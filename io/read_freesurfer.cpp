@@ -15,7 +15,7 @@
 // The triangle file of FreeSurfer: three bytes, two lines of text, the numbers of vertices and faces, positions, and
 // corners, big-endian. Then, if anything, where the center of the surface lies in the scanner.
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 using std::uint64_t;
@@ -123,4 +123,4 @@ Mesh read_freesurfer(InputBuffer& input, const ReaderOptions& options) {
   return FreeSurferReader(input, options).read();
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

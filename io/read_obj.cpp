@@ -14,7 +14,7 @@
 // Only `v` and `f` are read. All other statements are skipped, also those that name a file or a program to run
 // (`mtllib`, `call`, `csh`). Unknown statements, and those that would add geometry, are counted as warnings.
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 using std::uint64_t;
@@ -254,4 +254,4 @@ bool is_obj_statement(std::string_view word) {
 
 Mesh read_obj(InputBuffer& input, const ReaderOptions& options) { return ObjReader(input, options).read(); }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -19,7 +19,7 @@
 // Many programs write colors after the vertices of a plain OFF file, so a vertex ends with its line there too. If a
 // line holds several vertices, the rest are skipped, the file ends too early and is refused.
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 using std::uint64_t;
@@ -207,4 +207,4 @@ bool is_off_keyword(std::string_view word) {
 
 Mesh read_off(InputBuffer& input, const ReaderOptions& options) { return OffReader(input, options).read(); }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

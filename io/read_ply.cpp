@@ -13,7 +13,7 @@
 // Elements are read in the order of the file. `vertex` (x, y, z), `face` and `tristrips` (vertex_indices or
 // vertex_index) are kept; all others are skipped.
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 using std::uint64_t;
@@ -306,4 +306,4 @@ class PlyReader {
 
 Mesh read_ply(InputBuffer& input, const ReaderOptions& options) { return PlyReader(input, options).read(); }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -17,7 +17,7 @@
 // A file of the size of a binary STL is binary, even if it begins with "solid", as many do. In a longer one, each facet
 // is followed by as many bytes as its last two say; in others, programs keep a color there.
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 using std::uint64_t;
@@ -216,4 +216,4 @@ Mesh read_stl(InputBuffer& input, const ReaderOptions& options) {
   return builder.finish(Format::Stl);
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -17,7 +17,7 @@
 // lists of a number of corners and these corners; from version 5 on, an array of offsets and one of corners. What
 // follows the first values of points or cells belongs to these, and is not read.
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 using std::uint64_t;
@@ -366,4 +366,4 @@ class VtkReader {
 
 Mesh read_vtk(InputBuffer& input, const ReaderOptions& options) { return VtkReader(input, options).read(); }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -10,7 +10,7 @@
 #include "io/mesh_io.h"
 
 /// One reader for each format. Each begins at the front of `input` and throws as `read_mesh` does.
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Reads a file of any format.
 [[nodiscard]] Mesh read_mesh(FileSource& file, const std::string& name, const ReadOptions& options);
@@ -47,4 +47,4 @@ inline constexpr std::string_view kFreeSurferMark = "\xff\xff\xfe";
 /// Whether the file has exactly the size that the number of facets in a binary STL header requires.
 [[nodiscard]] bool has_binary_stl_size(InputBuffer& input);
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

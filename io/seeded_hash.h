@@ -8,7 +8,7 @@
 
 /// A hash of coordinates that differs from run to run, so that no file can be made whose positions collide. Results
 /// must not depend on it.
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 [[nodiscard]] inline std::uint64_t mixed(std::uint64_t word) {
   word *= 0x9e3779b97f4a7c15U;
@@ -28,4 +28,4 @@ template <class Real>
   return mixed(hash ^ std::bit_cast<Bits>(coordinate + Real{0}));  // -0 + 0 is 0
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -10,7 +10,7 @@
 #include "io/plain_text.h"
 #include "io/text.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 using std::uint64_t;
@@ -190,4 +190,4 @@ template void read_stl_text(InputBuffer& input, const ReaderOptions& options, Me
 template void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder,
                             VertexWelder<double>& weld);
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

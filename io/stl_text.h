@@ -9,7 +9,7 @@
 #include "io/readers.h"
 #include "io/vertex_welder.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Reads all facets of an ASCII STL file, of any number of solids and in any letter case. A solid may be empty. `end
 /// facet` as two words is read with a warning. The
@@ -33,4 +33,4 @@ extern template void read_stl_text(InputBuffer& input, const ReaderOptions& opti
 extern template void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder,
                                    VertexWelder<double>& weld);
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -14,7 +14,7 @@
 ///
 /// A function that fails returns a closed descriptor, a negative number, false or an empty span, and sets `errno`,
 /// unless it says that it throws.
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Calls `call()` until no signal interrupts it, and returns its result. Not for calls that wait for another process
 /// (see waiting.h).
@@ -139,4 +139,4 @@ void unmap(std::span<const std::byte> bytes);
 
 [[nodiscard]] long process_number();
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

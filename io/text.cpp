@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr std::size_t kLongestLine = std::size_t{64} << 20;
@@ -114,4 +114,4 @@ void Text::take_line(std::size_t length) {
   whole_length_ = length + (pair ? 2 : std::min<std::size_t>(end.size(), 1));
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -15,7 +15,7 @@
 #include "io/input_buffer.h"
 #include "io/messages.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// With a to z in place of A to Z, whatever the locale.
 [[nodiscard]] std::string lower_case(std::string text);
@@ -108,4 +108,4 @@ class Text {
   std::size_t token_begin_ = 0;
 };
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

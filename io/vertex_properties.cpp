@@ -11,7 +11,7 @@
 #include "io/messages.h"
 #include "shared/unplaced.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 bool is_property_name(std::string_view name) {
@@ -47,4 +47,4 @@ void check_walls(std::span<const std::uint8_t> walls, const MeshView& mesh) {
   if (const auto used = first_corner_of(mesh.faces, walls)) raise(ErrorCode::InvalidMesh, used->text());
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -10,7 +10,7 @@
 
 #include "io/mesh_io.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// The numbers of a property for each vertex: 1, or 3 of a vector. `property` has been checked.
 [[nodiscard]] inline std::size_t components(const VertexProperty& property, std::size_t vertices) {
@@ -34,4 +34,4 @@ template <class Real>
   return is_placed ? xyz(vertex, axis) : std::numeric_limits<Real>::quiet_NaN();
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

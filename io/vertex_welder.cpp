@@ -11,7 +11,7 @@
 
 #include "io/seeded_hash.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -83,4 +83,4 @@ void VertexWelder<Real>::resize(std::size_t slots) {
 template class VertexWelder<float>;
 template class VertexWelder<double>;
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

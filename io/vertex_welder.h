@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Merges all corners of equal position (-0 equals 0) into one vertex. Vertices are numbered in order of first
 /// appearance.
@@ -50,4 +50,4 @@ class VertexWelder {
 extern template class VertexWelder<float>;
 extern template class VertexWelder<double>;
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

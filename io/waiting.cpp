@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 thread_local const std::function<void()>* current = nullptr;
@@ -27,4 +27,4 @@ bool wait_for(const Descriptor& file, Ready ready, std::chrono::steady_clock::du
   return true;
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

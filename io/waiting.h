@@ -6,7 +6,7 @@
 
 #include "io/system.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// While it lives, files of this thread that wait for another process call `f` about ten times a second, and whenever a
 /// signal interrupts them: while a pipe has no partner, while there is nothing to read, and while there is no room to
@@ -36,4 +36,4 @@ inline constexpr auto kNoTimeout = std::chrono::steady_clock::duration::max();
 /// How long to wait for another process to open a named pipe at its other end.
 inline constexpr auto kPartnerTimeout = std::chrono::seconds(2);
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -6,7 +6,7 @@
 
 #include "io/messages.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr std::size_t kMostAtOnce = std::size_t{4} << 20;
@@ -35,4 +35,4 @@ void WatchedSource::finish() {
   report();
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

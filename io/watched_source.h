@@ -11,7 +11,7 @@
 
 #include "io/byte_source.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// A source that reports progress in bytes and can be cancelled. If the size is unknown, the reported total is 0.
 class WatchedSource final : public ByteSource {
@@ -37,4 +37,4 @@ class WatchedSource final : public ByteSource {
   std::uint64_t done_ = 0;
 };
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

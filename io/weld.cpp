@@ -12,7 +12,7 @@
 #include "io/near_welder.h"
 #include "io/vertex_welder.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 void check_eps(double eps) {
@@ -74,4 +74,4 @@ std::vector<std::uint32_t> welded_ids(const PositionsView& positions, double eps
   });
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

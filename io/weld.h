@@ -21,7 +21,7 @@
 ///
 /// Expected O(#V + #corners) if `eps` is no larger than the mean edge length, and that is at least 1e-150, on one
 /// thread. The result does not depend on the machine. Throws Error{InvalidOption, InvalidMesh, TooLarge}.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace io MESHHOOD_API {
 
 /// A welded mesh, owned. Kept vertices have their positions, and their order.
@@ -44,4 +44,4 @@ struct WeldedMesh {
 [[nodiscard]] std::vector<std::uint32_t> welded_ids(const PositionsView& positions, double eps = 0);
 
 }  // namespace io
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

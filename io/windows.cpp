@@ -17,7 +17,7 @@
 
 // Files are binary, and no child process gets them. Reading and writing wait as long as they must: no signal interrupts
 // them, but Ctrl-C ends the read of a console, and there is nothing to ask whether they would wait.
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr int kBinary = _O_BINARY | _O_NOINHERIT;
@@ -221,4 +221,4 @@ void unmap(std::span<const std::byte> bytes) { ::UnmapViewOfFile(bytes.data()); 
 
 long process_number() { return ::_getpid(); }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -24,7 +24,7 @@
 #include "io/vertex_properties.h"
 #include "io/waiting.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
@@ -188,4 +188,4 @@ void write_ply(const std::filesystem::path& path, const MeshView& mesh, const Pl
   file.commit([&] { progress.report(); });
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -21,7 +21,7 @@
 #include "io/vertex_properties.h"
 #include "io/waiting.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::int32_t>::max();  // of an array of faces
@@ -117,4 +117,4 @@ void write_vtk(const std::filesystem::path& path, const MeshView& mesh, const Vt
   file.commit([&] { progress.report(); });
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -13,7 +13,7 @@
 
 #include "io/waiting.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 constexpr std::uint64_t kMost32 = std::numeric_limits<std::uint32_t>::max();  // says that the value is in Zip64 fields
@@ -215,4 +215,4 @@ void ZipWriter::commit() {
   file_.commit();
 }
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -9,7 +9,7 @@
 
 #include "io/file_writer.h"
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 
 /// Writes a zip file atomically (see `FileWriter`), with members of any size. The same members give the same bytes: all
 /// have the date 1980-01-01, the first that the format can represent. Sizes and offsets from 2^32 - 1 are in the fields
@@ -51,4 +51,4 @@ class ZipWriter {
   std::vector<Member> members_;  // the last may be incomplete
 };
 
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

@@ -22,7 +22,8 @@
 ///         {.radius = meshhood::smoothing_radius(6.0), .kernel = meshhood::SmoothingKernel::Gaussian});
 ///
 /// See docs/aggregate.md.
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 /// How the values of a neighborhood are combined.
 enum class Reduce : std::uint8_t {
@@ -173,4 +174,5 @@ void aggregate(const Index& index, const SignalView& signal, const AggregateQuer
 /// distance, radius  >= 0, not checked; 0 if one is NaN.
 [[nodiscard]] double smoothing_weight(SmoothingKernel kernel, double distance, double radius);
 
+}  // namespace v0_1
 }  // namespace meshhood

@@ -25,7 +25,7 @@
 #include "meshhood/error.h"
 #include "meshhood/mesh_data.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The positions, #V by 3, rounded to double. Throws Error{InvalidMesh} if vertices have been removed and the mesh has
 /// not collected its garbage, because ids would not be consecutive. O(#V).
@@ -66,6 +66,6 @@ template <class Point>
   return copy;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1
 
 #endif

@@ -11,7 +11,8 @@
 #include "meshhood/run.h"
 
 /// Curvature from measures instead of a fit. See docs/curvature.md.
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 /// One value for each row of the query; #radii by #rows if it has scales, which are then meant by #rows. All but the
 /// area and the measures are NaN where the area is 0; k1, k2, d1 and d2 also where the vertex has no normal.
@@ -51,4 +52,5 @@ struct CorrectedCurvatures {
 [[nodiscard]] CorrectedCurvatures corrected_curvatures(const Surface& surface, const BatchQuery& query,
                                                        const Run& run = {});
 
+}  // namespace v0_1
 }  // namespace meshhood

@@ -21,7 +21,8 @@
 ///
 ///     const meshhood::Surface surface(index, faces);
 ///     const auto [k1, k2, d1, d2, state, count] = meshhood::curvatures(surface, {.radius = 2.5});
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 /// How principal curvatures follow from the fitted quadric z = a x^2 + b x y + c y^2 + d x + e y.
 enum class ShapeOperator : std::uint8_t {
@@ -135,4 +136,5 @@ void curvatures(const Surface& surface, const BatchQuery& query, const Curvature
 /// Koenderink's curvedness, the square root of (k1^2 + k2^2) / 2.
 [[nodiscard]] double curvedness(double k1, double k2);
 
+}  // namespace v0_1
 }  // namespace meshhood

@@ -21,7 +21,7 @@
 #include "meshhood/error.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A matrix of Eigen whose coefficients lie in memory that outlives the expression: an lvalue, or a view of one (`Map`,
 /// `Ref`, `Block`). A temporary matrix is not.
@@ -66,6 +66,6 @@ template <BorrowedMatrix Positions, BorrowedMatrix Triangles>
   return {positions_view(V), triangles_view(F)};
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1
 
 #endif

@@ -8,7 +8,8 @@
 
 #include "meshhood/export.h"
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 /// Why a call failed. The list is closed: a program may switch over it.
 enum class ErrorCode {
@@ -60,4 +61,5 @@ class Error : public std::exception {
 /// through here.
 [[noreturn]] void raise(ErrorCode code, std::string message, std::string path = {}, int error_number = 0);
 
+}  // namespace v0_1
 }  // namespace meshhood

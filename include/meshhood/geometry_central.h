@@ -23,7 +23,7 @@
 #include "meshhood/error.h"
 #include "meshhood/mesh_data.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The positions, #V by 3. The mesh must be compressed, so that ids are consecutive; throws Error{InvalidMesh} if it is
 /// not. O(#V).
@@ -55,6 +55,6 @@ namespace meshhood {
   return copy;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1
 
 #endif

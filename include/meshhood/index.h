@@ -17,7 +17,8 @@
 #include "meshhood/owner.h"
 #include "meshhood/run.h"
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 class KeptGraph;
 struct IndexView;
@@ -141,4 +142,5 @@ template <class Positions, class Faces>
 /// `extract_graph(index)`.
 [[nodiscard]] Fingerprint fingerprint(const Index& index);
 
+}  // namespace v0_1
 }  // namespace meshhood

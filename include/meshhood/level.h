@@ -5,7 +5,8 @@
 
 #include "meshhood/export.h"
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 /// Memory of an index by part, in bytes. Of a mapped index: bytes of the file.
 struct IndexBytes {
@@ -28,4 +29,5 @@ struct LevelSummary {
   std::size_t bytes;     ///< memory of the arrays of the level
 };
 
+}  // namespace v0_1
 }  // namespace meshhood

@@ -15,7 +15,8 @@
 #include "meshhood/vertex.h"
 #include "meshhood/vertex_id.h"
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 /// The largest number of vertices. One id is reserved.
 inline constexpr std::size_t kMaxVertices = std::numeric_limits<VertexId>::max() - std::size_t{1};
@@ -36,12 +37,14 @@ class Borrowed : public std::span<const T> {
   constexpr Borrowed(Range&& array) : std::span<const T>(array) {}
 };
 
+}  // namespace v0_1
 }  // namespace meshhood
 
 template <class T>
 inline constexpr bool std::ranges::enable_borrowed_range<meshhood::Borrowed<T>> = true;
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 /// A type of coordinates and values.
 template <class T>
@@ -342,4 +345,5 @@ void validate(const PositionsView& positions);
 /// Throws Error{VertexOutOfRange}.
 [[nodiscard]] double distance(const PositionsView& positions, Vertex v, Vertex w);
 
+}  // namespace v0_1
 }  // namespace meshhood

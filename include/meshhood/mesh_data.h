@@ -9,7 +9,8 @@
 #include "meshhood/export.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 /// A polygonal mesh that owns its arrays: a copy of a mesh of another library. See cgal.h, openmesh.h and
 /// geometry_central.h.
@@ -26,4 +27,5 @@ struct MeshData {
   [[nodiscard]] MeshView view() const&& = delete;
 };
 
+}  // namespace v0_1
 }  // namespace meshhood

@@ -26,7 +26,7 @@
 #include "meshhood/error.h"
 #include "meshhood/mesh_data.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The positions, #V by 3, in float if the mesh has float, else in double. Throws Error{InvalidMesh} if vertices have
 /// been deleted and the mesh has not collected its garbage, because ids would not be consecutive. O(#V).
@@ -59,6 +59,6 @@ template <class Kernel>
   return copy;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1
 
 #endif

@@ -6,7 +6,8 @@
 
 #include "meshhood/export.h"
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 namespace detail {
 
 /// Throws Error{InvalidOption}.
@@ -45,4 +46,5 @@ class Owner {
 };
 
 }  // namespace detail
+}  // namespace v0_1
 }  // namespace meshhood

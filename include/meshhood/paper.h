@@ -19,7 +19,7 @@
 
 /// The index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
 /// `docs/paper.md` lists the deviations from the paper, with reasons.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace paper MESHHOOD_API {
 
 /// A cluster, by its number on its level.
@@ -205,4 +205,4 @@ class Searcher {
 };
 
 }  // namespace paper
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

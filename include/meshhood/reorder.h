@@ -8,7 +8,8 @@
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 /// A mesh renumbered into index order, with its index. With this order, mesh and index share one copy of the positions,
 /// `Index::permutation()` is empty, and vertices that are near on the mesh are near in memory.
@@ -32,4 +33,5 @@ struct ReorderedMesh {
 /// + #corners).
 [[nodiscard]] ReorderedMesh reorder(const MeshView& mesh, const Run& run = {});
 
+}  // namespace v0_1
 }  // namespace meshhood

@@ -11,7 +11,8 @@
 #include "meshhood/mesh.h"
 #include "meshhood/vertex.h"
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 /// A point in space, in the unit of the positions.
 using SpacePoint = std::array<double, 3>;
@@ -70,4 +71,5 @@ struct NearestVertex {
 /// has no such vertex. O(log #V) on most surfaces. Allocates nothing; any thread.
 [[nodiscard]] NearestVertex nearest(const Index& index, const SpacePoint& point);
 
+}  // namespace v0_1
 }  // namespace meshhood

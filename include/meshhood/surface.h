@@ -18,7 +18,8 @@
 #include "meshhood/start.h"
 #include "meshhood/vertex_id.h"
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 /// No face.
 inline constexpr std::size_t kNoFace = std::numeric_limits<std::size_t>::max();
@@ -236,4 +237,5 @@ class Surface {
 /// beyond `kMaxNeighbors`, and Error{Cancelled}. Connectome Workbench measures geodesic distances in this way.
 [[nodiscard]] Index surface_paths(const Surface& surface, const Run& run = {});
 
+}  // namespace v0_1
 }  // namespace meshhood

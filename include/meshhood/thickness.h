@@ -13,7 +13,8 @@
 ///
 ///     const meshhood::Surface surface(index, faces);
 ///     const std::vector<double> across = meshhood::thickness(surface);
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 enum class ThicknessMethod : std::uint8_t {
   /// The way from the vertex against its normal (see curvature.h) to the surface.
@@ -38,4 +39,5 @@ enum class ThicknessMethod : std::uint8_t {
 [[nodiscard]] std::vector<double> thickness(const Surface& surface, const BatchVertices& vertices = {},
                                             ThicknessMethod method = ThicknessMethod::Ray, const Run& run = {});
 
+}  // namespace v0_1
 }  // namespace meshhood

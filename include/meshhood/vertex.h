@@ -8,7 +8,8 @@
 #include "meshhood/export.h"
 #include "meshhood/vertex_id.h"
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 namespace detail {
 
@@ -37,4 +38,5 @@ class Vertex {
   VertexId id_;
 };
 
+}  // namespace v0_1
 }  // namespace meshhood

@@ -9,9 +9,9 @@
 #include <limits>
 
 #include "meshhood/export.h"
-#include "meshhood/version.h"  // IWYU pragma: keep (every program names the version of its headers)
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 /// A vertex, by its row in the caller's positions.
 using VertexId = std::uint32_t;
@@ -22,4 +22,5 @@ inline constexpr VertexId kNoVertex = std::numeric_limits<VertexId>::max();
 /// An index into a list of neighbors, in which each edge occurs twice.
 using EdgeOffset = std::uint32_t;
 
+}  // namespace v0_1
 }  // namespace meshhood

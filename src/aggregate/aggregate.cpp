@@ -29,7 +29,7 @@
 #include "shared/distance.h"
 #include "shared/text.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // Channels that are aggregated together share the search and the weights; their tables and sums should stay in the
@@ -398,4 +398,4 @@ std::vector<double> aggregate(const Index& index, const SignalView& signal, cons
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -12,7 +12,7 @@
 #include "simd/aggregate.h"
 #include "simd/gaussian.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // In smaller balls, relative to the frame, products of four offsets might underflow.
@@ -316,4 +316,4 @@ double smoothing_weight(SmoothingKernel kernel, double distance, double radius) 
   return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

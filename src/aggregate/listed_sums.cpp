@@ -17,7 +17,7 @@
 #include "exact/index_access.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::size_t kFewestChannels = 17;  // more than share one search over nodes
@@ -185,4 +185,4 @@ void sum_listed(const Index& index, const SignalView& signal, const AggregateQue
   task.finish();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -6,7 +6,7 @@
 
 #include "meshhood/aggregate.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Weighted sums and means of many channels over rows that are listed: each id and its weight are found once, and serve
 /// all channels. For small neighborhoods this takes less time than sums over nodes, which are made for each channel.
@@ -24,4 +24,4 @@ namespace meshhood {
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
                 std::span<double> result, const Run& run);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

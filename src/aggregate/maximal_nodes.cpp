@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void MaximalNodes::reduce(const PacketAnswer& packet, PacketReducer& reducer) {
   reducer.begin(packet);
@@ -91,4 +91,4 @@ void MaximalNodes::pass_on_part(const VertexRange& vertices, const QueryWord* re
   if (any != 0) reducer.add_leaf(vertices, words.data());
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

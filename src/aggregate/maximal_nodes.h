@@ -10,7 +10,7 @@
 #include "exact/joint/packet_answer.h"
 #include "simd/joint.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Cuts the neighborhoods of a packet into the largest nodes of the tree whose vertices a row has, and the leaves of
 /// which it has some. So the parts of a row, and their order, depend on its neighborhood alone: not on the other rows
@@ -45,4 +45,4 @@ class MaximalNodes {
   std::vector<std::uint32_t> parents_;  // those of which a node follows from its children; ascending
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -10,7 +10,7 @@
 #include "shared/distance.h"
 #include "simd/aggregate.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr double kAboveAll = std::numeric_limits<double>::infinity();
@@ -129,4 +129,4 @@ ReducerFactory minimum_reducers(const NodeTree& tree, SignalBlock block, bool ma
   return factory_of<MinimumReducer>(Minima(tree, std::move(block), maximum, missing));
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

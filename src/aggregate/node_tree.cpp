@@ -6,7 +6,7 @@
 #include "base/vector.h"
 #include "exact/node_search.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 NodeTree::Children NodeTree::children(Node node) const {
   assert(!is_leaf(node));
@@ -50,4 +50,4 @@ Point NodeTree::center(Node node) const {
   return index_->frame.origin + (1 / index_->frame.scale) * in_frame;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 #include "exact/layout.h"
 #include "simd/joint.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The nodes of the tree of an index, by their numbers. Everything that an aggregate keeps by node has this order, with
 /// places for nodes that do not exist, which have no vertices and no children.
@@ -92,4 +92,4 @@ template <class F>
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -6,7 +6,7 @@
 #include "base/frame.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 PatchCutter::PatchCutter(const IndexView& index, const NodeTree& tree, double radius)
     : index_(&index),
@@ -109,4 +109,4 @@ QueryWord PatchCutter::inside(std::size_t vertex, QueryWord queries) const {
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -10,7 +10,7 @@
 #include "simd/ball.h"
 #include "simd/joint.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Cuts the neighborhoods of a packet by a smaller radius: by balls around their vertices (`Nesting::Patch`), or by the
 /// lengths of the packet, which leaves the neighborhoods of that radius.
@@ -44,4 +44,4 @@ class PatchCutter {
   PacketAnswer rest_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -12,7 +12,7 @@
 #include "base/number_set.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// A vertex has a rank by its value, so that the vertices of a packet are read in order without sorting them, once for
@@ -194,4 +194,4 @@ ReducerFactory quantile_reducers(const NodeTree& tree, SignalBlock block, double
   return factory_of<QuantileReducer>(Ranks{&tree, quantile, missing == MissingValues::Propagate, rank(block.values())});
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

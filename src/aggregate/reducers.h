@@ -15,7 +15,7 @@
 #include "exact/joint/packet_answer.h"
 #include "simd/joint.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Reduces the neighborhoods of a packet, on one thread.
 class PacketReducer {
@@ -81,4 +81,4 @@ struct VarianceOptions {
 [[nodiscard]] ReducerFactory weighted_reducers(const IndexView& index, SumColumns columns, SmoothingKernel kernel,
                                                bool has_lengths);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // The binary exponent of the largest magnitude of a column: then 2^32 squares of it, with such weights, do not
@@ -113,4 +113,4 @@ void SignalBlock::omit_missing(std::size_t channel) {
   weights_.push_back(std::move(weights));
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

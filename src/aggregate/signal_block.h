@@ -9,7 +9,7 @@
 
 #include "exact/layout.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Numbers by vertex in index order, followed by `kLeafCapacity` zeros.
 using Column = std::vector<double>;
@@ -61,4 +61,4 @@ class SignalBlock {
   bool has_weights_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

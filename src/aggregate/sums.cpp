@@ -8,7 +8,7 @@
 
 #include "aggregate/reducers.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 double sum_of(std::span<const double> values) {
@@ -109,4 +109,4 @@ ReducerFactory sum_reducers(const NodeTree& tree, SumColumns columns) {
   return factory_of<SumReducer>(SumTables{std::move(columns), std::move(of_nodes)});
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 #include "aggregate/signal_block.h"
 #include "simd/aggregate.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A sum as `high + low`; see `RowSums`.
 struct CompensatedSum {
@@ -61,4 +61,4 @@ class SumColumns {
   std::vector<Channel> channels_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

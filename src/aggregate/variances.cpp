@@ -9,7 +9,7 @@
 #include "aggregate/reducers.h"
 #include "simd/aggregate.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The weight, the mean and the sum of squared deviations from the mean, of a set of values. Two sets are merged
@@ -213,4 +213,4 @@ ReducerFactory variance_reducers(const NodeTree& tree, SignalBlock block, const 
   return factory_of<VarianceReducer>(Spreads(tree, std::move(block), options));
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 #include "base/frame.h"
 #include "base/vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// In the unit of the frame, where nothing overflows.
@@ -35,4 +35,4 @@ std::vector<double> vertex_areas(const MeshView& mesh) {
   return areas;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 #include "exact/layout.h"
 #include "simd/aggregate.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 struct WeightedSums {
@@ -115,4 +115,4 @@ ReducerFactory weighted_reducers(const IndexView& index, SumColumns columns, Smo
   return has_lengths ? factory_of<WeightedByLength>(std::move(sums)) : factory_of<WeightedByDistance>(std::move(sums));
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -14,7 +14,7 @@
 #include "base/validate.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// Sorts each row, removes duplicates, and closes the gaps.
@@ -142,4 +142,4 @@ double mean_edge_length(const GraphView& graph) {
   });
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

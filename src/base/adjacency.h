@@ -11,7 +11,7 @@
 #include "base/lists.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Calls `f(v, w)` for every pair of consecutive distinct corners of the polygons `begin .. end - 1`, the last with the
 /// first. A side that several polygons share is repeated. The polygons must be valid.
@@ -41,4 +41,4 @@ void check_corner_count(const FacesView& faces);
 /// The graph of a mesh, on several threads.
 [[nodiscard]] Adjacency adjacency(const MeshView& mesh, TaskContext& task);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -7,7 +7,7 @@
 #include "base/ranges.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// Calls `f(w, position, center)` for every vertex of the ball, in ascending order.
@@ -56,4 +56,4 @@ std::size_t BallSearcher::count(Vertex v, double radius) {
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -10,7 +10,7 @@
 
 #include "shared/text.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The vertex `edges[i]`, in [0, #V).
@@ -61,4 +61,4 @@ Adjacency cut_edges(const AdjacencyView& graph, const IndicesView& edges) {
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// An array of states that are valid for one search only. `forget` makes all of them unknown at once, in constant time
 /// but for the calls at which the epochs run out.
@@ -71,4 +71,4 @@ class EpochSet : EpochArray<NoState, std::uint16_t> {
   void add(std::size_t i) { set(i, {}); }
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -3,7 +3,7 @@
 
 #include "meshhood/owner.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 std::string_view describe(ErrorCode code) noexcept {
   switch (code) {
@@ -26,4 +26,4 @@ void detail::raise_moved_from() {
   raise(ErrorCode::InvalidOption, "the object has been moved from, expected one that was assigned since");
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -18,7 +18,7 @@
 #include "base/vector.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// A side of a face: its ends, ascending, and the face.
@@ -105,4 +105,4 @@ GraphData face_graph(const MeshView& mesh) {
   return graph;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 #include "base/packed_positions.h"
 #include "shared/checksum.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 std::string to_text(const Fingerprint& fingerprint) {
   constexpr std::string_view kDigits = "0123456789abcdef";
@@ -38,4 +38,4 @@ Fingerprint fingerprint(const GraphView& graph) {
   });
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 template <class Real>
@@ -49,4 +49,4 @@ Frame make_frame(const PositionsView& positions, TaskContext& task) {
                                        extent(box.low.z, origin.z, box.high.z)}))};
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,7 @@
 
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 class TaskContext;
 
@@ -80,4 +80,4 @@ struct Frame {
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

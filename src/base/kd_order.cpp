@@ -15,7 +15,7 @@
 
 #include "shared/raw_vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 struct Cuts {
@@ -267,4 +267,4 @@ void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task, Kd
   task.parallel_for(runs.size(), 1, [&](unsigned, std::size_t i, std::size_t) { order(runs[i], cuts, moves); });
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,7 @@
 #include "shared/distance.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 struct KdPoint {
   std::array<float, 3> at;
@@ -35,4 +35,4 @@ enum class KdCut {
 /// unit  at most 32
 void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task, KdCut where = KdCut::Middle);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

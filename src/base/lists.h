@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Lists of elements, one after the other.
 template <class T, class Offset = std::uint32_t>
@@ -48,4 +48,4 @@ template <class T, class Offset, class ForEach>
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 #include "shared/distance.h"
 #include "shared/text.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The first of the numbers `0 .. count - 1` that is not valid, whatever the thread that finds one first; `count` if
@@ -204,4 +204,4 @@ void validate(const MeshView& mesh, TaskContext& task) {
   validate_corners(mesh.faces, mesh.positions.size(), task);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A set of numbers below a bound, as bits, with a bit for each of their words above: it lists its numbers in ascending
 /// order without sorting them.
@@ -53,4 +53,4 @@ class NumberSet {
   std::vector<std::uint64_t> summary_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

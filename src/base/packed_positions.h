@@ -7,7 +7,7 @@
 
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Positions row by row: those given, or a copy if they are strided.
 template <class Real>
@@ -46,4 +46,4 @@ template <class Real>
   return rows;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

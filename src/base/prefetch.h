@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Asks the processor to fetch what lies at `address`, which will be read soon. Never faults. Loops keep the number of
 /// items they prefetch ahead in a constant named after the items: `kLeavesAhead`.
@@ -29,4 +29,4 @@ inline void fetch_lines(const void* address, std::size_t count) {
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

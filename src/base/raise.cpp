@@ -6,7 +6,7 @@
 
 #include "meshhood/error.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void raise(ErrorCode code, std::string message, std::string path, int error_number) {
 #if defined(__cpp_exceptions)
@@ -20,4 +20,4 @@ void raise(ErrorCode code, std::string message, std::string path, int error_numb
 #endif
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -5,7 +5,7 @@
 
 #include "meshhood/search.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Appends `v`, to the last range if it follows.
 inline void append_to(std::vector<VertexRange>& ranges, VertexId v) {
@@ -16,4 +16,4 @@ inline void append_to(std::vector<VertexRange>& ranges, VertexId v) {
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -13,7 +13,7 @@
 #include "base/reference_access.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The data of a vertex that the search reads, in one cache line: its position, and the last query that visited it.
 template <class Real>
@@ -183,4 +183,4 @@ std::vector<VertexId> exact_neighborhood(const MeshView& mesh, Vertex v, double 
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 
 #include "meshhood/reference.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Access to the search itself for the exact index, and to rare states for tests.
 struct ReferenceAccess {
@@ -27,4 +27,4 @@ struct ReferenceAccess {
   static void set_query(ReferenceSearcher& searcher, std::uint32_t queries);
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -19,7 +19,7 @@
 
 #include "base/vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr double kTolerance = 1e-3;
@@ -196,4 +196,4 @@ Sphere<Real> bounding_sphere(std::span<const Real> xyz) {
 template Sphere<float> bounding_sphere(std::span<const float> xyz);
 template Sphere<double> bounding_sphere(std::span<const double> xyz);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -5,7 +5,7 @@
 
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A sphere around the points `xyz` (`#points by 3`, at least one), at most a thousandth larger than the smallest,
 /// except that its center is rounded to `Real`. The radius is rounded up, so that every point is inside as distances
@@ -16,4 +16,4 @@ template <class Real>
 /// The center of such a sphere around at least one point, not rounded.
 [[nodiscard]] Point bounding_center(std::span<const Point> points);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

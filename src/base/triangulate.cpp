@@ -8,7 +8,7 @@
 
 #include "base/vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 struct Flat {
@@ -139,4 +139,4 @@ void triangulate(std::span<const Point> corners, Triangulation& out) {
   for (std::uint32_t i = 1; i + 1 < corners.size(); ++i) out.push_back({0, i, i + 1});
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Triangles of the corners of a polygon, by their numbers in it, in its orientation.
 using Triangulation = std::vector<std::array<std::uint32_t, 3>>;
@@ -20,4 +20,4 @@ using Triangulation = std::vector<std::array<std::uint32_t, 3>>;
 /// that crosses itself gives some triangles. O(#corners * (1 + #reflex corners)), and more only where ears are rare.
 void triangulate(std::span<const Point> corners, Triangulation& out);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -13,7 +13,7 @@
 #include "shared/parallel.h"
 #include "shared/text.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 [[nodiscard]] inline bool is_valid_coordinate(double coordinate) { return std::abs(coordinate) <= kLargestCoordinate; }
 
@@ -42,4 +42,4 @@ inline void check_position(std::size_t v, const Point& p) {
 void validate(const PositionsView& positions, TaskContext& task);
 void validate(const MeshView& mesh, TaskContext& task);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

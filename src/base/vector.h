@@ -6,7 +6,7 @@
 
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 // Vector arithmetic on points. Every operation is rounded on its own, in the order written.
 
@@ -42,4 +42,4 @@ template <class F>
   return sum;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

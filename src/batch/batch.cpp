@@ -12,7 +12,7 @@
 #include "exact/layout.h"
 #include "simd/leaf.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void sort_answer(std::span<VertexId> ids, std::span<double> distances) {
   if (std::is_sorted(ids.begin(), ids.end())) return;
@@ -129,4 +129,4 @@ void for_each_packet(const Index& index, const BatchQuery& query, const PacketVi
   batch.task().finish();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

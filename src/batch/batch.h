@@ -18,7 +18,7 @@
 #include "shared/parallel.h"
 #include "shared/raw_vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Sorts `ids` in ascending order, and `distances`, unless empty, along with them.
 void sort_answer(std::span<VertexId> ids, std::span<double> distances);
@@ -160,4 +160,4 @@ void Batch::for_all_chunks(F&& f) {
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

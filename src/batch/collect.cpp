@@ -15,7 +15,7 @@
 #include "batch/size_limit.h"
 #include "shared/large_pages.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// Refuses a result that is far too large, by the sizes of a sample of the rows.
@@ -194,4 +194,4 @@ Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query,
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

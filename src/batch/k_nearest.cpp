@@ -27,7 +27,7 @@
 #include "shared/parallel.h"
 #include "shared/text.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::size_t kRowsAtOnce = 32;
@@ -312,4 +312,4 @@ Neighborhoods discs(const Index& index, const BatchVertices& vertices, double ar
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -7,7 +7,7 @@
 
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::size_t kWordsBeforePieces = 2;
@@ -138,4 +138,4 @@ std::size_t KeptChunks::bytes() const {
   return bytes;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,7 @@
 #include "shared/raw_vector.h"
 #include "simd/joint.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The answers of packets that one thread found, in that order: kept while rows are counted, so that they need not be
 /// searched again when they are written. An answer that would take more memory than its ids is left out.
@@ -106,4 +106,4 @@ class KeptChunks {
   std::vector<Found> chunks_;  // by number, after `finish`
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -19,7 +19,7 @@
 #include "exact/search/vertex_bfs.h"
 #include "paper/hierarchy.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 static_assert(NeighborhoodSearcher<Searcher>);
@@ -146,4 +146,4 @@ std::size_t SearchMethod::vertex_count() const { return searchers_->vertex_count
 
 AnySearcher SearchMethod::make_searcher() const { return searchers_->make_searcher(); }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,7 @@
 
 #include "exact/joint/packet_answer.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Called with each packet of one thread.
 using PacketVisitor = std::function<void(const PacketAnswer&)>;
@@ -42,4 +42,4 @@ struct PacketOptions {
 void for_each_packet(const Index& index, const BatchQuery& query, const PacketVisitorFactory& make_visitor,
                      const PacketOptions& options = {}, const Run& run = {});
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

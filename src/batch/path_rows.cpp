@@ -10,7 +10,7 @@
 #include "exact/layout.h"
 #include "exact/weighted_graph.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The neighborhoods of a batch along the edges, as a `Searcher` finds them one by one.
@@ -66,4 +66,4 @@ class PathRows final : public RowSearch {
 
 std::unique_ptr<RowSearch> make_path_rows(const Index& index) { return std::make_unique<PathRows>(index); }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

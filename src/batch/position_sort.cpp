@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr unsigned kDigitBits = 11;
@@ -59,4 +59,4 @@ void sort_by_position(RawVector<std::uint64_t>& rows, TaskContext& task) {
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

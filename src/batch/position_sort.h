@@ -9,7 +9,7 @@
 #include "shared/parallel.h"
 #include "shared/raw_vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Sorts `rows` by their upper halves, which are positions. Rows of equal positions keep their order. A radix sort,
 /// because the rows of a whole mesh are millions, and comparing them takes longer than small neighborhoods. Rows that
@@ -67,4 +67,4 @@ template <class At>
   return rows_by_position(rows, position, task);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

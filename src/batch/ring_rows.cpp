@@ -14,7 +14,7 @@
 #include "exact/search/vertex_bfs.h"
 #include "exact/weighted_graph.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// More edges than a mesh has vertices are as good as any number of them.
@@ -107,4 +107,4 @@ class RingRows final : public RowSearch {
 
 std::unique_ptr<RowSearch> make_ring_rows(const Index& index) { return std::make_unique<RingRows>(index); }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -16,7 +16,7 @@
 #include "exact/layout.h"
 #include "simd/joint.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// One row of a batch.
 struct BatchItem {
@@ -130,4 +130,4 @@ inline constexpr std::uint32_t kGroupPositions = kFanOut * kLeafCapacity;
 [[nodiscard]] std::unique_ptr<RowSearch> make_path_rows(const Index& index);
 [[nodiscard]] std::unique_ptr<RowSearch> make_ring_rows(const Index& index);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

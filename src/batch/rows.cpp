@@ -10,7 +10,7 @@
 
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 template <class T>
@@ -89,4 +89,4 @@ void Rows::reorder(std::span<const std::size_t> order) {
   vertices_ = std::move(vertices);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

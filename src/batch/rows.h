@@ -8,7 +8,7 @@
 
 #include "meshhood/batch.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The passes over all rows, one for each of the scales; the radius itself if there are none.
 /// Throws Error{InvalidRadius}, naming the scale, and Error{InvalidOption} if there are scales, but none.
@@ -50,4 +50,4 @@ class Rows {
   double radius_;  // of all rows, unless there are `radii_`
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

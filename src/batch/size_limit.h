@@ -11,7 +11,7 @@
 
 #include "meshhood/error.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Refuses lists of more bytes than the caller allows.
 class SizeLimit {
@@ -67,4 +67,4 @@ class SizeLimit {
   std::atomic<std::uint64_t> total_{0};
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -14,7 +14,7 @@
 #include "exact/search/straight_search.h"
 #include "exact/vertex_set.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // A packet costs about as much as this many rows of a leaf that are answered one by one with vectors (docs/joint.md).
@@ -180,4 +180,4 @@ std::unique_ptr<RowSearch> make_straight_rows(const Index& index, Metric metric,
   return std::make_unique<StraightRows>(index, metric, isa);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

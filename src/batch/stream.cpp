@@ -11,7 +11,7 @@
 #include "batch/batch.h"
 #include "shared/raw_vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // The size of the first windows, while the size of rows is not known.
@@ -201,4 +201,4 @@ void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, 
   batch.task().finish();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

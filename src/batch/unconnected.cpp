@@ -24,7 +24,7 @@
 #include "simd/ball.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -218,4 +218,4 @@ Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, con
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -5,7 +5,7 @@
 
 #include "exact/layout.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void BatchWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) {
   for_each_answer(chunk, false, [&](std::span<const BatchItem> items) {
@@ -67,4 +67,4 @@ void BatchWorker::split(std::span<const BatchItem> chunk, bool distances) {
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

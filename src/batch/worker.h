@@ -10,7 +10,7 @@
 #include "batch/row_search.h"
 #include "exact/joint/packet_answer.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Receives the sizes of some rows of a chunk. Returns false to drop the rest of the chunk.
 using SizeSink = std::function<bool(std::span<const BatchItem> rows, std::span<const std::uint64_t> sizes)>;
@@ -65,4 +65,4 @@ class BatchWorker {
   std::vector<double> radii_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -17,7 +17,7 @@
 #include "simd/moments.h"
 #include "surface/surface.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// Area, mean and Gaussian curvature, and the anisotropic measure, row by row.
@@ -196,4 +196,4 @@ CorrectedCurvatures corrected_curvatures(const Surface& surface, const BatchQuer
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -24,7 +24,7 @@
 #include "shared/large_pages.h"
 #include "surface/surface.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 TangentFrame frame_at(const OrientedIndex& surface, std::uint32_t place, ShapeOperator shape_operator) {
@@ -219,4 +219,4 @@ double libigl_radius(const MeshView& mesh, double edges) {
   return sides == 0 ? 0 : edges * (sum / static_cast<double>(sides));
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

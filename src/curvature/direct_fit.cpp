@@ -10,7 +10,7 @@
 #include "exact/index_access.h"
 #include "exact/neighbors.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Adds the vertices nearest to the query vertex among those that are linked to the set, one by one; of several the one
 /// with the lowest id. No walls and no ignored vertices.
@@ -92,4 +92,4 @@ double DirectFit::scale_for(double extent) const {
   return options_->shape_operator == ShapeOperator::Libigl && moderate ? 1 : scale;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

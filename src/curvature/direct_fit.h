@@ -10,7 +10,7 @@
 #include "curvature/quadric.h"
 #include "surface/surface.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The curvature of one vertex, from the points of its neighborhood themselves. Slow, but right also where the normal
 /// equations are not: for few or badly placed vertices. One object a thread.
@@ -44,4 +44,4 @@ class DirectFit {
   std::vector<Point> points_;  // relative to the query vertex
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

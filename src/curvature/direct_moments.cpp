@@ -8,7 +8,7 @@
 #include "curvature/packet_moments.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 Point DirectMoments::offset(std::uint32_t i, const Point& center) const { return source_.index->position(i) - center; }
 
@@ -46,4 +46,4 @@ void DirectMoments::sum(std::uint32_t place, double radius) {
   for (std::size_t m = 0; m < kMomentCount; ++m) moments_.at[m][0] = sums.at[m];
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

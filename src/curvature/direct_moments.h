@@ -10,7 +10,7 @@
 #include "curvature/packet_moments.h"
 #include "simd/moments.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The places in index order of the vertices of the neighborhood of the one at `place`. They ascend.
 inline void find_places(Searcher& searcher, const IndexView& index, std::uint32_t place, double radius,
@@ -51,4 +51,4 @@ class DirectMoments {
   QueryMoments moments_{};
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -26,7 +26,7 @@
 #include "shared/text.h"
 #include "surface/surface.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr double kNoFeature = std::numeric_limits<double>::quiet_NaN();
@@ -339,4 +339,4 @@ Persistence persistence(std::span<const double> values, std::span<const double> 
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -12,7 +12,7 @@
 #include "curvature/symmetric.h"
 
 /// Linear least squares with a few unknowns, by the rows themselves.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 template <std::size_t N>
 using SmallVector = std::array<double, N>;
@@ -106,4 +106,4 @@ template <std::size_t N>
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -19,7 +19,7 @@
 #include "exact/query/arguments.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The moments of one row about its query vertex, as `PacketMoments` has them.
@@ -136,4 +136,4 @@ double surface_variation(double least, double middle, double largest) {
   return least / largest / ((least / largest + middle / largest) + 1);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -10,7 +10,7 @@
 
 #include "base/vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 void measure(const QueryMoments& moments, MomentSizes& sizes) {
@@ -266,4 +266,4 @@ bool PacketMoments::is_accurate(std::size_t query) const {
   return b4 <= kMostLoss * a4 && b2 * b4 <= (kMostLoss * kMostLoss) * ((a2 * a2) * a2);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -13,7 +13,7 @@
 #include "simd/moments.h"
 #include "surface/surface.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The power of two by which coordinates are multiplied before their powers are summed. It brings `extent`, a length in
 /// the frame, to between 1/2 and 1; a length below 2^-1000 stays less than that, because the factor must be finite.
@@ -126,4 +126,4 @@ class PacketMoments {
   MomentSizes after_;   // about the query vertices
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 #include "curvature/symmetric.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 double ratio(double numerator, double denominator) { return denominator > 0 ? numerator / denominator : kInfinity; }
@@ -117,4 +117,4 @@ PrincipalCurvature principal_curvature(const Quadric& quadric, const TangentFram
   return {out.k1[0], out.k2[0], out.d1.at(0), out.d2.at(0)};
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

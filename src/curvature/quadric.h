@@ -12,7 +12,7 @@
 #include "shared/distance.h"
 #include "simd/moments.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// z = a x^2 + b x y + c y^2 + d x + e y in the frame of a vertex.
 using Quadric = std::array<double, 5>;
@@ -82,4 +82,4 @@ struct PrincipalCurvature {
 [[nodiscard]] PrincipalCurvature principal_curvature(const Quadric& quadric, const TangentFrame& frame,
                                                      ShapeOperator shape_operator);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 #include "simd/ball.h"
 #include "simd/leaf.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The *sure leaves* of a leaf for a radius: leaves that are whole in the neighborhoods of all its vertices, as spheres
 /// and links tell. They depend on index, leaf and radius alone, and those of a smaller radius are a prefix of those of
@@ -84,4 +84,4 @@ inline void SureLeaves::meet(LeafId leaf) {
   std::push_heap(frontier_.begin(), frontier_.end(), is_later);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

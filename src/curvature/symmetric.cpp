@@ -9,7 +9,7 @@
 #include "base/vector.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
@@ -53,4 +53,4 @@ Eigen3 eigen(const Symmetric3& m) {
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

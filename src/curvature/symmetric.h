@@ -10,7 +10,7 @@
 #include "base/vector.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A symmetric matrix of 3 by 3.
 struct Symmetric3 {
@@ -72,4 +72,4 @@ inline void set_row(std::span<double> rows, std::size_t row, const Point& p) {
   rows[3 * row + 2] = p.z;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

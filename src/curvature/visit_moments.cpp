@@ -7,7 +7,7 @@
 
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The state of a thread that sums the moments of packets.
@@ -49,4 +49,4 @@ PacketVisitor moment_visitor(const MomentSource& source, MomentVisitor visit) {
   return [summer](const PacketAnswer& packet) { summer->visit(packet); };
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

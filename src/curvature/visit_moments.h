@@ -15,7 +15,7 @@
 
 /// The visitors of packets that sum moments, and what is made of these. Each is for one thread, and borrows its
 /// arguments.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The rows of a packet. Row i is query i of the moments.
 struct MomentRows {
@@ -59,4 +59,4 @@ struct MomentWeights {
 [[nodiscard]] Curvatures make_curvatures(std::size_t rows);
 [[nodiscard]] CurvatureMemory memory_of(Curvatures& curvatures);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

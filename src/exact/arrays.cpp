@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 template <class T, class Allocator>
@@ -47,4 +47,4 @@ void set_geometry(IndexView& view, std::shared_ptr<GeometryData> geometry) {
   view = std::move(next);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 #include "exact/layout.h"
 #include "shared/raw_vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The arrays of an `IndexView` that follow from the edges and from the division into leaves. Indexes that `refit` has
 /// made share them.
@@ -54,4 +54,4 @@ struct IndexData : ConnectivityData, GeometryData {};
 /// Makes `view` own `geometry`, and refer to it. If memory runs out, `view` is as it was.
 void set_geometry(IndexView& view, std::shared_ptr<GeometryData> geometry);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -7,7 +7,7 @@
 #include "exact/index_access.h"
 #include "exact/layout.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// An index in the state in which a searcher was bound to it. Keeps its memory alive.
 class BoundIndex {
@@ -32,4 +32,4 @@ class BoundIndex {
   std::uint64_t version_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -17,7 +17,7 @@
 #include "exact/node_search.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::size_t kMaxFaults = 16;
@@ -207,4 +207,4 @@ std::vector<std::string> Index::check(const GraphView& graph) const {
   return Check(IndexAccess::whole(*this, "checked"), graph).run();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

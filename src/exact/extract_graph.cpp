@@ -13,7 +13,7 @@
 #include "exact/index_access.h"
 #include "exact/neighbors.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// Called for every vertex or edge; polls seldom enough to cost nothing.
@@ -77,4 +77,4 @@ Fingerprint fingerprint(const Index& index) {
   return fingerprint(index, task);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -19,7 +19,7 @@
 #include "shared/aligned_buffer.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // No padding bytes: every byte in the file has a defined value.
@@ -173,4 +173,4 @@ Index map(std::span<const std::byte> bytes, std::shared_ptr<const void> owner, c
   return IndexAccess::make(std::move(view));
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 #include "exact/layout.h"
 #include "exact/weighted_graph.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 template <class T>
@@ -89,4 +89,4 @@ IndexBytes Index::bytes() const {
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

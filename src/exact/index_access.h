@@ -13,7 +13,7 @@
 #include "exact/weighted_graph.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Access to the arrays of an index, for `build`, for index files and for tests.
 struct IndexAccess {
@@ -63,4 +63,4 @@ struct IndexAccess {
 [[nodiscard]] GraphData extract_graph(const IndexView& index, TaskContext& task);
 [[nodiscard]] Fingerprint fingerprint(const Index& index, TaskContext& task);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

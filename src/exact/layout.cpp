@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// From the groups below to those above. Ranges that records not verified yet would place outside are empty.
@@ -46,4 +46,4 @@ void derive(IndexView& index) {
   index.leaf_groups = make_leaf_groups(index.levels, index.records);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

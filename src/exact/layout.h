@@ -22,7 +22,7 @@
 #include "simd/leaf.h"
 #include "simd/node_group.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 using LeafId = std::uint32_t;
 
@@ -251,4 +251,4 @@ void for_each_array(F&& f, Indexes&... indexes) {
 /// Sets `tree`, `roots` and `leaf_groups`, which follow from the arrays. Takes arrays that are not verified yet.
 void derive(IndexView& index);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -22,7 +22,7 @@
 #include "shared/parallel.h"
 #include "shared/text.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::size_t kPointsAtOnce = std::size_t{1} << 14;
@@ -312,4 +312,4 @@ Index build_linked(const PositionsView& points, double link, const LinkOptions& 
   return index;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

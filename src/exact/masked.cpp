@@ -19,7 +19,7 @@
 #include "exact/node_search.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The arrays that masks change.
@@ -100,4 +100,4 @@ Index masked(const Index& index, const Masks& masks, const Run& run) {
   return IndexAccess::make(std::move(view), IndexAccess::share_graph(index));
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

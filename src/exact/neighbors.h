@@ -5,7 +5,7 @@
 
 #include "exact/layout.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Calls `f(from, to)` for every edge in both directions, by positions in index order.
 template <class F>
@@ -38,4 +38,4 @@ void for_each_neighbor(const IndexView& index, std::uint32_t slot, F&& f) {
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

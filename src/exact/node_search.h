@@ -8,7 +8,7 @@
 
 #include "exact/layout.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The bounding sphere of the node at a place of a group.
 [[nodiscard]] inline FrameSphere sphere_of(const Group& group, std::size_t place) {
@@ -36,4 +36,4 @@ void for_each_node(NodeSet nodes, F&& f) {
   return static_cast<NodeSet>(reached);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -16,7 +16,7 @@
 #include "exact/layout.h"
 #include "exact/neighbors.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::size_t kSamples = 16;
@@ -153,4 +153,4 @@ Quality quality(const Index& index) {
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -22,7 +22,7 @@
 #include "exact/weighted_graph.h"
 #include "shared/text.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// A vertex and its new position.
@@ -263,4 +263,4 @@ void Index::refit_in_place(const PositionsView& positions, const IndicesView& ch
   view_->version = ++*view_->newest;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

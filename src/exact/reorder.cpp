@@ -17,7 +17,7 @@
 #include "exact/index_access.h"
 #include "exact/layout.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// Makes the index order the caller's order: the index then needs no permutation. Returns the former permutation.
@@ -93,4 +93,4 @@ ReorderedMesh reorder(const MeshView& mesh, const Run& run) {
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

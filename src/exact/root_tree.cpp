@@ -10,7 +10,7 @@
 #include "exact/layout.h"
 #include "exact/node_search.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// A sphere around at least one sphere.
@@ -57,4 +57,4 @@ RootTree make_root_tree(std::span<const Group> groups, std::span<const GroupReco
   return tree;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 #include "base/frame.h"
 #include "simd/node_group.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 struct GroupRecord;
 
@@ -24,4 +24,4 @@ struct RootTree {
 [[nodiscard]] RootTree make_root_tree(std::span<const Group> groups, std::span<const GroupRecord> records,
                                       std::span<const std::uint32_t> parents);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,7 @@
 
 #include "meshhood/error.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 bool are_all_triangles(const FacesView& faces) {
@@ -44,4 +44,4 @@ FaceArrays make_face_arrays(const FacesView& faces) {
   return arrays;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -7,7 +7,7 @@
 
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The faces of a mesh as index files and surfaces have them.
 struct StoredFaces {
@@ -38,4 +38,4 @@ struct FaceArrays {
 /// Throws Error{TooLarge} if an offset has more than 32 bits. O(#corners).
 [[nodiscard]] FaceArrays make_face_arrays(const FacesView& faces);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

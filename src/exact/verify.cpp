@@ -11,7 +11,7 @@
 #include "exact/build/links.h"
 #include "format/section_reader.h"
 
-namespace meshhood::file {
+namespace meshhood::inline v0_1::file {
 namespace {
 
 std::string name(const char* what, std::size_t number) { return what + (" " + std::to_string(number)); }
@@ -138,4 +138,4 @@ void verify_positions(const IndexView& index, const SectionReader& file) {
       index.positions);
 }
 
-}  // namespace meshhood::file
+}  // namespace meshhood::inline v0_1::file

@@ -8,7 +8,7 @@
 #include "format/section_reader.h"
 #include "shared/parallel.h"
 
-namespace meshhood::file {
+namespace meshhood::inline v0_1::file {
 
 /// Verifies that the arrays of an exact index are consistent, so that every query ends and reads within the arrays,
 /// whatever the file contains.
@@ -56,4 +56,4 @@ void verify_padding(std::span<const T> padding, const SectionReader& file) {
   }
 }
 
-}  // namespace meshhood::file
+}  // namespace meshhood::inline v0_1::file

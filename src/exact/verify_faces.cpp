@@ -6,7 +6,7 @@
 
 #include "exact/verify.h"
 
-namespace meshhood::file {
+namespace meshhood::inline v0_1::file {
 namespace {
 
 void verify_corners(std::span<const VertexId> corners, std::size_t vertices, const SectionReader& file) {
@@ -44,4 +44,4 @@ void verify_faces(const IndexView& index, const SectionReader& file) {
   if (!index.faces->offsets.empty()) verify_offsets(index.faces->offsets, index.faces->corners.size(), file);
 }
 
-}  // namespace meshhood::file
+}  // namespace meshhood::inline v0_1::file

@@ -9,7 +9,7 @@
 #include "exact/node_search.h"
 #include "exact/verify.h"
 
-namespace meshhood::file {
+namespace meshhood::inline v0_1::file {
 namespace {
 
 std::string name(std::size_t group) { return "group " + std::to_string(group); }
@@ -110,4 +110,4 @@ void verify_node_links(const IndexView& index, const SectionReader& file) {
   for (std::size_t group = 0; group < expected.size(); ++group) verify_connected(index, group, file);
 }
 
-}  // namespace meshhood::file
+}  // namespace meshhood::inline v0_1::file

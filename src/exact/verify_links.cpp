@@ -6,7 +6,7 @@
 
 #include "exact/verify.h"
 
-namespace meshhood::file {
+namespace meshhood::inline v0_1::file {
 namespace {
 
 /// A cross edge as one number, which orders cross edges by `from`, then `to`.
@@ -151,4 +151,4 @@ class LinkCheck {
 
 void verify_links(const IndexView& index, const SectionReader& file) { LinkCheck(index, file).run(); }
 
-}  // namespace meshhood::file
+}  // namespace meshhood::inline v0_1::file

@@ -7,7 +7,7 @@
 #include "exact/build/tree.h"
 #include "exact/verify.h"
 
-namespace meshhood::file {
+namespace meshhood::inline v0_1::file {
 namespace {
 
 class TreeCheck {
@@ -85,4 +85,4 @@ class TreeCheck {
 
 void verify_tree(const IndexView& index, const SectionReader& file) { TreeCheck(index, file).run(); }
 
-}  // namespace meshhood::file
+}  // namespace meshhood::inline v0_1::file

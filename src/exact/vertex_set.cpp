@@ -10,7 +10,7 @@
 
 #include "base/prefetch.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::size_t kPartsAhead = 4;
@@ -194,4 +194,4 @@ void write_distances(const VertexSet& set, const IndexView& index, const Point& 
       index.positions);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

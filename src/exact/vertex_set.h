@@ -11,7 +11,7 @@
 #include "exact/layout.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Some of the vertices of a leaf.
 struct LeafSubset {
@@ -146,4 +146,4 @@ void append_ids(const VertexSet& set, const IndexView& index, const Kernels& ker
 /// Writes the distances of the same vertices from `center`, in the same order; `set.count()` of them.
 void write_distances(const VertexSet& set, const IndexView& index, const Point& center, double* out);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

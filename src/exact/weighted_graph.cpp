@@ -13,7 +13,7 @@
 #include "exact/neighbors.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 Adjacency make_edges(const IndexView& index) {
@@ -77,4 +77,4 @@ void KeptGraph::renew(const IndexView& index, std::span<const VertexId> moved) {
   std::visit([&](auto xyz) { std::ranges::for_each(moved, [&](VertexId v) { renew_row(xyz, v); }); }, index.positions);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

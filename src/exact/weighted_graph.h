@@ -11,7 +11,7 @@
 
 #include "shared/kept.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 struct IndexView;
 
@@ -45,4 +45,4 @@ class KeptGraph {
   Kept<WeightedGraph> graph_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -12,7 +12,7 @@
 
 /// The format of an index file: a header, a table of sections, and the sections, each at a multiple of 64 bytes, with
 /// zeros between them. Little-endian; the structures below have the same bytes in the file as in memory.
-namespace meshhood::file {
+namespace meshhood::inline v0_1::file {
 
 /// Like that of PNG: no text begins with it, and a transfer that converts line ends damages it.
 inline constexpr std::array<std::uint8_t, 8> kMagic{0x8B, 'M', 'H', 'I', '\r', '\n', 0x1A, '\n'};
@@ -61,4 +61,4 @@ static_assert(sizeof(Section) == 40);
 inline constexpr std::uint64_t kMaxSections = 3 + 4 * paper::BuildOptions::kAllLevels;
 static_assert(head_bytes(kMaxSections) <= kIndexHeadBytes);
 
-}  // namespace meshhood::file
+}  // namespace meshhood::inline v0_1::file

@@ -6,7 +6,7 @@
 
 #include "format/section_reader.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 bool is_index(std::span<const std::byte> first_bytes) {
   return first_bytes.size() >= file::kMagic.size() &&
@@ -31,4 +31,4 @@ void check_mesh(const IndexHeader& header, const Fingerprint& mesh) {
         "built from mesh " + to_text(header.mesh) + ", but the given mesh is " + to_text(mesh));
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

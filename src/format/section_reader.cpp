@@ -9,7 +9,7 @@
 
 #include "shared/checksum.h"
 
-namespace meshhood::file {
+namespace meshhood::inline v0_1::file {
 namespace {
 
 [[noreturn]] void refuse_at(const std::string& section, std::uint64_t byte, const std::string& message) {
@@ -195,4 +195,4 @@ void SectionReader::refuse(const void* place, const std::string& message) const 
   refuse_at(after == table_.begin() ? "header" : quoted(name_of(*(after - 1))), byte, message);
 }
 
-}  // namespace meshhood::file
+}  // namespace meshhood::inline v0_1::file

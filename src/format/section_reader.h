@@ -13,7 +13,7 @@
 #include "shared/distance.h"
 #include "shared/parallel.h"
 
-namespace meshhood::file {
+namespace meshhood::inline v0_1::file {
 
 /// The header of an index file of `size` bytes that begins with `first_bytes`. Throws Error{MalformedIndex} if it is
 /// not valid, not of this format, or states another size.
@@ -88,4 +88,4 @@ void verify_coordinates(std::span<const Real> xyz, const SectionReader& file) {
   }
 }
 
-}  // namespace meshhood::file
+}  // namespace meshhood::inline v0_1::file

@@ -9,7 +9,7 @@
 
 #include "shared/checksum.h"
 
-namespace meshhood::file {
+namespace meshhood::inline v0_1::file {
 namespace {
 
 std::span<const std::byte> bytes_of(const Header& header) { return std::as_bytes(std::span(&header, 1)); }
@@ -81,4 +81,4 @@ void SectionWriter::write(Header header, const Sink& sink, TaskContext& task) co
   task.report_progress();
 }
 
-}  // namespace meshhood::file
+}  // namespace meshhood::inline v0_1::file

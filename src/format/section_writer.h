@@ -11,7 +11,7 @@
 #include "format/format.h"
 #include "shared/parallel.h"
 
-namespace meshhood::file {
+namespace meshhood::inline v0_1::file {
 
 /// Collects sections, then writes the index file to a sink. The arrays are borrowed.
 class SectionWriter {
@@ -39,4 +39,4 @@ class SectionWriter {
   std::vector<Part> parts_;
 };
 
-}  // namespace meshhood::file
+}  // namespace meshhood::inline v0_1::file

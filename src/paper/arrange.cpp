@@ -9,7 +9,7 @@
 #include "paper/draft.h"
 #include "paper/hierarchy.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 namespace {
 
 /// The new numbers of the clusters of a level: a permutation and its inverse.
@@ -110,4 +110,4 @@ template Hierarchy<float> arrange(std::span<const float> xyz, const std::vector<
 template Hierarchy<double> arrange(std::span<const double> xyz, const std::vector<std::vector<ClusterId>>& parents,
                                    const std::vector<AdjacencyView>& siblings, std::size_t lowest);
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

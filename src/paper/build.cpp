@@ -14,7 +14,7 @@
 #include "shared/parallel.h"
 #include "shared/text.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 namespace {
 
 void check_options(const BuildOptions& options) {
@@ -134,4 +134,4 @@ Index build(const MeshView& mesh, const BuildOptions& options, const Run& run) {
   return make_index({mesh.positions, graph.view()}, options, run);
 }
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

@@ -14,7 +14,7 @@
 #include "shared/distance.h"
 #include "shared/text.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 namespace {
 
 constexpr std::size_t kMostFaults = 16;
@@ -238,4 +238,4 @@ std::vector<std::string> Index::check(const MeshView& mesh) const {
   return check(GraphView{mesh.positions, graph.view()});
 }
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

@@ -7,7 +7,7 @@
 
 #include "paper/draft.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 
 std::vector<VertexId> create(const DraftLevel& below) {
   std::vector<VertexId> children(below.size());
@@ -37,4 +37,4 @@ CandidateQueue::Candidate CandidateQueue::pop() {
 
 void CandidateQueue::insert(ClusterId cluster, VertexId children) { queue_.push(make(cluster, children)); }
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

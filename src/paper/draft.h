@@ -15,7 +15,7 @@
 #include "paper/hierarchy.h"
 #include "shared/distance.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 
 /// A level during construction (3.2): what the computation of the next level needs.
 struct DraftLevel {
@@ -88,4 +88,4 @@ void fuse(const DraftLevel& below, double threshold, Partition& partition);
   });
 }
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

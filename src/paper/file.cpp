@@ -18,7 +18,7 @@
 #include "shared/distance.h"
 #include "shared/parallel.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 namespace {
 
 using file::SectionReader;
@@ -223,4 +223,4 @@ Index load(std::span<const std::byte> bytes, const Run& run) {
   return IndexAccess::make(std::move(hierarchy), header.mesh);
 }
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

@@ -7,7 +7,7 @@
 
 #include "paper/draft.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 namespace {
 
 class Fusion {
@@ -134,4 +134,4 @@ void fuse(const DraftLevel& below, double threshold, Partition& partition) {
   Fusion(below, threshold, partition).run();
 }
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

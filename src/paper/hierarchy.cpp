@@ -4,7 +4,7 @@
 
 #include "base/sphere.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 namespace {
 
 template <class Real>
@@ -68,4 +68,4 @@ template void enclose(std::span<const double> positions, Level<double>& level);
 template double mean_radius(const Level<float>& level);
 template double mean_radius(const Level<double>& level);
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

@@ -16,7 +16,7 @@
 
 #include "shared/distance.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 
 /// A list of numbers below a common bound, each in as few bits as the bound requires. The lowest cluster of each vertex
 /// would otherwise take a tenth of the index.
@@ -117,4 +117,4 @@ struct IndexAccess {
   [[nodiscard]] static const AnyHierarchy& hierarchy(const Index& index) { return index.storage_->hierarchy; }
 };
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

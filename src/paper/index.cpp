@@ -5,7 +5,7 @@
 
 #include "paper/hierarchy.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 namespace {
 
 template <class T>
@@ -75,4 +75,4 @@ IndexBytes Index::bytes() const {
       storage_->hierarchy);
 }
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

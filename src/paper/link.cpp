@@ -6,7 +6,7 @@
 
 #include "paper/draft.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 namespace {
 
 void link_siblings(const DraftLevel& below, const Partition& partition, DraftLevel& level) {
@@ -47,4 +47,4 @@ DraftLevel link(const DraftLevel& below, const Partition& partition) {
   return level;
 }
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

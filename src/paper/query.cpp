@@ -15,7 +15,7 @@
 #include "shared/distance.h"
 #include "shared/text.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 
 template <class Real>
 class Searcher::Query {
@@ -248,4 +248,4 @@ std::size_t Searcher::count(Vertex v, double radius) {
   return result;
 }
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

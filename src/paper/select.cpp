@@ -5,7 +5,7 @@
 
 #include "paper/draft.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 namespace {
 
 class Selection {
@@ -60,4 +60,4 @@ Partition select(const DraftLevel& below, std::vector<VertexId> children) {
   return Selection(below, std::move(children)).run();
 }
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper

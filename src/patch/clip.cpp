@@ -17,7 +17,7 @@
 #include "surface/face_triangles.h"
 #include "surface/triangle_point.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// A point by what it lies on, in the order of the points of a mesh: a vertex, or a side by the end beyond the point
@@ -225,4 +225,4 @@ ClippedMesh clip_patch(const PatchState& state, const PatchSearch& search, doubl
   return clip.finish();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -208,4 +208,4 @@ ClippedTriangle::Measure ClippedTriangle::measure(RimArcs& rim) {
   return {doubled / 2, distance};
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

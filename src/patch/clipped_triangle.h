@@ -13,7 +13,7 @@
 #include "simd/angle.h"
 #include "simd/patches.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A ball, and the unit of the frame.
 struct PatchBall {
@@ -128,4 +128,4 @@ class ClippedTriangle {
   Plane plane_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

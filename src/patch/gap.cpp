@@ -15,7 +15,7 @@
 #include "surface/face_triangles.h"
 #include "surface/triangle_point.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The distance of a triangle from `q`, in twice the precision.
@@ -183,4 +183,4 @@ const SurfacePoint& PacketPatches::gap(std::size_t query) {
   return gaps_[query];
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 #include "base/vector.h"
 #include "surface/face_triangles.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The sums over the triangles `begin .. end - 1`, and their box. Corners are seen from the center of the sphere, so
@@ -104,4 +104,4 @@ PatchState::PatchState(const Index& given, const StoredFaces& all)
       triangles(*index, all),
       meshlets(*index, triangles) {}
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -15,7 +15,7 @@
 #include "shared/distance.h"
 #include "surface/box_tree.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Sums over the triangles of a meshlet. Lengths are in the frame, points in the unit of the mesh.
 struct Meshlet {
@@ -76,4 +76,4 @@ struct PatchState {
   [[nodiscard]] std::size_t bytes() const { return triangles.bytes() + meshlets.bytes(); }
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 #include "base/vector.h"
 #include "surface/face_triangles.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 PacketPatches::PacketPatches(const PatchState& state)
     : state_(&state),
       kernels_(&patch_kernels(best_isa())),
@@ -236,4 +236,4 @@ void PacketPatches::follow(const Dip& dip) {
   });
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -15,7 +15,7 @@
 #include "patch/sums.h"
 #include "simd/patches.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The patches around the queries of a packet, from their neighborhoods. One object a thread.
 ///
@@ -111,4 +111,4 @@ class PacketPatches {
   std::vector<SurfacePoint> gaps_;  // by query; none before they are asked for
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -22,7 +22,7 @@
 #include "surface/surface.h"
 #include "surface/triangle_point.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// Runs the search around a vertex. Returns whether there is a patch.
@@ -182,4 +182,4 @@ void for_each_gap(const Surface& surface, const BatchQuery& query, const Surface
                  [&](std::size_t row, const FoundPatch& patch) { visit(row, patch.gap()); });
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

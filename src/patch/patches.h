@@ -10,7 +10,7 @@
 #include "patch/packet_patches.h"
 #include "patch/search.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The patch of the last run of `search`, which was given `radius`, as a mesh, without its area.
 [[nodiscard]] ClippedMesh clip_patch(const PatchState& state, const PatchSearch& search, double radius,
@@ -48,4 +48,4 @@ using RowPatchVisitor = std::function<void(std::size_t row, const FoundPatch& pa
 /// A visitor of packets of `state.searched`, for one thread, that calls `visit` with the patch of each row.
 [[nodiscard]] PacketVisitor patch_visitor(const PatchState& state, bool measures, RowPatchVisitor visit);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,7 @@
 #include "base/vector.h"
 #include "simd/patches.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // One of these is far from the rim, unless it is everywhere.
@@ -118,4 +118,4 @@ double RimArcs::area_behind() const {
   return positive > kSphere - kArcSlack * static_cast<double>(count_ + 8) ? 0 : positive;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

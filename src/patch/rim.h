@@ -9,7 +9,7 @@
 #include "shared/distance.h"
 #include "simd/angle.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The circle in which a plane meets the unit sphere.
 struct Circle {
@@ -68,4 +68,4 @@ class RimArcs {
   std::size_t count_ = 0;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 
 #include "base/vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 PatchSearch::PatchSearch(const PatchState& state)
     : state_(&state),
@@ -139,4 +139,4 @@ void PatchSearch::add_cut(TriangleId t, const PatchTriangle& triangle) {
   if (measures_) sums_.add_cut(clipped, ball_);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -13,7 +13,7 @@
 #include "patch/sums.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A search over triangles from a start, for one thread. A meshlet inside the ball is one step.
 ///
@@ -66,4 +66,4 @@ class PatchSearch {
   bool measures_ = false;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -5,7 +5,7 @@
 
 #include "base/vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void PatchSums::clear(const Point& normal) {
   rim_.clear(normal);
@@ -36,4 +36,4 @@ double PatchSums::volume(const PatchBall& ball) const {
   return (moment_ + cone) / 3 / ball.scale / ball.scale / ball.scale;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -5,7 +5,7 @@
 #include "patch/rim.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Area and volume of the patch around the center of a ball, from its parts.
 ///
@@ -46,4 +46,4 @@ class PatchSums {
   double moment_ = 0;  // the sum of area times distance
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -12,7 +12,7 @@
 #include "base/vector.h"
 #include "exact/neighbors.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 struct GivenTriangle {
@@ -210,4 +210,4 @@ void Triangles::find_borders(const IndexView& index) {
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -12,7 +12,7 @@
 #include "exact/layout.h"
 #include "surface/face_triangles.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A triangle by its number. Those of a meshlet follow each other.
 using TriangleId = std::uint32_t;
@@ -104,4 +104,4 @@ struct Triangles {
   void find_borders(const IndexView& index);
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -6,7 +6,7 @@
 
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A number of about 106 bits, the sum of two doubles that do not overlap (T. J. Dekker, "A floating-point technique
 /// for extending the available precision", Numerische Mathematik 18, 1971). For corners so far from a ball that what
@@ -94,4 +94,4 @@ template <class Real>
   return {axis(p.x, center.x), axis(p.y, center.y), axis(p.z, center.z)};
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -12,7 +12,7 @@
 
 #include "meshhood/serialize.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 // NOLINTBEGIN(modernize-avoid-c-arrays): a vector would initialize its memory before it is overwritten.
 
@@ -71,4 +71,4 @@ class AlignedBuffer {
 
 // NOLINTEND(modernize-avoid-c-arrays)
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -4,7 +4,7 @@
 #define XXH_INLINE_ALL  // NOLINT(readability-identifier-naming): the library's own
 #include <xxhash.h>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 std::uint64_t checksum(ByteSpans parts) {
   if (parts.size() == 1) return XXH3_64bits(parts.begin()->data(), parts.begin()->size());
@@ -22,4 +22,4 @@ Fingerprint wide_checksum(ByteSpans parts) {
   return {hash.high64, hash.low64};
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,8 @@
 #include "meshhood/export.h"
 #include "meshhood/fingerprint.h"
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 using ByteSpans = std::initializer_list<std::span<const std::byte>>;
 
@@ -19,4 +20,5 @@ using ByteSpans = std::initializer_list<std::span<const std::byte>>;
 /// The 128-bit XXH3 hash of the concatenation of `parts`.
 [[nodiscard]] Fingerprint wide_checksum(ByteSpans parts);
 
+}  // namespace v0_1
 }  // namespace meshhood

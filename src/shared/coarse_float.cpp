@@ -11,7 +11,7 @@
 #include "base/adjacency.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr double kLeastSteps = 64;
@@ -78,4 +78,4 @@ std::optional<CoarseFloat> coarse_float(const MeshView& mesh) {
   });
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

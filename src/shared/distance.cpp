@@ -8,7 +8,7 @@
 
 #include "shared/text.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 double squared_radius(double radius) {
   double threshold = radius * radius;
@@ -45,4 +45,4 @@ double distance(const PositionsView& positions, Vertex v, Vertex w) {
   return std::sqrt(squared_distance(point(positions, v), point(positions, w)));
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -17,7 +17,8 @@
 #error "meshhood needs arithmetic without excess precision: compile it with -msse2 -mfpmath=sse"
 #endif
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -119,4 +120,5 @@ class SearchBall {
   double inner_radius_;
 };
 
+}  // namespace v0_1
 }  // namespace meshhood

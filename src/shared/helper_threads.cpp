@@ -8,7 +8,7 @@
 #include <unistd.h>
 #endif
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 bool prepare_exceptions() {
 #if defined(__cpp_exceptions)
@@ -95,4 +95,4 @@ void HelperThreads::help(unsigned thread, std::size_t seen) {
 
 #endif
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

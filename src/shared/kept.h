@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// What is made at its first use, and kept. Any thread may ask for it. There is no lock, because a fork could leave it
 /// held: if several threads make it at once, one result is kept.
@@ -36,4 +36,4 @@ class Kept {
   std::atomic<T*> value_{nullptr};
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

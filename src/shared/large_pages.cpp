@@ -7,7 +7,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(MADV_HUGEPAGE)
@@ -17,4 +17,4 @@ void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 #endif
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Asks the system for large pages where it has them: it hands over memory several times as fast in these.
 void prefer_large_pages(void* memory, std::size_t bytes);
@@ -19,4 +19,4 @@ template <class T>
   return values;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 
 #include "shared/helper_threads.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenReports{50};
@@ -96,4 +96,4 @@ void TaskContext::run(std::size_t threads, const std::function<void(unsigned)>& 
   failure.pass_on();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -18,7 +18,8 @@
 #include "meshhood/export.h"
 #include "meshhood/run.h"
 
-namespace meshhood MESHHOOD_API {
+namespace meshhood {
+inline namespace v0_1 MESHHOOD_API {
 
 class HelperThreads;
 
@@ -137,4 +138,5 @@ void TaskContext::parallel_for(std::size_t count, std::size_t grain, F&& f) {
   });
 }
 
+}  // namespace v0_1
 }  // namespace meshhood

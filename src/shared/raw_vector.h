@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Leaves new elements as they are in memory where `std::allocator` would set them to zero.
 template <class T>
@@ -48,4 +48,4 @@ std::span<T> add_raw(RawVector<T>& values, std::size_t count) {
   return std::span(values).subspan(before);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

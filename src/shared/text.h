@@ -10,7 +10,7 @@
 #include "meshhood/error.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The shortest text that reads back as `value`.
 [[nodiscard]] inline std::string to_text(double value) {
@@ -31,4 +31,4 @@ namespace meshhood {
   raise(code, std::string(where).append(vertex) + ", but the mesh has " + std::to_string(vertices) + " vertices");
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

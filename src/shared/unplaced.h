@@ -11,7 +11,7 @@
 
 #include "meshhood/mesh.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A corner of a face.
 struct FaceCorner {
@@ -70,4 +70,4 @@ template <class Real>
   return unplaced;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -14,7 +14,7 @@
 
 /// The inner loops of aggregates: what up to 32 rows of a packet get from a few values, where a word for each value
 /// says which rows have it. As in `Kernels`, each function gives the same result on every processor, bit for bit.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A sum for each row, as two doubles `high + low`: the rounding of each addition to `high` is added to `low` (Knuth's
 /// TwoSum), so that the error does not grow with the number of additions.
@@ -109,4 +109,4 @@ struct AggregateKernels {
 /// The kernels for `isa`, which the processor must have.
 [[nodiscard]] const AggregateKernels& aggregate_kernels(Isa isa);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -13,7 +13,7 @@
 #include "simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace meshhood::HWY_NAMESPACE {
+namespace meshhood::inline v0_1::HWY_NAMESPACE {
 namespace {
 
 /// The rows from `first` on that are in the word.
@@ -247,7 +247,7 @@ constexpr AggregateKernels kAggregateKernels{add_values,  lower_minima,  sum_dev
                                              set_weights, set_gaussians, set_path_weights, add_weighted,  add_moments};
 
 }  // namespace
-}  // namespace meshhood::HWY_NAMESPACE
+}  // namespace meshhood::inline v0_1::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

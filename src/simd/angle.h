@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 using Complex = std::complex<double>;
 
@@ -50,4 +50,4 @@ inline constexpr std::array kArctangentBelow{2.485846490142306297962e1, 1.650270
   return std::copysign(number.real() < 0 ? kPi - quarter : quarter, number.imag());
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

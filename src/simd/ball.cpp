@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr double kLargest = std::numeric_limits<float>::max();
@@ -48,4 +48,4 @@ TreeBounds::TreeBounds(const Frame& frame, double radius)
 
 TreeBall::TreeBall(const FramePoint& at, const TreeBounds& bounds) : TreeBounds(bounds), x(at.x), y(at.y), z(at.z) {}
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -6,7 +6,7 @@
 
 /// A search ball as the kernels compare it: with vertices, and with bounding spheres in the frame. All margins for
 /// rounding are in ball.cpp.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The bounds on the squared distance of a vertex. They depend on the radius alone.
 struct LeafBounds {
@@ -66,4 +66,4 @@ struct TreeBall : TreeBounds {
   return near > 0 && square < near * near ? Containment::Inside : Containment::Intersecting;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -12,7 +12,7 @@
 #include "simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace meshhood::HWY_NAMESPACE {
+namespace meshhood::inline v0_1::HWY_NAMESPACE {
 namespace {
 
 /// The predicate. Calls `f(i, squares)` for the vertices from `i` on.
@@ -176,7 +176,7 @@ constexpr Kernels kBallKernels{
     classify,     box_squares,          box_entries,    compress};
 
 }  // namespace
-}  // namespace meshhood::HWY_NAMESPACE
+}  // namespace meshhood::inline v0_1::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The Gaussian that falls from 1 to 1/1000, `1000^-s` for the share s of the squared radius, 0 to 1: a polynomial for
 /// `1000^(-s/32)`, which is 1 at 0, squared `kGaussianSquarings` times. Its relative error with all roundings is at
@@ -27,4 +27,4 @@ inline double gaussian(double share) {
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -13,7 +13,7 @@
 
 /// The inner loops of the joint search, which answers up to 32 queries of one leaf at once. As in `Kernels`, each
 /// function gives the same result on every processor, bit for bit.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 static_assert(kPacketCapacity == kLeafCapacity);
 
@@ -129,4 +129,4 @@ inline void push_words(std::span<const CrossEdge> edges, const PerLane<QueryWord
 /// Those for `isa`, which the processor must have.
 [[nodiscard]] const JointKernels& joint_kernels(Isa isa);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -14,7 +14,7 @@
 #include "simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace meshhood::HWY_NAMESPACE {
+namespace meshhood::inline v0_1::HWY_NAMESPACE {
 namespace {
 
 using WordsOfRow = Word[kVectors<Words>];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
@@ -395,7 +395,7 @@ constexpr JointKernels kJointKernels{convert_points, clear_words, ball_words, sp
                                      step_words,     count_words, lanes_of,   write_row};
 
 }  // namespace
-}  // namespace meshhood::HWY_NAMESPACE
+}  // namespace meshhood::inline v0_1::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

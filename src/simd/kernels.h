@@ -14,7 +14,7 @@
 #include "simd/node_group.h"
 
 /// The code that exists once per instruction set. Each kernel returns the same bits on every processor.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// An instruction set that the kernels were compiled for: its place in their order from slow to fast. The first, 0, is
 /// that of every processor that the library runs on.
@@ -89,4 +89,4 @@ struct Kernels {
 /// The kernels for `isa`, which the processor must have.
 [[nodiscard]] const Kernels& kernels(Isa isa);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -17,7 +17,7 @@
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
-namespace meshhood::HWY_NAMESPACE {
+namespace meshhood::inline v0_1::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -289,5 +289,5 @@ HWY_INLINE hn::TFromD<D>* write_chosen(D d, VectorOf<D> numbers, LaneMask bits, 
 }
 
 }  // namespace
-}  // namespace meshhood::HWY_NAMESPACE
+}  // namespace meshhood::inline v0_1::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

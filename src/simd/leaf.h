@@ -10,7 +10,7 @@
 
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 inline constexpr unsigned kLeafCapacity = 32;
 
@@ -105,4 +105,4 @@ alignas(16) inline constexpr std::array<std::array<std::uint8_t, 16>, 16> kByteP
   return lists;
 }();
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -15,7 +15,7 @@
 #include "simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace meshhood::HWY_NAMESPACE {
+namespace meshhood::inline v0_1::HWY_NAMESPACE {
 namespace {
 
 /// Two numbers whose product is a power.
@@ -583,7 +583,7 @@ constexpr MomentKernels kMomentKernels{
 };
 
 }  // namespace
-}  // namespace meshhood::HWY_NAMESPACE
+}  // namespace meshhood::inline v0_1::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

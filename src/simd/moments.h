@@ -12,7 +12,7 @@
 
 /// Sums of powers of coordinates over the neighborhoods of a packet: the inner loops of curvature. As in `Kernels`,
 /// each function gives the same result on every processor, bit for bit.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The moments of a set of vertices about a center: M_ijk = sum of weight x^i y^j z^k for i + j + k <= 4, where x, y, z
 /// are the coordinates relative to the center. Ordered by i; then by n = j + k; then by k. So the moments with j + k <=
@@ -160,4 +160,4 @@ struct MomentKernels {
 /// The kernels for `isa`, which the processor must have.
 [[nodiscard]] const MomentKernels& moment_kernels(Isa isa);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

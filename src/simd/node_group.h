@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 inline constexpr unsigned kFanOut = 8;
 
@@ -55,4 +55,4 @@ struct GroupContainment {
   std::uint8_t intersecting;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -12,7 +12,7 @@
 #include "simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace meshhood::HWY_NAMESPACE {
+namespace meshhood::inline v0_1::HWY_NAMESPACE {
 namespace {
 
 using Vectors = Points<Doubles>;
@@ -273,7 +273,7 @@ QueryWord may_reach(const std::array<Point, 3>& corners, QueryWord queries, cons
 constexpr PatchKernels kPatchKernels{add_whole, measure, may_dip_of, may_reach};
 
 }  // namespace
-}  // namespace meshhood::HWY_NAMESPACE
+}  // namespace meshhood::inline v0_1::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

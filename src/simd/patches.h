@@ -9,7 +9,7 @@
 
 /// Triangles in balls: the inner loops of areas, volumes and gaps. As in `Kernels`, each function gives the same
 /// result on every processor, bit for bit.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A corner farther away than so many radii is far. In double, the nearest point of a line is off by a few 2^-53 of its
 /// corners' distance: below 1e-13 of the radius, unless a corner is far.
@@ -91,4 +91,4 @@ struct PatchKernels {
 /// Those compiled for `isa`, which this processor must have.
 [[nodiscard]] const PatchKernels& patch_kernels(Isa isa);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -12,7 +12,7 @@
 #include "simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace meshhood::HWY_NAMESPACE {
+namespace meshhood::inline v0_1::HWY_NAMESPACE {
 namespace {
 
 std::uint32_t follow_edges(const PathLengths& from, std::span<const PathEdge> edges, PathLengths* all) {
@@ -47,7 +47,7 @@ QueryWord within_limits(const PathLengths& lengths, const PathLengths& limits) {
 constexpr PathKernels kPathKernels{follow_edges, within_limits};
 
 }  // namespace
-}  // namespace meshhood::HWY_NAMESPACE
+}  // namespace meshhood::inline v0_1::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -9,7 +9,7 @@
 
 /// The inner loops of shortest paths from up to 32 vertices at once. As in `Kernels`, each function gives the same
 /// result on every processor, bit for bit.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The lengths of the shortest paths to a vertex so far, one for each query of a packet. Infinite where there is none.
 using PathLengths = PerLane<double>;
@@ -33,4 +33,4 @@ struct PathKernels {
 /// Those for `isa`, which the processor must have.
 [[nodiscard]] const PathKernels& path_kernels(Isa isa);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

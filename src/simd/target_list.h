@@ -45,10 +45,10 @@
   *std::array{&HWY_STATIC_DISPATCH(name), MESHHOOD_SSE4(&N_SSE4::name) MESHHOOD_AVX2(&N_AVX2::name) \
                                               MESHHOOD_AVX3(&N_AVX3::name)}[static_cast<std::size_t>(isa)]
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// As Highway numbers them.
 inline constexpr auto kTargetIds = std::to_array<std::int64_t>(
     {HWY_STATIC_TARGET, MESHHOOD_SSE4(HWY_SSE4) MESHHOOD_AVX2(HWY_AVX2) MESHHOOD_AVX3(HWY_AVX3)});
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

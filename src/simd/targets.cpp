@@ -14,7 +14,7 @@
 #include "simd/kernels.h"
 #include "simd/target_list.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 #if defined(__x86_64__) || defined(__i386__)
@@ -72,4 +72,4 @@ std::string_view kernel_target() { return name_of(best_isa()); }
 
 const char* name_of(Isa isa) { return hwy::TargetName(kTargetIds[static_cast<std::size_t>(isa)]); }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -17,7 +17,7 @@
 #include "simd/kernels.h"
 #include "simd/node_group.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// How many times `direction`, whose largest component is 1 or -1, a ray goes to the height of the frame along its main
 /// axis; 0 if it begins there or beyond. All are in the frame.
@@ -319,4 +319,4 @@ inline std::size_t BoxTree::bytes() const {
   return bytes;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

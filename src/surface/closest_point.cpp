@@ -19,7 +19,7 @@
 #include "surface/surface.h"
 #include "surface/triangle_point.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::size_t kPointsOfTask = 256;
@@ -169,4 +169,4 @@ void Surface::for_each_closest_point(std::span<const SpacePoint> points, const S
   task.finish();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

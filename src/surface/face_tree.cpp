@@ -8,7 +8,7 @@
 #include "base/vector.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The faces that have triangles, at the middles of their boxes.
@@ -62,4 +62,4 @@ BoundingBox FaceTree::box_of(const IndexView& index, std::size_t i) const {
   return box;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

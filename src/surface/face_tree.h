@@ -11,7 +11,7 @@
 #include "surface/box_tree.h"
 #include "surface/face_triangles.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The triangles of all faces, and boxes around them. Those near each other in space are near each other in the tree.
 /// Those of a face follow each other.
@@ -37,4 +37,4 @@ class FaceTree {
   BoxTree boxes_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 
 #include "base/vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The least place of a corner.
@@ -73,4 +73,4 @@ SurfacePoint surface_point(const IndexView& index, const StoredFaces& faces, std
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

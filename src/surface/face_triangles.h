@@ -17,7 +17,7 @@
 #include "shared/distance.h"
 #include "surface/triangle_point.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A triangle of the triangulation of a face (see base/triangulate.h).
 struct Triangle {
@@ -73,4 +73,4 @@ inline void check_triangle_count(std::size_t triangles) {
 [[nodiscard]] SurfacePoint surface_point(const IndexView& index, const StoredFaces& faces, std::size_t face,
                                          const std::array<std::uint32_t, 3>& places, const TrianglePoint& found);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

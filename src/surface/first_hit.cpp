@@ -24,7 +24,7 @@
 #include "shared/text.h"
 #include "surface/surface.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::size_t kRaysOfTask = 256;
@@ -218,4 +218,4 @@ void Surface::for_each_first_hit(std::span<const SpacePoint> origins, std::span<
   task.finish();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

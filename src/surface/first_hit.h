@@ -13,7 +13,7 @@
 #include "surface/face_tree.h"
 #include "surface/triangle_point.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A ray as S. Woop, C. Benthin, I. Wald see it ("Watertight ray/triangle intersection", Journal of Computer Graphics
 /// Techniques 2, 2013): space is sheared along the main axis of the ray, so that the ray becomes this axis, and seen
@@ -108,4 +108,4 @@ template <class Counts>
   return search.first();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

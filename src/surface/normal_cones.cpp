@@ -9,7 +9,7 @@
 
 #include "simd/node_group.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // More than the rounding of an angle, and of a cone in single precision.
@@ -82,4 +82,4 @@ std::size_t NormalCones::bytes() const {
   return bytes;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,7 @@
 #include "shared/distance.h"
 #include "surface/face_tree.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The cosine of the angle between the normals of a vertex and of a face from which on this is opposite. Common angles
 /// of parts, as 90 and 120 degrees between sides, are far from it, so that rounding does not decide.
@@ -55,4 +55,4 @@ class NormalCones {
   std::vector<std::vector<NormalCone>> levels_;  // as those of the boxes
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -13,7 +13,7 @@
 #include "shared/parallel.h"
 #include "surface/surface.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::size_t kVerticesPerTask = 2048;
@@ -121,4 +121,4 @@ Normals read_normals(const IndexView& index, std::span<const double> given) {
   return normals;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

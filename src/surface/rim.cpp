@@ -19,7 +19,7 @@
 #include "shared/text.h"
 #include "surface/submesh.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// An edge that leaves a region: its end inside, and its end outside.
@@ -211,4 +211,4 @@ Rim Surface::rim(std::span<const VertexId> ids, const SpacePoint& center, double
   return rim;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

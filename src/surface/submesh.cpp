@@ -8,7 +8,7 @@
 
 #include "shared/text.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 FaceSelection::FaceSelection(const SurfaceState& surface, std::span<const VertexId> ids, Corners corners)
     : is_marked_(surface.index->vertex_count()) {
@@ -53,4 +53,4 @@ Submesh Surface::submesh(std::span<const VertexId> ids, Corners corners) const {
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

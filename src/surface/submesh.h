@@ -7,7 +7,7 @@
 
 #include "surface/surface.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A set of vertices, and the faces that belong to it.
 class FaceSelection {
@@ -26,4 +26,4 @@ class FaceSelection {
 /// Where the segment from `inside`, a point of the ball, to `outside` leaves the ball; `outside` if that is inside too.
 [[nodiscard]] Point exit_point(const Point& inside, const Point& outside, const Point& center, double radius);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -13,7 +13,7 @@
 #include "shared/parallel.h"
 #include "shared/text.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 bool same(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
@@ -231,4 +231,4 @@ OrientedIndex SurfaceAccess::oriented(const Surface& surface, unsigned threads) 
   return oriented(surface, task);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

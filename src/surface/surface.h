@@ -21,7 +21,7 @@
 #include "surface/face_tree.h"
 #include "surface/normal_cones.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 class TaskContext;
 
@@ -136,4 +136,4 @@ void renew_normals(const IndexView& index, const StoredFaces& faces, const FaceL
 /// Of lists of three for each of the caller's vertices. Throws as `Surface::of_normals`.
 [[nodiscard]] Normals read_normals(const IndexView& index, std::span<const double> normals);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -22,7 +22,7 @@
 #include "exact/weighted_graph.h"
 #include "surface/surface.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr double kNoLine = std::numeric_limits<double>::infinity();
@@ -190,4 +190,4 @@ Index surface_paths(const Surface& surface, const Run& run) {
   return IndexAccess::make(std::move(view), std::move(graph));
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -17,7 +17,7 @@
 #include "surface/surface.h"
 #include "surface/triangle_point.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::size_t kVerticesOfTask = 256;
@@ -131,4 +131,4 @@ std::vector<double> thickness(const Surface& surface, const BatchVertices& verti
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

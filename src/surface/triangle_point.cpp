@@ -7,7 +7,7 @@
 
 #include "base/vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 double length_of(const Point& offset) {
@@ -114,4 +114,4 @@ TrianglePoint nearest_in_triangle(const Point& q, const std::array<Point, 3>& co
   return Candidates(q, corners, scale).best();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

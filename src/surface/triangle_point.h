@@ -7,7 +7,7 @@
 
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A point of a triangle, and its distance from another point.
 struct TrianglePoint {
@@ -41,4 +41,4 @@ struct TrianglePoint {
   return distance + kSlack * (distance + 4) + kUnderflow * scale;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -17,7 +17,7 @@
 #include "support/families.h"
 #include "surface/surface.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Fills the scratch memory with NaN.
 struct ScratchAccess {
@@ -45,7 +45,9 @@ struct ScratchAccess {
   }
 };
 
-namespace test {
+}  // namespace meshhood::inline v0_1
+
+namespace meshhood::test {
 namespace {
 
 /// The moments of those queries that have the same unit as the first of them, and which these are.
@@ -108,5 +110,4 @@ TEST(PacketMoments, DoNotDependOnTheScratchMemory) {
 }
 
 }  // namespace
-}  // namespace test
-}  // namespace meshhood
+}  // namespace meshhood::test

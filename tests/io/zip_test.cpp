@@ -14,7 +14,7 @@
 
 // Zip files are read by `unzip`, which verifies sizes and checksums.
 
-namespace meshhood::io {
+namespace meshhood::inline v0_1::io {
 namespace {
 
 class Zip : public ::testing::Test {
@@ -78,4 +78,4 @@ TEST_F(Zip, FilesBeyond32Bits) {
 }
 
 }  // namespace
-}  // namespace meshhood::io
+}  // namespace meshhood::inline v0_1::io

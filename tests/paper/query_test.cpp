@@ -13,14 +13,14 @@
 #include "support/families.h"
 #include "support/sorted.h"
 
-namespace meshhood::paper {
+namespace meshhood::inline v0_1::paper {
 
 struct SearcherAccess {
   /// Continues as if there had been `queries` queries.
   static void set_query(Searcher& searcher, std::uint32_t queries) { searcher.query_ = queries; }
 };
 
-}  // namespace meshhood::paper
+}  // namespace meshhood::inline v0_1::paper
 
 namespace meshhood::test {
 namespace {

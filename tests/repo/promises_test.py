@@ -47,6 +47,18 @@ def words(name):
     return " ".join(text(name).split())
 
 
+def other_namespaces():
+    """Places of the libraries whose names are not in the inline namespace of the version."""
+    major, minor = re.findall(r"VERSION_M\w+ (\d+)", text("include/meshhood/version.h"))
+    sources = [path for room in ("include", "src", "io") for path in Path(sys.argv[1], room).rglob("*") if path.suffix in (".h", ".cpp")]
+    for path in sources:
+        for opened in re.findall(r"^namespace meshhood\b(?: \{\n)?.*", path.read_text(encoding="utf-8"), re.M):
+            if f"v{major}_{minor}" not in opened:
+                yield f"{path.name}: {opened!r}, expected in the inline namespace v{major}_{minor}"
+    if not sources:
+        yield "no sources"
+
+
 platforms = re.search(r"known=\((.*)\)", text("tools/platforms"))[1].split()
 fuzzers = re.search(r"foreach\(target (.*)\)", text("fuzz/CMakeLists.txt"))[1].split()
 steps = re.findall(r"^(\d+)\. ", text("packaging/RELEASE.md"), re.M)
@@ -58,6 +70,7 @@ faults = [f"{name} does not say: {promise}" for name, promise in PROMISES if not
 faults += [f"docs/cpp.md does not name {n} of tools/platforms" for n in platforms if PLATFORMS.get(n, n).lower() not in tried]
 faults += [f"SECURITY.md does not name {n} of fuzz" for n in fuzzers if FUZZED.get(n, n) not in fuzzed]
 faults += [f"packaging/RELEASE.md does not say how to undo step {n}" for n in steps if n not in undone]
+faults += other_namespaces()
 counts = f"{len(PROMISES)} promises, {len(platforms)} platforms, {len(fuzzers)} fuzzers, {len(steps)} steps of a release"
 print("\n".join([*faults, f"{counts}; {len(faults)} faults"]))
 sys.exit(1 if faults or not (platforms and fuzzers and steps) else 0)

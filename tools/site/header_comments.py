@@ -5,7 +5,8 @@
     header_comments.py HEADER
 
 `name  text` in a comment describes a parameter, and becomes an item of a list. `#V` is a number, not a link. Adapters
-to other libraries are documented whether or not these libraries are installed.
+to other libraries are documented whether or not these libraries are installed. The inline namespace of the version is
+left out, as in programs.
 """
 
 import re
@@ -15,6 +16,7 @@ PARAMETER = re.compile(r"^(\s*///) (\w+(?:, \w+)*) {2,}(\S.*)$")
 TEXT = re.compile(r"^\s*/// \S")
 CODE = re.compile(r"^\s*/// {5}")
 NUMBER = re.compile(r"#(?=[A-Za-z])")
+VERSION = re.compile(r"^(?:inline namespace v\d+_\d+ MESHHOOD_API \{|\}  // namespace v\d+_\d+)$")
 GUARD = re.compile(r"^#if __has_include\(.*\)$")
 
 
@@ -37,6 +39,8 @@ def filtered(lines):
         found = PARAMETER.match(line)
         if starts_file_comment(lines, i):
             yield "/// @file"
+        if VERSION.match(line):
+            continue
         if GUARD.match(line):
             yield "#if 1"
         elif found:

@@ -9,7 +9,7 @@
 
 #include "host.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void raise(ErrorCode code, std::string message, std::string /*path*/, int /*error_number*/) {
   {
@@ -19,4 +19,4 @@ void raise(ErrorCode code, std::string message, std::string /*path*/, int /*erro
   __builtin_trap();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

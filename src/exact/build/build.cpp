@@ -19,7 +19,7 @@
 #include "exact/layout.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // Enough that passing them to a thread costs little.
@@ -110,4 +110,4 @@ IndexData IndexAccess::build_arrays(const PositionsView& positions, const EdgeSo
   return arrays;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -10,7 +10,7 @@
 #include "base/epoch_array.h"
 #include "exact/build/links.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 static_assert(kCellSize <= kLeafCapacity);
@@ -189,4 +189,4 @@ MergedComponents merge_small(const CellComponents& components, const Links& link
   return number_leaves(Merger(components.elements, neighbors).run(), components.elements);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -13,7 +13,7 @@
 #include "exact/layout.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 // A component with fewer vertices is merged into a neighbor with enough room, if there is one: two such components
 // make one leaf.
@@ -49,4 +49,4 @@ struct MergedComponents : Lists<CellComponent> {
 /// take a leaf for each point. O(#V + edges of small components).
 [[nodiscard]] MergedComponents merge_small(const CellComponents& components, const Links& links, TaskContext& task);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

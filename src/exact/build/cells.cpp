@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // Enough that passing them to a thread costs little.
@@ -42,4 +42,4 @@ Cells make_cells(const PositionsView& positions, const Frame& frame, TaskContext
   return cells;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -14,7 +14,7 @@
 #include "shared/parallel.h"
 #include "shared/raw_vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The number of vertices in a cell of the kd order. Below the capacity of a leaf, so that small components of
 /// neighboring cells fit in.
@@ -36,4 +36,4 @@ struct Cells {
 /// Throws Error{Cancelled}. O(#V log #V).
 [[nodiscard]] Cells make_cells(const PositionsView& positions, const Frame& frame, TaskContext& task);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,7 @@
 #include "base/lists.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Calls `append(row, values)` for each of `count` rows, on several threads; it appends the values of the row. Throws
 /// Error{Cancelled}.
@@ -41,4 +41,4 @@ Lists<T> collect_rows(std::size_t count, TaskContext& task, Append&& append) {
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

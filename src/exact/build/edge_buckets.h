@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// An edge as two slots.
 struct SlotEdge {
@@ -60,4 +60,4 @@ class EdgeBuckets {
   std::vector<std::vector<List>> lists_;  // by thread, then by bucket
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

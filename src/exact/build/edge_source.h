@@ -10,7 +10,7 @@
 
 #include "base/adjacency.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The edges of a mesh, from its polygons or from its graph, which must be valid. Borrowed. A build reads them once, in
 /// any order, so it needs no graph of a mesh.
@@ -44,4 +44,4 @@ class EdgeSource {
   std::variant<FacesView, AdjacencyView> source_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -7,7 +7,7 @@
 
 #include "exact/build/node_parts.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The groups of one level: those that become nodes of the level above, by its numbers, and root groups.
@@ -135,4 +135,4 @@ Forest make_forest(NodeGraph leaves, TaskContext& task) {
   return Numbering(levels).run();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

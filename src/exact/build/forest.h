@@ -8,7 +8,7 @@
 #include "exact/layout.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// How the leaves are grouped: a forest, because nodes that are not linked are never grouped together. So every node
 /// above the leaves is connected by links between its children.
@@ -25,4 +25,4 @@ struct Forest {
 /// Groups the leaves and numbers them in the order of the groups, from the top down. O(leaves log(leaves) + links).
 [[nodiscard]] Forest make_forest(NodeGraph leaves, TaskContext& task);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 
 #include "exact/build/tree.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // Enough that passing them to a thread costs little.
@@ -83,4 +83,4 @@ Spheres measure_leaves(const IndexView& index, TaskContext& task) {
   return measure(index.leaf_count(), [](std::size_t i) { return i; }, index, task);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -10,7 +10,7 @@
 #include "exact/layout.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The steps that `make_geometry` reports: positions, leaves, tree.
 inline constexpr std::size_t kGeometrySteps = 3;
@@ -32,4 +32,4 @@ void measure_geometry(const IndexView& connectivity, GeometryData& geometry, Tas
 [[nodiscard]] Spheres measure_leaves(std::span<const LeafId> leaves, const IndexView& index, TaskContext& task);
 [[nodiscard]] Spheres measure_leaves(const IndexView& index, TaskContext& task);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

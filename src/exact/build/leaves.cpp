@@ -20,7 +20,7 @@
 #include "exact/build/link_collector.h"
 #include "exact/layout.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // Enough that passing them to a thread costs little.
@@ -250,4 +250,4 @@ LeafPartition make_leaves(const PositionsView& positions, const EdgeSource& edge
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -14,7 +14,7 @@
 #include "shared/parallel.h"
 #include "shared/raw_vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The vertices of each leaf, the order of leaves and of vertices in them, which is the index order, and the edges.
 struct LeafPartition {
@@ -40,4 +40,4 @@ inline constexpr std::size_t kLeafSteps = 3;
 /// Throws Error{TooLarge} if the slots of so many leaves do not fit into 32 bits.
 void check_leaf_count(std::size_t leaves);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -13,7 +13,7 @@
 #include "exact/build/links.h"
 #include "exact/layout.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Collects the edges that leave one leaf after the other, each edge any number of times and in any order, and makes
 /// links of them. Edges to one other leaf are a matrix of bits, in which repeated ones are one and which is read in the
@@ -71,4 +71,4 @@ class LinkCollector {
   std::vector<Edges> edges_;  // grows, and is used again for the next leaf
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

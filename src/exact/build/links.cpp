@@ -10,7 +10,7 @@
 #include "exact/build/edge_buckets.h"
 #include "exact/build/link_collector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // Enough that passing them to a thread costs little.
@@ -162,4 +162,4 @@ bool is_connected(const LaneMask* adjacency, unsigned size) {
   return size == 0 || reachable_lanes(adjacency, 1) == first_lanes(size);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

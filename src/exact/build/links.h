@@ -13,7 +13,7 @@
 #include "shared/parallel.h"
 #include "shared/raw_vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The edges of the mesh, by leaf; or by cell, which then takes the place of a leaf.
 struct Links {
@@ -62,4 +62,4 @@ struct Links {
   return reached;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -7,7 +7,7 @@
 
 #include "base/vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::uint32_t kUnset = std::numeric_limits<std::uint32_t>::max();
@@ -45,4 +45,4 @@ NodeGraph contract(const NodeGraph& graph, const NodeGroups& groups, TaskContext
       groups.size(), [&](std::size_t group) { return ball_of(graph, groups[group]); }, append_neighbors, task);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

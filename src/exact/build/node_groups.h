@@ -12,7 +12,7 @@
 #include "shared/distance.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A rough bounding sphere of a node, by which nodes are grouped. The tree stores better ones.
 struct NodeBall {
@@ -55,4 +55,4 @@ using NodeGroups = Lists<std::uint32_t>;
 /// The level above: each group becomes a node. Nodes that are in no group have no links.
 [[nodiscard]] NodeGraph contract(const NodeGraph& graph, const NodeGroups& groups, TaskContext& task);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// Collects the links of one group, in any order and any number of times.
@@ -92,4 +92,4 @@ std::vector<NodeLink> make_node_links(std::span<const std::uint32_t> first_link,
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

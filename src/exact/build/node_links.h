@@ -8,7 +8,7 @@
 #include "exact/layout.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Finds the links between the nodes of each level, from those between leaves and the parents of the groups. Sets
 /// `linked`, `first_link` and `end_link` of the records. A verification calls this for an index file and compares.
@@ -21,4 +21,4 @@ namespace meshhood {
                                                     std::span<const NodeId> parents, std::vector<GroupRecord>& records,
                                                     TaskContext& task);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,7 @@
 
 #include "exact/node_search.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void NodeParts::Part::remove(std::uint32_t node) {
   std::uint32_t* const end = nodes_.data() + size_;
@@ -181,4 +181,4 @@ void dissolve_small_parts(NodeParts& parts) {
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -13,7 +13,7 @@
 #include "exact/build/node_groups.h"
 #include "simd/node_group.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The nodes of one level that have links, divided into connected parts of up to eight, while groups are made of them.
 class NodeParts {
@@ -79,4 +79,4 @@ class NodeParts {
 /// order are cut, a fifth of the places would stay empty.
 void dissolve_small_parts(NodeParts& parts);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

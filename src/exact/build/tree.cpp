@@ -10,7 +10,7 @@
 #include "base/sphere.h"
 #include "exact/node_search.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // The margin that single precision needs: a vertex, the query vertex and a center are each rounded by up to 2^-24.2 in
@@ -242,4 +242,4 @@ std::vector<std::size_t> groups_above(std::span<const LeafId> leaves, const Inde
   return result;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

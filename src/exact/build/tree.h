@@ -8,7 +8,7 @@
 #include "exact/layout.h"
 #include "shared/parallel.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The bounding spheres of some nodes of one level.
 using Spheres = std::vector<FrameSphere>;
@@ -56,4 +56,4 @@ void update_tree(std::span<const LeafId> leaves, Spheres spheres, const IndexVie
 /// The same around nearly the best center.
 [[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,7 @@
 #include "base/vector.h"
 #include "exact/node_search.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// Contains every vertex: the frame is the cube [-1, 1]^3.
@@ -249,4 +249,4 @@ void JointGroup::read_points(LeafId leaf, LeafPoints& points) const {
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

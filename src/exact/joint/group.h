@@ -10,7 +10,7 @@
 #include "simd/joint.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Numbers the leaves that the balls of a group may meet, and its cores.
 using GroupEntry = std::uint32_t;
@@ -146,4 +146,4 @@ class JointGroup {
   std::vector<std::uint8_t> has_points_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

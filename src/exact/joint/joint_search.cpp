@@ -5,7 +5,7 @@
 #include <bit>
 #include <cassert>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 JointSearch::JointSearch(const IndexView& index, Isa isa)
     : index_(&index), kernels_(&joint_kernels(isa)), group_(index, isa), spread_(index, isa) {}
@@ -74,4 +74,4 @@ void JointSearch::join_runs() {
   pieces_.resize(kept);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -14,7 +14,7 @@
 #include "simd/joint.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Answers up to 32 queries of one leaf at once: the exact neighborhoods, as `Searcher` finds them one by one. See
 /// docs/joint.md. Owns the scratch memory: 4 bytes a leaf of the mesh, and 1 kB for each leaf that the balls of a group
@@ -56,4 +56,4 @@ class JointSearch {
   std::vector<Piece> pieces_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 bool NearestPacket::gather(LeafId leaf, double radius, std::size_t most) {
   is_whole_ = true;
@@ -110,4 +110,4 @@ std::span<const Path> NearestPacket::take_ring() {
   return ring_;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -13,7 +13,7 @@
 #include "simd/ball.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Finds the vertices around each vertex of a leaf by connecting radius, up to a radius: the vertices in the ball are
 /// taken by distance, and one is reached when it has a reached neighbor, or as soon as it gains one. Its connecting
@@ -115,4 +115,4 @@ bool NearestPacket::for_each_near(unsigned lane, double most, F&& f) {
   return pass_on();
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 
 #include "base/vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
@@ -89,4 +89,4 @@ void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> quer
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,7 @@
 #include "exact/layout.h"
 #include "simd/joint.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A radius in the forms that are compared: in the frame, and exactly.
 struct JointRadius {
@@ -61,4 +61,4 @@ class Packet {
   std::array<double, kPacketCapacity> squared_radii_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

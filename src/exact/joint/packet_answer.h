@@ -14,7 +14,7 @@
 /// The rows of a batch whose query vertices lie in one leaf form *packets* of up to 32 rows, and their neighborhoods
 /// are found together (docs/joint.md). They have most of their vertices in common. The answer of a packet names each
 /// vertex once, with the set of rows that have it, so that a sum reads each value once for up to 32 rows.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// How far the vertices of an answer are along the edges. One object a thread.
 class PacketLengths {
@@ -43,4 +43,4 @@ struct PacketAnswer {
   PacketLengths* lengths = nullptr;    ///< null by straight lines, whose lengths positions give, and unless asked for
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "exact/joint/path_packet.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 constexpr std::uint32_t kNoNumber = 0xFFFFFFFF;
@@ -232,4 +232,4 @@ void PathPacket::list_leaves() {
   std::ranges::sort(leaves_, {}, &LeafPlaces::leaf);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

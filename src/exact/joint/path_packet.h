@@ -21,7 +21,7 @@
 #include "exact/weighted_graph.h"
 #include "simd/paths.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A set of numbers that wait, in blocks of 32. A block is swept up and down until it is empty, then the next block
 /// that is not, and again from the first to which numbers were added meanwhile. So a number that is added several times
@@ -176,4 +176,4 @@ class PathPacket final : public PacketLengths {
   std::vector<PerLane<QueryWord>> reached_;  // by piece
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

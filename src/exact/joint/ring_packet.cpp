@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void RingPacket::run(LeafId leaf, std::span<const RingQuery> queries) {
   assert(!queries.empty() && queries.size() <= kPacketCapacity);
@@ -102,4 +102,4 @@ std::span<const Piece> RingPacket::pieces() {
   return pieces_;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

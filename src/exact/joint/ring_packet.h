@@ -11,7 +11,7 @@
 #include "exact/layout.h"
 #include "simd/joint.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A query by the number of edges: a vertex of a leaf, and how many edges may separate it from a vertex of its answer.
 struct RingQuery {
@@ -84,4 +84,4 @@ class RingPacket final : public PacketLengths {
   PathLengths length_{};
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

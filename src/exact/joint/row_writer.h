@@ -10,7 +10,7 @@
 #include "shared/distance.h"
 #include "simd/joint.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Writes the rows of packets. The vertices of a row ascend in index order, so a row does not depend on the rows that
 /// were answered together with it, and its ids ascend if the caller numbers the vertices in index order.
@@ -59,4 +59,4 @@ inline void RowWriter::write_distances(unsigned query, std::uint32_t slot, std::
   assert(next == distances.data() + distances.size());
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void JointSpread::run(JointGroup& group, const Packet& packet) {
   whole_.clear();
@@ -185,4 +185,4 @@ PerLane<QueryWord>& JointSpread::pending(GroupEntry entry) {
   return words_[entry].pending;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

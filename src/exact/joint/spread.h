@@ -13,7 +13,7 @@
 #include "exact/layout.h"
 #include "simd/joint.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A set of pending entries, a bit for each. They are taken in ascending order, sweep by sweep: entries that were
 /// discovered early, near the group, come first, and one that gains several times in one sweep is taken once.
@@ -108,4 +108,4 @@ class JointSpread {
   std::vector<LeafOfWords> partial_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -7,7 +7,7 @@
 
 #include "base/vector.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // Spheres and vertices lie within 4 of the origin of the frame. The center, its distance from that of the sphere, and
@@ -44,4 +44,4 @@ LeafBall any_ball(const Point& center, double radius) {
   return ball;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

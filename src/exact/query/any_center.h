@@ -6,7 +6,7 @@
 #include "simd/ball.h"
 
 /// Bounds on the distances from a center that need not be a vertex, and may be far away from the mesh.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Bounds on squared distances.
 struct SquareRange {
@@ -30,4 +30,4 @@ struct Center {
 /// is exact in single precision where the positions are floats.
 [[nodiscard]] LeafBall any_ball(const Point& center, double radius);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -9,7 +9,7 @@
 #include "base/validate.h"
 #include "shared/text.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 std::string named(std::string_view name, std::optional<std::size_t> row) {
   return std::string(name) + (row ? ": row " + std::to_string(*row) + ": " : ": ");
@@ -69,4 +69,4 @@ void check_weights(std::span<const double> weights, std::size_t vertices, std::s
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -14,7 +14,7 @@
 
 /// The arguments of queries that start anywhere. Each check throws unless its argument is as the public header says;
 /// the message begins with `where`.
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The beginning of a message: an argument, and the row of it.
 [[nodiscard]] std::string named(std::string_view name, std::optional<std::size_t> row);
@@ -40,4 +40,4 @@ void check_weights(std::span<const double> weights, std::size_t vertices, std::s
 /// Whether neighborhoods by the metric need a vertex as start, and their distances are lengths along edges.
 [[nodiscard]] constexpr bool is_along_edges(Metric metric) { return metric == Metric::Path || metric == Metric::Rings; }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

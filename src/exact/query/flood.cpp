@@ -9,7 +9,7 @@
 
 #include "base/prefetch.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 Flood::Flood(const IndexView& index, const Kernels& kernels)
     : index_(&index),
@@ -190,4 +190,4 @@ bool Flood::has_reached(std::uint32_t slot) const {
   return states_.is_known(leaf_of(slot)) && (states_[leaf_of(slot)].reached >> lane_of(slot) & 1U) != 0;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

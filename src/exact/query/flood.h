@@ -15,7 +15,7 @@
 #include "simd/ball.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Leaves that a flood has met and cannot enter yet, each with a bound: the flood can enter a leaf when its ball has
 /// reached that bound.
@@ -144,4 +144,4 @@ class Flood {
   std::vector<LeafSubset> reached_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 #include "exact/query/single_queries.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 struct LengthQueries final : SingleQueries {
@@ -137,4 +137,4 @@ std::unique_ptr<SingleQueries> make_length_queries(BoundIndex index, std::shared
   return std::make_unique<LengthQueries>(std::move(index), std::move(graph), metric, isa);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -6,7 +6,7 @@
 #include "exact/query/path_search.h"
 #include "exact/vertex_set.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 class PathLengthSearch final : public LengthSearch {
@@ -50,4 +50,4 @@ std::unique_ptr<LengthSearch> make_length_search(const IndexView& index, KeptGra
   return make_ring_search(index, graph, kernels);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -15,7 +15,7 @@
 #include "exact/weighted_graph.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The vertices around a start by path distance or by number of edges: for each the length, and its place in index
 /// order. A length is the least radius whose neighborhood has the vertex. Walls are not passed, ignored vertices are
@@ -59,4 +59,4 @@ class LengthSearch {
 [[nodiscard]] std::unique_ptr<LengthSearch> make_ring_search(const IndexView& index, KeptGraph& graph,
                                                              const Kernels& kernels);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -15,7 +15,7 @@
 #include "exact/query/nearest_first.h"
 #include "shared/text.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 class NearestSearch {
@@ -89,4 +89,4 @@ SpacePoint point_on_face(const Index& index, std::span<const VertexId> corners, 
   return sum;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

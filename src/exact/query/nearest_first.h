@@ -11,7 +11,7 @@
 #include "exact/node_search.h"
 #include "exact/query/any_center.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A reach from a center that covers everything within `distance` of a point, if `distance` already includes that from
 /// the point to the center: the three distances are each rounded a few times by 2^-53 of their size, or of 2^-537 where
@@ -91,4 +91,4 @@ class NearestFirst {
   Visitor* visitor_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

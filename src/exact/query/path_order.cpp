@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // So that the number of intervals in a unit of length is finite.
@@ -58,4 +58,4 @@ std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path>
   return sorted_;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -7,7 +7,7 @@
 
 #include "exact/query/path_queue.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 [[nodiscard]] inline bool comes_before(const Path& a, const Path& b) {
   return a.length != b.length ? a.length < b.length : a.end < b.end;
@@ -27,4 +27,4 @@ class PathOrder {
   std::vector<std::uint32_t> ends_;  // by interval
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

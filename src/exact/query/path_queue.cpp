@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // So that the number of buckets in a unit of length is finite.
@@ -45,4 +45,4 @@ void PathQueue::begin_window() {
   });
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A path of edges.
 struct Path {
@@ -123,4 +123,4 @@ class PathQueue {
   std::size_t open_ = 0;      // the number of the open bucket
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <type_traits>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 // So narrow that few paths become shorter in their bucket, and so wide that most buckets have paths.
@@ -173,4 +173,4 @@ std::span<const Path> PathSearch::found_in_order() {
   return order_.sorted(found_.front(), std::span(found_).subspan(1));
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

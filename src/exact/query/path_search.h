@@ -11,7 +11,7 @@
 #include "exact/query/path_queue.h"
 #include "exact/weighted_graph.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The shortest paths along the edges from one or more vertices, up to a radius, by label correction in buckets
 /// (delta-stepping: Meyer and Sanders 2003).
@@ -96,4 +96,4 @@ class PathSearch {
   PathOrder order_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -17,7 +17,7 @@
 #include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// Breadth-first search by the number of edges, ring after ring. The vertices of a leaf that belong to one ring are one
@@ -164,4 +164,4 @@ std::unique_ptr<LengthSearch> make_ring_search(const IndexView& index, KeptGraph
   return std::make_unique<RingSearch>(index, graph, kernels);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

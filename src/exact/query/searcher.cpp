@@ -15,7 +15,7 @@
 #include "exact/query/straight_queries.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 std::unique_ptr<SingleQueries> make_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph, Metric metric,
@@ -170,4 +170,4 @@ void SearcherAccess::set_isa(Searcher& searcher, Isa isa) {
   searcher.queries_ = make_queries(queries.index, queries.graph, queries.metric, isa);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

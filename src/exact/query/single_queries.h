@@ -18,7 +18,7 @@
 #include "exact/weighted_graph.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The connecting radius of a vertex that no radius connects.
 inline constexpr double kNoRadius = std::numeric_limits<double>::infinity();
@@ -90,4 +90,4 @@ struct SearcherAccess {
   static void set_isa(Searcher& searcher, Isa isa);
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 #include "exact/node_search.h"
 #include "exact/query/arguments.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 struct SpaceQueries final : SingleQueries {
@@ -121,4 +121,4 @@ std::unique_ptr<SingleQueries> make_space_queries(BoundIndex index, std::shared_
   return std::make_unique<SpaceQueries>(std::move(index), std::move(graph), isa);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

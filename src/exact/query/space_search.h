@@ -12,7 +12,7 @@
 #include "simd/ball.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Finds every vertex within a radius in space, connected or not, by the tree of the index: a node inside the ball is
 /// taken as a whole, one outside is skipped. Leaves out walls and ignored vertices. Arguments are valid. One object a
@@ -45,4 +45,4 @@ class SpaceSearch {
 [[nodiscard]] std::unique_ptr<SingleQueries> make_space_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph,
                                                                 Isa isa);
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "exact/query/straight_queries.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// Whether one search answers a query: the start is a vertex.
@@ -94,4 +94,4 @@ void StraightQueries::nearest(const Start& start, std::size_t k, std::vector<Ver
   });
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

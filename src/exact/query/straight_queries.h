@@ -14,7 +14,7 @@
 #include "exact/query/single_queries.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A vertex that the flood has reached in its last step.
 struct NextVertex {
@@ -89,4 +89,4 @@ void StraightQueries::for_each_nearest(const Start& start, double most, F&& f) {
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "exact/query/vertex_rings.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
   const Adjacency& edges = *graph_->of(*index_).edges;
@@ -60,4 +60,4 @@ std::span<const Piece> VertexRings::pieces() {
   return pieces_;
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

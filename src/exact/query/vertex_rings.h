@@ -12,7 +12,7 @@
 #include "exact/layout.h"
 #include "exact/weighted_graph.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The rings of one vertex, vertex by vertex, for graphs unlike a surface: their leaves have so few vertices in common
 /// with a ring that words for each leaf take longer. O(edges of the answer). One object a thread; owns 8 bytes a
@@ -63,4 +63,4 @@ class VertexRings final : public PacketLengths {
   PathLengths length_{};
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

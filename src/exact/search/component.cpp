@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void Component::complete(Reach& reach, VertexSet& answer) {
   if (!marks_.open_groups().empty() || !marks_.open_places().empty()) open_.unite(reach, marks_);
@@ -34,4 +34,4 @@ void Component::add_group(std::uint32_t group, const Reach& reach, std::size_t& 
   });
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

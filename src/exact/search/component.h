@@ -13,7 +13,7 @@
 #include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The component of the query vertex among all that the outward search has reached.
 ///
@@ -42,4 +42,4 @@ class Component {
   OpenElements open_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -5,7 +5,7 @@
 
 #include "base/prefetch.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// The most nodes of a level that may intersect the surface of the ball: more than one sheet of mesh has.
@@ -68,4 +68,4 @@ void Descent::place(std::size_t first, const TreeBall& ball, GroupStates& states
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

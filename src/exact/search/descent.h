@@ -11,7 +11,7 @@
 #include "exact/search/query.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Refines the nodes that intersect the surface of the ball down to the leaves.
 class Descent {
@@ -41,4 +41,4 @@ class Descent {
   std::vector<NodeId> intersecting_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -7,7 +7,7 @@
 #include "base/epoch_array.h"
 #include "exact/layout.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// What a query knows of the nodes of a group.
 struct GroupState {
@@ -54,4 +54,4 @@ class GroupStates : public EpochArray<GroupState> {
   std::size_t end_group_ = 0;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -3,7 +3,7 @@
 
 #include "exact/node_search.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void HomeMarks::spread(const Query& query, Reach& reach) {
   states_ = &reach.states();
@@ -85,4 +85,4 @@ void HomeMarks::mark_leaf(const Query& query, const LeafSubset& leaf, std::size_
   if (linked != leaf.lanes) open_places_.push_back(place);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

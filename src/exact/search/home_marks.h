@@ -12,7 +12,7 @@
 #include "exact/search/reach.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Marks what is known to be connected with the query vertex within the ball: whole nodes, in `GroupState::home`, and
 /// vertices of surface leaves. The marks spread over the links in a few passes. They are never wrong, but may be
@@ -54,4 +54,4 @@ class HomeMarks {
   std::vector<std::size_t> open_places_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -5,7 +5,7 @@
 
 #include "base/prefetch.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 bool LeafBfs::run_within(std::size_t visits, const Query& query, VertexSet& answer) {
   query_ = &query;
@@ -92,4 +92,4 @@ void LeafBfs::prefetch_leaf(const Leaf& leaf, bool is_intersecting) const {
   prefetch_positions(*index_, leaf.first, leaf.size);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

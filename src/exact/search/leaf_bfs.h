@@ -12,7 +12,7 @@
 #include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Breadth-first search over leaves: a set of vertices of a leaf is one word. It visits the leaves of the answer and
 /// looks at their neighbors, so its cost does not depend on what else lies in the ball.
@@ -58,4 +58,4 @@ class LeafBfs {
   NumberSet reached_;  // leaves
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -8,7 +8,7 @@
 #include "exact/layout.h"
 #include "exact/node_search.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// A set of leaves as bits, a byte for each group of leaves, to which whole nodes are added. So one look-up tells
 /// whether a link leads to one of them, however large the node is that it leads to.
@@ -50,4 +50,4 @@ class LeafBits {
   std::vector<LeafGroupRange> added_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -5,7 +5,7 @@
 
 #include "exact/node_search.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 NodeSet without(NodeSet nodes, NodeSet others) { return static_cast<NodeSet>(nodes & ~unsigned{others}); }
@@ -202,4 +202,4 @@ void OpenElements::unite(Element a, Element b) {
   parents_[std::max(a, b)] = std::min(a, b);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -12,7 +12,7 @@
 #include "exact/search/reach.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Completes the home marks by union-find over the open elements: whole nodes without a mark, and pieces without one,
 /// which are vertices of a surface leaf in the ball that are connected within the leaf. All that is marked is one more
@@ -63,4 +63,4 @@ class OpenElements {
   std::vector<Element> parents_;  // by element: another of its set, or itself
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

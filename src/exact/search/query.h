@@ -6,7 +6,7 @@
 #include "exact/layout.h"
 #include "simd/ball.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// What depends on the radius alone. A searcher keeps it from one query to the next, because most have equal radii.
 struct RadiusBounds {
@@ -39,4 +39,4 @@ struct Query {
   [[nodiscard]] LaneMask lane() const { return LaneMask{1} << lane_of(slot); }
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -6,7 +6,7 @@
 #include "base/prefetch.h"
 #include "exact/node_search.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Begins with large nodes, which are few. Where they reach more than a single sheet, begins again with small ones,
 /// which leave out what is not connected at that scale. Leaves save nothing over a search along their links.
@@ -93,4 +93,4 @@ std::size_t Reach::place_of(LeafId leaf) const {
   return std::size_t{first_surface_leaf_[group]} + count_of(before);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -14,7 +14,7 @@
 #include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The outward search, from the query vertex over linked, connected nodes to the surface of the ball. What it reaches
 /// is a union of whole components of the ball, and holds the component of the query vertex (see `Waves`): *whole*
@@ -73,4 +73,4 @@ class Reach {
   std::vector<std::uint32_t> first_surface_leaf_;  // by group of leaves, if it has one
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

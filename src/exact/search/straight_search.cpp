@@ -15,7 +15,7 @@
 #include "exact/neighbors.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void StraightSearch::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) {
   index = std::move(bound);
@@ -106,4 +106,4 @@ bool StraightSearch::is_alone(std::uint32_t slot) const {
       index->positions);
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -14,7 +14,7 @@
 #include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The exact neighborhood of a vertex: the outline of the query, and its scratch memory.
 struct StraightSearch {
@@ -59,4 +59,4 @@ struct StraightSearch {
   [[nodiscard]] bool is_mostly_open() const;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

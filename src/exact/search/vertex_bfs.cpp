@@ -6,7 +6,7 @@
 #include "base/reference_access.h"
 #include "shared/distance.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 namespace {
 
 /// Whether no vertex has a neighbor, as in a set of points.
@@ -59,4 +59,4 @@ void VertexBfs::run(VertexId v, double squared_radius, VertexSet& answer) {
   });
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 #include "exact/vertex_set.h"
 #include "exact/weighted_graph.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// Whether leaves have many links of few edges, as around hubs and in random graphs. A step from leaf to leaf then
 /// reaches few vertices, and breadth-first search over vertices is faster at every radius.
@@ -39,4 +39,4 @@ class VertexBfs {
   std::optional<NumberSet> found_;  // in index order
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -6,7 +6,7 @@
 #include "base/prefetch.h"
 #include "exact/node_search.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 void Waves::run(NodeId home, const TreeBall& ball, GroupStates& states) {
   groups_.clear();
@@ -73,4 +73,4 @@ void Waves::spread(std::uint32_t group, GroupStates& states) {
   }
 }
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

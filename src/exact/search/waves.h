@@ -10,7 +10,7 @@
 #include "exact/search/group_states.h"
 #include "simd/kernels.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 /// The outward search: finds, on one level of the tree, the nodes that links between nodes in or across the ball
 /// connect with the query vertex's own. A breadth-first search whose steps are groups.
@@ -41,4 +41,4 @@ class Waves {
   std::vector<GroupContainment> containments_;
 };
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 #include "support/family_name.h"
 #include "support/search_case.h"
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 struct ReachAccess {
   /// As `Reach::run` does, but begins with a node over the query vertex on any level.
@@ -30,7 +30,9 @@ struct ReachAccess {
   }
 };
 
-namespace test {
+}  // namespace meshhood::inline v0_1
+
+namespace meshhood::test {
 namespace {
 
 /// Calls `f(case, found)` for queries on small meshes of a family, searched from each level in turn. Returns the number
@@ -92,5 +94,4 @@ TEST_P(ComponentOnFamilies, HasRunsThatDoNotTouchAndSubsetsThatAreNotWhole) {
 INSTANTIATE_TEST_SUITE_P(Families, ComponentOnFamilies, testing::ValuesIn(families()), family_name);
 
 }  // namespace
-}  // namespace test
-}  // namespace meshhood
+}  // namespace meshhood::test

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace meshhood {
+namespace meshhood::inline v0_1 {
 
 using VertexId = std::uint16_t;
 
@@ -14,4 +14,4 @@ inline constexpr VertexId kNoVertex = std::numeric_limits<VertexId>::max();
 
 using EdgeOffset = std::uint16_t;
 
-}  // namespace meshhood
+}  // namespace meshhood::inline v0_1
