@@ -52,7 +52,7 @@ endif()
 file(GLOB headers RELATIVE ${SOURCE_DIR}/include ${SOURCE_DIR}/include/meshhood/*.h)
 foreach(header IN LISTS headers)
   file(READ ${SOURCE_DIR}/include/${header} text)
-  string(REGEX REPLACE "inline( namespace)? v[0-9]+_[0-9]+" "inline\\1 v0_99" text "${text}")
+  string(REGEX REPLACE "v[0-9]+_[0-9]+" "v0_99" text "${text}")
   file(WRITE ${WORK_DIR}/next/${header} "${text}")
 endforeach()
 execute_process(COMMAND ${COMPILER} -std=c++20 -I${WORK_DIR}/next ${SOURCE_DIR}/tests/install/consumer/small.cpp
