@@ -146,14 +146,16 @@ unsigned box_entries(const BoxGroup& boxes, const BoxRay& ray, float limit, BoxG
   for (std::size_t i = 0; i < kFanOut; i += kLanes<decltype(d)>) {
     auto entry = hn::Zero(d);
     auto exit = hn::Set(d, limit);
-    const auto cross_slab = [&](const BoxRay::Axis& axis, const BoxGroup::Row& low, const BoxGroup::Row& high)
-                                HWY_ATTR {
-                                  const auto inverse = hn::Set(d, axis.inverse);
-                                  const auto enters = hn::Load(d, axis.is_backward ? &high[i] : &low[i]);
-                                  const auto leaves = hn::Load(d, axis.is_backward ? &low[i] : &high[i]);
-                                  entry = hn::Max(entry, hn::Mul(hn::Sub(enters, hn::Set(d, axis.enter)), inverse));
-                                  exit = hn::Min(exit, hn::Mul(hn::Sub(leaves, hn::Set(d, axis.leave)), inverse));
-                                };
+    const auto cross_slab = [&](const BoxRay::Axis& axis, const BoxGroup::Row& low,
+                                const BoxGroup::Row& high) HWY_ATTR {
+      const auto way_to = [&](const BoxGroup::Row& wall, float begin) HWY_ATTR {
+        return hn::Mul(hn::Sub(hn::Load(d, &wall[i]), hn::Set(d, begin)), hn::Set(d, axis.inverse));
+      };
+      const auto to_low = way_to(low, axis.low);
+      const auto to_high = way_to(high, axis.high);
+      entry = hn::Max(entry, hn::Min(to_low, to_high));
+      exit = hn::Min(exit, hn::Max(to_low, to_high));
+    };
     cross_slab(ray.x, boxes.low.x, boxes.high.x);
     cross_slab(ray.y, boxes.low.y, boxes.high.y);
     cross_slab(ray.z, boxes.low.z, boxes.high.z);

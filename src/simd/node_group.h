@@ -34,14 +34,13 @@ struct alignas(64) BoxGroup {
 /// The exit of a ray from a box counts as this much later, which covers the rounding of entries and exits.
 inline constexpr float kExitSlack = 1 + 0x1p-20F;
 
-/// A ray as boxes see it, in the frame. Along each axis it enters a box at `(wall - enter) * inverse` and leaves it at
-/// `(wall - leave) * inverse`, where the wall of entry is the lower one, or the higher one if `is_backward`.
+/// A ray as boxes see it, in the frame. Along each axis, it is between the walls of a box from the first to the second
+/// of the ways `(low wall - low) * inverse` and `(high wall - high) * inverse`, in their order.
 struct BoxRay {
   struct Axis {
-    float enter;
-    float leave;
-    float inverse;
-    bool is_backward;
+    float low;  // where the ray begins, and so much more that all boxes grow by the error of this number
+    float high;
+    float inverse;  // of the direction
   };
   Axis x;
   Axis y;

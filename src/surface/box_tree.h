@@ -285,15 +285,18 @@ class BoxTree::Line {
 
   [[nodiscard]] float limit() const { return limit_; }
 
-  void update() { limit_ = next_above((*reach_)() - begin_ + slack_); }
+  void update() {
+    const double reach = (*reach_)();
+    if (reach == reached_) return;
+    reached_ = reach;
+    limit_ = next_above(reach - begin_ + slack_);
+  }
 
  private:
   /// No inverse is so large that it gives an infinite way.
   [[nodiscard]] BoxRay::Axis axis(double from, double direction) const {
-    const double slack = std::copysign(slack_, direction);
     const double along = std::copysign(std::max(std::abs(direction), 0x1p-100), direction);
-    return {static_cast<float>(from + slack), static_cast<float>(from - slack), static_cast<float>(1 / along),
-            std::signbit(direction)};
+    return {static_cast<float>(from + slack_), static_cast<float>(from - slack_), static_cast<float>(1 / along)};
   }
 
   const Kernels* kernels_;
@@ -301,6 +304,7 @@ class BoxTree::Line {
   Point start_;
   double slack_;
   BoxRay ray_;
+  double reached_ = -1;  // what `limit_` was made of
   float limit_ = -1;
   Reach* reach_;
 };

@@ -41,7 +41,9 @@ double largest_of(const Point& p) { return std::max({std::abs(p.x), std::abs(p.y
 double doubled_area(const Point& a, const Point& b) {
   const double left = a.x * b.y;
   const double right = a.y * b.x;
-  return left != right ? left - right : Twofold::product(a.x, b.y).low - Twofold::product(a.y, b.x).low;
+  if (left != right) [[likely]]
+    return left - right;
+  return Twofold::product(a.x, b.y).low - Twofold::product(a.y, b.x).low;
 }
 
 Point flat(const Point& p) { return {p.x, p.y, 0}; }
@@ -80,9 +82,7 @@ void check_direction(const SpacePoint& d, std::string_view name, std::optional<s
   if (d == SpacePoint{}) raise(ErrorCode::InvalidOption, named(name, row) + "it is 0, expected a direction");
 }
 
-Ray make_ray(const SurfaceState& state, const SpacePoint& origin, const SpacePoint& direction) {
-  return {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, state.index->frame};
-}
+Point to_point(const SpacePoint& p) { return {p[0], p[1], p[2]}; }
 
 SurfacePoint surface_point(const SurfaceState& state, const FaceTree& tree, const TriangleHit& first) {
   if (first.at.distance == kInfinity) return {};
@@ -110,7 +110,8 @@ void search_together(const SurfaceState& state, const FaceTree& tree, std::size_
     free.search.reset();
     if (next == end) return false;
     free.ray = next++;
-    free.search.emplace(*state.index, tree, ray_of(free.ray), EachCounts{});
+    const auto [origin, direction] = ray_of(free.ray);
+    free.search.emplace(*state.index, tree, origin, direction, EachCounts{});
     return true;
   };
   std::size_t running = 0;
@@ -127,8 +128,7 @@ void search_together(const SurfaceState& state, const FaceTree& tree, std::size_
 }  // namespace
 
 Ray::Ray(const Point& origin, const Point& direction, const Frame& frame)
-    : origin_(origin),
-      in_frame_(frame.to_frame(origin)),
+    : in_frame_(frame.to_frame(origin)),
       direction_{direction.x / largest_of(direction), direction.y / largest_of(direction),
                  direction.z / largest_of(direction)},
       length_(length(direction_)),
@@ -136,13 +136,14 @@ Ray::Ray(const Point& origin, const Point& direction, const Frame& frame)
       scale_(std::ldexp(1.0, -std::ilogb(std::max(largest_of(origin - frame.origin), 1 / frame.scale)))),
       axes_(std::abs(direction_.x) == 1   ? Axes{&Point::y, &Point::z, &Point::x}
             : std::abs(direction_.y) == 1 ? Axes{&Point::z, &Point::x, &Point::y}
-                                          : Axes{&Point::x, &Point::y, &Point::z}) {}
+                                          : Axes{&Point::x, &Point::y, &Point::z}),
+      turned_origin_(turn(origin)),
+      turned_direction_(turn(direction_)) {}
 
 Point Ray::see(const Point& p) const {
-  const auto [right, up, along] = axes_;
-  const Point offset = scale_ * (p - origin_);
-  const double way = offset.*along * (direction_.*along);
-  return {offset.*right - direction_.*right * way, offset.*up - direction_.*up * way, way};
+  const Point offset = scale_ * (turn(p) - turned_origin_);
+  const double way = offset.z * turned_direction_.z;
+  return {offset.x - turned_direction_.x * way, offset.y - turned_direction_.y * way, way};
 }
 
 std::optional<TrianglePoint> Ray::meet(const std::array<Point, 3>& corners) const {
@@ -173,7 +174,7 @@ SurfacePoint Surface::first_hit(const SpacePoint& origin, const SpacePoint& dire
   TaskContext alone;
   const FaceTree& tree = state.tree(alone);
   return surface_point(state, tree,
-                       find_first_hit(*state.index, tree, make_ray(state, origin, direction), EachCounts{}));
+                       find_first_hit(*state.index, tree, to_point(origin), to_point(direction), EachCounts{}));
 }
 
 std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origins,
@@ -196,9 +197,9 @@ void Surface::for_each_first_hit(std::span<const SpacePoint> origins, std::span<
   }
   TaskContext task(run.threads, run.progress, origins.size());
   const FaceTree& tree = state.tree(task);
-  const auto ray_of = [&](std::size_t i) { return make_ray(state, origins[i], directions[i]); };
+  const auto ray_of = [&](std::size_t i) { return std::pair(to_point(origins[i]), to_point(directions[i])); };
   const auto entry_of = [&](std::size_t i) {
-    const Ray ray = ray_of(i);
+    const Ray ray(to_point(origins[i]), to_point(directions[i]), state.index->frame);
     return ray.origin() + way_to_frame(ray.origin(), ray.direction()) * ray.direction();
   };
   const RawVector<std::size_t> in_order = rows_along_curve(origins.size(), entry_of, task);

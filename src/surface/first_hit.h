@@ -38,29 +38,34 @@ class Ray {
  private:
   using Axes = std::array<double Point::*, 3>;
 
+  /// The coordinates to the right, up, and along the main axis of the direction.
+  [[nodiscard]] Point turn(const Point& p) const { return {p.*axes_[0], p.*axes_[1], p.*axes_[2]}; }
+
   /// A point from the origin of the ray; z is the way along it.
   [[nodiscard]] Point see(const Point& p) const;
 
-  Point origin_;
   Point in_frame_;
   Point direction_;
   double length_;  // of `direction_`
   double frame_scale_;
   double scale_;  // makes what is seen about 1, from far away as well
-  Axes axes_;     // the main axis of the direction is the last
+  Axes axes_;
+  Point turned_origin_;
+  Point turned_direction_;
 };
 
 /// The first of the triangles that a ray meets and for which `counts(i, at)`.
 template <class Counts>
 class FirstHitSearch {
  public:
-  /// `index` and `tree` must outlive it.
-  FirstHitSearch(const IndexView& index, const FaceTree& tree, const Ray& ray, Counts counts)
+  /// `index` and `tree` must outlive it. `direction` is finite and not 0.
+  FirstHitSearch(const IndexView& index, const FaceTree& tree, const Point& origin, const Point& direction,
+                 Counts counts)
       : index_(&index),
         tree_(&tree),
-        ray_(ray),
+        ray_(origin, direction, index.frame),
         counts_(std::move(counts)),
-        line_(ray.origin(), ray.direction(), reach_),
+        line_(ray_.origin(), ray_.direction(), reach_),
         walk_(tree.boxes(), line_) {}
   FirstHitSearch(const FirstHitSearch&) = delete;
   FirstHitSearch& operator=(const FirstHitSearch&) = delete;
@@ -100,9 +105,9 @@ class FirstHitSearch {
 
 /// The same in one call.
 template <class Counts>
-[[nodiscard]] TriangleHit find_first_hit(const IndexView& index, const FaceTree& tree, const Ray& ray,
-                                         Counts&& counts) {
-  FirstHitSearch search(index, tree, ray, std::forward<Counts>(counts));
+[[nodiscard]] TriangleHit find_first_hit(const IndexView& index, const FaceTree& tree, const Point& origin,
+                                         const Point& direction, Counts&& counts) {
+  FirstHitSearch search(index, tree, origin, direction, std::forward<Counts>(counts));
   while (search.advance()) {
   }
   return search.first();

@@ -79,7 +79,7 @@ class OppositeSide {
     const auto counts = [&](std::size_t i, const TrianglePoint& at) {
       return at.distance > 0 && !touches(i) && is_counted(i);
     };
-    return find_first_hit(*index_, *tree_, Ray(vertex_, inward_, index_->frame), counts).at.distance;
+    return find_first_hit(*index_, *tree_, vertex_, inward_, counts).at.distance;
   }
 
   /// The point of an opposite face nearest to the center of a ball; one that is not nearer than `radius` if there is

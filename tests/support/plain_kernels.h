@@ -90,9 +90,11 @@ inline unsigned box_entries(const BoxGroup& boxes, const BoxRay& ray, float limi
     float entry = 0;
     float exit = limit;
     const auto cross_slab = [&](const BoxRay::Axis& axis, float low, float high) {
-      if (axis.is_backward) std::swap(low, high);
-      entry = std::max(entry, (low - axis.enter) * axis.inverse);
-      exit = std::min(exit, (high - axis.leave) * axis.inverse);
+      float enters = (low - axis.low) * axis.inverse;
+      float leaves = (high - axis.high) * axis.inverse;
+      if (axis.inverse < 0) std::swap(enters, leaves);
+      entry = std::max(entry, enters);
+      exit = std::min(exit, leaves);
     };
     cross_slab(ray.x, boxes.low.x[i], boxes.high.x[i]);
     cross_slab(ray.y, boxes.low.y[i], boxes.high.y[i]);
