@@ -34,13 +34,13 @@ struct alignas(64) BoxGroup {
 /// The exit of a ray from a box counts as this much later, which covers the rounding of entries and exits.
 inline constexpr float kExitSlack = 1 + 0x1p-20F;
 
-/// A ray as boxes see it, in the frame. Along each axis, it is between the walls of a box from the first to the second
-/// of the ways `(low wall - low) * inverse` and `(high wall - high) * inverse`, in their order.
+/// A ray as boxes see it, in the frame. Along each axis it comes to the walls of a box at `(low wall - low) * inverse`
+/// and `(high wall - high) * inverse`; the smaller one is the entry.
 struct BoxRay {
   struct Axis {
-    float low;  // where the ray begins, and so much more that all boxes grow by the error of this number
-    float high;
-    float inverse;  // of the direction
+    float low;   // where the ray begins, and its error more, so that the box grows by it
+    float high;  // its error less
+    float inverse;
   };
   Axis x;
   Axis y;

@@ -41,9 +41,7 @@ double largest_of(const Point& p) { return std::max({std::abs(p.x), std::abs(p.y
 double doubled_area(const Point& a, const Point& b) {
   const double left = a.x * b.y;
   const double right = a.y * b.x;
-  if (left != right) [[likely]]
-    return left - right;
-  return Twofold::product(a.x, b.y).low - Twofold::product(a.y, b.x).low;
+  return left != right ? left - right : Twofold::product(a.x, b.y).low - Twofold::product(a.y, b.x).low;
 }
 
 Point flat(const Point& p) { return {p.x, p.y, 0}; }
