@@ -80,11 +80,12 @@ class PlainLines {
     if (!is_new) found->second = std::min(found->second, length);
   }
 
-  /// The angle at `a` between `b` and `c`.
+  /// The angle at `a` between `b` and `c`. Beside a side without a length, so large that nothing crosses there.
   [[nodiscard]] double angle(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const double ab = distance(a, b);
     const double ac = distance(a, c);
     const double bc = distance(b, c);
+    if (ab * ac == 0) return std::numbers::pi;
     return std::acos(std::clamp((ab * ab + ac * ac - bc * bc) / (2 * ab * ac), -1.0, 1.0));
   }
 
