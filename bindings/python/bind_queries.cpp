@@ -129,14 +129,14 @@ auto nearest_connected(Queries& queries, Metric metric, const Center& center, co
   return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(radii)));
 }
 
-auto nearest_vertices(Queries& queries, const Points& points) {
+auto nearest_vertices(Queries& queries, const Points& points, unsigned threads, nb::handle progress) {
+  const Run run{.threads = threads, .progress = progress_to(progress)};
   std::vector<VertexId> ids;
   std::vector<double> distances;
   without_lock([&] {
-    for (const SpacePoint& point : points_of(points)) {
-      const NearestVertex found = nearest(queries.index(), point);
-      ids.push_back(found.vertex);
-      distances.push_back(found.distance);
+    for (const auto& [vertex, distance] : nearest(queries.index(), points_of(points), run)) {
+      ids.push_back(vertex);
+      distances.push_back(distance);
     }
   });
   return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)));
@@ -154,7 +154,7 @@ void bind_queries(nb::module_& module) {
       .def("contains", &contains, arg, center, arg, arg, arg)
       .def("connecting_radius", &connecting_radius, arg, center, arg, arg)
       .def("nearest_connected", &nearest_connected, arg, center, arg, arg)
-      .def("nearest", &nearest_vertices, nb::arg());
+      .def("nearest", &nearest_vertices, arg, nb::arg("threads"), nb::arg("progress").none());
   module.def("queries", [](std::shared_ptr<ExactMethod> exact) { return std::make_shared<Queries>(std::move(exact)); });
 }
 

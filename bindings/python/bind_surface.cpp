@@ -119,6 +119,10 @@ nb::class_<Surface> bind_surface(nb::module_& module) {
       .def("paths",
            [](const Surface& surface) { return exact_method(without_lock([&] { return surface_paths(surface); })); })
       .def("on", [](const Surface& whole, const ExactMethod& method) { return whole.on(method.index()); })
+      .def("refit",
+           [](Surface& surface, const ExactMethod& method, const Ids& changed) {
+             without_lock([&] { surface.refit_in_place(method.index(), ids_of(changed)); });
+           })
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("first_hits", &first_hits, nb::arg(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("thickness", &measure_thickness, nb::arg().none(), nb::arg("by_sphere"), nb::arg("threads"),

@@ -5,10 +5,12 @@
 #include <concepts>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "meshhood/export.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/run.h"
 #include "meshhood/vertex.h"
 
 namespace meshhood {
@@ -62,6 +64,7 @@ class Start {
 struct NearestVertex {
   VertexId vertex;
   double distance;
+  friend bool operator==(const NearestVertex&, const NearestVertex&) = default;
 };
 
 /// The vertex nearest to `point`, connected or not, ignored or not, but no wall; of several at the same distance, the
@@ -70,6 +73,11 @@ struct NearestVertex {
 /// Throws Error{InvalidOption} if a coordinate is not finite or beyond 2^500, and Error{VertexOutOfRange} if the mesh
 /// has no such vertex. O(log #V) on most surfaces. Allocates nothing; any thread.
 [[nodiscard]] NearestVertex nearest(const Index& index, const SpacePoint& point);
+
+/// That of each point, in their order. Near points follow each other in the search, so that it is faster than one by
+/// one. Throws as the overload above, naming the point, and Error{Cancelled}. Memory: 32 bytes a point.
+[[nodiscard]] std::vector<NearestVertex> nearest(const Index& index, std::span<const SpacePoint> points,
+                                                 const Run& run = {});
 
 }  // namespace v0_1
 }  // namespace meshhood

@@ -110,8 +110,9 @@ class Surface {
   [[nodiscard]] Surface on(const Index& index) const;
 
   /// Follows a refit of its index: answers are then those of a new surface. With `changed`, boxes and normals are
-  /// renewed for the faces of these vertices alone, unless another surface shares them (see `on`) or a vertex has left
-  /// the frame of the index; all else is made again when it is needed. No thread may use the surface meanwhile.
+  /// renewed for the faces of these vertices alone, unless a vertex has left the frame of the index; they are copied if
+  /// another surface shares them (see `on`). All else is made again when it is needed. No thread may use the surface
+  /// meanwhile.
   ///
   /// index    refitted in place, or a refitted copy.
   /// changed  ids of the vertices that have moved since, at least.

@@ -76,6 +76,13 @@ bool same(const Frame& a, const Frame& b) { return same(a.origin, b.origin) && a
 
 }  // namespace
 
+std::shared_ptr<SurfaceGeometry> SurfaceGeometry::copy() const {
+  auto all = std::make_shared<SurfaceGeometry>();
+  if (const Normals* const made = normals.made()) static_cast<void>(all->normals.get([&] { return *made; }));
+  if (const FaceTree* const made = tree.made()) static_cast<void>(all->tree.get([&] { return *made; }));
+  return all;
+}
+
 Surface::State::State(const Index& given, FaceArrays faces)
     : searched(IndexAccess::alias(given)),
       index(searched),
@@ -189,11 +196,12 @@ void Surface::refit_in_place(const Index& index) {
 
 void Surface::refit_in_place(const Index& index, const IndicesView& changed) {
   const std::vector<VertexId> moved = read_changed(changed, vertex_count());
-  const std::shared_ptr<SurfaceGeometry> made = state_->geometry;
+  std::shared_ptr<SurfaceGeometry> made = state_->geometry;
   const bool is_shared = made.use_count() > 2;  // with another surface
   const bool is_in_frame = same(state_->frame, IndexAccess::view(index).frame);
   refit_in_place(index);
-  if (is_shared || !is_in_frame) return;
+  if (!is_in_frame) return;
+  if (is_shared) made = made->copy();
   // If memory runs out meanwhile, all is made again.
   state_->renew(*made, moved);
   made->areas.drop();

@@ -55,6 +55,9 @@ struct SurfaceGeometry {
   Kept<FaceTree> tree;
   Kept<NormalCones> cones;  // of the tree
   Kept<std::vector<double>> areas;
+
+  /// Of what a refit renews.
+  [[nodiscard]] std::shared_ptr<SurfaceGeometry> copy() const;
 };
 
 /// Surfaces of one mesh with other masks share the faces and the geometry.

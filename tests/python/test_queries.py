@@ -26,8 +26,10 @@ def test_nearest_is_that_of_a_scan(mesh):
     assert vertex == np.argmin(distances(V, p)) and distance == distances(V, p).min()
     for none in ([], np.empty((0, 3))):
         assert [len(found) for found in index.nearest(none)] == [0, 0]
-    vertices, _ = index.nearest(V[:50])
+    done = []
+    vertices, _ = index.nearest(V[:50], workers=2, progress=lambda part, whole: done.append((part, whole)))
     np.testing.assert_array_equal(vertices, np.arange(50))
+    assert done[0] == (0, 50) and done[-1] == (50, 50)
 
 
 def test_cut_edges_are_not_crossed():

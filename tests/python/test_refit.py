@@ -184,3 +184,41 @@ def test_quality_detects_stretched_leaves():
     stretched = index.refit(V * [8, 1, 1])
     assert stretched.quality().gain > 1.5
     assert meshhood.MeshIndex(V * [8, 1, 1], F).quality().gain < 1.2
+
+
+def test_surfaces_follow_whatever_index_lives(mesh):
+    """What is made of the faces is renewed where vertices have moved: from the index before, which may be asked again,
+    have been refitted twice, or be gone."""
+    V, F = mesh
+    points = V[::7].astype(float) + [0.1, 0.2, 0.3]
+    ways = np.broadcast_to([0.0, 0.1, -1.0], points.shape)
+
+    def expect_surface_of(index, V):
+        fresh = meshhood.MeshIndex(V, F)
+        for found, expected in zip(index.closest_point(points), fresh.closest_point(points)):
+            np.testing.assert_array_equal(found, expected)
+        for found, expected in zip(index.first_hit(points, ways), fresh.first_hit(points, ways)):
+            np.testing.assert_array_equal(found, expected)
+        np.testing.assert_allclose(index.curvature(2.0).mean, fresh.curvature(2.0).mean, rtol=1e-5, atol=1e-9)
+
+    def moved(V, ids, way):
+        V = V.copy()
+        V[ids] += way
+        return V
+
+    some, others = np.arange(40, 60), np.arange(50, 90)
+    index = meshhood.MeshIndex(V, F)
+    expect_surface_of(index, V)
+    one, two = moved(V, some, 0.25), moved(V, others, -0.5)
+    first, second = index.refit(one, some), index.refit(two, others)
+    third = first.refit(moved(one, others, -0.5), others)
+    expect_surface_of(second, two)
+    expect_surface_of(index, V)
+    expect_surface_of(third, moved(one, others, -0.5))
+    expect_surface_of(first, one)
+    del first, second, third
+    for step in range(5):
+        V = moved(V, some + 100 * step, 0.125)
+        index = index.refit(V, some + 100 * step)
+        if step != 2:
+            expect_surface_of(index, V)

@@ -412,6 +412,13 @@ TEST_P(Allocation, FailsInACallForTheNearest) {
       [&] { return k_nearest(index, some, 20, {}, kOneThread).ids; },
       [&] { return k_nearest(index, some, 20, {.metric = Metric::Path}, kOneThread).ids; },
       [&] { return discs(index, some, 20, std::vector<double>(mesh.size(), 1.0), {}, kOneThread).ids; },
+      [&] {
+        std::vector<VertexId> found;
+        for (const auto& [vertex, distance] : nearest(index, std::vector<SpacePoint>(3), kOneThread)) {
+          found.push_back(vertex);
+        }
+        return found;
+      },
       [&] { return link_points(mesh.positions_view(), radius / 2, {}, kOneThread).neighbors; },
       [&] { return face_graph(grid.view()).adjacency.neighbors; }};
   if (mesh.face_count() != 0) {

@@ -33,6 +33,7 @@ class Held:
     _checked: bytes  # the key of the faces given last
     _methods: Methods
     _last_surface: tuple[Any, Any]  # the key of its faces, and the surface
+    _before_refit: list[Any]  # at most one: the exact index, the key, its surface, and what has moved since
     _last_patches: tuple[Any, Any]  # likewise
     _queries: Any
     _count: int
@@ -52,6 +53,7 @@ class Held:
         self._along_surface = None
         self._methods = Methods(exact, None if whole is None else whole._methods)
         self._last_surface = (None, None)
+        self._before_refit = []
         self._last_patches = (None, None)
         self._queries = _core.queries(exact)
         self._count = exact.vertex_count
@@ -187,8 +189,26 @@ class Held:
             return self._whole._surface_of(key, arrays).on(self._exact)
         kept, surface = self._last_surface
         if kept != key:
-            surface = _core.surface_of_faces(self._exact, *arrays)
+            surface = self._refitted_surface(key) or _core.surface_of_faces(self._exact, *arrays)
             self._last_surface = (key, surface)  # replaced as a whole: no lock, which a fork could copy while it is held
+        return surface
+
+    def _follow(self, before: Any, changed: Any) -> None:
+        """Lets the surface of the index `before` be renewed where vertices have moved, when it is needed."""
+        kept, surface = before._last_surface
+        for exact, key, older, moved in [(before._exact, kept, surface, [])] if surface else before._before_refit:
+            moved = np.concatenate([moved, changed]).astype(changed.dtype)
+            if 4 * len(moved) <= self._count:
+                self._before_refit = [(exact, key, older.on(exact), moved)]
+
+    def _refitted_surface(self, key: bytes) -> Any:
+        try:
+            _, kept, surface, moved = self._before_refit.pop()  # for one thread alone
+        except IndexError:
+            return None
+        if kept != key:
+            return None
+        surface.refit(self._exact, moved)
         return surface
 
 

@@ -531,7 +531,10 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
             exact = _core.refit(
                 whole, positions, changed=moved, threads=_convert.threads(workers), progress=report
             )
-        return self._with_attributes(type(self)._holding(exact, self._faces))
+        index = type(self)._holding(exact, self._faces)
+        if moved is not None:
+            index._follow(self, moved)
+        return self._with_attributes(index)
 
     def quality(self) -> Quality:
         """How well the leaves of the index, its smallest parts, fit the positions after `refit`.

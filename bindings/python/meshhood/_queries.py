@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._held import Held
 from ._methods import Method, core_metric
+from ._progress import Progress, reporter
 from ._repr import shown_in_a_line
 from ._rows import check_sort, result_dtype, sorted_rows
 from ._types import METRICS, Counts, Floats, Ids, Mask, Metric, Number, Reals, Scales, Sort, Unit
@@ -319,17 +320,23 @@ class Queries(Held):
         return Connected(*searched.nearest_connected(self._metric_of(center, metric), center, first, k))
 
     @overload
-    def nearest(self, points: Sequence[float]) -> tuple[int, float]: ...
+    def nearest(
+        self, points: Sequence[float], *, workers: int = ..., progress: Progress = ...
+    ) -> tuple[int, float]: ...
 
     @overload
-    def nearest(self, points: Sequence[Sequence[float]]) -> tuple[Ids, Reals]: ...
+    def nearest(
+        self, points: Sequence[Sequence[float]], *, workers: int = ..., progress: Progress = ...
+    ) -> tuple[Ids, Reals]: ...
 
     @overload
-    def nearest(self, points: ArrayLike) -> Union[tuple[int, float], tuple[Ids, Reals]]: ...
+    def nearest(
+        self, points: ArrayLike, *, workers: int = ..., progress: Progress = ...
+    ) -> Union[tuple[int, float], tuple[Ids, Reals]]: ...
 
-    def nearest(self, points: Any) -> Any:
+    def nearest(self, points: Any, *, workers: int = -1, progress: Progress = None) -> Any:
         """The vertex nearest to a point, and its distance: `vertex, distance`. For points (n, 3) or [], two arrays. Of
-        several vertices at the same distance, the one with the smallest id.
+        several vertices at the same distance, the one with the smallest id. `workers` and `progress`: see `MeshIndex`.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> vertex, distance = index.nearest([0.0, 0.0, 2.0])
@@ -338,7 +345,8 @@ class Queries(Held):
         rows = _convert.points(points, "points")
         if self._count == 0:
             raise ValueError("points: the mesh has no vertices")
-        vertices, distances = self._queries.nearest(rows)
+        with reporter(progress, "nearest", "points", len(rows)) as report:
+            vertices, distances = self._queries.nearest(rows, threads=_convert.threads(workers), progress=report)
         is_one = np.ndim(points) == 1 and len(rows) == 1
         return (int(vertices[0]), float(distances[0])) if is_one else (vertices, distances)
 

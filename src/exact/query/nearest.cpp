@@ -2,7 +2,6 @@
 // The vertex nearest to a point.
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string>
 
@@ -10,57 +9,14 @@
 #include "meshhood/start.h"
 
 #include "exact/index_access.h"
-#include "exact/query/any_center.h"
 #include "exact/query/arguments.h"
-#include "exact/query/nearest_first.h"
+#include "exact/query/nearest_vertex.h"
 #include "shared/text.h"
 
 namespace meshhood::inline v0_1 {
-namespace {
-
-class NearestSearch {
- public:
-  NearestSearch(const IndexView& index, const Point& p) : index_(&index), center_(index.frame, p) {}
-
-  NearestVertex run() {
-    NearestFirst(*index_, center_, *this).run();
-    return {best_, distance_};
-  }
-
-  [[nodiscard]] double reach() const { return distance_; }
-
-  [[nodiscard]] static bool wants(NodeId /*node*/) { return true; }
-
-  void visit_leaf(LeafId leaf) {
-    for (std::size_t v = index_->leaf_begin[leaf]; v < index_->leaf_begin[leaf + 1]; ++v) {
-      if (index_->is_wall_at(v)) continue;
-      const Point p = index_->position(v);
-      const double distance = std::sqrt(squared_distance(center_.exact, p));  // different squares may have one root
-      if (distance > distance_) continue;
-      const VertexId id = index_->id(v);
-      if (distance == distance_ && best_ < id) continue;
-      distance_ = distance;
-      best_ = id;
-    }
-  }
-
- private:
-  const IndexView* index_;
-  Center center_;
-  double distance_ = std::numeric_limits<double>::infinity();
-  VertexId best_ = std::numeric_limits<VertexId>::max();
-};
-
-}  // namespace
-
-NearestVertex nearest(const Index& index, const SpacePoint& p) {
-  check_point(p, "point");
-  if (index.vertex_count() == 0) raise(ErrorCode::VertexOutOfRange, "nearest: the mesh has no vertices");
-  const NearestVertex found = NearestSearch(IndexAccess::view(index), {p[0], p[1], p[2]}).run();
-  if (found.vertex >= index.vertex_count()) {
-    raise(ErrorCode::VertexOutOfRange, "nearest: all vertices of the mesh are walls");
-  }
-  return found;
+NearestVertex nearest(const Index& index, const SpacePoint& point) {
+  check_point(point, "point");
+  return NearestVertexSearch(IndexAccess::view(index)).run({point[0], point[1], point[2]});
 }
 
 Start Start::nearest(const Index& index, const SpacePoint& center) {

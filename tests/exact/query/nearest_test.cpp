@@ -36,6 +36,8 @@ TEST_P(NearestIn, IsTheFirstOfAScan) {
     const Index index = build(mesh.view());
     const RegionOracle oracle(mesh);
     Random random(vertices);
+    std::vector<SpacePoint> asked;
+    std::vector<NearestVertex> answers;
     for (std::size_t i = 0; i < scaled(60, 6); ++i, ++points) {
       PlainStart start = draw_start(random, mesh).plain;
       if (i % 7 == 6) start.center = {-start.center[1], start.center[2], 1e30};
@@ -46,7 +48,10 @@ TEST_P(NearestIn, IsTheFirstOfAScan) {
       const NearestVertex found = nearest(index, start.center);
       ASSERT_EQ(found.vertex, expected);
       ASSERT_EQ(found.distance, oracle.distance(start, expected));
+      asked.push_back(start.center);
+      answers.push_back(found);
     }
+    for (const unsigned threads : {1U, 3U}) ASSERT_EQ(nearest(index, asked, {.threads = threads}), answers);
   }
   std::printf("%s: %zu points\n", std::string(GetParam().name).c_str(), points);
 }
@@ -76,6 +81,10 @@ TEST(Nearest, RefusesAPointThatIsNotFiniteAndAMeshWithoutVertices) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_refused(ErrorCode::InvalidOption, "point: coordinate 0 is nan",
                  [&] { static_cast<void>(nearest(index, {nan, 0, 0})); });
+  const std::vector<SpacePoint> points{{0, 0, 0}, {0, 0, nan}};
+  expect_refused(ErrorCode::InvalidOption, "points: row 1: coordinate 2 is nan",
+                 [&] { static_cast<void>(nearest(index, points)); });
+  EXPECT_TRUE(nearest(index, std::vector<SpacePoint>{}).empty());
   const Index empty = build(TestMesh{}.finish(true).view());
   expect_refused(ErrorCode::VertexOutOfRange, "no vertices", [&] { static_cast<void>(nearest(empty, {0, 0, 0})); });
 }
