@@ -154,7 +154,7 @@ void bind_queries(nb::module_& module) {
       .def("contains", &contains, arg, center, arg, arg, arg)
       .def("connecting_radius", &connecting_radius, arg, center, arg, arg)
       .def("nearest_connected", &nearest_connected, arg, center, arg, arg)
-      .def("nearest", &nearest_vertices, arg, nb::arg("threads"), nb::arg("progress").none());
+      .def("nearest", &nearest_vertices, arg, nb::arg("threads") = 1, nb::arg("progress").none() = nb::none());
   module.def("queries", [](std::shared_ptr<ExactMethod> exact) { return std::make_shared<Queries>(std::move(exact)); });
 }
 

@@ -335,7 +335,7 @@ TEST_P(FirstHits, OnSeveralThreadsAreThoseOfEachRay) {
   const Surface surface(index, mesh.view().faces);
   Random random(8);
   const double end = static_cast<double>(GetParam()) + 5;
-  for (const std::size_t count : {1, 3, 8, 1000}) {
+  for (const std::size_t count : {1U, 3U, 8U, 1000U}) {
     std::vector<SpacePoint> origins(count);
     std::vector<SpacePoint> directions(count);
     for (SpacePoint& p : origins) p = {random.uniform(-5, end), random.uniform(-5, end), random.uniform(-5, 5)};
