@@ -12,7 +12,7 @@
 #include "io/mesh_builder.h"
 #include "io/readers.h"
 #include "io/stl_text.h"
-#include "io/vertex_welder.h"
+#include "io/welder.h"
 
 // A file of the size of a binary STL is binary, even if it begins with "solid", as many do. In a longer one, each facet
 // is followed by as many bytes as its last two say; in others, programs keep a color there.
@@ -60,7 +60,7 @@ std::string why_not_binary(InputBuffer& input) {
 template <class Real>
 class BinaryStl {
  public:
-  BinaryStl(InputBuffer& input, MeshBuilder& builder, VertexWelder<Real>& welder)
+  BinaryStl(InputBuffer& input, MeshBuilder& builder, Welder<Real>& welder)
       : input_(input), builder_(builder), welder_(welder) {}
 
   void read() {
@@ -76,7 +76,7 @@ class BinaryStl {
   }
 
  private:
-  using Corners = std::array<typename VertexWelder<Real>::Point, 3>;
+  using Corners = std::array<typename Welder<Real>::Point, 3>;
 
   void read_facet(std::uint32_t facet, std::uint32_t facets) {
     const auto bytes = input_.ahead(kFacetBytes);
@@ -137,7 +137,7 @@ class BinaryStl {
 
   InputBuffer& input_;
   MeshBuilder& builder_;
-  VertexWelder<Real>& welder_;
+  Welder<Real>& welder_;
   bool was_size_known_ = false;
   bool are_followed_ = false;  // by bytes that belong to them
   bool has_payload_ = false;   // a facet says so, or has a color
@@ -156,7 +156,7 @@ void reserve(MeshBuilder& builder, const InputBuffer& input, bool binary) {
 template <class Real>
 void read_soup(InputBuffer& input, const ReaderOptions& options, bool binary, MeshBuilder& builder,
                std::vector<Real>& positions) {
-  VertexWelder<Real> welder(positions, builder.faces.corners(), input.name());
+  Welder<Real> welder(positions, builder.faces.corners(), input.name());
   if (binary) {
     BinaryStl<Real>(input, builder, welder).read();
   } else {
@@ -168,7 +168,7 @@ void read_soup(InputBuffer& input, const ReaderOptions& options, bool binary, Me
 bool differ_as_floats(const std::vector<double>& positions, const std::string& file) {
   std::vector<float> floats;
   std::vector<std::uint32_t> ids;
-  VertexWelder<float> welder(floats, ids, file);
+  Welder<float> welder(floats, ids, file);
   welder.expect(positions.size() / 3);
   for (std::size_t i = 0; i < positions.size(); i += 3) {
     welder.append(
