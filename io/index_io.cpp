@@ -24,7 +24,6 @@
 #include "io/messages.h"
 #include "io/readers.h"
 #include "io/waiting.h"
-#include "io/watched_source.h"
 #include "shared/aligned_buffer.h"
 
 namespace meshhood::inline v0_1::io {
@@ -116,15 +115,15 @@ void save_with(const std::filesystem::path& path, const Progress& reported, F&& 
 /// it is called again with the same count so that the caller can cancel.
 template <class F>
 auto load_with(FileSource& file, const std::filesystem::path& path, const Progress& progress, F&& take) {
-  WatchedSource source(file, progress, path.string());
-  const WhileWaiting waiting([&source] { source.report(); });
-  const Progress verifying = [&source](std::size_t, std::size_t) {
-    source.report();
+  file.watch(progress, path.string());
+  const WhileWaiting waiting([&file] { file.report(); });
+  const Progress verifying = [&file](std::size_t, std::size_t) {
+    file.report();
     return true;
   };
   return naming(path, [&] {
-    auto index = take(read_all(source), verifying);
-    source.finish();
+    auto index = take(read_all(file), verifying);
+    file.finish();
     return index;
   });
 }
