@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,16 @@ enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64
 
 [[nodiscard]] inline bool is_integer(PlyType type) { return type != PlyType::Float32 && type != PlyType::Float64; }
 
+/// Of an integer type.
+[[nodiscard]] inline bool is_signed(PlyType type) {
+  return type == PlyType::Int8 || type == PlyType::Int16 || type == PlyType::Int32;
+}
+
+/// The largest value of an integer type.
+[[nodiscard]] inline std::uint64_t largest(PlyType type) {
+  return (std::uint64_t{1} << (8 * size_of(type) - (is_signed(type) ? 1 : 0))) - 1;
+}
+
 /// Whether float represents every value of the type.
 [[nodiscard]] inline bool fits_float(PlyType type) { return size_of(type) <= 2 || type == PlyType::Float32; }
 
@@ -33,6 +45,11 @@ struct PlyProperty {
   /// The type of the first value of the property in a row.
   [[nodiscard]] PlyType first_type() const { return is_list ? count_type : type; }
 };
+
+/// Whether none is a list.
+[[nodiscard]] inline bool are_single(std::span<const PlyProperty> properties) {
+  return std::ranges::none_of(properties, &PlyProperty::is_list);
+}
 
 struct PlyElement {
   std::string name;

@@ -1,45 +1,42 @@
 // SPDX-License-Identifier: MIT
-#include "io/ply_values.h"
-
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <limits>
+#include <memory>
+#include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "io/binary.h"
 #include "io/number.h"
+#include "io/plain_elements.h"
+#include "io/plain_rows.h"
 #include "io/ply_layout.h"
+#include "io/ply_values.h"
 #include "io/text.h"
 
 namespace meshhood::inline v0_1::io {
 namespace {
 
-// Calls `f` with a value of the C++ type of `type`.
-template <class F>
-decltype(auto) with_type(PlyType type, F&& f) {
-  switch (type) {
-    case PlyType::Int8: return f(std::int8_t{});
-    case PlyType::Uint8: return f(std::uint8_t{});
-    case PlyType::Int16: return f(std::int16_t{});
-    case PlyType::Uint16: return f(std::uint16_t{});
-    case PlyType::Int32: return f(std::int32_t{});
-    case PlyType::Uint32: return f(std::uint32_t{});
-    case PlyType::Float32: return f(float{});
-    case PlyType::Float64: break;
-  }
-  return f(double{});
+bool is_in_range(std::int64_t value, PlyType type) {
+  const auto most = static_cast<std::int64_t>(largest(type));
+  return (is_signed(type) ? -most - 1 : 0) <= value && value <= most;
 }
 
-bool is_in_range(std::int64_t value, PlyType type) {
-  return with_type(type, [value](auto example) {
-    using Limits = std::numeric_limits<decltype(example)>;
-    if constexpr (!Limits::is_integer) return false;
-    return static_cast<std::int64_t>(Limits::lowest()) <= value && value <= static_cast<std::int64_t>(Limits::max());
-  });
+/// Rows that are a line each. `append` receives them in blocks.
+template <class Real, class Row, class Append>
+PlyRows text_rows(Text& text, const ReaderOptions& options, const Row& row, Append append) {
+  const auto plain = std::make_shared<PlainRows<Real, Row>>(text, options, row);
+  return [plain, append](std::uint64_t most) {
+    std::uint64_t taken = 0;
+    plain->take(most, [&](const PlainBlock<Real>& block) {
+      append(block);
+      taken += block.rows;
+      return true;
+    });
+    return taken;
+  };
 }
 
 class TextValues final : public PlyValues {
@@ -49,11 +46,22 @@ class TextValues final : public PlyValues {
 
   PlyRows vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
                       Positions& positions) override {
-    return io::vertex_rows(text_, options_, element, axes, positions);
+    if (!are_single(element.properties)) return {};
+    const VertexRow row{element.properties.size(), axes};
+    const auto append = [&positions](const auto& block) { positions.append(block); };
+    if (positions.are_double()) return text_rows<double>(text_, options_, row, append);
+    return text_rows<float>(text_, options_, row, append);
   }
 
   PlyRows face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices, Faces& faces) override {
-    return io::face_rows(text_, options_, element, list, vertices, faces);
+    constexpr std::uint64_t kMostCount = 255;
+    const std::span<const PlyProperty> properties = element.properties;
+    if (!are_single(properties.first(list)) || !are_single(properties.subspan(list + 1))) return {};
+    const FaceRow row{.before = list,
+                      .after = properties.size() - list - 1,
+                      .most_count = std::min(kMostCount, largest(properties[list].count_type)),
+                      .end = std::min(vertices, largest(properties[list].type) + 1)};
+    return text_rows<float>(text_, options_, row, [&faces](const auto& block) { faces.append(block.faces); });
   }
 
   Problem take_coordinate(PlyType /*type*/, Positions& positions) override {
@@ -157,79 +165,10 @@ class TextValues final : public PlyValues {
   LongRow long_row_;
 };
 
-class BinaryValues final : public PlyValues {
- public:
-  BinaryValues(InputBuffer& input, std::endian order, ReaderOptions options)
-      : input_(input), options_(std::move(options)), order_(order) {}
-
-  PlyRows vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
-                      Positions& positions) override {
-    if (order_ != std::endian::native) return {};
-    return io::vertex_rows(input_, options_, element, axes, positions);
-  }
-
-  PlyRows face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices, Faces& faces) override {
-    if (order_ != std::endian::native) return {};
-    return io::face_rows(input_, options_, element, list, vertices, faces);
-  }
-
-  Problem take_coordinate(PlyType type, Positions& positions) override {
-    begin_ = input_.offset();
-    return with_type(type, [&](auto example) -> Problem {
-      if (!load(input_, order_, example)) return std::string(kFileEnds);
-      const auto problem = positions.append(static_cast<double>(example));
-      if (!problem) return std::nullopt;
-      return std::string(*problem);
-    });
-  }
-
-  Problem take_integer(PlyType type, std::int64_t& value) override {
-    begin_ = input_.offset();
-    return with_type(type, [&](auto example) -> Problem {
-      if (!load(input_, order_, example)) return std::string(kFileEnds);
-      value = static_cast<std::int64_t>(+example);
-      return std::nullopt;
-    });
-  }
-
-  Problem skip(PlyType type, std::uint64_t count) override {
-    constexpr std::uint64_t kStep = std::uint64_t{1} << 16;
-    begin_ = input_.offset();
-    for (std::uint64_t left = count * size_of(type); left != 0;) {
-      const auto step = static_cast<std::size_t>(std::min(left, kStep));
-      if (input_.ahead(step).size() < step) return std::string(kFileEnds);
-      input_.skip(step);
-      left -= step;
-    }
-    return std::nullopt;
-  }
-
-  [[nodiscard]] std::uint64_t least_bytes(PlyType type) const override { return size_of(type); }
-  [[nodiscard]] std::optional<std::uint64_t> bytes_left() const override { return input_.left(); }
-  [[nodiscard]] bool row_is_over() const override { return false; }
-  bool end_row(const PlyElement& /*element*/, std::uint64_t /*row*/) override { return false; }
-  [[nodiscard]] std::string hint() const override { return ""; }
-
-  bool anything_left() override {
-    begin_ = input_.offset();
-    return !input_.ahead(1).empty();
-  }
-
-  [[nodiscard]] Location location() const override { return {.byte = begin_}; }
-
- private:
-  InputBuffer& input_;
-  ReaderOptions options_;
-  std::endian order_;
-  std::uint64_t begin_ = 0;
-};
-
 }  // namespace
 
-std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& header, const ReaderOptions& options) {
-  if (header.encoding == PlyEncoding::Ascii) return std::make_unique<TextValues>(input, header, options);
-  const bool is_big = header.encoding == PlyEncoding::BigEndian;
-  return std::make_unique<BinaryValues>(input, is_big ? std::endian::big : std::endian::little, options);
+std::unique_ptr<PlyValues> ply_text(InputBuffer& input, const PlyHeader& header, const ReaderOptions& options) {
+  return std::make_unique<TextValues>(input, header, options);
 }
 
 }  // namespace meshhood::inline v0_1::io
