@@ -28,7 +28,6 @@
 #include "names.h"
 #include "options.h"
 #include "output.h"
-#include "quantity.h"
 #include "row_query.h"
 #include "row_table.h"
 #include "size_limit.h"

@@ -21,7 +21,6 @@
 #include "io/messages.h"
 #include "options.h"
 #include "output.h"
-#include "quantity.h"
 #include "system.h"
 #include "task.h"
 #include "vertex_files.h"

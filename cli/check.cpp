@@ -11,11 +11,9 @@
 #include "meshhood/error.h"
 
 #include "commands.h"
-#include "index_parts.h"
 #include "input.h"
 #include "options.h"
 #include "output.h"
-#include "quantity.h"
 
 namespace meshhood::cli {
 namespace {

@@ -259,6 +259,8 @@ io::LoadedIndex load_index(const std::string& file) {
   return io::load_any(path_of(file), {.progress = task.progress()});
 }
 
+std::string_view kind_name(IndexKind kind) { return kind == IndexKind::Exact ? "exact" : "paper"; }
+
 template <class Mesh>
 Index build_exact_index(const Mesh& mesh, unsigned threads) {
   Task task("building the index");

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -128,6 +129,8 @@ class Input {
 
 /// Reads and verifies an index, with progress. Throws as `io::load`.
 [[nodiscard]] io::LoadedIndex load_index(const std::string& file);
+
+[[nodiscard]] std::string_view kind_name(IndexKind kind);
 
 /// Builds an index of a `MeshView` or a `GraphView`, with progress.
 template <class Mesh>

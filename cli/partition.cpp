@@ -17,7 +17,6 @@
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "quantity.h"
 #include "system.h"
 #include "task.h"
 

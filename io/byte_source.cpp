@@ -19,6 +19,16 @@ std::size_t ByteSource::read(std::span<char> out) {
   return count;
 }
 
+std::size_t ByteSource::fill(std::span<char> out) {
+  std::size_t size = 0;
+  while (size < out.size()) {
+    const std::size_t count = read(out.subspan(size));
+    if (count == 0) break;
+    size += count;
+  }
+  return size;
+}
+
 void ByteSource::watch(const Progress& progress, std::string name) {
   progress_ = &progress;
   watched_name_ = std::move(name);

@@ -29,9 +29,12 @@ class ByteSource {
   /// Fills the front of `out`, at most 4 MB of it, and returns the number of bytes; 0 only at the end.
   [[nodiscard]] std::size_t read(std::span<char> out);
 
+  /// Fills `out` unless the source ends before. Returns the number of bytes.
+  [[nodiscard]] std::size_t fill(std::span<char> out);
+
   /// From now on, progress in bytes is reported before each read; the total is 0 if the size is unknown. Borrows
-  /// `progress`. `name` is the file in the message if it cancels: then `read` throws Error{Cancelled}, as do the next
-  /// two.
+  /// `progress`. `name` is the file in the message if it cancels: then these functions throw
+  /// Error{Cancelled}.
   void watch(const Progress& progress, std::string name);
 
   /// Reports the bytes read so far.
