@@ -27,7 +27,6 @@ namespace {
 constexpr std::size_t kWidth = 19;  // of the names in the text
 
 struct InfoCommand {
-  std::string file;
   Reading reading;
   bool index = false;
   bool json = false;
@@ -223,7 +222,7 @@ void info_of_mesh(const InfoCommand& options, Input& input) {
 }
 
 void info(const InfoCommand& options) {
-  Input input(options.file, options.reading);
+  Input input(options.reading);
   if (input.mesh() != nullptr) return info_of_mesh(options, input);
   print_result(options.json, to_json(input), to_text(input));
 }
@@ -234,8 +233,7 @@ void add_info(CLI::App& program) {
   auto options = std::make_shared<InfoCommand>();
   CLI::App* command = program.add_subcommand(
       "info", "Print the size, components, boundary and defects of a mesh, or the size and levels of an index");
-  add_file(*command, options->file);
-  add_reading(*command, options->reading);
+  add_file(*command, options->reading);
   command->add_flag("--index", options->index, "for a mesh: also build both indexes and print their sizes and levels");
   add_json(*command, options->json);
   command->callback([options] { info(*options); });

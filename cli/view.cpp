@@ -45,7 +45,6 @@ constexpr std::string_view kPlace = "<!-- meshhood:page -->";
 constexpr std::uint64_t kMostBytes = std::uint64_t{256} << 20;
 
 struct ViewCommand {
-  std::string file;
   Reading reading;
   std::optional<std::uint64_t> vertex;
   Radius radius;
@@ -91,7 +90,7 @@ std::vector<float> as_floats(const std::vector<double>& values) {
 
 /// The initial state of the page.
 Json settings_of(const ViewCommand& options, Input& input) {
-  Json settings{{"name", path_of(options.file).filename().string()}};
+  Json settings{{"name", path_of(options.reading.file).filename().string()}};
   if (options.vertex) settings["vertex"] = resolve_vertex(*options.vertex, input);
   if (!options.radius.value.empty()) {
     const double radius = resolve(options.radius, input);
@@ -202,14 +201,15 @@ void write_page(const fs::path& output, const fs::path& mesh, const std::string&
 }
 
 void view(const ViewCommand& options) {
-  const std::string output = options.output.empty() ? path_of(options.file).stem().string() + ".html" : options.output;
+  const std::string output =
+      options.output.empty() ? path_of(options.reading.file).stem().string() + ".html" : options.output;
   if (options.output.empty()) name_output("--output", output);
   check_outputs();
-  check_mesh_of_page(path_of(options.file));
+  check_mesh_of_page(path_of(options.reading.file));
   static_cast<void>(find_page());  // before the work begins
-  Input input(options.file, options.reading);
+  Input input(options.reading);
   input.need_edges("view");
-  write_page(path_of(output), path_of(options.file), input.other_as_ply(), settings_of(options, input));
+  write_page(path_of(output), path_of(options.reading.file), input.other_as_ply(), settings_of(options, input));
   print_text(output + "\n");
   if (!options.open) return;
   if (const auto program = open_in_browser(fs::absolute(path_of(output))); !program.empty()) {
@@ -223,8 +223,7 @@ void add_view(CLI::App& program) {
   auto options = std::make_shared<ViewCommand>();
   CLI::App* command =
       program.add_subcommand("view", "Write a page that shows the mesh and its neighborhoods in a browser");
-  add_file(*command, options->file);
-  add_reading(*command, options->reading);
+  add_file(*command, options->reading);
   add_number(*command, "-v,--vertex", "vertex to show at first, by its number in the file from 0", options->vertex);
   add_radius(*command, options->radius)->required(false);
   add_file_option(*command, "--ids", "show these vertices, one on each line, as printed by query", options->answer);

@@ -200,11 +200,11 @@ void MeshBuilder::place_vertices(Mesh& mesh) {
 }
 
 Mesh MeshBuilder::finish(Format format) {
-  Mesh mesh{.format = format,
-            .positions = std::move(positions.values()),
-            .offsets = std::move(faces.offsets()),
-            .corners = std::move(faces.corners()),
-            .warnings = {}};
+  Mesh mesh;
+  mesh.format = format;
+  mesh.positions = std::move(positions.values());
+  mesh.offsets = std::move(faces.offsets());
+  mesh.corners = std::move(faces.corners());
   if (positions.have_nan()) place_vertices(mesh);
   mesh.warnings = std::move(warnings.list());
   if (positions.are_double() && !positions.are_open()) return mesh;

@@ -67,12 +67,6 @@ Mesh read_format(Format format, InputBuffer& input, const ReaderOptions& options
   return read_freesurfer(input, options);
 }
 
-MeshView Mesh::view() const& {
-  const auto view_of_positions = [](const auto& xyz) { return PositionsView(xyz); };
-  const auto faces = offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(offsets, corners);
-  return {std::visit(view_of_positions, positions), faces};
-}
-
 void refuse_walls(const Mesh& mesh, const std::string& name) {
   const auto wall = std::find(mesh.walls.begin(), mesh.walls.end(), 1);
   if (wall == mesh.walls.end()) return;

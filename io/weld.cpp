@@ -32,12 +32,6 @@ std::vector<std::uint32_t> weld_into(std::vector<Real>& kept, const StridedPosit
 
 }  // namespace
 
-MeshView WeldedMesh::view() const& {
-  const auto view_of_positions = [](const auto& xyz) { return PositionsView(xyz); };
-  const auto faces = offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(offsets, corners);
-  return {std::visit(view_of_positions, positions), faces};
-}
-
 WeldedMesh weld(const MeshView& mesh, double eps) {
   check_eps(eps);
   validate(mesh);
