@@ -125,22 +125,6 @@ PlyRows binary_faces(InputBuffer& input, const ReaderOptions& options, const Ply
   return binary_rows(input, options, take_some);
 }
 
-// Calls `f` with a value of the C++ type of `type`.
-template <class F>
-decltype(auto) with_type(PlyType type, F&& f) {
-  switch (type) {
-    case PlyType::Int8: return f(std::int8_t{});
-    case PlyType::Uint8: return f(std::uint8_t{});
-    case PlyType::Int16: return f(std::int16_t{});
-    case PlyType::Uint16: return f(std::uint16_t{});
-    case PlyType::Int32: return f(std::int32_t{});
-    case PlyType::Uint32: return f(std::uint32_t{});
-    case PlyType::Float32: return f(float{});
-    case PlyType::Float64: break;
-  }
-  return f(double{});
-}
-
 class BinaryValues final : public PlyValues {
  public:
   BinaryValues(InputBuffer& input, std::endian order, ReaderOptions options)
@@ -212,8 +196,7 @@ class BinaryValues final : public PlyValues {
 }  // namespace
 
 std::unique_ptr<PlyValues> ply_binary(InputBuffer& input, const PlyHeader& header, const ReaderOptions& options) {
-  const bool is_big = header.encoding == PlyEncoding::BigEndian;
-  return std::make_unique<BinaryValues>(input, is_big ? std::endian::big : std::endian::little, options);
+  return std::make_unique<BinaryValues>(input, order_of(header.encoding), options);
 }
 
 }  // namespace meshhood::inline v0_1::io

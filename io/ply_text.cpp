@@ -54,12 +54,11 @@ class TextValues final : public PlyValues {
   }
 
   PlyRows face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices, Faces& faces) override {
-    constexpr std::uint64_t kMostCount = 255;
     const std::span<const PlyProperty> properties = element.properties;
     if (!are_single(properties.first(list)) || !are_single(properties.subspan(list + 1))) return {};
     const FaceRow row{.before = list,
                       .after = properties.size() - list - 1,
-                      .most_count = std::min(kMostCount, largest(properties[list].count_type)),
+                      .most_count = largest(properties[list].count_type),
                       .end = std::min(vertices, largest(properties[list].type) + 1)};
     return text_rows<float>(text_, options_, row, [&faces](const auto& block) { faces.append(block.faces); });
   }

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "io/binary.h"
 #include "io/mesh_builder.h"
 #include "io/readers.h"
 #include "io/stl_text.h"
@@ -26,12 +27,12 @@ constexpr std::size_t kHeaderBytes = 84;
 constexpr std::size_t kFacetBytes = 50;
 constexpr std::size_t kNormalBytes = 12;
 
-std::uint32_t little_endian_word(std::string_view bytes) {
-  const auto byte = [bytes](std::size_t i) { return std::uint32_t{static_cast<unsigned char>(bytes[i])} << (8 * i); };
-  return byte(0) | byte(1) | byte(2) | byte(3);  // which compilers read at once
+template <class T>
+T number_in(std::string_view bytes, std::size_t place) {
+  return number_at<T>(bytes.substr(place).data(), std::endian::little);
 }
 
-std::uint32_t facet_count(std::string_view header) { return little_endian_word(header.substr(80)); }
+std::uint32_t facet_count(std::string_view header) { return number_in<std::uint32_t>(header, kHeaderBytes - 4); }
 
 uint64_t binary_size(std::string_view header) { return kHeaderBytes + kFacetBytes * uint64_t{facet_count(header)}; }
 
@@ -93,7 +94,7 @@ class BinaryStl {
     }
     if (!are_valid) refuse(bytes, facet);
     append_triangle(corners, {.byte = input_.offset()}, builder_, welder_);
-    const std::size_t payload = little_endian_word(bytes.substr(kFacetBytes - 4)) >> 16U;
+    const std::size_t payload = number_in<std::uint16_t>(bytes, kFacetBytes - 2);
     if (payload != 0) has_payload_ = true;
     input_.skip(kFacetBytes);
     if (payload != 0 && are_followed_) skip_payload(payload, facet);
@@ -125,7 +126,7 @@ class BinaryStl {
   }
 
   static float coordinate(std::string_view facet, std::size_t i) {
-    return std::bit_cast<float>(little_endian_word(facet.substr(kNormalBytes + 4 * i)));
+    return number_in<float>(facet, kNormalBytes + 4 * i);
   }
 
   [[noreturn]] void refuse(std::string_view bytes, std::uint32_t facet) const {
