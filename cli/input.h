@@ -15,7 +15,7 @@
 #include "meshhood/paper.h"
 #include "meshhood/serialize.h"
 
-#include "io/load_any.h"
+#include "io/readers.h"
 #include "weld.h"
 
 namespace meshhood::cli {

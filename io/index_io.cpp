@@ -19,7 +19,6 @@
 
 #include "io/byte_source.h"
 #include "io/file_writer.h"
-#include "io/load_any.h"
 #include "io/mapped_file.h"
 #include "io/messages.h"
 #include "io/readers.h"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -12,10 +13,26 @@
 #include "meshhood/error.h"
 #include "meshhood/mesh.h"
 
-#include "io/seeded_hash.h"
-
 namespace meshhood::inline v0_1::io {
 namespace {
+
+// A hash of coordinates that differs from run to run.
+
+std::uint64_t mixed(std::uint64_t word) {
+  word *= 0x9e3779b97f4a7c15U;
+  return word ^ (word >> 32U);
+}
+
+// Not known before the program runs: the time, and where the system has put `place` in memory.
+std::uint64_t new_seed(const void* place) {
+  const auto time = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+  return mixed(time ^ mixed(reinterpret_cast<std::uintptr_t>(place)));
+}
+
+// -0 has the hash of 0.
+std::uint64_t hash_with(std::uint64_t hash, double coordinate) {
+  return mixed(hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.0));  // -0 + 0 is 0
+}
 
 constexpr std::uint32_t kEnd = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kFirstBuckets = std::size_t{1} << 12;
