@@ -28,7 +28,6 @@
 #include "names.h"
 #include "options.h"
 #include "output.h"
-#include "quantity.h"
 #include "row_query.h"
 #include "row_table.h"
 #include "size_limit.h"
@@ -45,7 +44,6 @@ constexpr Names<RowOrder, 3> kRowOrders{
     {{"index", RowOrder::Index}, {"vertex", RowOrder::Vertex}, {"list", RowOrder::List}}};
 
 struct BatchCommand {
-  std::string file;
   Reading reading;
   RowOptions rows;
   std::string order;  ///< as typed; empty for the default
@@ -298,7 +296,7 @@ void batch(const BatchCommand& options) {
   check_outputs();
   const RowOrder order = row_order(options);
   const unsigned threads = options.rows.threads;
-  Input input(options.file, options.reading, threads);
+  Input input(options.reading, threads);
   const RowQuery rows(options.rows, input);
   BatchQuery query = options.count ? rows.query() : rows.query_of_first();
   query.metric = choose_metric(options.search.metric, input);
@@ -333,8 +331,7 @@ void add_batch(CLI::App& program) {
   auto options = std::make_shared<BatchCommand>();
   CLI::App* command =
       program.add_subcommand("batch", "Write the neighborhoods of all vertices, or of a list, in CSR form");
-  add_file(*command, options->file);
-  add_reading(*command, options->reading);
+  add_file(*command, options->reading);
   add_rows(*command, options->rows);
   add_choice(
       *command, "--order",

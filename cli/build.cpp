@@ -21,7 +21,6 @@
 #include "io/messages.h"
 #include "options.h"
 #include "output.h"
-#include "quantity.h"
 #include "system.h"
 #include "task.h"
 #include "vertex_files.h"
@@ -30,8 +29,7 @@ namespace meshhood::cli {
 namespace {
 
 struct BuildCommand {
-  std::string mesh;
-  Reading reading;
+  Reading mesh;
   std::string index = "exact";
   std::string cut;
   bool faces = false;
@@ -110,9 +108,9 @@ void build(const BuildCommand& options) {
     raise(ErrorCode::InvalidOption, "--faces: the index of the paper is saved without faces; expected --index exact");
   }
   check_outputs();
-  io::Mesh mesh = read_mesh(options.mesh, options.reading, options.threads);
-  io::refuse_walls(mesh, printable_name(options.mesh));
-  const Welding welding(mesh, options.reading.weld, options.mesh);
+  io::Mesh mesh = read_mesh(options.mesh, options.threads);
+  io::refuse_walls(mesh, printable_name(options.mesh.file));
+  const Welding welding(mesh, options.mesh.weld, options.mesh.file);
   const std::optional<FacesView> faces = options.faces ? std::optional(mesh.view().faces) : std::nullopt;
   Summary summary{};
   if (options.cut.empty()) {
@@ -130,7 +128,6 @@ void add_build(CLI::App& program) {
   auto options = std::make_shared<BuildCommand>();
   CLI::App* command = program.add_subcommand("build", "Build the index of a mesh and save it");
   add_mesh(*command, options->mesh);
-  add_reading(*command, options->reading);
   add_choice(*command, "--index", "exact: for exact answers; paper: the index of the paper", {"exact", "paper"},
              options->index);
   add_file_option(*command, "--cut", "a list of edges that no search crosses: on each line the two vertices of one",

@@ -11,19 +11,16 @@
 #include "meshhood/error.h"
 
 #include "commands.h"
-#include "index_parts.h"
 #include "input.h"
 #include "options.h"
 #include "output.h"
-#include "quantity.h"
 
 namespace meshhood::cli {
 namespace {
 
 struct CheckCommand {
   std::string index;
-  std::string mesh;  ///< empty if not given
-  Reading reading;
+  Reading mesh;  ///< the name of its file is empty if it is not given
   bool json = false;
 };
 
@@ -46,9 +43,9 @@ void expect_none(const CheckCommand& options, const std::vector<std::string>& vi
 
 template <class AnyIndex>
 void check_against_mesh(const CheckCommand& options, const IndexHeader& header, const AnyIndex& index) {
-  io::Mesh mesh = read_mesh(options.mesh, options.reading);
-  static_cast<void>(Welding(mesh, options.reading.weld, options.mesh));
-  expect_built_from(options, header, fingerprint(mesh.view()), options.mesh);
+  io::Mesh mesh = read_mesh(options.mesh);
+  static_cast<void>(Welding(mesh, options.mesh.weld, options.mesh.file));
+  expect_built_from(options, header, fingerprint(mesh.view()), options.mesh.file);
   expect_none(options, index.check(mesh.view()));
 }
 
@@ -69,7 +66,7 @@ Json to_json(const CheckCommand& options, const IndexHeader& header) {
           {"vertices", header.vertices},
           {"bytes", header.bytes},
           {"fingerprint", to_text(header.mesh)},
-          {"mesh", options.mesh.empty() ? Json() : Json(options.mesh)}};
+          {"mesh", options.mesh.file.empty() ? Json() : Json(options.mesh.file)}};
 }
 
 std::string to_text(const CheckCommand& options, const IndexHeader& header) {
@@ -80,7 +77,7 @@ std::string to_text(const CheckCommand& options, const IndexHeader& header) {
   rows.add("checksums", "correct");
   rows.add("structure", "correct");
   const std::string mesh =
-      options.mesh.empty() ? "not compared; use --mesh" : "the same as " + printable_name(options.mesh);
+      options.mesh.file.empty() ? "not compared; use --mesh" : "the same as " + printable_name(options.mesh.file);
   rows.add("mesh", fmt::format("{} ({})", to_text(header.mesh), mesh));
   return rows.text();
 }
@@ -89,8 +86,8 @@ void check(const CheckCommand& options) {
   const io::LoadedIndex loaded = load_index(options.index);
   std::visit(
       [&](const auto& index) {
-        options.mesh.empty() ? check_alone(options, loaded.header, index)
-                             : check_against_mesh(options, loaded.header, index);
+        options.mesh.file.empty() ? check_alone(options, loaded.header, index)
+                                  : check_against_mesh(options, loaded.header, index);
       },
       loaded.index);
   print_result(options.json, to_json(options, loaded.header), to_text(options, loaded.header));
@@ -103,8 +100,8 @@ void add_check(CLI::App& program) {
   CLI::App* command = program.add_subcommand("check", "Verify an index file, alone or against the mesh");
   add_file_option(*command, "INDEX", "index file (made by meshhood build)", options->index)->required()->type_name("");
   CLI::Option* mesh =
-      add_file_option(*command, "--mesh", "also verify that the index was built from this mesh", options->mesh);
-  for (CLI::Option* option : add_reading(*command, options->reading)) option->needs(mesh);
+      add_file_option(*command, "--mesh", "also verify that the index was built from this mesh", options->mesh.file);
+  for (CLI::Option* option : add_reading(*command, options->mesh)) option->needs(mesh);
   add_json(*command, options->json);
   command->callback([options] { check(*options); });
 }

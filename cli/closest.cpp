@@ -28,7 +28,6 @@ namespace meshhood::cli {
 namespace {
 
 struct ClosestCommand {
-  std::string file;
   Reading reading;
   std::vector<std::string> point;
   std::string points;  ///< a file with a list
@@ -76,7 +75,7 @@ void closest(const ClosestCommand& options) {
     raise(ErrorCode::InvalidOption, "expected either --point or --points");
   }
   check_outputs();
-  Input input(options.file, options.reading, options.threads);
+  Input input(options.reading, options.threads);
   input.need_faces("closest");
   const std::vector<SpacePoint> points =
       options.points.empty() ? std::vector{parse_point(options.point)} : read_points(options.points);
@@ -94,8 +93,7 @@ void add_closest(CLI::App& program) {
   auto options = std::make_shared<ClosestCommand>();
   CLI::App* command =
       program.add_subcommand("closest", "Print the face, point and distance of the surface nearest to points in space");
-  add_surface(*command, options->file);
-  add_reading(*command, options->reading);
+  add_surface(*command, options->reading);
   add_point(*command, "a point in space; also X Y Z", options->point);
   add_file_option(*command, "--points", "many points: text with X Y Z on each line, or an array of NumPy (.npy)",
                   options->points);

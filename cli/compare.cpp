@@ -24,7 +24,6 @@ namespace meshhood::cli {
 namespace {
 
 struct CompareCommand {
-  std::string file;
   Reading reading;
   std::uint64_t vertex = 0;
   Radius radius;
@@ -87,7 +86,7 @@ void paint(const std::string& file, Input& input, VertexId v, const std::vector<
 
 void compare(const CompareCommand& options) {
   check_outputs();
-  Input input(options.file, options.reading);
+  Input input(options.reading);
   input.need_edges("compare");
   const VertexId v = resolve_vertex(options.vertex, input);
   const double radius = resolve(options.radius, input);
@@ -102,8 +101,7 @@ void add_compare(CLI::App& program) {
   auto options = std::make_shared<CompareCommand>();
   CLI::App* command = program.add_subcommand(
       "compare", "Compare the methods on one query: size, difference from breadth-first search, time");
-  add_file(*command, options->file);
-  add_reading(*command, options->reading);
+  add_file(*command, options->reading);
   add_number(*command, "-v,--vertex", "query vertex, by its number in the file from 0", options->vertex)->required();
   add_radius(*command, options->radius);
   add_output(

@@ -25,7 +25,6 @@ namespace meshhood::cli {
 namespace {
 
 struct ConnectCommand {
-  std::string file;
   Reading reading;
   StartOptions start;
   std::vector<std::uint64_t> targets;
@@ -40,8 +39,8 @@ struct Connections {
 };
 
 Connections connections_of(const ConnectCommand& options, Input& input) {
-  const StartQuery query(options.start, options.metric, input);
-  const Start start = query.starts.front().view();
+  const std::vector<QueryStart> starts = starts_of(options.start, options.metric, input);
+  const Start start = starts.front().view();
   Searcher searcher = make_searcher(options.metric, input);
   Connections found;
   if (options.nearest) {
@@ -76,7 +75,7 @@ void connect(const ConnectCommand& options) {
     raise(ErrorCode::InvalidOption, "--nearest: expected another --metric than space, in which nothing is connected");
   }
   check_start_options(options.start, false, options.metric);
-  Input input(options.file, options.reading);
+  Input input(options.reading);
   input.need_edges("connect");
   const Connections found = connections_of(options, input);
   print_result(options.json, to_json(found), to_text(found));
@@ -88,8 +87,7 @@ void add_connect(CLI::App& program) {
   auto options = std::make_shared<ConnectCommand>();
   CLI::App* command =
       program.add_subcommand("connect", "Print the smallest radii at which vertices belong to a neighborhood");
-  add_file(*command, options->file);
-  add_reading(*command, options->reading);
+  add_file(*command, options->reading);
   add_start(*command, "the vertex of the neighborhood, by its number in the file from 0", options->start);
   add_numbers(*command, "--to", "vertices to connect; prints each with its radius, or inf if no radius connects it",
               options->targets);

@@ -15,7 +15,6 @@
 #include <fmt/ranges.h>
 
 #include "commands.h"
-#include "index_parts.h"
 #include "input.h"
 #include "io/weld.h"
 #include "options.h"
@@ -28,11 +27,60 @@ namespace {
 constexpr std::size_t kWidth = 19;  // of the names in the text
 
 struct InfoCommand {
-  std::string file;
   Reading reading;
   bool index = false;
   bool json = false;
 };
+
+Json to_json(const std::vector<LevelSummary>& levels) {
+  Json list = Json::array();
+  for (const LevelSummary& level : levels) {
+    list.push_back({{"level", level.level},
+                    {"clusters", level.clusters},
+                    {"mean_vertices", level.mean_vertices},
+                    {"mean_radius", level.mean_radius},
+                    {"mean_siblings", level.mean_siblings},
+                    {"bytes", level.bytes}});
+  }
+  return list;
+}
+
+std::string to_text(const std::vector<LevelSummary>& levels) {
+  std::string text = "level  clusters  mean vertices  mean radius  mean siblings     bytes\n";
+  for (const LevelSummary& level : levels) {
+    text += fmt::format("{:5}  {:8}  {:13.2f}  {:11.4g}  {:13.2f}  {:8}\n", level.level, level.clusters,
+                        level.mean_vertices, level.mean_radius, level.mean_siblings, level.bytes);
+  }
+  return text;
+}
+
+std::string_view precision_name(const IndexHeader& header) { return header.is_double ? "double" : "float"; }
+
+Json json_of(const Index& index) {
+  const IndexBytes bytes = index.bytes();
+  return {{"bytes", bytes.total()}, {"positions", bytes.positions}, {"permutation", bytes.permutation},
+          {"graph", bytes.graph},   {"tree", bytes.tree},           {"levels", to_json(index.levels())}};
+}
+
+Json json_of(const paper::Index& index) {
+  return {{"bytes", index.bytes().total()}, {"levels", to_json(index.levels())}};
+}
+
+std::string text_of(const Index& index) {
+  const IndexBytes bytes = index.bytes();
+  std::string text = fmt::format("exact index: {}\n", bytes_text(static_cast<double>(bytes.total())));
+  const auto row = [&](std::string_view part, std::size_t size) { text += fmt::format("{:<11}  {:9}\n", part, size); };
+  row("positions", bytes.positions);
+  row("permutation", bytes.permutation);
+  row("graph", bytes.graph);
+  row("tree", bytes.tree);
+  return text + to_text(index.levels());
+}
+
+std::string text_of(const paper::Index& index) {
+  return fmt::format("index of the paper: {}\n", bytes_text(static_cast<double>(index.bytes().total()))) +
+         to_text(index.levels());
+}
 
 std::string_view format_name(io::Format format) {
   switch (format) {
@@ -174,7 +222,7 @@ void info_of_mesh(const InfoCommand& options, Input& input) {
 }
 
 void info(const InfoCommand& options) {
-  Input input(options.file, options.reading);
+  Input input(options.reading);
   if (input.mesh() != nullptr) return info_of_mesh(options, input);
   print_result(options.json, to_json(input), to_text(input));
 }
@@ -185,8 +233,7 @@ void add_info(CLI::App& program) {
   auto options = std::make_shared<InfoCommand>();
   CLI::App* command = program.add_subcommand(
       "info", "Print the size, components, boundary and defects of a mesh, or the size and levels of an index");
-  add_file(*command, options->file);
-  add_reading(*command, options->reading);
+  add_file(*command, options->reading);
   command->add_flag("--index", options->index, "for a mesh: also build both indexes and print their sizes and levels");
   add_json(*command, options->json);
   command->callback([options] { info(*options); });

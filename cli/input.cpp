@@ -65,8 +65,9 @@ io::Mesh mesh_of(const OtherFile& other, const std::string& file, const io::Read
 
 /// Calls `read`, and for a file that it refuses the other reader.
 template <class Content>
-Content read_with(Content (*read)(const std::filesystem::path&, const io::ReadOptions&), const std::string& file,
-                  const Reading& reading, io::ReadOptions options) {
+Content read_with(Content (*read)(const std::filesystem::path&, const io::ReadOptions&), const Reading& reading,
+                  io::ReadOptions options) {
+  const std::string& file = reading.file;
   options.precision = precision_of(reading);
   try {
     return read(path_of(file), options);
@@ -79,12 +80,12 @@ Content read_with(Content (*read)(const std::filesystem::path&, const io::ReadOp
 }
 
 /// An index says itself how its mesh was read.
-void refuse_to_read_otherwise(const Reading& reading, const std::string& file) {
+void refuse_to_read_otherwise(const Reading& reading) {
   for (const auto& [value, option, advice] : {std::array<std::string_view, 3>{reading.weld, "--weld", "weld the mesh"},
                                               {reading.precision, "--precision", "choose it"}}) {
     if (value.empty()) continue;
     raise(ErrorCode::InvalidOption,
-          fmt::format("{}: {} is an index; {} when the index is built", option, printable_name(file), advice));
+          fmt::format("{}: {} is an index; {} when the index is built", option, printable_name(reading.file), advice));
   }
 }
 
@@ -115,11 +116,11 @@ void read_others_by(OtherReader reader) { other_reader = std::move(reader); }
 
 bool reads_others() { return other_reader != nullptr; }
 
-Input::Input(std::string file, const Reading& reading, unsigned threads) : name_(std::move(file)) {
+Input::Input(const Reading& reading, unsigned threads) : name_(reading.file) {
   refuse_parts(name_);
   auto content = [&] {
     Task task(task_of(name_), kMegabytes);
-    return read_with(io::read_mesh_or_index, name_, reading, {.threads = threads, .progress = task.progress()});
+    return read_with(io::read_mesh_or_index, reading, {.threads = threads, .progress = task.progress()});
   }();
   if (auto* mesh = std::get_if<io::Mesh>(&content)) {
     mesh_ = std::move(*mesh);
@@ -128,7 +129,7 @@ Input::Input(std::string file, const Reading& reading, unsigned threads) : name_
     welding_ = Welding(*mesh_, reading.weld, name_);
     return;
   }
-  refuse_to_read_otherwise(reading, name_);
+  refuse_to_read_otherwise(reading);
   auto& loaded = std::get<io::LoadedIndex>(content);
   header_ = loaded.header;
   if (auto* exact = std::get_if<Index>(&loaded.index)) exact_ = std::move(*exact);
@@ -242,14 +243,14 @@ const paper::Index& Input::paper_index() {
   return *paper_;
 }
 
-io::Mesh read_mesh(const std::string& file, const Reading& reading, unsigned threads, std::uint64_t max_bytes) {
-  refuse_parts(file);
+io::Mesh read_mesh(const Reading& reading, unsigned threads, std::uint64_t max_bytes) {
+  refuse_parts(reading.file);
   io::Mesh mesh = [&] {
-    Task task(task_of(file), kMegabytes);
-    return read_with<io::Mesh>(io::read_mesh, file, reading,
+    Task task(task_of(reading.file), kMegabytes);
+    return read_with<io::Mesh>(io::read_mesh, reading,
                                {.threads = threads, .max_bytes = max_bytes, .progress = task.progress()});
   }();
-  print_warnings(mesh, file);
+  print_warnings(mesh, reading.file);
   return mesh;
 }
 
@@ -258,6 +259,8 @@ io::LoadedIndex load_index(const std::string& file) {
   Task task(task_of(file), kMegabytes);
   return io::load_any(path_of(file), {.progress = task.progress()});
 }
+
+std::string_view kind_name(IndexKind kind) { return kind == IndexKind::Exact ? "exact" : "paper"; }
 
 template <class Mesh>
 Index build_exact_index(const Mesh& mesh, unsigned threads) {

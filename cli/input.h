@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,13 +15,14 @@
 #include "meshhood/paper.h"
 #include "meshhood/serialize.h"
 
-#include "io/load_any.h"
+#include "io/readers.h"
 #include "weld.h"
 
 namespace meshhood::cli {
 
-/// How a mesh file is read: --weld and --precision as typed; empty without.
+/// A mesh or an index, and how it is read: --weld and --precision as typed; empty without.
 struct Reading {
+  std::string file = {};
   std::string weld = {};
   std::string precision = {};
 };
@@ -40,9 +42,9 @@ struct OwnedMasks {
 /// saved with faces has faces. An index of the paper has no edges; commands that need edges call `need_edges` first.
 class Input {
  public:
-  /// Reads `file`, prints the warnings of the reader, and welds the mesh as --weld says. Throws as `io::read_mesh`,
+  /// Reads the file, prints the warnings of the reader, and welds the mesh as --weld says. Throws as `io::read_mesh`,
   /// `io::load` and `Welding`; Error{InvalidOption} if `reading` says anything of an index.
-  Input(std::string file, const Reading& reading, unsigned threads = kAllProcessors);
+  explicit Input(const Reading& reading, unsigned threads = kAllProcessors);
 
   /// As on the command line.
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -123,11 +125,13 @@ class Input {
 
 /// Reads a mesh of at most `max_bytes`, with progress, but does not weld it, and prints the warnings of the reader.
 /// Throws as `io::read_mesh`.
-[[nodiscard]] io::Mesh read_mesh(const std::string& file, const Reading& reading, unsigned threads = kAllProcessors,
+[[nodiscard]] io::Mesh read_mesh(const Reading& reading, unsigned threads = kAllProcessors,
                                  std::uint64_t max_bytes = io::ReadOptions{}.max_bytes);
 
 /// Reads and verifies an index, with progress. Throws as `io::load`.
 [[nodiscard]] io::LoadedIndex load_index(const std::string& file);
+
+[[nodiscard]] std::string_view kind_name(IndexKind kind);
 
 /// Builds an index of a `MeshView` or a `GraphView`, with progress.
 template <class Mesh>

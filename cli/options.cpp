@@ -124,6 +124,12 @@ bool is_same_file(const std::string& a, const std::string& b) {
   return first.lexically_normal() == second.lexically_normal() || fs::equivalent(first, second, missing);
 }
 
+/// An argument, and how it is read.
+void add_input(CLI::App& command, const std::string& name, const std::string& description, Reading& reading) {
+  add_file_option(command, name, description, reading.file)->required()->type_name("");
+  add_reading(command, reading);
+}
+
 /// Throws unless a file can be created there.
 void check_place(const std::string& name) {
   namespace fs = std::filesystem;
@@ -224,20 +230,14 @@ CLI::Option* add_file_option(CLI::App& command, const std::string& name, const s
   return command.add_option(name, file, description)->transform(input_name(name))->type_name("FILE");
 }
 
-void add_file(CLI::App& command, std::string& file) {
-  add_file_option(command, "FILE", fmt::format("mesh ({}) or index (made by meshhood build)", mesh_formats()), file)
-      ->required()
-      ->type_name("");
+void add_file(CLI::App& command, Reading& reading) {
+  add_input(command, "FILE", fmt::format("mesh ({}) or index (made by meshhood build)", mesh_formats()), reading);
 }
 
-void add_mesh(CLI::App& command, std::string& file) {
-  add_file_option(command, "MESH", mesh_formats(), file)->required()->type_name("");
-}
+void add_mesh(CLI::App& command, Reading& reading) { add_input(command, "MESH", mesh_formats(), reading); }
 
-void add_surface(CLI::App& command, std::string& file) {
-  add_file_option(command, "MESH", fmt::format("mesh ({}) or index that was built with --faces", mesh_formats()), file)
-      ->required()
-      ->type_name("");
+void add_surface(CLI::App& command, Reading& reading) {
+  add_input(command, "MESH", fmt::format("mesh ({}) or index that was built with --faces", mesh_formats()), reading);
 }
 
 CLI::Option* add_output(CLI::App& command, const std::string& extensions, const std::string& description,

@@ -56,21 +56,21 @@ CLI::Option* add_choices(CLI::App& command, const std::string& name, const std::
 CLI::Option* add_file_option(CLI::App& command, const std::string& name, const std::string& description,
                              std::string& file);
 
-/// FILE: a mesh or an index.
-void add_file(CLI::App& command, std::string& file);
+/// FILE: a mesh or an index, with --weld and --precision.
+void add_file(CLI::App& command, Reading& reading);
 
-/// MESH: a mesh.
-void add_mesh(CLI::App& command, std::string& file);
+/// The same for MESH: a mesh.
+void add_mesh(CLI::App& command, Reading& reading);
 
-/// MESH: a mesh, or an index with faces.
-void add_surface(CLI::App& command, std::string& file);
+/// The same for MESH: a mesh, or an index with faces.
+void add_surface(CLI::App& command, Reading& reading);
 
 /// --output, or the option `name`, optional unless made required. `-` is standard output. An extension other than
 /// `extensions` (".ply", or ".npz or .csv") is refused.
 CLI::Option* add_output(CLI::App& command, const std::string& extensions, const std::string& description,
                         std::string& file, const std::string& name = "-o,--output");
 
-/// --weld and --precision.
+/// --weld and --precision alone.
 std::array<CLI::Option*, 2> add_reading(CLI::App& command, Reading& reading);
 
 /// --max-bytes, for a `SizeLimit`.

@@ -41,6 +41,14 @@ void close_output();
 /// "warning: " or "note: ".
 void print_error(std::string_view severity, std::string_view text);
 
+// Numbers as people read them. JSON has them in full.
+
+/// "1.76 GB", with a unit of powers of 1000.
+[[nodiscard]] std::string bytes_text(double bytes, int digits = 3);
+
+/// "42,000", with three significant digits.
+[[nodiscard]] std::string rounded_text(double number);
+
 /// A text table of names and values.
 class Rows {
  public:

@@ -17,7 +17,6 @@
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "quantity.h"
 #include "system.h"
 #include "task.h"
 
@@ -25,9 +24,8 @@ namespace meshhood::cli {
 namespace {
 
 struct PartitionCommand {
-  std::string mesh;
+  Reading mesh;
   std::string faces;  ///< a file of faces; empty if `mesh` has them
-  Reading reading;
   std::uint64_t parts = 0;
   std::uint64_t vertices_per_part = 0;
   std::string halo;
@@ -40,12 +38,12 @@ struct PartitionCommand {
 };
 
 std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const Progress& progress) {
-  const std::filesystem::path file = path_of(options.mesh);
+  const std::filesystem::path file = path_of(options.mesh.file);
   if (!options.faces.empty()) return parts::open_arrays(file, path_of(options.faces));
   // A mesh that is read into memory takes several times the bytes of its file.
   constexpr std::uint64_t kMemoryPerByte = 4;
   const std::uint64_t most = options.memory / kMemoryPerByte;
-  if (options.reading.weld.empty() && options.reading.precision.empty()) {
+  if (options.mesh.weld.empty() && options.mesh.precision.empty()) {
     try {
       return parts::open_mesh(file, most, progress);
     } catch (const Error& refusal) {
@@ -53,13 +51,13 @@ std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const 
       if (refusal.code() != ErrorCode::UnsupportedFormat || !std::filesystem::is_regular_file(file)) throw;
     }
   }
-  io::Mesh mesh = read_mesh(options.mesh, options.reading, options.threads, most);
-  static_cast<void>(Welding(mesh, options.reading.weld, options.mesh));
-  return parts::chunked(std::move(mesh), printable_name(options.mesh));
+  io::Mesh mesh = read_mesh(options.mesh, options.threads, most);
+  static_cast<void>(Welding(mesh, options.mesh.weld, options.mesh.file));
+  return parts::chunked(std::move(mesh), printable_name(options.mesh.file));
 }
 
 parts::PartitionResult run(const PartitionCommand& options) {
-  Task task("partitioning " + options.mesh);
+  Task task("partitioning " + options.mesh.file);
   return partition(*open(options, task.progress()), path_of(options.output),
                    {.parts = options.parts,
                     .vertices_per_part = options.vertices_per_part,
@@ -123,7 +121,7 @@ void add_partition(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("partition", "Cut a mesh of any size into parts, each of which answers queries alone");
   command
-      ->add_option("MESH", options->mesh,
+      ->add_option("MESH", options->mesh.file,
                    "binary PLY, or positions as .npy with --faces: read in chunks; other formats: read into memory")
       ->check(stored_name("MESH"))
       ->required()
@@ -132,7 +130,7 @@ void add_partition(CLI::App& program) {
       command->add_option("--faces", options->faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
           ->check(stored_name("--faces"))
           ->type_name("FILE");
-  for (CLI::Option* option : add_reading(*command, options->reading)) option->excludes(faces);
+  for (CLI::Option* option : add_reading(*command, options->mesh)) option->excludes(faces);
   CLI::Option* parts = add_number(*command, "--parts", "number of parts", options->parts);
   add_number(*command, "--vertices-per-part",
              "approximate number of vertices of a part without its halo; sets the number of parts",

@@ -31,7 +31,6 @@ namespace meshhood::cli {
 namespace {
 
 struct QueryCommand {
-  std::string file;
   Reading reading;
   Radii radii;
   StartOptions start;
@@ -203,13 +202,13 @@ void paint(const QueryCommand& options, Input& input, const std::vector<Answer>&
   painting.write(options.output.name, input);
 }
 
-std::vector<Answer> answers_of_method(const QueryCommand& options, const StartQuery& query, double radius,
+std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<const QueryStart> starts, double radius,
                                       Input& input) {
   const std::string& method = options.search.method;
   AnySearcher chosen = searcher_of(options, input);
   VertexSorter sorter(options.sort, input);
   std::vector<Answer> answers;
-  for (const QueryStart& start : query.starts) {
+  for (const QueryStart& start : starts) {
     const VertexId v = *start.vertex();
     const auto ask = [&](auto& searcher) {
       Answer answer{.vertex = v};
@@ -233,13 +232,13 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, const StartQu
 }
 
 /// The answers that the methods do not give: from a point, with masks, in another metric, for several radii.
-std::vector<Answer> answers_of_starts(const QueryCommand& options, const StartQuery& query,
+std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<const QueryStart> starts,
                                       std::span<const double> radii, Input& input) {
   input.need_edges("this query");
   VertexSorter sorter(options.sort, input);
   std::vector<Answer> answers;
   RegionSearch search(options.search.metric, input);
-  for (const QueryStart& start : query.starts) {
+  for (const QueryStart& start : starts) {
     StartAnswer found = search.regions(start, radii);
     std::size_t begin = 0;
     for (const std::size_t end : found.counts) {
@@ -285,12 +284,12 @@ void check_options(const QueryCommand& options) {
 void query_command(const QueryCommand& options) {
   check_options(options);
   check_outputs();
-  Input input(options.file, options.reading);
-  const StartQuery query(options.start, options.search.metric, input);
+  Input input(options.reading);
+  const std::vector<QueryStart> starts = starts_of(options.start, options.search.metric, input);
   const std::vector<double> radii = ascending_radii(options, input);
   const std::vector<Answer> answers = options.start.is_plain() && options.search.is_straight() && radii.size() == 1
-                                          ? answers_of_method(options, query, radii.front(), input)
-                                          : answers_of_starts(options, query, radii, input);
+                                          ? answers_of_method(options, starts, radii.front(), input)
+                                          : answers_of_starts(options, starts, radii, input);
   if (options.is_painted()) paint(options, input, answers);
   if (options.output.is_csv()) write_answers(options, radii, answers);
   print(options, radii, answers);
@@ -301,8 +300,7 @@ void query_command(const QueryCommand& options) {
 void add_query(CLI::App& program) {
   auto options = std::make_shared<QueryCommand>();
   CLI::App* command = program.add_subcommand("query", "Print the neighborhood of one or more vertices");
-  add_file(*command, options->file);
-  add_reading(*command, options->reading);
+  add_file(*command, options->reading);
   add_radii(*command, options->radii)
       ->description(
           "radius of the ball; a vertex at exactly this distance is inside; several, ascending: -r 1,2 or -r 1 -r 2, "

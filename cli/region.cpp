@@ -31,7 +31,6 @@ namespace meshhood::cli {
 namespace {
 
 struct RegionCommand {
-  std::string file;
   Reading reading;
   Radius radius;
   StartOptions start;
@@ -124,10 +123,10 @@ void region(const RegionCommand& options) {
   }
   if (options.tolerance && !clips) raise(ErrorCode::InvalidOption, "--tolerance: expected --faces clip");
   check_outputs();
-  Input input(options.file, options.reading);
+  Input input(options.reading);
   input.need_faces("region");
-  const StartQuery query(options.start, "straight", input);
-  const QueryStart& start = query.starts.front();
+  const std::vector<QueryStart> starts = starts_of(options.start, "straight", input);
+  const QueryStart& start = starts.front();
   const double radius = resolve(options.radius, input);
   const Surface surface(input.exact_index(), input.surface().faces);
   if (clips) return clip(options, start, radius, surface);
@@ -152,8 +151,7 @@ void region(const RegionCommand& options) {
 void add_region(CLI::App& program) {
   auto options = std::make_shared<RegionCommand>();
   CLI::App* command = program.add_subcommand("region", "Write the part of the mesh in a neighborhood, and its rim");
-  add_surface(*command, options->file);
-  add_reading(*command, options->reading);
+  add_surface(*command, options->reading);
   add_radius(*command, options->radius);
   add_start(*command, "query vertex, by its number in the file from 0", options->start);
   add_choice(

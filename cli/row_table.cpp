@@ -23,7 +23,6 @@ namespace meshhood::cli {
 namespace {
 
 struct TableCommand {
-  std::string file;
   Reading reading;
   RowOptions rows;
   ValueFiles files;
@@ -162,7 +161,7 @@ void run(const TableCommand& options, const QuantityName& name, Quantity& quanti
   quantity.check(options.rows);
   if (options.files.first().empty()) raise(ErrorCode::InvalidOption, "expected --output, --csv, --ply or --vtk");
   check_outputs();
-  Input input(options.file, options.reading, options.rows.threads);
+  Input input(options.reading, options.rows.threads);
   name.needs_faces ? input.need_faces(name.name) : input.need_edges(name.name);
   const RowQuery rows(options.rows, input);
   RowTable table = quantity.compute({input, rows, options.rows, options.files});
@@ -258,8 +257,7 @@ void RowTable::add_properties(std::initializer_list<std::string_view> names) {
 void add_quantity(CLI::App& program, const QuantityName& name, const std::shared_ptr<Quantity>& quantity) {
   auto options = std::make_shared<TableCommand>();
   CLI::App* command = program.add_subcommand(name.name, name.description);
-  name.needs_faces ? add_surface(*command, options->file) : add_file(*command, options->file);
-  add_reading(*command, options->reading);
+  name.needs_faces ? add_surface(*command, options->reading) : add_file(*command, options->reading);
   add_rows(*command, options->rows);
   if (name.has_metric) add_metric(*command, options->rows.metric);
   quantity->add_options(*command);

@@ -20,7 +20,7 @@
 
 #include "io/messages.h"
 #include "io/system.h"
-#include "quantity.h"
+#include "output.h"
 #include "system.h"
 
 namespace meshhood::cli {

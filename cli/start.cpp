@@ -87,9 +87,10 @@ QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(optio
   if (seeds_.empty()) seeds_.push_back(input.welding().kept(nearest(input.exact_index(), point_).vertex));
 }
 
-StartQuery::StartQuery(const StartOptions& options, const std::string& metric, Input& input) {
+std::vector<QueryStart> starts_of(const StartOptions& options, const std::string& metric, Input& input) {
   input.set_masks(read_masks(options.masks, input));
   if (metric == "space") input.ignore_welded();
+  std::vector<QueryStart> starts;
   if (!options.point.empty()) starts.emplace_back(options, input);
   for (const std::string& typed : options.vertices) {
     if (const auto v = io::parse_count(typed)) {
@@ -100,6 +101,7 @@ StartQuery::StartQuery(const StartOptions& options, const std::string& metric, I
       starts.emplace_back(input.welding().kept(v));
     }
   }
+  return starts;
 }
 
 RegionSearch::RegionSearch(const std::string& metric, Input& input)

@@ -69,14 +69,9 @@ class QueryStart {
   std::vector<VertexId> seeds_;
 };
 
-/// What these options mean for an input.
-struct StartQuery {
-  /// Reads the lists, and sets the masks of the input, as a search by `metric` takes them. Throws as `QueryStart`,
-  /// `read_vertex_list` and `read_masks`.
-  StartQuery(const StartOptions& options, const std::string& metric, Input& input);
-
-  std::vector<QueryStart> starts;  ///< that of --point, or those of the vertices
-};
+/// What these options mean for an input: the start of --point, or those of the vertices. Reads the lists, and sets the
+/// masks of the input, as a search by `metric` takes them. Throws as `QueryStart`, `read_vertex_list` and `read_masks`.
+[[nodiscard]] std::vector<QueryStart> starts_of(const StartOptions& options, const std::string& metric, Input& input);
 
 /// The answer to one query, ring by ring. With one radius there is one ring.
 struct StartAnswer {

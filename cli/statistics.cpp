@@ -2,7 +2,6 @@
 #include "statistics.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -11,6 +10,8 @@
 #include <span>
 #include <utility>
 #include <vector>
+
+#include "io/weld.h"
 
 namespace meshhood::cli {
 namespace {
@@ -82,12 +83,8 @@ void mark_component(const AdjacencyView& adjacency, std::size_t start, std::vect
 }
 
 std::size_t repeated_positions(const PositionsView& positions) {
-  return positions.visit([]<class Real>(const StridedPositions<Real>& xyz) {
-    std::vector<std::array<Real, 3>> points(xyz.size());
-    for (std::size_t i = 0; i < 3 * points.size(); ++i) points[i / 3][i % 3] = xyz(i / 3, i % 3);
-    std::sort(points.begin(), points.end());
-    return static_cast<std::size_t>(points.end() - std::unique(points.begin(), points.end()));
-  });
+  const std::vector<VertexId> ids = io::welded_ids(positions);
+  return ids.empty() ? 0 : ids.size() - 1 - *std::max_element(ids.begin(), ids.end());
 }
 
 std::optional<Box> bounds(const PositionsView& positions) {

@@ -12,7 +12,6 @@
 #include "io/text.h"
 #include "options.h"
 #include "output.h"
-#include "quantity.h"
 #include "system.h"
 
 namespace meshhood::cli {

@@ -13,7 +13,7 @@
 #include "meshhood/error.h"
 
 #include "io/messages.h"
-#include "quantity.h"
+#include "output.h"
 #include "system.h"
 
 namespace meshhood::cli {

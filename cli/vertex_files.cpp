@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +15,7 @@
 
 #include "meshhood/error.h"
 
+#include "io/binary.h"
 #include "io/byte_source.h"
 #include "io/input_buffer.h"
 #include "io/mesh_io.h"
@@ -100,17 +100,15 @@ Channels read_text(io::InputBuffer& input, std::optional<std::size_t> vertices) 
 }
 
 template <class T>
-double number_at(const char* bytes) {
-  T value;
-  std::memcpy(&value, bytes, sizeof(T));
-  return static_cast<double>(value);
+double number_at(const char* bytes, std::endian order) {
+  return static_cast<double>(io::number_at<T>(bytes, order));
 }
 
 /// How to read a number of a type of NumPy.
 struct NumberType {
   char kind;
   std::size_t bytes;
-  double (*read)(const char* bytes);
+  double (*read)(const char* bytes, std::endian order);
 };
 
 constexpr std::array kNumberTypes{
@@ -141,13 +139,11 @@ Channels read_numpy(io::InputBuffer& input, std::optional<std::size_t> vertices)
   if (values.channels == 0) fail(input, "the array has no columns, expected at least one");
   if (header.fortran_order && values.channels > 1) fail(input, "the array is in Fortran order, expected C order");
   input.skip(header.bytes);
-  const bool swaps = header.big_endian == (std::endian::native == std::endian::little);
   for (std::uint64_t row = 0; row < header.shape.front(); ++row) {
     for (std::uint64_t channel = 0; channel < values.channels; ++channel) {
-      std::string number(input.ahead(type.bytes).substr(0, type.bytes));
+      const std::string_view number = input.ahead(type.bytes);
       if (number.size() < type.bytes) fail(input, fmt::format("the file ends within row {}", row));
-      if (swaps) std::reverse(number.begin(), number.end());
-      values.numbers.push_back(type.read(number.data()));
+      values.numbers.push_back(type.read(number.data(), header.order));
       input.skip(type.bytes);
     }
   }

@@ -4,21 +4,26 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 
 #include "io/input_buffer.h"
 
 namespace meshhood::inline v0_1::io {
+
+/// The value at `bytes`, of which there are enough.
+template <class T>
+[[nodiscard]] T number_at(const char* bytes, std::endian order) {
+  std::array<char, sizeof(T)> raw;
+  std::copy_n(bytes, sizeof(T), raw.begin());
+  if (order != std::endian::native) std::reverse(raw.begin(), raw.end());
+  return std::bit_cast<T>(raw);
+}
 
 /// Reads the next value of a binary file; false at the end of the file.
 template <class T>
 [[nodiscard]] bool load(InputBuffer& input, std::endian order, T& value) {
   const auto bytes = input.ahead(sizeof(T));
   if (bytes.size() < sizeof(T)) return false;
-  std::array<char, sizeof(T)> raw;
-  std::copy_n(bytes.begin(), sizeof(T), raw.begin());
-  if (order != std::endian::native) std::reverse(raw.begin(), raw.end());
-  std::memcpy(&value, raw.data(), sizeof(T));
+  value = number_at<T>(bytes.data(), order);
   input.skip(sizeof(T));
   return true;
 }

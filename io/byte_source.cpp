@@ -11,7 +11,43 @@
 
 namespace meshhood::inline v0_1::io {
 
-std::size_t MemorySource::read(std::span<char> out) {
+std::size_t ByteSource::read(std::span<char> out) {
+  constexpr std::size_t kMostAtOnce = std::size_t{4} << 20;
+  report();
+  const std::size_t count = take(out.first(std::min(out.size(), kMostAtOnce)));
+  done_ += count;
+  return count;
+}
+
+std::size_t ByteSource::fill(std::span<char> out) {
+  std::size_t size = 0;
+  while (size < out.size()) {
+    const std::size_t count = read(out.subspan(size));
+    if (count == 0) break;
+    size += count;
+  }
+  return size;
+}
+
+void ByteSource::watch(const Progress& progress, std::string name) {
+  progress_ = &progress;
+  watched_name_ = std::move(name);
+}
+
+void ByteSource::report() const {
+  if (progress_ == nullptr) return;
+  const auto total = static_cast<std::size_t>(size().value_or(0));
+  // The file may grow while it is read.
+  const auto done = static_cast<std::size_t>(total == 0 ? done_ : std::min<std::uint64_t>(done_, total));
+  io::report(*progress_, done, total, watched_name_);
+}
+
+void ByteSource::finish() {
+  done_ = std::max(done_, size().value_or(0));
+  report();
+}
+
+std::size_t MemorySource::take(std::span<char> out) {
   const std::size_t count = std::min(out.size(), left_.size());
   if (count != 0) std::memcpy(out.data(), left_.data(), count);
   left_ = left_.subspan(count);
@@ -51,7 +87,7 @@ std::string_view FileSource::peek(std::size_t count) {
   return std::string_view(peeked_).substr(0, count);
 }
 
-std::size_t FileSource::read(std::span<char> out) {
+std::size_t FileSource::take(std::span<char> out) {
   if (peeked_.empty()) return read_file(out);
   const std::size_t count = std::min(out.size(), peeked_.size());
   std::copy_n(peeked_.begin(), count, out.begin());

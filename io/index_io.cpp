@@ -19,27 +19,14 @@
 
 #include "io/byte_source.h"
 #include "io/file_writer.h"
-#include "io/load_any.h"
 #include "io/mapped_file.h"
 #include "io/messages.h"
 #include "io/readers.h"
 #include "io/waiting.h"
-#include "io/watched_source.h"
 #include "shared/aligned_buffer.h"
 
 namespace meshhood::inline v0_1::io {
 namespace {
-
-/// Reads until `out` is full or the source ends. Returns the number of bytes read.
-std::size_t fill(ByteSource& source, std::span<char> out) {
-  std::size_t size = 0;
-  while (size < out.size()) {
-    const std::size_t count = source.read(out.subspan(size));
-    if (count == 0) break;
-    size += count;
-  }
-  return size;
-}
 
 using Head = std::array<char, kIndexHeadBytes>;
 
@@ -65,14 +52,14 @@ void check_head(std::span<const std::byte> first_bytes, const std::optional<std:
 AlignedBuffer read_all(ByteSource& source) {
   constexpr std::size_t kFirstGuess = std::size_t{1} << 20;
   Head head;
-  const std::size_t known = fill(source, head);
+  const std::size_t known = source.fill(head);
   check_head(bytes_of(head, known), source.size());
   // One byte more than the size, so that the end is found without growing the buffer.
   AlignedBuffer all(std::max(known, static_cast<std::size_t>(source.size().value_or(kFirstGuess))) + 1);
   std::copy_n(head.begin(), known, all.room().begin());
   all.add(known);
   for (;;) {
-    all.add(fill(source, all.room()));
+    all.add(source.fill(all.room()));
     if (!all.room().empty()) return all;
     all.grow();
   }
@@ -116,15 +103,15 @@ void save_with(const std::filesystem::path& path, const Progress& reported, F&& 
 /// it is called again with the same count so that the caller can cancel.
 template <class F>
 auto load_with(FileSource& file, const std::filesystem::path& path, const Progress& progress, F&& take) {
-  WatchedSource source(file, progress, path.string());
-  const WhileWaiting waiting([&source] { source.report(); });
-  const Progress verifying = [&source](std::size_t, std::size_t) {
-    source.report();
+  file.watch(progress, path.string());
+  const WhileWaiting waiting([&file] { file.report(); });
+  const Progress verifying = [&file](std::size_t, std::size_t) {
+    file.report();
     return true;
   };
   return naming(path, [&] {
-    auto index = take(read_all(source), verifying);
-    source.finish();
+    auto index = take(read_all(file), verifying);
+    file.finish();
     return index;
   });
 }
@@ -200,7 +187,7 @@ IndexHeader read_header(const std::filesystem::path& path) {
     raise_io(path, EINVAL, "is not a regular file, expected an index file");
   }
   Head head;
-  const std::size_t known = fill(source, head);
+  const std::size_t known = source.fill(head);
   return naming(path, [&] { return meshhood::read_header(bytes_of(head, known), source.size().value_or(known)); });
 }
 

@@ -148,13 +148,21 @@ void Faces::end_face(std::uint64_t corners) {
   ++size_;
 }
 
-void Faces::append(const PlainFaces& faces) {
-  append_many(corners_, std::span<const std::uint32_t>(faces.corners));
-  if (faces.are_triangles && offsets_.empty()) {
-    size_ += faces.sizes.size();
+void Faces::append(const Faces& faces) {
+  append_many(corners_, std::span<const std::uint32_t>(faces.corners_));
+  if (offsets_.empty() && faces.offsets_.empty()) {
+    size_ += faces.size_;
   } else {
-    for (const std::uint8_t corners : faces.sizes) end_face(corners);
+    const FacesView view = faces.offsets_.empty() ? FacesView::triangles(faces.corners_)
+                                                  : FacesView::polygons(faces.offsets_, faces.corners_);
+    view.for_each([this](std::size_t, std::span<const VertexId> corners) { end_face(corners.size()); });
   }
+}
+
+void Faces::clear() {
+  size_ = 0;
+  offsets_.clear();
+  corners_.clear();
 }
 
 void Faces::append(std::size_t count, std::span<const std::uint32_t> corners) {
@@ -200,11 +208,11 @@ void MeshBuilder::place_vertices(Mesh& mesh) {
 }
 
 Mesh MeshBuilder::finish(Format format) {
-  Mesh mesh{.format = format,
-            .positions = std::move(positions.values()),
-            .offsets = std::move(faces.offsets()),
-            .corners = std::move(faces.corners()),
-            .warnings = {}};
+  Mesh mesh;
+  mesh.format = format;
+  mesh.positions = std::move(positions.values());
+  mesh.offsets = std::move(faces.offsets());
+  mesh.corners = std::move(faces.corners());
   if (positions.have_nan()) place_vertices(mesh);
   mesh.warnings = std::move(warnings.list());
   if (positions.are_double() && !positions.are_open()) return mesh;

@@ -36,16 +36,31 @@ void append_many(std::vector<T>& array, std::span<const T> more) {
   array.insert(array.end(), more.begin(), more.end());
 }
 
-/// Faces of few corners.
-struct PlainFaces {
-  std::vector<std::uint32_t> corners;  ///< face after face
-  std::vector<std::uint8_t> sizes;     ///< the number of corners of each face
-  bool are_triangles = true;
+/// Faces in order. Offsets are stored from the first face on that is not a triangle.
+class Faces {
+ public:
+  void reserve_corners(std::uint64_t corners);
+  void append_corner(std::uint32_t vertex) { corners_.push_back(vertex); }
 
-  void end_face(std::size_t size) {
-    sizes.push_back(static_cast<std::uint8_t>(size));
-    are_triangles = are_triangles && size == 3;
-  }
+  /// Ends a face of `corners` corners. The corners may be appended before or after.
+  void end_face(std::uint64_t corners);
+
+  void append(const Faces& faces);
+
+  /// Appends `count` faces of as many corners each.
+  void append(std::size_t count, std::span<const std::uint32_t> corners);
+
+  void clear();
+
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+  [[nodiscard]] std::vector<std::uint32_t>& corners() { return corners_; }
+  [[nodiscard]] std::vector<std::uint64_t>& offsets() { return offsets_; }
+
+ private:
+  std::uint64_t size_ = 0;
+  std::vector<std::uint64_t> offsets_;
+  std::vector<std::uint32_t> corners_;
 };
 
 /// What rows of a file hold (see `PlainRows`).
@@ -53,7 +68,7 @@ template <class Real>
 struct PlainBlock {
   std::size_t rows = 0;
   std::vector<Real> positions;
-  PlainFaces faces;
+  Faces faces;
   bool float_keeps = false;      ///< all coordinates; only found out if it is true at first
   std::size_t most_missing = 0;  ///< how many vertices must precede, so that no face names one that follows it
 
@@ -121,32 +136,6 @@ class Positions {
 
 /// 'x', 'y' or 'z': the axis of coordinate `scalar` in a list of positions.
 [[nodiscard]] inline char axis(std::uint64_t scalar) { return "xyz"[scalar % 3]; }
-
-/// Faces in order. Offsets are stored from the first face on that is not a triangle.
-class Faces {
- public:
-  void reserve_corners(std::uint64_t corners);
-  void append_corner(std::uint32_t vertex) { corners_.push_back(vertex); }
-
-  /// Ends a face of `corners` corners. The corners may be appended before or after.
-  void end_face(std::uint64_t corners);
-
-  /// Appends many faces, with their corners one after the other.
-  void append(const PlainFaces& faces);
-
-  /// Appends `count` faces of as many corners each.
-  void append(std::size_t count, std::span<const std::uint32_t> corners);
-
-  [[nodiscard]] std::uint64_t size() const { return size_; }
-
-  [[nodiscard]] std::vector<std::uint32_t>& corners() { return corners_; }
-  [[nodiscard]] std::vector<std::uint64_t>& offsets() { return offsets_; }
-
- private:
-  std::uint64_t size_ = 0;
-  std::vector<std::uint64_t> offsets_;
-  std::vector<std::uint32_t> corners_;
-};
 
 /// Accepted deviations, each kind once. In strict mode the first is an error.
 class Warnings {

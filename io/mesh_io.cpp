@@ -13,12 +13,11 @@
 #include "io/input_buffer.h"
 #include "io/readers.h"
 #include "io/waiting.h"
-#include "io/watched_source.h"
 
 namespace meshhood::inline v0_1::io {
 namespace {
 
-Mesh read_whole(WatchedSource& source, InputBuffer& input, const std::string& name, const ReadOptions& options) {
+Mesh read_whole(ByteSource& source, InputBuffer& input, const std::string& name, const ReadOptions& options) {
   Mesh mesh = read_format(detect_format(input, name), input, {options});
   source.finish();
   return mesh;
@@ -34,7 +33,7 @@ void check_threads(const ReadOptions& options) {
   raise(ErrorCode::TooLarge, input.name() + ": not enough memory for this mesh");
 }
 
-Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& options) {
+Mesh read(ByteSource& source, const std::string& name, const ReadOptions& options) {
   check_threads(options);
   InputBuffer input(source, name, options.max_bytes);
   try {
@@ -46,7 +45,7 @@ Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& opt
   }
 }
 #else
-Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& options) {
+Mesh read(ByteSource& source, const std::string& name, const ReadOptions& options) {
   check_threads(options);
   InputBuffer input(source, name, options.max_bytes);
   return read_whole(source, input, name, options);
@@ -68,12 +67,6 @@ Mesh read_format(Format format, InputBuffer& input, const ReaderOptions& options
   return read_freesurfer(input, options);
 }
 
-MeshView Mesh::view() const& {
-  const auto view_of_positions = [](const auto& xyz) { return PositionsView(xyz); };
-  const auto faces = offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(offsets, corners);
-  return {std::visit(view_of_positions, positions), faces};
-}
-
 void refuse_walls(const Mesh& mesh, const std::string& name) {
   const auto wall = std::find(mesh.walls.begin(), mesh.walls.end(), 1);
   if (wall == mesh.walls.end()) return;
@@ -89,15 +82,15 @@ Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
 }
 
 Mesh read_mesh(FileSource& file, const std::string& name, const ReadOptions& options) {
-  WatchedSource source(file, options.progress, name);
-  const WhileWaiting waiting([&source] { source.report(); });
-  return read(source, name, options);
+  file.watch(options.progress, name);
+  const WhileWaiting waiting([&file] { file.report(); });
+  return read(file, name, options);
 }
 
 Mesh read_mesh(std::span<const std::byte> bytes, const std::string& name, const ReadOptions& options) {
   MemorySource memory(bytes);
-  WatchedSource source(memory, options.progress, name);
-  return read(source, name, options);
+  memory.watch(options.progress, name);
+  return read(memory, name, options);
 }
 
 }  // namespace meshhood::inline v0_1::io

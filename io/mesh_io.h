@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "meshhood/export.h"
 #include "meshhood/mesh.h"
+#include "meshhood/mesh_data.h"
 #include "meshhood/run.h"
 
 /// Reading and writing mesh files. Readers keep the vertex numbering and the polygons of the file.
@@ -59,21 +59,14 @@ struct Warning {
   std::string first_place;  ///< where it occurs first: "line 12", "byte 1048621"; empty if it concerns the whole mesh
 };
 
-/// A mesh read from a file, owned.
-struct Mesh {
+/// A mesh read from a file.
+struct Mesh : MeshData {
   Format format = Format::Ply;
-  std::variant<std::vector<float>, std::vector<double>> positions;  ///< #V by 3
-  std::vector<std::uint64_t> offsets;                               ///< #F + 1, or empty if every face is a triangle
-  std::vector<std::uint32_t> corners;                               ///< the corners of all faces, face after face
   std::vector<Warning> warnings;
 
   /// #V, or empty if there are none: 1 for each vertex without a position, for `masked`. Such a vertex is in no face,
   /// and `positions` has it where another vertex is.
-  std::vector<std::uint8_t> walls = {};
-
-  /// Borrows from this mesh. A view of a temporary does not compile.
-  [[nodiscard]] MeshView view() const&;
-  [[nodiscard]] MeshView view() const&& = delete;
+  std::vector<std::uint8_t> walls;
 };
 
 /// Reads a PLY (ASCII or binary of either byte order), OBJ, OFF or STL (ASCII or binary) file, the polygons of VTK's

@@ -106,7 +106,7 @@ NpyHeader parse_npy_header(std::string_view first_bytes, const std::string& file
   return {.bytes = begin + size,
           .kind = type[1],
           .item = static_cast<std::size_t>(*item),
-          .big_endian = type[0] == '>',
+          .order = type[0] == '>' ? std::endian::big : std::endian::little,
           .fortran_order = dictionary.after("fortran_order").starts_with("True"),
           .shape = parse_shape(dictionary)};
 }

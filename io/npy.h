@@ -28,7 +28,7 @@ struct NpyHeader {
   std::size_t bytes = 0;  ///< of the header; the values follow
   char kind = 'f';        ///< 'f', 'i', 'u', ...
   std::size_t item = 0;   ///< bytes of a value
-  bool big_endian = false;
+  std::endian order = std::endian::little;
   bool fortran_order = false;
   std::vector<std::uint64_t> shape;
 };

@@ -55,10 +55,11 @@ struct FaceRow {
       std::uint32_t index = 0;
       at = plain::take_integer(at, index);
       if (index >= end) return nullptr;
-      block.faces.corners.push_back(index);
+      block.faces.append_corner(index);
     }
-    block.faces.end_face(count);
-    return plain::take_line_end(skip_tokens(after, at));
+    at = plain::take_line_end(skip_tokens(after, at));
+    if (at != nullptr) block.faces.end_face(count);
+    return at;
   }
 
  private:

@@ -24,7 +24,8 @@ namespace meshhood::inline v0_1::io {
 ///     static constexpr std::uint64_t kLines;           // of a row
 ///     static constexpr std::string_view kInLastLine;   // of the row: what is in no other
 ///     const char* take(const char* at, const char* end, PlainBlock<Real>& block) const;
-///                                                      // appends a row; its end, or null if it is not plain
+///                                                      // appends a row; its end, or null if it is not plain,
+///                                                      // without a face that has ended
 template <class Real, class Row>
 class PlainRows {
  public:
@@ -83,29 +84,21 @@ class PlainRows {
     return &block;
   }
 
-  /// How much a block holds.
+  /// What a row that is not plain may have changed.
   struct Extent {
-    std::size_t rows = 0;
-    std::size_t scalars = 0;
-    std::size_t faces = 0;
-    std::size_t corners = 0;
-    bool are_triangles = true;
-    bool float_keeps = false;
-    std::size_t most_missing = 0;
+    std::size_t scalars;
+    std::size_t corners;
+    bool float_keeps;
+    std::size_t most_missing;
   };
 
-  static Extent extent(const PlainBlock<Real>& block) {
-    const PlainFaces& faces = block.faces;
-    return {block.rows,          block.positions.size(), faces.sizes.size(), faces.corners.size(),
-            faces.are_triangles, block.float_keeps,      block.most_missing};
+  static Extent extent(PlainBlock<Real>& block) {
+    return {block.positions.size(), block.faces.corners().size(), block.float_keeps, block.most_missing};
   }
 
   static void cut(PlainBlock<Real>& block, const Extent& extent) {
-    block.rows = extent.rows;
     block.positions.resize(extent.scalars);
-    block.faces.sizes.resize(extent.faces);
-    block.faces.corners.resize(extent.corners);
-    block.faces.are_triangles = extent.are_triangles;
+    block.faces.corners().resize(extent.corners);
     block.float_keeps = extent.float_keeps;
     block.most_missing = extent.most_missing;
   }
@@ -140,7 +133,9 @@ class PlainRows {
 
   void parse(Block& block, std::string_view text, std::uint64_t most) const {
     PlainBlock<Real>& content = block.content;
-    cut(content, {.float_keeps = is_open_});
+    content.rows = 0;
+    content.faces.clear();
+    cut(content, {.scalars = 0, .corners = 0, .float_keeps = is_open_, .most_missing = 0});
     const char* at = text.data();
     const char* const end = at + static_cast<std::size_t>(block.end - block.begin);
     while (at != end && content.rows < most) {

@@ -146,20 +146,6 @@ class HeaderParser {
 
 }  // namespace
 
-std::size_t size_of(PlyType type) {
-  switch (type) {
-    case PlyType::Int8:
-    case PlyType::Uint8: return 1;
-    case PlyType::Int16:
-    case PlyType::Uint16: return 2;
-    case PlyType::Int32:
-    case PlyType::Uint32:
-    case PlyType::Float32: return 4;
-    case PlyType::Float64: return 8;
-  }
-  return 0;
-}
-
 PlyHeader read_ply_header(InputBuffer& input) { return HeaderParser(input).parse(); }
 
 }  // namespace meshhood::inline v0_1::io

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,10 +19,43 @@ enum class PlyEncoding { Ascii, LittleEndian, BigEndian };
 
 enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
 
+/// Of the bytes of a number.
+[[nodiscard]] inline std::endian order_of(PlyEncoding encoding) {
+  return encoding == PlyEncoding::BigEndian ? std::endian::big : std::endian::little;
+}
+
+/// Calls `f` with a value of the C++ type of `type`.
+template <class F>
+decltype(auto) with_type(PlyType type, F&& f) {
+  switch (type) {
+    case PlyType::Int8: return f(std::int8_t{});
+    case PlyType::Uint8: return f(std::uint8_t{});
+    case PlyType::Int16: return f(std::int16_t{});
+    case PlyType::Uint16: return f(std::uint16_t{});
+    case PlyType::Int32: return f(std::int32_t{});
+    case PlyType::Uint32: return f(std::uint32_t{});
+    case PlyType::Float32: return f(float{});
+    case PlyType::Float64: break;
+  }
+  return f(double{});
+}
+
 /// In bytes, in a binary file.
-[[nodiscard]] std::size_t size_of(PlyType type);
+[[nodiscard]] inline std::size_t size_of(PlyType type) {
+  return with_type(type, [](auto example) { return sizeof(example); });
+}
 
 [[nodiscard]] inline bool is_integer(PlyType type) { return type != PlyType::Float32 && type != PlyType::Float64; }
+
+/// Of an integer type.
+[[nodiscard]] inline bool is_signed(PlyType type) {
+  return type == PlyType::Int8 || type == PlyType::Int16 || type == PlyType::Int32;
+}
+
+/// The largest value of an integer type.
+[[nodiscard]] inline std::uint64_t largest(PlyType type) {
+  return (std::uint64_t{1} << (8 * size_of(type) - (is_signed(type) ? 1 : 0))) - 1;
+}
 
 /// Whether float represents every value of the type.
 [[nodiscard]] inline bool fits_float(PlyType type) { return size_of(type) <= 2 || type == PlyType::Float32; }
@@ -33,6 +69,11 @@ struct PlyProperty {
   /// The type of the first value of the property in a row.
   [[nodiscard]] PlyType first_type() const { return is_list ? count_type : type; }
 };
+
+/// Whether none is a list.
+[[nodiscard]] inline bool are_single(std::span<const PlyProperty> properties) {
+  return std::ranges::none_of(properties, &PlyProperty::is_list);
+}
 
 struct PlyElement {
   std::string name;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,7 +14,6 @@
 #include "io/mesh_builder.h"
 #include "io/messages.h"
 #include "io/ply_header.h"
-#include "io/ply_rows.h"
 #include "io/readers.h"
 
 namespace meshhood::inline v0_1::io {
@@ -26,6 +26,10 @@ inline constexpr std::string_view kFileEnds = "the file ends here";
 
 /// The problem of a line that is too short, in a file whose rows are lines.
 inline constexpr std::string_view kLineEnds = "the line ends here";
+
+/// The plain rows of an element of a PLY file (see `PlainRows`): takes some, up to `most`, and appends what they hold.
+/// Returns how many there were: the next row, if there is one, is to be read value by value. Empty if none is plain.
+using PlyRows = std::function<std::uint64_t(std::uint64_t most)>;
 
 /// The values of a PLY file in order, from text or bytes.
 class PlyValues {
@@ -42,7 +46,7 @@ class PlyValues {
   [[nodiscard]] virtual Problem take_integer(PlyType type, std::int64_t& value) = 0;
 
   /// For the vertices, with the properties x, y, z at `axes`, and for the faces, with the vertices in the property
-  /// `list` and every index below `vertices`. Empty if no row is plain. Both borrow their arguments.
+  /// `list` and every index below `vertices`. Both borrow their arguments.
   [[nodiscard]] virtual PlyRows vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
                                             Positions& positions) = 0;
   [[nodiscard]] virtual PlyRows face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices,
@@ -75,8 +79,15 @@ class PlyValues {
   [[nodiscard]] virtual Location location() const = 0;
 };
 
-/// The values after a header that was read from `input`. Both must outlive them.
-[[nodiscard]] std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& header,
-                                                    const ReaderOptions& options = {});
+/// The values after a header that was read from `input`, in text or as bytes. Both must outlive them.
+[[nodiscard]] std::unique_ptr<PlyValues> ply_text(InputBuffer& input, const PlyHeader& header,
+                                                  const ReaderOptions& options);
+[[nodiscard]] std::unique_ptr<PlyValues> ply_binary(InputBuffer& input, const PlyHeader& header,
+                                                    const ReaderOptions& options);
+
+[[nodiscard]] inline std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& header,
+                                                           const ReaderOptions& options = {}) {
+  return header.encoding == PlyEncoding::Ascii ? ply_text(input, header, options) : ply_binary(input, header, options);
+}
 
 }  // namespace meshhood::inline v0_1::io

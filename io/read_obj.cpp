@@ -61,19 +61,17 @@ struct ObjRow {
 
   template <class Real>
   static const char* take_face(const char* at, std::size_t vertices, PlainBlock<Real>& block) {
-    constexpr std::size_t kMostCorners = 255;
-    for (std::size_t corners = 1; corners <= kMostCorners; ++corners) {
+    for (std::size_t corners = 1;; ++corners) {
       std::uint32_t index = 0;
       at = take_corner(plain::skip_blanks(at), index);
       if (at == nullptr || index == 0) return nullptr;
-      block.faces.corners.push_back(index - 1);
+      block.faces.append_corner(index - 1);
       if (index > vertices) block.most_missing = std::max(block.most_missing, index - vertices);
       if (const char* const after = plain::take_line_end(at)) {
         block.faces.end_face(corners);
         return after;
       }
     }
-    return nullptr;
   }
 
   // `v`, `v/vt`, `v//vn` or `v/vt/vn`.

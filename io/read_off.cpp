@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -118,9 +119,8 @@ class OffReader {
   }
 
   void read_faces() {
-    constexpr uint64_t kMostCorners = 255;
-    PlainRows<float, FaceRow> plain(text_, options_,
-                                    {.before = 0, .after = 0, .most_count = kMostCorners, .end = vertices_});
+    constexpr auto kAny = std::numeric_limits<uint64_t>::max();
+    PlainRows<float, FaceRow> plain(text_, options_, {.before = 0, .after = 0, .most_count = kAny, .end = vertices_});
     const auto append = [this](const PlainBlock<float>& block) {
       builder_.faces.append(block.faces);
       return true;

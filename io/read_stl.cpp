@@ -9,10 +9,11 @@
 
 #include <fmt/format.h>
 
+#include "io/binary.h"
 #include "io/mesh_builder.h"
 #include "io/readers.h"
 #include "io/stl_text.h"
-#include "io/vertex_welder.h"
+#include "io/welder.h"
 
 // A file of the size of a binary STL is binary, even if it begins with "solid", as many do. In a longer one, each facet
 // is followed by as many bytes as its last two say; in others, programs keep a color there.
@@ -26,12 +27,12 @@ constexpr std::size_t kHeaderBytes = 84;
 constexpr std::size_t kFacetBytes = 50;
 constexpr std::size_t kNormalBytes = 12;
 
-std::uint32_t little_endian_word(std::string_view bytes) {
-  const auto byte = [bytes](std::size_t i) { return std::uint32_t{static_cast<unsigned char>(bytes[i])} << (8 * i); };
-  return byte(0) | byte(1) | byte(2) | byte(3);  // which compilers read at once
+template <class T>
+T number_in(std::string_view bytes, std::size_t place) {
+  return number_at<T>(bytes.substr(place).data(), std::endian::little);
 }
 
-std::uint32_t facet_count(std::string_view header) { return little_endian_word(header.substr(80)); }
+std::uint32_t facet_count(std::string_view header) { return number_in<std::uint32_t>(header, kHeaderBytes - 4); }
 
 uint64_t binary_size(std::string_view header) { return kHeaderBytes + kFacetBytes * uint64_t{facet_count(header)}; }
 
@@ -60,7 +61,7 @@ std::string why_not_binary(InputBuffer& input) {
 template <class Real>
 class BinaryStl {
  public:
-  BinaryStl(InputBuffer& input, MeshBuilder& builder, VertexWelder<Real>& welder)
+  BinaryStl(InputBuffer& input, MeshBuilder& builder, Welder<Real>& welder)
       : input_(input), builder_(builder), welder_(welder) {}
 
   void read() {
@@ -76,7 +77,7 @@ class BinaryStl {
   }
 
  private:
-  using Corners = std::array<typename VertexWelder<Real>::Point, 3>;
+  using Corners = std::array<typename Welder<Real>::Point, 3>;
 
   void read_facet(std::uint32_t facet, std::uint32_t facets) {
     const auto bytes = input_.ahead(kFacetBytes);
@@ -93,7 +94,7 @@ class BinaryStl {
     }
     if (!are_valid) refuse(bytes, facet);
     append_triangle(corners, {.byte = input_.offset()}, builder_, welder_);
-    const std::size_t payload = little_endian_word(bytes.substr(kFacetBytes - 4)) >> 16U;
+    const std::size_t payload = number_in<std::uint16_t>(bytes, kFacetBytes - 2);
     if (payload != 0) has_payload_ = true;
     input_.skip(kFacetBytes);
     if (payload != 0 && are_followed_) skip_payload(payload, facet);
@@ -125,7 +126,7 @@ class BinaryStl {
   }
 
   static float coordinate(std::string_view facet, std::size_t i) {
-    return std::bit_cast<float>(little_endian_word(facet.substr(kNormalBytes + 4 * i)));
+    return number_in<float>(facet, kNormalBytes + 4 * i);
   }
 
   [[noreturn]] void refuse(std::string_view bytes, std::uint32_t facet) const {
@@ -137,7 +138,7 @@ class BinaryStl {
 
   InputBuffer& input_;
   MeshBuilder& builder_;
-  VertexWelder<Real>& welder_;
+  Welder<Real>& welder_;
   bool was_size_known_ = false;
   bool are_followed_ = false;  // by bytes that belong to them
   bool has_payload_ = false;   // a facet says so, or has a color
@@ -156,7 +157,7 @@ void reserve(MeshBuilder& builder, const InputBuffer& input, bool binary) {
 template <class Real>
 void read_soup(InputBuffer& input, const ReaderOptions& options, bool binary, MeshBuilder& builder,
                std::vector<Real>& positions) {
-  VertexWelder<Real> welder(positions, builder.faces.corners(), input.name());
+  Welder<Real> welder(positions, builder.faces.corners(), input.name());
   if (binary) {
     BinaryStl<Real>(input, builder, welder).read();
   } else {
@@ -168,7 +169,7 @@ void read_soup(InputBuffer& input, const ReaderOptions& options, bool binary, Me
 bool differ_as_floats(const std::vector<double>& positions, const std::string& file) {
   std::vector<float> floats;
   std::vector<std::uint32_t> ids;
-  VertexWelder<float> welder(floats, ids, file);
+  Welder<float> welder(floats, ids, file);
   welder.expect(positions.size() / 3);
   for (std::size_t i = 0; i < positions.size(); i += 3) {
     welder.append(

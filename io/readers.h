@@ -2,14 +2,21 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <variant>
+
+#include "meshhood/index.h"
+#include "meshhood/paper.h"
+#include "meshhood/serialize.h"
 
 #include "io/byte_source.h"
 #include "io/input_buffer.h"
 #include "io/mesh_io.h"
 
-/// One reader for each format. Each begins at the front of `input` and throws as `read_mesh` does.
+/// One reader for each format. Each begins at the front of `input` and throws as `read_mesh` does. And readers of files
+/// that may be an index.
 namespace meshhood::inline v0_1::io {
 
 /// Reads a file of any format.
@@ -46,5 +53,20 @@ inline constexpr std::string_view kFreeSurferMark = "\xff\xff\xfe";
 
 /// Whether the file has exactly the size that the number of facets in a binary STL header requires.
 [[nodiscard]] bool has_binary_stl_size(InputBuffer& input);
+
+// In index_io.cpp.
+
+/// An index of either kind and the header of its file.
+struct LoadedIndex {
+  IndexHeader header;
+  std::variant<Index, paper::Index> index;
+};
+
+/// Reads an index of either kind. As `load`.
+[[nodiscard]] LoadedIndex load_any(const std::filesystem::path& path, const Run& run = {});
+
+/// Reads a mesh or an index, detected by content; the file may be a pipe. Throws as `read_mesh` and `load`.
+[[nodiscard]] std::variant<Mesh, LoadedIndex> read_mesh_or_index(const std::filesystem::path& path,
+                                                                 const ReadOptions& options = {});
 
 }  // namespace meshhood::inline v0_1::io

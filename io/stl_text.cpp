@@ -27,7 +27,7 @@ struct FacetRow {
 
   template <class Real>
   const char* take(const char* at, const char* end, PlainBlock<Real>& block) const {
-    std::array<typename VertexWelder<Real>::Point, 3> facet = {};
+    std::array<typename Welder<Real>::Point, 3> facet = {};
     at = take_words(at, end, "facet normal ");
     for (int i = 0; i < 3; ++i) at = plain::skip_token(at);
     at = take_line(plain::take_line_end(at), end, "outer loop");
@@ -58,7 +58,7 @@ struct FacetRow {
 template <class Real>
 class StlText {
  public:
-  StlText(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder, VertexWelder<Real>& weld)
+  StlText(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder, Welder<Real>& weld)
       : text_(input, {}), plain_(text_, options, {}, builder.positions.are_open()), builder_(builder), weld_(weld) {}
 
   void read() {
@@ -151,8 +151,8 @@ class StlText {
     }
   }
 
-  typename VertexWelder<Real>::Point read_corner(uint64_t count) {
-    typename VertexWelder<Real>::Point corner;
+  typename Welder<Real>::Point read_corner(uint64_t count) {
+    typename Welder<Real>::Point corner;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto token = text_.token();
       if (const auto problem = to_coordinate(token, corner[i])) {
@@ -172,8 +172,8 @@ class StlText {
   Text text_;
   PlainRows<Real, FacetRow> plain_;
   MeshBuilder& builder_;
-  VertexWelder<Real>& weld_;
-  std::array<typename VertexWelder<Real>::Point, 3> first_ = {};
+  Welder<Real>& weld_;
+  std::array<typename Welder<Real>::Point, 3> first_ = {};
   uint64_t facets_ = 0;
   bool in_solid_ = true;
 };
@@ -181,13 +181,13 @@ class StlText {
 }  // namespace
 
 template <class Real>
-void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder, VertexWelder<Real>& weld) {
+void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder, Welder<Real>& weld) {
   StlText<Real>(input, options, builder, weld).read();
 }
 
 template void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder,
-                            VertexWelder<float>& weld);
+                            Welder<float>& weld);
 template void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder,
-                            VertexWelder<double>& weld);
+                            Welder<double>& weld);
 
 }  // namespace meshhood::inline v0_1::io

@@ -7,7 +7,7 @@
 #include "io/mesh_builder.h"
 #include "io/messages.h"
 #include "io/readers.h"
-#include "io/vertex_welder.h"
+#include "io/welder.h"
 
 namespace meshhood::inline v0_1::io {
 
@@ -16,12 +16,12 @@ namespace meshhood::inline v0_1::io {
 /// format allows only triangles: a facet of more vertices is kept as a polygon, so that no vertex is lost, and one of
 /// fewer is left out, both with a warning.
 template <class Real>
-void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder, VertexWelder<Real>& weld);
+void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder, Welder<Real>& weld);
 
 /// Appends a facet of an ASCII or binary file.
 template <class Real>
 void append_triangle(const std::array<std::array<Real, 3>, 3>& corners, const Location& location, MeshBuilder& builder,
-                     VertexWelder<Real>& weld) {
+                     Welder<Real>& weld) {
   const auto& [a, b, c] = corners;
   if (a == b || b == c || c == a) builder.warnings.add("facets in which two corners coincide", location);
   for (const auto& corner : corners) weld.append(corner);
@@ -29,8 +29,8 @@ void append_triangle(const std::array<std::array<Real, 3>, 3>& corners, const Lo
 }
 
 extern template void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder,
-                                   VertexWelder<float>& weld);
+                                   Welder<float>& weld);
 extern template void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder,
-                                   VertexWelder<double>& weld);
+                                   Welder<double>& weld);
 
 }  // namespace meshhood::inline v0_1::io

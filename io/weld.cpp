@@ -9,8 +9,7 @@
 
 #include "meshhood/error.h"
 
-#include "io/near_welder.h"
-#include "io/vertex_welder.h"
+#include "io/welder.h"
 
 namespace meshhood::inline v0_1::io {
 namespace {
@@ -20,31 +19,18 @@ void check_eps(double eps) {
   raise(ErrorCode::InvalidOption, fmt::format("eps is {}, expected a finite number >= 0", eps));
 }
 
-template <class Real, class Welder>
-void append_all(const StridedPositions<Real>& xyz, Welder welder) {
-  for (std::size_t v = 0; v < xyz.size(); ++v) welder.append({xyz(v, 0), xyz(v, 1), xyz(v, 2)});
-}
-
 /// Fills `kept` with the positions of the kept vertices. Returns the place of each vertex among these.
 template <class Real>
 std::vector<std::uint32_t> weld_into(std::vector<Real>& kept, const StridedPositions<Real>& xyz, double eps) {
   std::vector<std::uint32_t> ids;
   ids.reserve(xyz.size());
-  if (eps > 0) {
-    append_all(xyz, NearWelder<Real>(kept, ids, xyz.size(), eps));
-  } else {
-    append_all(xyz, VertexWelder<Real>(kept, ids, "weld"));
-  }
+  Welder<Real> welder(kept, ids, "weld", eps);
+  if (eps > 0) welder.expect(xyz.size());  // the cells of a growing table would be computed again
+  for (std::size_t v = 0; v < xyz.size(); ++v) welder.append({xyz(v, 0), xyz(v, 1), xyz(v, 2)});
   return ids;
 }
 
 }  // namespace
-
-MeshView WeldedMesh::view() const& {
-  const auto view_of_positions = [](const auto& xyz) { return PositionsView(xyz); };
-  const auto faces = offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(offsets, corners);
-  return {std::visit(view_of_positions, positions), faces};
-}
 
 WeldedMesh weld(const MeshView& mesh, double eps) {
   check_eps(eps);

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <variant>
 #include <vector>
 
-#include "meshhood/adjacency.h"
 #include "meshhood/export.h"
 #include "meshhood/mesh.h"
+#include "meshhood/mesh_data.h"
 
 /// Welding: makes one vertex of all vertices at the same place, so that faces which meet there are connected.
 ///
@@ -24,16 +23,10 @@
 namespace meshhood::inline v0_1 {
 namespace io MESHHOOD_API {
 
-/// A welded mesh, owned. Kept vertices have their positions, and their order.
-struct WeldedMesh {
-  PositionsData positions;             ///< #kept by 3, in the precision given
-  std::vector<std::uint64_t> offsets;  ///< #F + 1 (see `FacesView::polygons`), or empty if triangles were given
-  std::vector<std::uint32_t> corners;  ///< of all faces, as ids in this mesh
-  std::vector<std::uint32_t> ids;      ///< by vertex of the mesh given: its id in this one. #V
-
-  /// Borrows from this object. A view of a temporary does not compile.
-  [[nodiscard]] MeshView view() const&;
-  [[nodiscard]] MeshView view() const&& = delete;
+/// A welded mesh. Kept vertices have their positions, in the precision given, and their order. Offsets are empty if
+/// triangles were given.
+struct WeldedMesh : MeshData {
+  std::vector<std::uint32_t> ids;  ///< by vertex of the mesh given: its id in this one. #V
 };
 
 /// All faces stay, in their order, and keep the number of their corners: values by face or by corner remain valid. A

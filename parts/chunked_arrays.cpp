@@ -10,6 +10,7 @@
 
 #include "meshhood/error.h"
 
+#include "io/binary.h"
 #include "io/messages.h"
 #include "io/npy.h"
 #include "parts/chunked_mesh.h"
@@ -25,14 +26,13 @@ class Rows {
 
   Rows(const std::filesystem::path& path, std::string_view kinds, std::string_view expected)
       : file_(path), name_(io::printable_name(path.string())), header_(read_header()) {
-    const auto& [bytes, kind, item, big_endian, fortran_order, shape] = header_;
+    const auto& [bytes, kind, item, order, fortran_order, shape] = header_;
     const bool is_number = kinds.find(kind) != std::string_view::npos && (item == 4 || item == 8);
     if (!is_number || fortran_order || shape.size() != 2) {
       raise(ErrorCode::UnsupportedFormat,
             fmt::format("{}: an array of shape ({}), type {}{}{}, expected {} in C order", name_,
                         fmt::join(shape, ", "), kind, item, fortran_order ? ", in Fortran order" : "", expected));
     }
-    swaps_ = big_endian != (std::endian::native == std::endian::big);
     check_size();
   }
 
@@ -51,7 +51,7 @@ class Rows {
       file_.read(header_.bytes + first * item(), buffer_);
       for (std::size_t i = 0; i < now; ++i) {
         const char* const place = buffer_.data() + i * item();
-        item() == 4 ? f(number_at<Small>(place, swaps_)) : f(number_at<Large>(place, swaps_));
+        item() == 4 ? f(io::number_at<Small>(place, header_.order)) : f(io::number_at<Large>(place, header_.order));
       }
       first += now;
       count -= now;
@@ -84,7 +84,6 @@ class Rows {
   RandomFile file_;
   std::string name_;
   io::NpyHeader header_;
-  bool swaps_ = false;
   std::vector<char> buffer_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "meshhood/error.h"
 
+#include "io/binary.h"
 #include "io/byte_source.h"
 #include "io/input_buffer.h"
 #include "io/messages.h"
@@ -110,19 +111,9 @@ std::optional<Layout> find_layout(io::PlyHeader header, std::uint64_t header_byt
   return layout;
 }
 
-double coordinate(const char* bytes, io::PlyType type, bool swaps) {
-  using io::PlyType;
-  switch (type) {
-    case PlyType::Int8: return number_at<std::int8_t>(bytes, swaps);
-    case PlyType::Uint8: return number_at<std::uint8_t>(bytes, swaps);
-    case PlyType::Int16: return number_at<std::int16_t>(bytes, swaps);
-    case PlyType::Uint16: return number_at<std::uint16_t>(bytes, swaps);
-    case PlyType::Int32: return number_at<std::int32_t>(bytes, swaps);
-    case PlyType::Uint32: return number_at<std::uint32_t>(bytes, swaps);
-    case PlyType::Float32: return static_cast<double>(number_at<float>(bytes, swaps));
-    case PlyType::Float64: break;
-  }
-  return number_at<double>(bytes, swaps);
+double coordinate(const char* bytes, io::PlyType type, std::endian order) {
+  return with_type(type,
+                   [&](auto example) { return static_cast<double>(io::number_at<decltype(example)>(bytes, order)); });
 }
 
 bool needs_double(const std::array<Coordinate, 3>& axes) {
@@ -199,7 +190,7 @@ class ChunkedPly final : public ChunkedMesh {
       : ChunkedMesh(io::printable_name(file.path().string()), layout.vertices, needs_double(layout.axes)),
         file_(std::move(file)),
         layout_(std::move(layout)),
-        swaps_((layout_.header.encoding == io::PlyEncoding::BigEndian) != (std::endian::native == std::endian::big)) {
+        order_(order_of(layout_.header.encoding)) {
     const std::uint64_t end = layout_.first_vertex + layout_.vertices * layout_.row_bytes;
     if (end <= file_.size()) return;
     raise(ErrorCode::MalformedFile,
@@ -222,7 +213,7 @@ class ChunkedPly final : public ChunkedMesh {
   }
 
   [[nodiscard]] Point position_at(const char* row) const {
-    const auto at = [&](const Coordinate& axis) { return coordinate(row + axis.offset, axis.type, swaps_); };
+    const auto at = [&](const Coordinate& axis) { return coordinate(row + axis.offset, axis.type, order_); };
     return {at(layout_.axes[0]), at(layout_.axes[1]), at(layout_.axes[2])};
   }
 
@@ -242,7 +233,7 @@ class ChunkedPly final : public ChunkedMesh {
 
   RandomFile file_;
   Layout layout_;
-  bool swaps_;
+  std::endian order_;
   std::vector<char> buffer_;
   std::optional<FaceReader> faces_;
 };

@@ -49,6 +49,7 @@ template <class Point>
 template <class Point>
 [[nodiscard]] MeshData copy_mesh(const CGAL::Surface_mesh<Point>& mesh) {
   MeshData copy;
+  copy.offsets.push_back(0);
   copy.positions = copy_positions(mesh);
   for (const auto face : mesh.faces()) {
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(face))) {

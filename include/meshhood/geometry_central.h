@@ -47,6 +47,7 @@ namespace meshhood::inline v0_1 {
     geometrycentral::surface::SurfaceMesh& mesh,
     const geometrycentral::surface::VertexData<geometrycentral::Vector3>& positions) {
   MeshData copy;
+  copy.offsets.push_back(0);
   copy.positions = copy_positions(mesh, positions);
   for (const auto face : mesh.faces()) {
     for (const auto v : face.adjacentVertices()) copy.corners.push_back(static_cast<std::uint32_t>(v.getIndex()));

@@ -12,17 +12,17 @@
 namespace meshhood {
 inline namespace v0_1 MESHHOOD_API {
 
-/// A polygonal mesh that owns its arrays: a copy of a mesh of another library. See cgal.h, openmesh.h and
-/// geometry_central.h.
+/// A polygonal mesh that owns its arrays: a copy of a mesh of another library (see cgal.h, openmesh.h and
+/// geometry_central.h), or a mesh of a file.
 struct MeshData {
-  PositionsData positions;                ///< #V by 3
-  std::vector<std::uint64_t> offsets{0};  ///< #F + 1 (see `FacesView::polygons`)
-  std::vector<std::uint32_t> corners;     ///< of all faces, face after face
+  PositionsData positions;             ///< #V by 3
+  std::vector<std::uint64_t> offsets;  ///< #F + 1 (see `FacesView::polygons`), or empty if every face is a triangle
+  std::vector<std::uint32_t> corners;  ///< of all faces, face after face
 
   /// Borrows from this object. A view of a temporary does not compile.
   [[nodiscard]] MeshView view() const& {
     return {std::visit([](const auto& xyz) { return PositionsView(xyz); }, positions),
-            FacesView::polygons(offsets, corners)};
+            offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(offsets, corners)};
   }
   [[nodiscard]] MeshView view() const&& = delete;
 };

@@ -51,6 +51,7 @@ template <class Kernel>
 template <class Kernel>
 [[nodiscard]] MeshData copy_mesh(const OpenMesh::PolyMeshT<Kernel>& mesh) {
   MeshData copy;
+  copy.offsets.push_back(0);
   copy.positions = copy_positions(mesh);
   for (const auto face : mesh.faces()) {
     for (const auto v : mesh.fv_range(face)) copy.corners.push_back(static_cast<std::uint32_t>(v.idx()));

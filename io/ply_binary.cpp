@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "io/ply_rows.h"
-
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/plain_elements.h"
-#include "io/plain_rows.h"
+#include "io/binary.h"
+#include "io/ply_values.h"
 #include "shared/distance.h"
 
 namespace meshhood::inline v0_1::io {
@@ -20,38 +20,8 @@ namespace {
 
 using std::uint64_t;
 
-bool are_single(std::span<const PlyProperty> properties) {
-  return std::none_of(properties.begin(), properties.end(), [](const PlyProperty& p) { return p.is_list; });
-}
-
-/// Of an integer type.
-uint64_t largest(PlyType type) {
-  const bool is_signed = type == PlyType::Int8 || type == PlyType::Int16 || type == PlyType::Int32;
-  return (uint64_t{1} << (8 * size_of(type) - (is_signed ? 1 : 0))) - 1;
-}
-
-/// Rows that are a line each. `append` receives them in blocks.
-template <class Real, class Row, class Append>
-PlyRows text_rows(Text& text, const ReaderOptions& options, const Row& row, Append append) {
-  const auto plain = std::make_shared<PlainRows<Real, Row>>(text, options, row);
-  return [plain, append](uint64_t most) {
-    uint64_t taken = 0;
-    plain->take(most, [&](const PlainBlock<Real>& block) {
-      append(block);
-      taken += block.rows;
-      return true;
-    });
-    return taken;
-  };
-}
-
-template <class Real>
-PlyRows text_vertices(Text& text, const ReaderOptions& options, const VertexRow& row, Positions& positions) {
-  return text_rows<Real>(text, options, row, [&positions](const PlainBlock<Real>& block) { positions.append(block); });
-}
-
-// In a binary file, plain rows are in the byte order of the processor. The next two functions take rows from the front
-// of `bytes` as long as they are complete and valid.
+// Plain rows are in the byte order of the processor. The next two functions take rows from the front of `bytes` as long
+// as they are complete and valid.
 
 /// Rows of `stride` bytes, with coordinates of the type `Real` at `offsets`. Returns how many, and writes them over the
 /// front of `positions`, which grows but does not shrink: there may be many calls for few rows each.
@@ -134,37 +104,8 @@ PlyRows binary_vertices(InputBuffer& input, const ReaderOptions& options, const 
   return binary_rows(input, options, take_some);
 }
 
-}  // namespace
-
-PlyRows vertex_rows(Text& text, const ReaderOptions& options, const PlyElement& element,
-                    const std::array<std::size_t, 3>& axes, Positions& positions) {
-  if (!are_single(element.properties)) return {};
-  const VertexRow row{element.properties.size(), axes};
-  if (positions.are_double()) return text_vertices<double>(text, options, row, positions);
-  return text_vertices<float>(text, options, row, positions);
-}
-
-PlyRows face_rows(Text& text, const ReaderOptions& options, const PlyElement& element, std::size_t list,
-                  std::uint64_t vertices, Faces& faces) {
-  constexpr uint64_t kMostCount = 255;
-  const std::span<const PlyProperty> properties = element.properties;
-  if (!are_single(properties.first(list)) || !are_single(properties.subspan(list + 1))) return {};
-  const FaceRow row{.before = list,
-                    .after = properties.size() - list - 1,
-                    .most_count = std::min(kMostCount, largest(properties[list].count_type)),
-                    .end = std::min(vertices, largest(properties[list].type) + 1)};
-  return text_rows<float>(text, options, row, [&faces](const PlainBlock<float>& block) { faces.append(block.faces); });
-}
-
-PlyRows vertex_rows(InputBuffer& input, const ReaderOptions& options, const PlyElement& element,
-                    const std::array<std::size_t, 3>& axes, Positions& positions) {
-  if (!are_single(element.properties)) return {};
-  if (positions.are_double()) return binary_vertices<double>(input, options, element, axes, positions);
-  return binary_vertices<float>(input, options, element, axes, positions);
-}
-
-PlyRows face_rows(InputBuffer& input, const ReaderOptions& options, const PlyElement& element, std::size_t list,
-                  std::uint64_t vertices, Faces& faces) {
+PlyRows binary_faces(InputBuffer& input, const ReaderOptions& options, const PlyElement& element, std::size_t list,
+                     uint64_t vertices, Faces& faces) {
   const PlyProperty& property = element.properties[list];
   const bool is_usual = element.properties.size() == 1 && property.count_type == PlyType::Uint8 &&
                         (property.type == PlyType::Int32 || property.type == PlyType::Uint32);
@@ -182,6 +123,80 @@ PlyRows face_rows(InputBuffer& input, const ReaderOptions& options, const PlyEle
     return {taken, rows};
   };
   return binary_rows(input, options, take_some);
+}
+
+class BinaryValues final : public PlyValues {
+ public:
+  BinaryValues(InputBuffer& input, std::endian order, ReaderOptions options)
+      : input_(input), options_(std::move(options)), order_(order) {}
+
+  PlyRows vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
+                      Positions& positions) override {
+    if (order_ != std::endian::native || !are_single(element.properties)) return {};
+    if (positions.are_double()) return binary_vertices<double>(input_, options_, element, axes, positions);
+    return binary_vertices<float>(input_, options_, element, axes, positions);
+  }
+
+  PlyRows face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices, Faces& faces) override {
+    if (order_ != std::endian::native) return {};
+    return binary_faces(input_, options_, element, list, vertices, faces);
+  }
+
+  Problem take_coordinate(PlyType type, Positions& positions) override {
+    begin_ = input_.offset();
+    return with_type(type, [&](auto example) -> Problem {
+      if (!load(input_, order_, example)) return std::string(kFileEnds);
+      const auto problem = positions.append(static_cast<double>(example));
+      if (!problem) return std::nullopt;
+      return std::string(*problem);
+    });
+  }
+
+  Problem take_integer(PlyType type, std::int64_t& value) override {
+    begin_ = input_.offset();
+    return with_type(type, [&](auto example) -> Problem {
+      if (!load(input_, order_, example)) return std::string(kFileEnds);
+      value = static_cast<std::int64_t>(+example);
+      return std::nullopt;
+    });
+  }
+
+  Problem skip(PlyType type, std::uint64_t count) override {
+    constexpr std::uint64_t kStep = std::uint64_t{1} << 16;
+    begin_ = input_.offset();
+    for (std::uint64_t left = count * size_of(type); left != 0;) {
+      const auto step = static_cast<std::size_t>(std::min(left, kStep));
+      if (input_.ahead(step).size() < step) return std::string(kFileEnds);
+      input_.skip(step);
+      left -= step;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::uint64_t least_bytes(PlyType type) const override { return size_of(type); }
+  [[nodiscard]] std::optional<std::uint64_t> bytes_left() const override { return input_.left(); }
+  [[nodiscard]] bool row_is_over() const override { return false; }
+  bool end_row(const PlyElement& /*element*/, std::uint64_t /*row*/) override { return false; }
+  [[nodiscard]] std::string hint() const override { return ""; }
+
+  bool anything_left() override {
+    begin_ = input_.offset();
+    return !input_.ahead(1).empty();
+  }
+
+  [[nodiscard]] Location location() const override { return {.byte = begin_}; }
+
+ private:
+  InputBuffer& input_;
+  ReaderOptions options_;
+  std::endian order_;
+  std::uint64_t begin_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<PlyValues> ply_binary(InputBuffer& input, const PlyHeader& header, const ReaderOptions& options) {
+  return std::make_unique<BinaryValues>(input, order_of(header.encoding), options);
 }
 
 }  // namespace meshhood::inline v0_1::io
