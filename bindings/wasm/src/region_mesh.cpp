@@ -13,13 +13,9 @@ namespace meshhood::wasm {
 
 extern "C" {
 
-[[clang::export_name("prepare_regions")]] void prepare_regions(const void* xyz, std::size_t scalars, bool is_double,
-                                                               const void* corners, std::size_t corner_count,
-                                                               bool signed_corners, const void* offsets,
-                                                               std::size_t offset_count, bool signed_offsets) {
-  const FacesView faces = view_faces(corners, corner_count, signed_corners, offsets, offset_count, signed_offsets);
-  workspace.build({view_positions(xyz, scalars, is_double), faces}, {}, {});
-  workspace.use_faces(faces, {});
+[[clang::export_name("prepare_regions")]] void prepare_regions() {
+  workspace.build(given, {}, {});
+  workspace.use_faces(given.faces, {});
 }
 
 /// The counts of the answer are faces.
