@@ -42,9 +42,15 @@ IndicesView indices_of(const Input& array, const char* argument) {
   refuse(argument, "integers of 32 or 64 bits");
 }
 
-FacesView faces_of(const Input& corners, const std::optional<Input>& offsets) {
+FacesView faces_of(const Faces& faces) {
+  const auto& [corners, offsets] = faces;
   const IndicesView flat = indices_of(corners, "F");
   return offsets ? FacesView::polygons(indices_of(*offsets, "F"), flat) : FacesView::triangles(flat);
+}
+
+MeshView mesh_of(const Mesh& mesh) {
+  const auto& [positions, corners, offsets] = mesh;
+  return {positions_of(positions, "V"), faces_of({corners, offsets})};
 }
 
 // The name of a type with a shape, as "(3,)float64", would run Python code, in which a thread may be ended while it has

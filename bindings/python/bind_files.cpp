@@ -15,18 +15,9 @@
 #include <variant>
 #include <vector>
 
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
-#include <nanobind/stl/filesystem.h>
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
-#include <nanobind/stl/shared_ptr.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/tuple.h>
-#include <nanobind/stl/vector.h>
-
 #include "meshhood/serialize.h"
 
+#include "about.h"
 #include "arrays.h"
 #include "bindings.h"
 #include "graph_copy.h"
@@ -34,6 +25,7 @@
 #include "io/file_writer.h"
 #include "io/index_io.h"
 #include "io/mesh_io.h"
+#include "io/weld.h"
 #include "methods.h"
 
 namespace nb = nanobind;
@@ -56,8 +48,7 @@ auto read(const std::filesystem::path& path, std::size_t scalar_bytes, unsigned 
         for (std::size_t v = 0; v < walls.size(); ++v) {  // as in the file; an index makes them walls again
           if (walls[v] != 0) std::fill_n(&xyz[3 * v], 3, std::numeric_limits<Real>::quiet_NaN());
         }
-        const std::size_t size = xyz.size() / 3;
-        return nb::cast(owned<Real>(std::move(xyz), {size, 3}));
+        return owned_positions(std::move(xyz));
       },
       mesh.positions);
   std::vector<std::string> warnings;
@@ -75,10 +66,10 @@ using Scalars = nb::ndarray<const float, nb::c_contig, nb::device::cpu>;
 using Colors = nb::ndarray<const std::uint8_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
 /// `values`: named scalars (#V) or vectors (#V by 3). `walls`: of those without a position, as `place` returns them.
-void write(const std::filesystem::path& path, const Input& positions, const Input& corners,
-           const std::optional<Input>& offsets, const std::vector<std::pair<std::string, Scalars>>& values,
-           const std::optional<Colors>& colors, const std::optional<Bytes>& walls, bool vtk) {
-  const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
+void write(const std::filesystem::path& path, const Mesh& given,
+           const std::vector<std::pair<std::string, Scalars>>& values, const std::optional<Colors>& colors,
+           const std::optional<Bytes>& walls, bool vtk) {
+  const MeshView mesh = mesh_of(given);
   std::vector<io::VertexProperty> properties;
   properties.reserve(values.size());
   for (const auto& [name, numbers] : values) {
@@ -94,12 +85,27 @@ void write(const std::filesystem::path& path, const Input& positions, const Inpu
   });
 }
 
-/// `faces`: corners and offsets, to be saved with the index.
-void save_file(const ExactMethod& method, const std::filesystem::path& path,
-               const std::optional<std::pair<Input, std::optional<Input>>>& faces, nb::handle progress) {
+/// Returns positions (#kept by 3), corners, offsets (empty for triangles), and the new id of each vertex.
+auto weld(const Mesh& given, double eps) {
+  const MeshView mesh = mesh_of(given);
+  io::WeldedMesh welded = without_lock([&] {
+    about("V", [&] {
+      validate(mesh.positions);
+      check_vertex_count(mesh.positions.size());
+    });
+    return about("F", [&] { return io::weld(mesh, eps); });
+  });
+  nb::object kept = std::visit([](auto& xyz) { return owned_positions(std::move(xyz)); }, welded.positions);
+  return std::tuple(std::move(kept), owned<std::int32_t>(std::move(welded.corners)),
+                    owned<std::int64_t>(std::move(welded.offsets)), owned<std::int32_t>(std::move(welded.ids)));
+}
+
+/// `faces`: to be saved with the index.
+void save_file(const ExactMethod& method, const std::filesystem::path& path, const std::optional<Faces>& faces,
+               nb::handle progress) {
   SaveOptions options;
   const Run run{.progress = progress_to(progress)};
-  if (faces) options.faces = faces_of(faces->first, faces->second);
+  if (faces) options.faces = faces_of(*faces);
   without_lock([&] { io::save(path, method.index(), options, run); });
 }
 
@@ -163,8 +169,9 @@ std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
 }  // namespace
 
 void bind_files(nb::module_& module) {
-  module.def("write_mesh", &write, nb::arg(), nb::arg("V"), nb::arg("F"), nb::arg("offsets").none(), nb::arg("values"),
-             nb::arg("colors").none(), nb::arg("walls").none(), nb::arg("vtk"));
+  module.def("write_mesh", &write, nb::arg(), nb::arg(), nb::arg("values"), nb::arg("colors").none(),
+             nb::arg("walls").none(), nb::arg("vtk"));
+  module.def("weld", &weld, nb::arg(), nb::arg("eps"));
   module.def("read_mesh", &read, nb::arg("path"), nb::arg("scalar_bytes"), nb::arg("threads"),
              nb::arg("progress").none());
   module.def("save", &save_file, nb::arg(), nb::arg("path"), nb::arg("faces").none(), nb::arg("progress").none());

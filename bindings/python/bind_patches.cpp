@@ -7,15 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
-#include <nanobind/stl/array.h>
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
-#include <nanobind/stl/tuple.h>
-#include <nanobind/stl/unique_ptr.h>
-#include <nanobind/stl/variant.h>
-
 #include "meshhood/patch.h"
 
 #include "arrays.h"
@@ -44,18 +35,15 @@ class Patches {
  public:
   explicit Patches(Surface surface) : surface_(std::move(surface)) {}
 
-  [[nodiscard]] auto measure_rows(const std::optional<Ids>& vertices, const Radius& radius, unsigned threads,
-                                  nb::handle progress) const {
-    const BatchQuery query = query_of(vertices, radius);
-    const Run run{.threads = threads, .progress = progress_to(progress)};
-    Invariants found = without_lock([&] { return invariants(surface_, query, run); });
+  [[nodiscard]] auto measure_rows(const Call& call) const {
+    const Run run = call.run();
+    Invariants found = without_lock([&] { return invariants(surface_, call.query(), run); });
     return std::pair(owned<double>(std::move(found.area)), owned<double>(std::move(found.volume)));
   }
 
-  [[nodiscard]] auto find_gaps(const std::optional<Ids>& vertices, const Radius& radius, unsigned threads,
-                               nb::handle progress) const {
-    const BatchQuery query = query_of(vertices, radius);
-    const Run run{.threads = threads, .progress = progress_to(progress)};
+  [[nodiscard]] auto find_gaps(const Call& call) const {
+    const BatchQuery query = call.query();
+    const Run run = call.run();
     SurfaceColumns columns(query.result_rows(surface_.vertex_count()));
     without_lock([&] {
       const auto set = [&](std::size_t row, const SurfacePoint& gap) { columns.set(row, gap, gap.vertices); };
@@ -115,9 +103,8 @@ auto make_patches(const ExactMethod& method, const Surface& surface) {
 
 void bind_patches(nb::module_& module) {
   nb::class_<Patches>(module, "Patches")
-      .def("invariants", &Patches::measure_rows, nb::arg().none(), nb::arg(), nb::arg("threads"),
-           nb::arg("progress").none())
-      .def("gaps", &Patches::find_gaps, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
+      .def("invariants", &Patches::measure_rows)
+      .def("gaps", &Patches::find_gaps)
       .def("faces", &Patches::faces, nb::arg("vertex"), nb::arg("face").none(), nb::arg("point"), nb::arg("radius"))
       .def("clip", &Patches::clip, nb::arg("vertex"), nb::arg("face").none(), nb::arg("point"), nb::arg("radius"),
            nb::arg("tolerance"))

@@ -9,16 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
-#include <nanobind/stl/array.h>
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/tuple.h>
-
 #include "meshhood/surface.h"
 #include "meshhood/thickness.h"
 
 #include "arrays.h"
+#include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
 #include "methods.h"
@@ -32,23 +27,22 @@ namespace {
 
 Corners corners_of(bool all) { return all ? Corners::All : Corners::Any; }
 
-Surface of_faces(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets) {
-  const FacesView faces = faces_of(corners, offsets);
+Surface of_faces(const ExactMethod& method, const Faces& given) {
+  const FacesView faces = faces_of(given);
   return without_lock([&] { return Surface(method.index(), faces); });
 }
 
 /// With an index of its own.
-Surface of_mesh(const Input& positions, const Input& corners, const std::optional<Input>& offsets) {
-  const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
+Surface of_mesh(const Mesh& given) {
+  const MeshView mesh = mesh_of(given);
   return without_lock([&] {
     const Index index = build(mesh);
     return Surface(index, mesh.faces);
   });
 }
 
-Surface of_normals(const ExactMethod& method, const Reals& normals, const std::optional<Input>& corners,
-                   const std::optional<Input>& offsets) {
-  const FacesView faces = corners ? faces_of(*corners, offsets) : FacesView{};
+Surface of_normals(const ExactMethod& method, const Reals& normals, const std::optional<Faces>& given) {
+  const FacesView faces = given ? faces_of(*given) : FacesView{};
   return without_lock([&] { return Surface::of_normals(method.index(), numbers_of(normals), faces); });
 }
 
@@ -81,12 +75,10 @@ auto first_hits(const Surface& surface, const Points& origins, const Points& dir
   });
 }
 
-Output<double> measure_thickness(const Surface& surface, const std::optional<Ids>& ids, bool by_sphere,
-                                 unsigned threads, nb::handle progress) {
-  const Run run{.threads = threads, .progress = progress_to(progress)};
-  const BatchVertices vertices = ids ? BatchVertices(ids_of(*ids)) : BatchVertices();
+Output<double> measure_thickness(const Surface& surface, const Call& call, bool by_sphere) {
+  const Run run = call.run();
   const ThicknessMethod method = by_sphere ? ThicknessMethod::Sphere : ThicknessMethod::Ray;
-  return owned<double>(without_lock([&] { return thickness(surface, vertices, method, run); }));
+  return owned<double>(without_lock([&] { return thickness(surface, call.query().vertices, method, run); }));
 }
 
 Output<std::int64_t> faces(const Surface& surface, const Ids& ids, bool all) {
@@ -110,10 +102,9 @@ auto rim(const Surface& surface, const Ids& ids, const SpacePoint& center, doubl
 }  // namespace
 
 nb::class_<Surface> bind_surface(nb::module_& module) {
-  module.def("surface_of_faces", &of_faces, nb::arg(), nb::arg(), nb::arg("offsets").none());
-  module.def("surface_of_mesh", &of_mesh, nb::arg(), nb::arg(), nb::arg("offsets").none());
-  module.def("surface_of_normals", &of_normals, nb::arg(), nb::arg(), nb::arg("corners").none(),
-             nb::arg("offsets").none());
+  module.def("surface_of_faces", &of_faces);
+  module.def("surface_of_mesh", &of_mesh);
+  module.def("surface_of_normals", &of_normals, nb::arg(), nb::arg(), nb::arg("faces").none());
   nb::class_<Surface> surface(module, "Surface");
   surface.def_prop_ro("face_count", &Surface::face_count)
       .def("paths",
@@ -121,8 +112,7 @@ nb::class_<Surface> bind_surface(nb::module_& module) {
       .def("on", [](const Surface& whole, const ExactMethod& method) { return whole.on(method.index()); })
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("first_hits", &first_hits, nb::arg(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
-      .def("thickness", &measure_thickness, nb::arg().none(), nb::arg("by_sphere"), nb::arg("threads"),
-           nb::arg("progress").none())
+      .def("thickness", &measure_thickness, nb::arg(), nb::arg("by_sphere"))
       .def("faces", &faces)
       .def("submesh", &submesh)
       .def("rim", &rim);

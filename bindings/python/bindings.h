@@ -9,7 +9,7 @@
 /// converted by meshhood/_mesh.py and meshhood/_convert.py.
 namespace meshhood::python {
 
-/// The methods that answer queries.
+/// The methods that answer queries, and the nearest vertices of many: connected, and not connected.
 void bind_methods(nanobind::module_& module);
 
 /// Sums and other properties of values over neighborhoods.
@@ -27,13 +27,10 @@ void bind_queries(nanobind::module_& module);
 /// Surfaces: closest points, and regions as meshes.
 nanobind::class_<Surface> bind_surface(nanobind::module_& module);
 
-/// Nearest vertices for many rows: connected, and not connected.
-void bind_surface_queries(nanobind::module_& module);
-
 /// Curvature, of surfaces too.
 void bind_curvature(nanobind::module_& module, nanobind::class_<Surface>& surface);
 
-/// Mesh files, index files, and an index as bytes.
+/// Mesh files, index files, an index as bytes, and welding.
 void bind_files(nanobind::module_& module);
 
 /// Meshes in parts.
@@ -41,8 +38,5 @@ void bind_parts(nanobind::module_& module);
 
 /// The command line as a function. Only where it is built: MESHHOOD_BUILD_CLI.
 void bind_command(nanobind::module_& module);
-
-/// Welding.
-void bind_weld(nanobind::module_& module);
 
 }  // namespace meshhood::python

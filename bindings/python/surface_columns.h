@@ -7,8 +7,6 @@
 #include <span>
 #include <tuple>
 
-#include <nanobind/nanobind.h>
-
 #include "meshhood/surface.h"
 
 #include "arrays.h"

@@ -47,8 +47,7 @@ def vertex_areas(V: Any, F: Any = None) -> NDArray[np.float64]:
     >>> bool(abs(meshhood.vertex_areas(V, F).sum() - 4 * np.pi) < 0.2)
     True
     """
-    positions, corners, offsets = whole_mesh_arrays(V, F)
-    return _core.vertex_areas(positions, corners, offsets=offsets)
+    return _core.vertex_areas(whole_mesh_arrays(V, F))
 
 
 class Aggregates(Held):
@@ -155,19 +154,7 @@ class Aggregates(Held):
         if 0 in given.shape[1:]:
             return np.empty(shape, dtype)
         columns = np.array(given, np.float64, order="C").reshape(self._count, int(np.prod(given.shape[1:])))
-        with rows.reporter("aggregate") as report:
-            result = _core.aggregate(
-                rows.index._exact,
-                values=columns,
-                weights=areas,
-                vertices=rows.vertices,
-                radius=rows.radius,
-                threads=rows.threads,
-                max_bytes=2**64 - 1,
-                progress=report,
-                **options,
-                metric=rows.core_metric,
-            )
+        result = rows.ask(_core.aggregate, rows.index._exact, values=columns, weights=areas, **options)
         result = result.reshape(shape).astype(dtype, copy=False)
         return result if result.ndim else float(result)
 
@@ -319,8 +306,7 @@ def area_weights(index: Held, weights: Any, F: Any) -> Any:
         return None
     if isinstance(weights, str):
         _convert.choice(weights, "weights", ("area",))
-        corners, offsets = index._face_arrays(F)
-        return _core.vertex_areas(index._methods.positions, corners, offsets=offsets)
+        return _core.vertex_areas((index._methods.positions, *index._face_arrays(F)))
     array = _numbers(weights, "weights", "biuf")
     if array.shape != (index._count,):
         raise ValueError(f"weights: expected an array of shape ({index._count},), not {array.shape}")

@@ -157,19 +157,18 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         workers: int = -1,
         progress: Progress = None,
     ) -> None:
-        positions, corners, offsets = mesh_arrays(V, F)
-        positions, no_position = placed(positions, corners, offsets, stacklevel=3)
+        mesh, no_position = placed(mesh_arrays(V, F), stacklevel=3)
         options = {"cut": _convert.edges(cut, "cut"), "threads": _convert.threads(workers)}
         with reporter(progress, "MeshIndex") as report:
-            exact = _core.exact(positions, corners, offsets=offsets, **options, progress=report)
+            exact = _core.exact(mesh, **options, progress=report)
         has_faces = keep_faces and not hasattr(F, "tocoo")
-        self._hold(exact, kept_faces(corners, offsets) if has_faces else None)
+        self._hold(exact, kept_faces(mesh[1:]) if has_faces else None)
         if no_position is not None:
             self._hold_without(no_position)
         if not hasattr(F, "tocoo"):
-            warn_if_no_faces(positions, corners, stacklevel=3)
-        warn_if_unwelded(positions, corners, offsets, stacklevel=3)
-        warn_if_coarse(positions, corners, offsets, stacklevel=3)
+            warn_if_no_faces(mesh, stacklevel=3)
+        warn_if_unwelded(mesh, stacklevel=3)
+        warn_if_coarse(mesh, stacklevel=3)
 
     @classmethod
     def _holding(cls, exact: Any, faces: Any = None) -> MeshIndex:
@@ -349,7 +348,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         (2, 642)
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        counts = rows.shaped(rows.ask("counts", rows.index._method(method, metric).counts))
+        counts = rows.shaped(rows.ask(rows.index._method(method, metric).counts))
         return counts if counts.ndim else int(counts)
 
     def radius_neighbors_graph(
@@ -465,15 +464,8 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
 
         def search(radius: Any, report: Any) -> Any:
             nonlocal left
-            indptr, indices, distances = searched.neighborhoods(
-                rows.vertices,
-                radius,
-                distances=with_distances,
-                sorted=sort == "id",
-                threads=rows.threads,
-                max_bytes=left,
-                progress=report,
-            )
+            call = rows.call(report, radius, left)
+            indptr, indices, distances = searched.neighborhoods(call, distances=with_distances, sorted=sort == "id")
             left = max(0, left - indices.nbytes - distances.nbytes)
             return indptr, indices, distances if with_distances else None
 
@@ -598,5 +590,5 @@ def _as_size(count: float) -> str:
 
 def _unpickled(cls: type[MeshIndex], saved: Any, faces: Any) -> MeshIndex:
     # A copy, because arrays that were sent out of band are memory of the caller.
-    kept = faces and kept_faces(*(None if array is None else np.array(array) for array in faces))
+    kept = faces and kept_faces([None if array is None else np.array(array) for array in faces])
     return cls._holding(_core.from_bytes(np.frombuffer(saved, np.uint8)), kept)

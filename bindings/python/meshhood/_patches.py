@@ -138,7 +138,7 @@ class Patches(Held):
         """
         metric = _convert.choice(metric, "metric", ("straight",))
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        return Invariants(*map(rows.shaped, rows.ask("invariants", rows.index._patches(F).invariants)))
+        return Invariants(*map(rows.shaped, rows.ask(rows.index._patches(F).invariants)))
 
     def gaps(
         self,
@@ -166,7 +166,7 @@ class Patches(Held):
         """
         metric = _convert.choice(metric, "metric", ("straight",))
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        return Gaps(*map(rows.shaped, rows.ask("gaps", rows.index._patches(F).gaps)))
+        return Gaps(*map(rows.shaped, rows.ask(rows.index._patches(F).gaps)))
 
     def patch(
         self,

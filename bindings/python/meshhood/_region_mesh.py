@@ -134,8 +134,8 @@ class RegionMesh:
     """
 
     def __init__(self, V: Any, F: Any = None) -> None:
-        positions, corners, offsets = whole_mesh_arrays(V, F)
-        self._hold(positions.copy(), _core.surface_of_mesh(positions, corners, offsets), offsets is None)
+        mesh = positions, _, offsets = whole_mesh_arrays(V, F)
+        self._hold(positions.copy(), _core.surface_of_mesh(mesh), offsets is None)
 
     def _hold(self, positions: Any, surface: Any, is_triangles: bool) -> None:
         self._positions = positions

@@ -80,8 +80,7 @@ class Shape(Held):
             raise ValueError(f"like: {like!r}, expected None with fit='jet'")
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
-        options |= {"filter": bool(filter), "metric": rows.core_metric}
-        found = rows.ask("curvature", rows.index._surface(F, normals).curvatures, **options)
+        found = rows.ask(rows.index._surface(F, normals).curvature, filter=bool(filter), **options)
         return Curvature(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def corrected_curvature(
@@ -113,7 +112,7 @@ class Shape(Held):
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         surface = rows.index._surface(F, normals, needs_faces=True)
-        found = rows.ask("corrected_curvature", surface.corrected, metric=rows.core_metric)
+        found = rows.ask(surface.corrected_curvature)
         return CorrectedCurvature(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def moments(
@@ -148,7 +147,7 @@ class Shape(Held):
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": area_weights(self, weights, F)}
-        found = rows.ask("moments", _core.moments, rows.index._exact, metric=rows.core_metric, **options)
+        found = rows.ask(_core.moments, rows.index._exact, **options)
         return _of_type(rows.shaped(found), dtype)
 
     def principal_components(
@@ -176,8 +175,7 @@ class Shape(Held):
         ((642, 3), (642,))
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        options = {"weights": area_weights(self, weights, F), "metric": rows.core_metric}
-        found = rows.ask("principal_components", _core.principal_components, rows.index._exact, **options)
+        found = rows.ask(_core.principal_components, rows.index._exact, weights=area_weights(self, weights, F))
         return PrincipalComponents(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def features(
@@ -218,12 +216,9 @@ class Shape(Held):
         ((3, 642, 2), (642, 6))
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        options = {
-            "kinds": [getattr(_core.Feature, name) for name in _convert.some_choices(kinds, "kinds", get_args(Kind))],
-            "filter": bool(filter),
-            "metric": rows.core_metric,
-        }
-        found = _of_type(rows.shaped(rows.ask("features", rows.index._surface(F).features, **options)), dtype)
+        chosen = [getattr(_core.Feature, name) for name in _convert.some_choices(kinds, "kinds", get_args(Kind))]
+        found = rows.ask(rows.index._surface(F).features, kinds=chosen, filter=bool(filter))
+        found = _of_type(rows.shaped(found), dtype)
         return found[..., 0] if isinstance(kinds, str) else found
 
 
