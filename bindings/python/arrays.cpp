@@ -2,8 +2,11 @@
 #include "arrays.h"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
+
+#include "meshhood/error.h"
 
 #include "interpreter.h"
 
@@ -11,6 +14,9 @@ namespace nb = nanobind;
 
 namespace meshhood::python {
 namespace {
+
+// Ids are int32 in Python, as SciPy's sparse matrices have them.
+constexpr std::size_t kMostVertices = std::numeric_limits<std::int32_t>::max();
 
 template <class T>
 bool holds(const Input& array) {
@@ -51,6 +57,11 @@ FacesView faces_of(const Faces& faces) {
 MeshView mesh_of(const Mesh& mesh) {
   const auto& [positions, corners, offsets] = mesh;
   return {positions_of(positions, "V"), faces_of({corners, offsets})};
+}
+
+void check_vertex_count(std::size_t count) {
+  if (count <= kMostVertices) return;
+  raise(ErrorCode::TooLarge, std::to_string(count) + " vertices, but the limit is " + std::to_string(kMostVertices));
 }
 
 // The name of a type with a shape, as "(3,)float64", would run Python code, in which a thread may be ended while it has

@@ -67,6 +67,9 @@ using Faces = std::pair<Input, std::optional<Input>>;
 using Mesh = std::tuple<Input, Input, std::optional<Input>>;
 [[nodiscard]] MeshView mesh_of(const Mesh& mesh);
 
+/// Throws Error{TooLarge} for more vertices than there are ids in Python.
+void check_vertex_count(std::size_t count);
+
 /// An array that owns the values, which Python sees as `T`; writable unless that is const.
 template <class T, class Value>
 Output<T> owned(std::vector<Value>&& values, std::initializer_list<std::size_t> shape) {

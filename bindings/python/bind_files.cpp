@@ -20,7 +20,6 @@
 #include "about.h"
 #include "arrays.h"
 #include "bindings.h"
-#include "graph_copy.h"
 #include "interpreter.h"
 #include "io/file_writer.h"
 #include "io/index_io.h"
@@ -135,16 +134,18 @@ Output<std::uint8_t> to_bytes(const ExactMethod& method) {
   return owned<std::uint8_t>(std::move(bytes));
 }
 
-/// A file that is written, until it is closed.
+/// A file that is written, until it is closed. NumPy and zipfile call `tell` and `flush`.
 class OpenFile {
  public:
   explicit OpenFile(const std::filesystem::path& path) : writer_(std::make_unique<io::FileWriter>(path)) {}
 
   [[nodiscard]] std::uint64_t position() const { return writer().position(); }
   void seek(std::uint64_t position) { writer().seek(position); }
-  void write(const Bytes& bytes) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  /// Any array, as its bytes. Returns their number.
+  std::size_t write(const Input& array) {
+    const std::string_view text(static_cast<const char*>(array.data()), array.nbytes());
     without_lock([&] { writer().write(text); });
+    return text.size();
   }
   void commit() {
     without_lock([this] { writer().commit(); });
@@ -179,7 +180,8 @@ void bind_files(nb::module_& module) {
   module.def("to_bytes", &to_bytes);
   nb::class_<OpenFile>(module, "FileWriter")
       .def(nb::init<const std::filesystem::path&>())
-      .def_prop_ro("position", &OpenFile::position)
+      .def("tell", &OpenFile::position)
+      .def("flush", [](const OpenFile&) {})
       .def("seek", &OpenFile::seek)
       .def("write", &OpenFile::write)
       .def("commit", &OpenFile::commit)

@@ -22,7 +22,6 @@
 #include "about.h"
 #include "arrays.h"
 #include "bindings.h"
-#include "graph_copy.h"
 #include "interpreter.h"
 #include "methods.h"
 #include "shared/coarse_float.h"
@@ -32,6 +31,48 @@ namespace nb = nanobind;
 
 namespace meshhood::python {
 namespace {
+
+/// The first edge of `some` that `all` does not have.
+std::optional<std::pair<std::size_t, VertexId>> first_missing(const AdjacencyView& some, const AdjacencyView& all) {
+  for (std::size_t v = 0; v < some.size(); ++v) {
+    for (const VertexId w : some[v]) {
+      if (!std::ranges::binary_search(all[v], w)) return std::pair(v, w);
+    }
+  }
+  return std::nullopt;
+}
+
+/// Positions that other threads may write to, copied before they are validated; no edges. An error begins with
+/// `argument`.
+GraphData positions_copy(const PositionsView& positions, const char* argument) {
+  GraphData copy;
+  positions.visit([&](const auto& strided) {
+    const auto xyz = strided.packed();
+    copy.positions = std::vector(xyz.begin(), xyz.end());
+  });
+  about(argument, [&] {
+    validate(copy.view().positions);
+    check_vertex_count(positions.size());
+  });
+  return copy;
+}
+
+/// The graph of a mesh whose positions other threads may write to. Copies them first.
+GraphData graph_copy(const MeshView& mesh) {
+  GraphData copy = positions_copy(mesh.positions, "V");
+  copy.adjacency = about("F", [&] { return adjacency({copy.view().positions, mesh.faces}); });
+  return copy;
+}
+
+/// Throws unless the faces are those of the graph: some of its faces, or all of them if edges were cut. So the edges of
+/// one are edges of the other.
+void check_faces(const GraphView& graph, const FacesView& faces) {
+  const Adjacency of_faces = about("F", [&] { return adjacency({graph.positions, faces}); });
+  const auto missing = first_missing(of_faces.view(), graph.adjacency);
+  if (!missing || !first_missing(graph.adjacency, of_faces.view())) return;
+  raise(ErrorCode::InvalidMesh, "F: faces of another mesh: one joins vertices " + std::to_string(missing->first) +
+                                    " and " + std::to_string(missing->second) + ", which the index does not");
+}
 
 std::shared_ptr<ExactMethod> make_exact(const Mesh& given, const std::optional<Input>& cut, unsigned threads,
                                         nb::handle progress) {

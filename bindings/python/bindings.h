@@ -18,13 +18,10 @@ void bind_aggregates(nanobind::module_& module);
 /// The functions that make an index, and the other methods from it.
 void bind_makers(nanobind::module_& module);
 
-/// Areas, volumes and gaps of the surface in a ball.
-void bind_patches(nanobind::module_& module);
-
 /// Regions, connecting radii, rings and nearest vertices.
 void bind_queries(nanobind::module_& module);
 
-/// Surfaces: closest points, and regions as meshes.
+/// Surfaces: closest points, regions as meshes, and areas, volumes and gaps of the surface in a ball.
 nanobind::class_<Surface> bind_surface(nanobind::module_& module);
 
 /// Curvature, of surfaces too.

@@ -72,7 +72,6 @@ NB_MODULE(_core, module) {
   meshhood::python::bind_methods(module);
   meshhood::python::bind_aggregates(module);
   meshhood::python::bind_makers(module);
-  meshhood::python::bind_patches(module);
   meshhood::python::bind_queries(module);
   auto surface = meshhood::python::bind_surface(module);
   meshhood::python::bind_curvature(module, surface);
