@@ -50,13 +50,8 @@ auto read(const std::filesystem::path& path, std::size_t scalar_bytes, unsigned 
         return owned_positions(std::move(xyz));
       },
       mesh.positions);
-  std::vector<std::string> warnings;
-  warnings.reserve(mesh.warnings.size());
-  for (const auto& [what, count, place] : mesh.warnings) {
-    std::string& warning = warnings.emplace_back(place);
-    warning.append(place.empty() ? "" : ": ").append(what);
-    if (count > 1) warning.append(" (").append(std::to_string(count)).append(" times)");
-  }
+  std::vector<std::string> warnings(mesh.warnings.size());
+  std::ranges::transform(mesh.warnings, warnings.begin(), &io::Warning::text);
   return std::tuple(std::move(positions), owned<std::int32_t>(std::move(mesh.corners)),
                     owned<std::int64_t>(std::move(mesh.offsets)), std::move(warnings));
 }

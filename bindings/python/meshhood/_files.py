@@ -135,9 +135,7 @@ def write_mesh(
 
 
 def _scalars(numbers: Any, name: str, count: int) -> NDArray[np.float32]:
-    array = _convert.as_array(numbers, name)
-    if array.dtype.kind not in "biuf":
-        raise TypeError(f"{name}: expected numbers, not {array.dtype}")
+    array = _convert.numbers(numbers, name, "biuf")
     if array.shape not in ((count,), (count, 3)):
         raise ValueError(f"{name}: expected an array of shape ({count},) or ({count}, 3), not {array.shape}")
     return np.ascontiguousarray(array, np.float32)

@@ -124,6 +124,9 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         then numbers of edges. "space", the vertices within `r` in space, connected or not; calls about what is
         connected refuse it.
     unit : of `r` and `scales`: "mesh" is that of V, "edge" is `mean_edge_length`.
+    F : other faces than those that the index keeps, or a mesh. What is made of them, such as normals, is kept for the
+        next call with the same faces.
+    max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
     workers, progress : as above. Progress is over all scales. The result does not depend on `workers`.
 
     Vertices are numbered as in V, with int32 ids; at most 2^31 - 1 vertices. V and F are copied: later changes have no
@@ -290,8 +293,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
 
         r, vertices, scales, metric, walls, ignored, unit, workers, progress : see `MeshIndex`.
         return_distance, sort, method, dtype : see `neighborhood`.
-        max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free. A
-            sample of the rows usually shows this within a second.
+        max_bytes : see `MeshIndex`. A sample of the rows usually shows within a second that a result is larger.
 
         `indptr` is int32 if it fits, else int64; `indices` are int32. The arrays are new. All rows are in memory at
         once; to avoid that, use `iter_neighborhoods`.

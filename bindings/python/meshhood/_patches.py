@@ -124,10 +124,8 @@ class Patches(Held):
         the ball, and do not depend on how the surface is divided into triangles.
 
         r : one radius, or one for each row. A point at exactly `r` counts.
-        vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`. Ignored vertices have no effect.
+        vertices, scales, F, walls, ignored, unit, workers, progress : see `MeshIndex`. Ignored vertices have no effect.
         metric : "straight" alone, as a patch is in a ball.
-        F : other faces than those that the index keeps. What is made of the faces is kept for the next call with the
-            same faces.
 
         Returns `Invariants`: area, volume. A row depends on the index, the faces, its vertex and the radius alone.
 

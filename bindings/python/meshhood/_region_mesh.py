@@ -15,8 +15,8 @@ from ._mesh import whole_mesh_arrays
 from ._optional import optional
 from ._poly_data import poly_data
 from ._repr import shown_in_a_line
+from ._types import Ids
 
-Ids = NDArray[np.int32]
 Corners = Literal["all", "any"]
 
 

@@ -50,10 +50,8 @@ class Shape(Held):
     ) -> Curvature:
         """Principal curvatures of `vertices` by a quadric that is fitted to their neighborhoods.
 
-        r, vertices, scales, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
+        r, vertices, scales, F, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
         dtype : of the numbers of the result, float64 unless given. All is computed in float64.
-        F : other faces than those that the index keeps, or a mesh. The normals are kept for the next call with the same
-            faces.
         normals : (#V, 3), instead of those of the faces; of any length. NaN where a vertex has none.
         like : "libigl" gives the values of igl.principal_curvature. Its shape operator is wrong where the fitted
             quadric is tilted against the normal, and its neighborhoods have the vertices nearer than `r`.
@@ -197,13 +195,13 @@ class Shape(Held):
     ) -> Floats:
         """Feature vectors without unit, so that scales can be compared.
 
-        r, vertices, scales, walls, ignored, metric, unit, workers, progress : see `MeshIndex`; scales are for example
+        r, vertices, scales, F, walls, ignored, metric, unit, workers, progress : see `MeshIndex`; scales are for example
             `geometric_radii(a, b, count)`. Radii are > 0. With metric="rings", `r` edges count as `r` times the mean
             length of an edge.
         kinds : one name or several of crease, mean, gaussian, k1, k2, curvedness, shape_index, area, volume, gap,
             height, variation. See docs/curvature.md for what they mean. area, volume and gap are those of `invariants`
             and `gaps`: of the surface, for metric="straight" alone.
-        F, filter, dtype : as for `curvature`.
+        filter, dtype : as for `curvature`.
 
         Returns (#scales, #rows, #kinds), without the first axis if there is one `r`, and without the last if
         `kinds` is one name. NaN where there is no result. `persistence` finds over how many scales a feature lasts. As

@@ -176,9 +176,7 @@ class SurfaceQueries(Held):
         points (n, 3) or [], four arrays.
 
         q : 3 numbers, or (n, 3).
-        F : other faces than those that the index keeps. What is made of the faces is kept for the next call with the
-            same faces.
-        workers, progress : as for `MeshIndex`, for many points.
+        F, workers, progress : see `MeshIndex`; workers are for many points.
 
         face : an int, or (n,) int64, the row of F. Of several faces at the same distance, the one with the smallest
             number; faces that meet at a side or a corner have the same distance there, bit for bit.
@@ -293,9 +291,8 @@ class SurfaceQueries(Held):
             the length of the shortest path along edges, "rings": by the number of edges; each then by place in index
             order.
         fill : the id where a row has fewer than `k` vertices; the distance there is inf.
-        vertices, walls, ignored, unit, workers, progress : see `MeshIndex`. A row whose vertex is a wall is empty. The
-            distances have the unit of V.
-        max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
+        vertices, walls, ignored, unit, max_bytes, workers, progress : see `MeshIndex`. A row whose vertex is a wall is
+            empty. The distances have the unit of V.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> ids, distances = index.k_nearest(20)
@@ -329,8 +326,7 @@ class SurfaceQueries(Held):
         at least `area`; all where they do not. Returns `Discs(indptr, ids, distances)`.
 
         area : > 0, in the square of the unit of V.
-        weights : (#V,), or "area" for `vertex_areas`.
-        F : other faces than those that the index keeps, for weights="area".
+        weights : (#V,), or "area" for `vertex_areas`, of `F` (see `MeshIndex`).
         max_bytes : refuse a larger result with MemoryError; by default, one larger than half of the memory that is free,
             because it is held twice. A sample of the rows usually shows this within a second.
         The other arguments are those of `k_nearest`.

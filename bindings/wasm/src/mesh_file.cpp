@@ -50,11 +50,7 @@ extern "C" {
 /// One line for each warning, and their length.
 [[clang::export_name("mesh_warnings")]] const char* mesh_warnings() {
   warnings.clear();
-  for (const io::Warning& warning : file_mesh.warnings) {
-    warnings += warning.first_place + (warning.first_place.empty() ? "" : ": ") + warning.what;
-    if (warning.count > 1) warnings += " (" + std::to_string(warning.count) + " times)";
-    warnings += '\n';
-  }
+  for (const io::Warning& warning : file_mesh.warnings) warnings += warning.text() + '\n';
   return warnings.data();
 }
 

@@ -37,10 +37,9 @@ extern "C" {
 [[clang::export_name("rim")]] void rim(const VertexId* ids, std::size_t count, double x, double y, double z,
                                        double radius) {
   const Rim outline = workspace.surface().rim({ids, count}, {x, y, z}, radius);
-  answer.reals.clear();
-  for (const SpacePoint& point : outline.points) answer.reals.insert(answer.reals.end(), point.begin(), point.end());
-  answer.ids.clear();
-  for (const auto& edge : outline.edges) answer.ids.insert(answer.ids.end(), edge.begin(), edge.end());
+  answer = {};
+  append_rows(answer.reals, outline.points);
+  append_rows(answer.ids, outline.edges);
   answer.counts.assign(outline.offsets.begin(), outline.offsets.end());
   answer.counts.insert(answer.counts.end(), outline.closed.begin(), outline.closed.end());
 }
