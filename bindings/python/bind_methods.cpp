@@ -164,7 +164,7 @@ auto stored_faces(const nb::object& self) {
 
 }  // namespace
 
-void bind_methods(nb::module_& module) {
+nb::class_<ExactMethod, Method> bind_methods(nb::module_& module) {
   nb::enum_<Metric>(module, "Metric")
       .value("straight", Metric::Straight)
       .value("path", Metric::Path)
@@ -181,8 +181,8 @@ void bind_methods(nb::module_& module) {
       .def("neighborhoods", &many, nb::arg(), nb::arg("distances"), nb::arg("sorted"))
       .def("counts", &many_counts);
   module.def("are_same_masks", &are_same_masks, nb::arg().none(), nb::arg().none());
-  nb::class_<ExactMethod, Method>(module, "ExactMethod")
-      .def("masked", &masked_method, nb::arg("walls").none(), nb::arg("ignored").none())
+  nb::class_<ExactMethod, Method> exact(module, "ExactMethod");
+  exact.def("masked", &masked_method, nb::arg("walls").none(), nb::arg("ignored").none())
       .def("quality",
            [](const ExactMethod& method) {
              const Quality found = without_lock([&] { return quality(method.index()); });
@@ -195,6 +195,7 @@ void bind_methods(nb::module_& module) {
   module.def("nearest_unconnected", &unconnected);
   module.def("k_nearest", &k_nearest_of, nb::arg(), nb::arg(), nb::arg("k"));
   module.def("discs", &discs_of, nb::arg(), nb::arg(), nb::arg("area"), nb::arg("areas"));
+  return exact;
 }
 
 }  // namespace meshhood::python

@@ -34,7 +34,6 @@ class Held:
     _methods: Methods
     _last_surface: tuple[Any, Any]  # the key of its faces, and the surface
     _last_patches: tuple[Any, Any]  # likewise
-    _queries: Any
     _count: int
     _whole: Optional[Held]
     _no_position: Any  # the mask of the vertices without a position, or None
@@ -53,7 +52,6 @@ class Held:
         self._methods = Methods(exact, None if whole is None else whole._methods)
         self._last_surface = (None, None)
         self._last_patches = (None, None)
-        self._queries = _core.queries(exact)
         self._count = exact.vertex_count
 
     def _method(self, method: Any, metric: Any) -> Any:
