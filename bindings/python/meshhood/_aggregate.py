@@ -27,8 +27,6 @@ Missing = Literal["propagate", "omit"]
 Nesting = Literal["own", "patch"]
 Kernel = Literal["epanechnikov", "biweight", "gaussian"]
 
-_KERNELS = ("epanechnikov", "biweight", "gaussian")
-
 
 def smoothing_radius(fwhm: Number) -> float:
     """The radius of the kernel "gaussian" of this full width at half maximum, in the same unit, at which its weight is
@@ -138,11 +136,12 @@ class Aggregates(Held):
         names, axis = read_reductions(reduce)
         shape = rows.shape + given.shape[1:] + axis
         check_size(shape, 8, max_bytes)
+        falling = "box" if kernel is None else _convert.choice(kernel, "kernel", get_args(Kernel))
         options = {
             "reduce": [getattr(_core.Reduce, name) for name in names],
-            "kernel": getattr(_core.SmoothingKernel, _kernel(kernel)),
-            "missing": getattr(_core.MissingValues, _convert.choice(nan, "nan", ("propagate", "omit"))),
-            "nesting": getattr(_core.Nesting, _convert.choice(nesting, "nesting", ("own", "patch"))),
+            "kernel": getattr(_core.SmoothingKernel, falling),
+            "missing": getattr(_core.MissingValues, _convert.choice(nan, "nan", get_args(Missing))),
+            "nesting": getattr(_core.Nesting, _convert.choice(nesting, "nesting", get_args(Nesting))),
             "ddof": _convert.integer(ddof, "ddof", 0, 1),
             "quantile": _convert.share(q, "q"),
         }
@@ -310,12 +309,6 @@ def area_weights(index: Held, weights: Any, F: Any) -> Any:
     if wrong.size:
         raise ValueError(f"weights: vertex {wrong[0]}: {array[wrong[0]]}, expected a finite number >= 0")
     return array
-
-
-def _kernel(kernel):
-    if kernel is None:
-        return "box"
-    return _convert.choice(kernel, "kernel", _KERNELS)
 
 
 def _copied(values, name, kinds):
