@@ -54,6 +54,11 @@ Mesh read(ByteSource& source, const std::string& name, const ReadOptions& option
 
 }  // namespace
 
+std::string Warning::text() const {
+  return fmt::format("{}{}{}{}", first_place, first_place.empty() ? "" : ": ", what,
+                     count > 1 ? fmt::format(" ({} times)", count) : "");
+}
+
 Mesh read_format(Format format, InputBuffer& input, const ReaderOptions& options) {
   switch (format) {
     case Format::Ply: return read_ply(input, options);

@@ -57,6 +57,9 @@ struct Warning {
   std::string what;         ///< "data after the last element", ...
   std::uint64_t count = 1;  ///< how often it occurs
   std::string first_place;  ///< where it occurs first: "line 12", "byte 1048621"; empty if it concerns the whole mesh
+
+  /// All in a sentence: "line 12: data after the last element (3 times)".
+  [[nodiscard]] std::string text() const;
 };
 
 /// A mesh read from a file.

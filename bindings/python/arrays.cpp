@@ -2,8 +2,11 @@
 #include "arrays.h"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
+
+#include "meshhood/error.h"
 
 #include "interpreter.h"
 
@@ -11,6 +14,9 @@ namespace nb = nanobind;
 
 namespace meshhood::python {
 namespace {
+
+// Ids are int32 in Python, as SciPy's sparse matrices have them.
+constexpr std::size_t kMostVertices = std::numeric_limits<std::int32_t>::max();
 
 template <class T>
 bool holds(const Input& array) {
@@ -42,9 +48,20 @@ IndicesView indices_of(const Input& array, const char* argument) {
   refuse(argument, "integers of 32 or 64 bits");
 }
 
-FacesView faces_of(const Input& corners, const std::optional<Input>& offsets) {
+FacesView faces_of(const Faces& faces) {
+  const auto& [corners, offsets] = faces;
   const IndicesView flat = indices_of(corners, "F");
   return offsets ? FacesView::polygons(indices_of(*offsets, "F"), flat) : FacesView::triangles(flat);
+}
+
+MeshView mesh_of(const Mesh& mesh) {
+  const auto& [positions, corners, offsets] = mesh;
+  return {positions_of(positions, "V"), faces_of({corners, offsets})};
+}
+
+void check_vertex_count(std::size_t count) {
+  if (count <= kMostVertices) return;
+  raise(ErrorCode::TooLarge, std::to_string(count) + " vertices, but the limit is " + std::to_string(kMostVertices));
 }
 
 // The name of a type with a shape, as "(3,)float64", would run Python code, in which a thread may be ended while it has

@@ -7,11 +7,23 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+// All conversions of nanobind that any source uses: those of a type must be the same in all of them.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
 
 #include "meshhood/mesh.h"
 #include "meshhood/start.h"
@@ -47,8 +59,16 @@ using Output = nanobind::ndarray<nanobind::numpy, T>;
 [[nodiscard]] PositionsView positions_of(const Input& array, const char* argument);
 [[nodiscard]] IndicesView indices_of(const Input& array, const char* argument);
 
-/// Triangles, or polygons if there are offsets; of the argument F.
-[[nodiscard]] FacesView faces_of(const Input& corners, const std::optional<Input>& offsets);
+/// Corners, and offsets unless all faces are triangles; of the argument F.
+using Faces = std::pair<Input, std::optional<Input>>;
+[[nodiscard]] FacesView faces_of(const Faces& faces);
+
+/// Positions, corners and offsets; of the arguments V and F.
+using Mesh = std::tuple<Input, Input, std::optional<Input>>;
+[[nodiscard]] MeshView mesh_of(const Mesh& mesh);
+
+/// Throws Error{TooLarge} for more vertices than there are ids in Python.
+void check_vertex_count(std::size_t count);
 
 /// An array that owns the values, which Python sees as `T`; writable unless that is const.
 template <class T, class Value>
@@ -66,6 +86,13 @@ template <class T, class Value>
 auto owned(std::vector<Value>&& values) {
   const std::size_t size = values.size();
   return owned<T>(std::move(values), {size});
+}
+
+/// Positions, #V by 3.
+template <class Real>
+nanobind::object owned_positions(std::vector<Real>&& xyz) {
+  const std::size_t size = xyz.size() / 3;
+  return nanobind::cast(owned<Real>(std::move(xyz), {size, 3}));
 }
 
 /// An array in memory of NumPy, of `rows` values, or by `columns` if these are not 0, that are not set. For large

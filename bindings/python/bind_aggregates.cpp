@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
-
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/variant.h>
-#include <nanobind/stl/vector.h>
 
 #include "meshhood/aggregate.h"
 
@@ -34,21 +27,21 @@ SignalView signal_of(const Values& values, const std::optional<Reals>& weights) 
 }
 
 /// A flat array, #scales by #rows by channels by #reductions.
-nb::object aggregates(const ExactMethod& method, const Values& values, const std::optional<Reals>& weights,
-                      const std::optional<Ids>& vertices, const Radius& radius, std::vector<Reduce> reduce,
-                      SmoothingKernel kernel, MissingValues missing, Nesting nesting, unsigned ddof, double quantile,
-                      unsigned threads, std::uint64_t max_bytes, nb::handle progress, Metric metric) {
+nb::object aggregates(const ExactMethod& method, const Call& call, const Values& values,
+                      const std::optional<Reals>& weights, std::vector<Reduce> reduce, SmoothingKernel kernel,
+                      MissingValues missing, Nesting nesting, unsigned ddof, double quantile) {
   const SignalView signal = signal_of(values, weights);
-  const AggregateQuery query{.vertices = vertices_of(vertices),
-                             .radius = radius_of(radius),
-                             .metric = metric,
+  const BatchQuery rows = call.query();
+  const AggregateQuery query{.vertices = rows.vertices,
+                             .radius = rows.radius,
+                             .metric = rows.metric,
                              .reduce = std::move(reduce),
                              .kernel = kernel,
                              .missing = missing,
                              .nesting = nesting,
                              .ddof = ddof,
                              .quantile = quantile};
-  const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
+  const Run run = call.run();
   nb::object result = unset(aggregate_size(method.index(), signal, query, run), "float64");
   const std::span<double> numbers = values_of<double>(result);
   without_lock([&] { aggregate(method.index(), signal, query, numbers, run); });
@@ -66,8 +59,8 @@ Output<double> smoothing_weights(SmoothingKernel kernel, const Reals& distances,
   return owned<double>(std::move(weights));
 }
 
-Output<double> areas(const Input& positions, const Input& corners, const std::optional<Input>& offsets) {
-  const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
+Output<double> areas(const Mesh& given) {
+  const MeshView mesh = mesh_of(given);
   return owned<double>(without_lock([&] { return vertex_areas(mesh); }));
 }
 
@@ -92,17 +85,11 @@ void bind_aggregates(nb::module_& module) {
   nb::enum_<MissingValues>(module, "MissingValues")
       .value("propagate", MissingValues::Propagate)
       .value("omit", MissingValues::Omit);
-  nb::enum_<Metric>(module, "Metric")
-      .value("straight", Metric::Straight)
-      .value("path", Metric::Path)
-      .value("rings", Metric::Rings)
-      .value("space", Metric::Space);
   nb::enum_<Nesting>(module, "Nesting").value("own", Nesting::Own).value("patch", Nesting::Patch);
-  module.def("aggregate", &aggregates, nb::arg(), nb::arg("values"), nb::arg("weights").none(),
-             nb::arg("vertices").none(), nb::arg("radius"), nb::arg("reduce"), nb::arg("kernel"), nb::arg("missing"),
-             nb::arg("nesting"), nb::arg("ddof"), nb::arg("quantile"), nb::arg("threads"), nb::arg("max_bytes"),
-             nb::arg("progress").none(), nb::arg("metric") = Metric::Straight);
-  module.def("vertex_areas", &areas, nb::arg("V"), nb::arg("F"), nb::arg("offsets").none());
+  module.def("aggregate", &aggregates, nb::arg(), nb::arg(), nb::arg("values"), nb::arg("weights").none(),
+             nb::arg("reduce"), nb::arg("kernel"), nb::arg("missing"), nb::arg("nesting"), nb::arg("ddof"),
+             nb::arg("quantile"));
+  module.def("vertex_areas", &areas);
   module.def("smoothing_radius", &smoothing_radius, nb::arg());
   module.def("smoothing_weights", &smoothing_weights, nb::arg("kernel"), nb::arg("distances"), nb::arg("radii"));
 }

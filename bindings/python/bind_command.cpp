@@ -6,13 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include <nanobind/nanobind.h>
-#include <nanobind/stl/pair.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/vector.h>
-
 #include "meshhood/error.h"
 
+#include "arrays.h"
 #include "bindings.h"
 #include "cli/program.h"
 #include "interpreter.h"

@@ -2,21 +2,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
+#include <string>
 #include <tuple>
 #include <utility>
-#include <variant>
 #include <vector>
-
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/tuple.h>
-#include <nanobind/stl/variant.h>
-#include <nanobind/stl/vector.h>
 
 #include "meshhood/corrected_curvature.h"
 #include "meshhood/curvature.h"
+#include "meshhood/error.h"
 #include "meshhood/features.h"
 #include "meshhood/moments.h"
 
@@ -31,13 +24,12 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
-auto curvatures_of(const Surface& surface, const std::optional<Ids>& vertices, const Radius& radius, bool libigl,
-                   bool jet, bool filter, unsigned threads, nb::handle progress, Metric metric) {
+auto curvatures_of(const Surface& surface, const Call& call, bool libigl, bool jet, bool filter) {
   CurvatureOptions options = libigl ? like_libigl() : CurvatureOptions{};
   options.fit = jet ? CurvatureFit::Jet : CurvatureFit::Quadric;
   options.filter = filter;
-  const Run run{.threads = threads, .progress = progress_to(progress)};
-  const BatchQuery query = query_of(vertices, radius, metric);
+  const Run run = call.run();
+  const BatchQuery query = call.query();
   const std::size_t rows = query.result_rows(surface.vertex_count());
   const nb::object k1 = unset(rows, "float64");
   const nb::object k2 = unset(rows, "float64");
@@ -57,11 +49,9 @@ auto curvatures_of(const Surface& surface, const std::optional<Ids>& vertices, c
   return std::tuple(k1, k2, nb::object(vectors[0]), nb::object(vectors[1]), state, count);
 }
 
-auto corrected_curvatures_of(const Surface& surface, const std::optional<Ids>& vertices, const Radius& radius,
-                             unsigned threads, nb::handle progress, Metric metric) {
-  const BatchQuery query = query_of(vertices, radius, metric);
-  const Run run{.threads = threads, .progress = progress_to(progress)};
-  CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, query, run); });
+auto corrected_curvatures_of(const Surface& surface, const Call& call) {
+  const Run run = call.run();
+  CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, call.query(), run); });
   const std::size_t rows = found.area.size();
   const auto vectors = [rows](std::vector<double>& values, std::size_t columns) {
     return owned<double>(std::move(values), {rows, columns});
@@ -78,36 +68,42 @@ MomentOptions moment_options(unsigned degree, const std::optional<Reals>& weight
   return options;
 }
 
-Output<double> moments_of(const ExactMethod& method, const std::optional<Ids>& vertices, const Radius& radius,
-                          unsigned degree, const std::optional<Reals>& weights, unsigned threads, nb::handle progress,
-                          Metric metric) {
-  const BatchQuery query = query_of(vertices, radius, metric);
+Output<double> moments_of(const ExactMethod& method, const Call& call, unsigned degree,
+                          const std::optional<Reals>& weights) {
   const MomentOptions options = moment_options(degree, weights);
-  const Run run{.threads = threads, .progress = progress_to(progress)};
-  std::vector<double> found = without_lock([&] { return moments(method.index(), query, options, run); });
+  const Run run = call.run();
+  std::vector<double> found = without_lock([&] { return moments(method.index(), call.query(), options, run); });
   const std::size_t columns = moment_count(degree);
   const std::size_t rows = found.size() / columns;
   return owned<double>(std::move(found), {rows, columns});
 }
 
-auto components_of(const ExactMethod& method, const std::optional<Ids>& vertices, const Radius& radius,
-                   const std::optional<Reals>& weights, unsigned threads, nb::handle progress, Metric metric) {
-  const BatchQuery query = query_of(vertices, radius, metric);
+auto components_of(const ExactMethod& method, const Call& call, const std::optional<Reals>& weights) {
   const MomentOptions options = moment_options(0, weights);
-  const Run run{.threads = threads, .progress = progress_to(progress)};
-  PrincipalComponents found = without_lock([&] { return principal_components(method.index(), query, options, run); });
+  const Run run = call.run();
+  PrincipalComponents found =
+      without_lock([&] { return principal_components(method.index(), call.query(), options, run); });
   const std::size_t rows = found.weight.size();
   return std::tuple(owned<double>(std::move(found.weight)), owned<double>(std::move(found.center), {rows, 3}),
                     owned<double>(std::move(found.variances), {rows, 3}),
                     owned<double>(std::move(found.axes), {rows, 3, 3}));
 }
 
-Output<double> features_of(const Surface& surface, const std::optional<Ids>& vertices, const Radius& radius,
-                           std::vector<Feature> kinds, bool filter, unsigned threads, nb::handle progress,
-                           Metric metric) {
-  const BatchQuery query = query_of(vertices, radius, metric);
+/// Calls `f`. An error of a radius names the argument `scales` if that has it; the module names `r`.
+template <class F>
+auto about_radii(const BatchRadius& radius, F&& f) {
+  try {
+    return std::forward<F>(f)();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::InvalidRadius || !radius.scales()) throw;
+    raise(ErrorCode::InvalidOption, std::string("scales: ") + error.what());
+  }
+}
+
+Output<double> features_of(const Surface& surface, const Call& call, std::vector<Feature> kinds, bool filter) {
+  const BatchQuery query = call.query();
   const FeatureOptions options{.kinds = std::move(kinds), .areas = {}, .filter = filter};
-  const Run run{.threads = threads, .progress = progress_to(progress)};
+  const Run run = call.run();
   std::vector<double> found =
       without_lock([&] { return about_radii(query.radius, [&] { return features(surface, query, options, run); }); });
   const std::size_t rows = found.size() / options.kinds.size();
@@ -120,9 +116,8 @@ auto persistence_of(const Reals& values, const Reals& radii, double threshold) {
                     owned<double>(std::move(found.radius)));
 }
 
-double radius_of_libigl(const Input& positions, const Input& corners, const std::optional<Input>& offsets,
-                        double edges) {
-  const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
+double radius_of_libigl(const Mesh& given, double edges) {
+  const MeshView mesh = mesh_of(given);
   return without_lock([&] { return libigl_radius(mesh, edges); });
 }
 
@@ -142,17 +137,11 @@ void bind_curvature(nb::module_& module, nb::class_<Surface>& surface) {
       .value("gap", Feature::Gap)
       .value("height", Feature::Height)
       .value("variation", Feature::Variation);
-  surface
-      .def("curvatures", &curvatures_of, nb::arg().none(), nb::arg(), nb::arg("libigl"), nb::arg("jet"),
-           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"))
-      .def("corrected", &corrected_curvatures_of, nb::arg().none(), nb::arg(), nb::arg("threads"),
-           nb::arg("progress").none(), nb::arg("metric"))
-      .def("features", &features_of, nb::arg().none(), nb::arg(), nb::arg("kinds"), nb::arg("filter"),
-           nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"));
-  module.def("moments", &moments_of, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("degree"),
-             nb::arg("weights").none(), nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"));
-  module.def("principal_components", &components_of, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("weights").none(),
-             nb::arg("threads"), nb::arg("progress").none(), nb::arg("metric"));
+  surface.def("curvature", &curvatures_of, nb::arg(), nb::arg("libigl"), nb::arg("jet"), nb::arg("filter"))
+      .def("corrected_curvature", &corrected_curvatures_of)
+      .def("features", &features_of, nb::arg(), nb::arg("kinds"), nb::arg("filter"));
+  module.def("moments", &moments_of, nb::arg(), nb::arg(), nb::arg("degree"), nb::arg("weights").none());
+  module.def("principal_components", &components_of, nb::arg(), nb::arg(), nb::arg("weights").none());
   module.def("persistence", &persistence_of, nb::arg("values"), nb::arg("radii"), nb::arg("threshold"));
   module.def(
       "geometric_radii",
@@ -160,7 +149,7 @@ void bind_curvature(nb::module_& module, nb::class_<Surface>& surface) {
         return owned<double>(geometric_radii(smallest, largest, count));
       },
       nb::arg("smallest"), nb::arg("largest"), nb::arg("count"));
-  module.def("libigl_radius", &radius_of_libigl, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("edges"));
+  module.def("libigl_radius", &radius_of_libigl, nb::arg(), nb::arg("edges"));
 }
 
 }  // namespace meshhood::python

@@ -15,25 +15,16 @@
 #include <variant>
 #include <vector>
 
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
-#include <nanobind/stl/filesystem.h>
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
-#include <nanobind/stl/shared_ptr.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/tuple.h>
-#include <nanobind/stl/vector.h>
-
 #include "meshhood/serialize.h"
 
+#include "about.h"
 #include "arrays.h"
 #include "bindings.h"
-#include "graph_copy.h"
 #include "interpreter.h"
 #include "io/file_writer.h"
 #include "io/index_io.h"
 #include "io/mesh_io.h"
+#include "io/weld.h"
 #include "methods.h"
 
 namespace nb = nanobind;
@@ -56,17 +47,11 @@ auto read(const std::filesystem::path& path, std::size_t scalar_bytes, unsigned 
         for (std::size_t v = 0; v < walls.size(); ++v) {  // as in the file; an index makes them walls again
           if (walls[v] != 0) std::fill_n(&xyz[3 * v], 3, std::numeric_limits<Real>::quiet_NaN());
         }
-        const std::size_t size = xyz.size() / 3;
-        return nb::cast(owned<Real>(std::move(xyz), {size, 3}));
+        return owned_positions(std::move(xyz));
       },
       mesh.positions);
-  std::vector<std::string> warnings;
-  warnings.reserve(mesh.warnings.size());
-  for (const auto& [what, count, place] : mesh.warnings) {
-    std::string& warning = warnings.emplace_back(place);
-    warning.append(place.empty() ? "" : ": ").append(what);
-    if (count > 1) warning.append(" (").append(std::to_string(count)).append(" times)");
-  }
+  std::vector<std::string> warnings(mesh.warnings.size());
+  std::ranges::transform(mesh.warnings, warnings.begin(), &io::Warning::text);
   return std::tuple(std::move(positions), owned<std::int32_t>(std::move(mesh.corners)),
                     owned<std::int64_t>(std::move(mesh.offsets)), std::move(warnings));
 }
@@ -75,10 +60,10 @@ using Scalars = nb::ndarray<const float, nb::c_contig, nb::device::cpu>;
 using Colors = nb::ndarray<const std::uint8_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
 /// `values`: named scalars (#V) or vectors (#V by 3). `walls`: of those without a position, as `place` returns them.
-void write(const std::filesystem::path& path, const Input& positions, const Input& corners,
-           const std::optional<Input>& offsets, const std::vector<std::pair<std::string, Scalars>>& values,
-           const std::optional<Colors>& colors, const std::optional<Bytes>& walls, bool vtk) {
-  const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
+void write(const std::filesystem::path& path, const Mesh& given,
+           const std::vector<std::pair<std::string, Scalars>>& values, const std::optional<Colors>& colors,
+           const std::optional<Bytes>& walls, bool vtk) {
+  const MeshView mesh = mesh_of(given);
   std::vector<io::VertexProperty> properties;
   properties.reserve(values.size());
   for (const auto& [name, numbers] : values) {
@@ -94,12 +79,27 @@ void write(const std::filesystem::path& path, const Input& positions, const Inpu
   });
 }
 
-/// `faces`: corners and offsets, to be saved with the index.
-void save_file(const ExactMethod& method, const std::filesystem::path& path,
-               const std::optional<std::pair<Input, std::optional<Input>>>& faces, nb::handle progress) {
+/// Returns positions (#kept by 3), corners, offsets (empty for triangles), and the new id of each vertex.
+auto weld(const Mesh& given, double eps) {
+  const MeshView mesh = mesh_of(given);
+  io::WeldedMesh welded = without_lock([&] {
+    about("V", [&] {
+      validate(mesh.positions);
+      check_vertex_count(mesh.positions.size());
+    });
+    return about("F", [&] { return io::weld(mesh, eps); });
+  });
+  nb::object kept = std::visit([](auto& xyz) { return owned_positions(std::move(xyz)); }, welded.positions);
+  return std::tuple(std::move(kept), owned<std::int32_t>(std::move(welded.corners)),
+                    owned<std::int64_t>(std::move(welded.offsets)), owned<std::int32_t>(std::move(welded.ids)));
+}
+
+/// `faces`: to be saved with the index.
+void save_file(const ExactMethod& method, const std::filesystem::path& path, const std::optional<Faces>& faces,
+               nb::handle progress) {
   SaveOptions options;
   const Run run{.progress = progress_to(progress)};
-  if (faces) options.faces = faces_of(faces->first, faces->second);
+  if (faces) options.faces = faces_of(*faces);
   without_lock([&] { io::save(path, method.index(), options, run); });
 }
 
@@ -129,16 +129,18 @@ Output<std::uint8_t> to_bytes(const ExactMethod& method) {
   return owned<std::uint8_t>(std::move(bytes));
 }
 
-/// A file that is written, until it is closed.
+/// A file that is written, until it is closed. NumPy and zipfile call `tell` and `flush`.
 class OpenFile {
  public:
   explicit OpenFile(const std::filesystem::path& path) : writer_(std::make_unique<io::FileWriter>(path)) {}
 
   [[nodiscard]] std::uint64_t position() const { return writer().position(); }
   void seek(std::uint64_t position) { writer().seek(position); }
-  void write(const Bytes& bytes) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  /// Any array, as its bytes. Returns their number.
+  std::size_t write(const Input& array) {
+    const std::string_view text(static_cast<const char*>(array.data()), array.nbytes());
     without_lock([&] { writer().write(text); });
+    return text.size();
   }
   void commit() {
     without_lock([this] { writer().commit(); });
@@ -163,8 +165,9 @@ std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
 }  // namespace
 
 void bind_files(nb::module_& module) {
-  module.def("write_mesh", &write, nb::arg(), nb::arg("V"), nb::arg("F"), nb::arg("offsets").none(), nb::arg("values"),
-             nb::arg("colors").none(), nb::arg("walls").none(), nb::arg("vtk"));
+  module.def("write_mesh", &write, nb::arg(), nb::arg(), nb::arg("values"), nb::arg("colors").none(),
+             nb::arg("walls").none(), nb::arg("vtk"));
+  module.def("weld", &weld, nb::arg(), nb::arg("eps"));
   module.def("read_mesh", &read, nb::arg("path"), nb::arg("scalar_bytes"), nb::arg("threads"),
              nb::arg("progress").none());
   module.def("save", &save_file, nb::arg(), nb::arg("path"), nb::arg("faces").none(), nb::arg("progress").none());
@@ -172,7 +175,8 @@ void bind_files(nb::module_& module) {
   module.def("to_bytes", &to_bytes);
   nb::class_<OpenFile>(module, "FileWriter")
       .def(nb::init<const std::filesystem::path&>())
-      .def_prop_ro("position", &OpenFile::position)
+      .def("tell", &OpenFile::position)
+      .def("flush", [](const OpenFile&) {})
       .def("seek", &OpenFile::seek)
       .def("write", &OpenFile::write)
       .def("commit", &OpenFile::commit)

@@ -7,20 +7,14 @@
 #include <span>
 #include <tuple>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
-#include <nanobind/stl/shared_ptr.h>
-#include <nanobind/stl/tuple.h>
-#include <nanobind/stl/variant.h>
-
+#include "meshhood/k_nearest.h"
 #include "meshhood/masks.h"
 #include "meshhood/refit.h"
+#include "meshhood/unconnected.h"
 
+#include "about.h"
 #include "arrays.h"
 #include "batch_query.h"
 #include "bindings.h"
@@ -33,31 +27,91 @@ namespace meshhood::python {
 namespace {
 
 Output<std::int32_t> one(Method& method, VertexId v, double radius) {
-  Answer answer = method.neighborhood(v, radius, false);
-  return owned<std::int32_t>(std::move(answer.ids));
+  return owned<std::int32_t>(method.with_searcher([&](auto& searcher) {
+    std::vector<VertexId> ids;
+    searcher.neighborhood(v, radius, ids);
+    return ids;
+  }));
 }
 
 auto one_with_distances(Method& method, VertexId v, double radius) {
-  Answer answer = method.neighborhood(v, radius, true);
-  return std::pair(owned<std::int32_t>(std::move(answer.ids)), owned<double>(std::move(answer.distances)));
+  std::vector<double> distances;
+  std::vector<VertexId> found = method.with_searcher([&](auto& searcher) {
+    std::vector<VertexId> ids;
+    searcher.neighborhood(v, radius, ids, distances);
+    return ids;
+  });
+  return std::pair(owned<std::int32_t>(std::move(found)), owned<double>(std::move(distances)));
 }
 
-auto many(Method& method, const std::optional<Ids>& vertices, const Radius& radius, bool distances, bool sorted,
-          unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
-  const BatchQuery query = query_of(vertices, radius);
+std::size_t count_of_one(Method& method, VertexId v, double radius) {
+  return method.with_searcher([&](auto& searcher) { return searcher.count(v, radius); });
+}
+
+/// Rows in memory of NumPy.
+struct FoundRows {
+  nb::object ids;
+  nb::object distances;
+
+  /// Allocates both, or the ids alone. Called with the interpreter lock; the result without it, on the same thread.
+  [[nodiscard]] BatchAllocator allocator(bool has_distances) {
+    return [this, has_distances, state = PyThreadState_Get()](std::size_t count) {
+      return with_lock(state, [&]() -> BatchMemory {
+        ids = unset(count, "int32");
+        distances = unset(has_distances ? count : 0, "float64");
+        return {values_of<VertexId>(ids), values_of<double>(distances)};
+      });
+    };
+  }
+};
+
+auto many(const Method& method, const Call& call, bool distances, bool sorted) {
   const BatchOptions options{.distances = distances, .sorted = sorted};
-  const Run run{.threads = threads, .progress = progress_to(progress), .max_bytes = max_bytes};
+  const Run run = call.run();
   FoundRows found;
   const BatchAllocator allocate = found.allocator(distances);
-  std::vector<std::uint64_t> offsets = limited("iter_neighborhoods returns the rows in chunks",
-                                               [&] { return method.neighborhoods(query, allocate, options, run); });
+  std::vector<std::uint64_t> offsets = limited("iter_neighborhoods returns the rows in chunks", [&] {
+    return without_lock([&] { return neighborhoods(method.search(), call.query(), allocate, options, run); });
+  });
   return std::tuple(owned<std::int64_t>(std::move(offsets)), std::move(found.ids), std::move(found.distances));
 }
 
-Output<std::int64_t> many_counts(Method& method, const std::optional<Ids>& vertices, const Radius& radius,
-                                 unsigned threads, nb::handle progress) {
-  const Run run{.threads = threads, .progress = progress_to(progress)};
-  return owned<std::int64_t>(method.counts(query_of(vertices, radius), run));
+Output<std::int64_t> many_counts(const Method& method, const Call& call) {
+  const Run run = call.run();
+  return owned<std::int64_t>(without_lock([&] { return counts(method.search(), call.query(), run); }));
+}
+
+auto unconnected(const ExactMethod& method, const Call& call) {
+  const Run run = call.run();
+  Unconnected found = without_lock([&] { return nearest_unconnected(method.index(), call.query(), run); });
+  static_assert(static_cast<std::int32_t>(kNoVertex) == -1);
+  return std::pair(owned<std::int32_t>(std::move(found.vertex)), owned<double>(std::move(found.distance)));
+}
+
+constexpr const char* kFewer = "take fewer vertices at a time";
+
+/// The rows have one radius.
+auto k_nearest_of(const ExactMethod& method, const Call& call, std::size_t k) {
+  const BatchQuery query = call.query();
+  const NearestOptions options{.metric = query.metric, .radius = query.radius.common()};
+  const Run run = call.run();
+  FoundRows found;
+  const BatchAllocator allocate = found.allocator(true);
+  limited(kFewer, [&] { without_lock([&] { k_nearest(method.index(), query.vertices, k, allocate, options, run); }); });
+  const std::size_t rows = query.vertices.count(method.index().vertex_count());
+  return std::pair(found.ids.attr("reshape")(rows, k), found.distances.attr("reshape")(rows, k));
+}
+
+/// Likewise.
+auto discs_of(const ExactMethod& method, const Call& call, double area, const Reals& areas) {
+  const BatchQuery query = call.query();
+  const NearestOptions options{.metric = query.metric, .radius = query.radius.common()};
+  const Run run = call.run();
+  Neighborhoods found = limited(kFewer, [&] {
+    return without_lock([&] { return discs(method.index(), query.vertices, area, numbers_of(areas), options, run); });
+  });
+  return std::tuple(owned<std::int64_t>(std::move(found.offsets)), owned<std::int32_t>(std::move(found.ids)),
+                    owned<double>(std::move(found.distances)));
 }
 
 /// A value for each vertex, 0 or 1.
@@ -110,17 +164,25 @@ auto stored_faces(const nb::object& self) {
 
 }  // namespace
 
-void bind_methods(nb::module_& module) {
+nb::class_<ExactMethod, Method> bind_methods(nb::module_& module) {
+  nb::enum_<Metric>(module, "Metric")
+      .value("straight", Metric::Straight)
+      .value("path", Metric::Path)
+      .value("rings", Metric::Rings)
+      .value("space", Metric::Space);
+  nb::class_<Call>(module, "Call")
+      .def(nb::init<std::optional<Ids>, Radius, Metric, unsigned, nb::object, std::uint64_t>(),
+           nb::arg("vertices").none(), nb::arg("radius"), nb::arg("metric"), nb::arg("threads"),
+           nb::arg("progress").none(), nb::arg("max_bytes"));
   nb::class_<Method>(module, "Method")
-      .def("neighborhood", &one, nb::arg(), nb::arg())
-      .def("neighborhood_and_distances", &one_with_distances, nb::arg(), nb::arg())
-      .def("count", &Method::count, nb::arg(), nb::arg())
-      .def("neighborhoods", &many, nb::arg().none(), nb::arg(), nb::arg("distances"), nb::arg("sorted"),
-           nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none())
-      .def("counts", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none());
+      .def("neighborhood", &one)
+      .def("neighborhood_and_distances", &one_with_distances)
+      .def("count", &count_of_one)
+      .def("neighborhoods", &many, nb::arg(), nb::arg("distances"), nb::arg("sorted"))
+      .def("counts", &many_counts);
   module.def("are_same_masks", &are_same_masks, nb::arg().none(), nb::arg().none());
-  nb::class_<ExactMethod, Method>(module, "ExactMethod")
-      .def("masked", &masked_method, nb::arg("walls").none(), nb::arg("ignored").none())
+  nb::class_<ExactMethod, Method> exact(module, "ExactMethod");
+  exact.def("masked", &masked_method, nb::arg("walls").none(), nb::arg("ignored").none())
       .def("quality",
            [](const ExactMethod& method) {
              const Quality found = without_lock([&] { return quality(method.index()); });
@@ -130,6 +192,10 @@ void bind_methods(nb::module_& module) {
       .def_prop_ro("faces", &stored_faces, nb::rv_policy::reference)
       .def_prop_ro("vertex_count", [](const ExactMethod& method) { return method.index().vertex_count(); })
       .def_prop_ro("nbytes", [](const ExactMethod& method) { return method.index().bytes().total(); });
+  module.def("nearest_unconnected", &unconnected);
+  module.def("k_nearest", &k_nearest_of, nb::arg(), nb::arg(), nb::arg("k"));
+  module.def("discs", &discs_of, nb::arg(), nb::arg(), nb::arg("area"), nb::arg("areas"));
+  return exact;
 }
 
 }  // namespace meshhood::python

@@ -1,61 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
-#include <nanobind/stl/array.h>
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
-#include <nanobind/stl/shared_ptr.h>
-#include <nanobind/stl/tuple.h>
-
 #include "meshhood/search.h"
 #include "meshhood/start.h"
 
 #include "arrays.h"
-#include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
 #include "methods.h"
-#include "pool.h"
 
 namespace nb = nanobind;
 
 namespace meshhood::python {
 namespace {
-
-/// The queries of an index beyond neighborhoods. Any number of threads may use it at the same time. Each call is made
-/// with the interpreter lock, which is released while the call works.
-class Queries {
- public:
-  explicit Queries(std::shared_ptr<const ExactMethod> exact) : exact_(std::move(exact)) {}
-  Queries(const Queries&) = delete;
-  Queries& operator=(const Queries&) = delete;
-  ~Queries() = default;
-
-  [[nodiscard]] const Index& index() const { return exact_->index(); }
-
-  /// Calls `f` with a searcher by the metric that no other thread uses.
-  template <class F>
-  auto with(Metric metric, F&& f) {
-    return searchers_[static_cast<std::size_t>(metric)].with([&] { return Searcher(index(), metric); },
-                                                             std::forward<F>(f));
-  }
-
- private:
-  std::shared_ptr<const ExactMethod> exact_;
-  // By metric, of which `Space` is the last.
-  std::array<Pool<Searcher>, static_cast<std::size_t>(Metric::Space) + 1> searchers_;
-};
 
 using SeedRows = nb::ndarray<const std::int32_t, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
 
@@ -68,11 +32,11 @@ Start start_of(const Center& center, const Ids& seeds) {
 }
 
 /// Also returns whether a seed lies in the ball, as `stroke` and `nested` do.
-auto region(Queries& queries, Metric metric, const Center& center, const Ids& seeds, double radius) {
+auto region(ExactMethod& method, Metric metric, const Center& center, const Ids& seeds, double radius) {
   const Start start = start_of(center, seeds);
   std::vector<VertexId> ids;
   std::vector<double> distances;
-  const bool has_seed = queries.with(metric, [&](Searcher& searcher) {
+  const bool has_seed = method.with(metric, [&](Searcher& searcher) {
     searcher.neighborhood(start, radius, ids, distances);
     return searcher.has_seed(start, radius);
   });
@@ -80,7 +44,7 @@ auto region(Queries& queries, Metric metric, const Center& center, const Ids& se
 }
 
 /// By vertices if there are no centers: then they are the seeds of the rows. Seeds that do not exist are -1.
-auto stroke(Queries& queries, Metric metric, const std::optional<Points>& centers, const SeedRows& seeds,
+auto stroke(ExactMethod& method, Metric metric, const std::optional<Points>& centers, const SeedRows& seeds,
             const Reals& radii) {
   const std::span all_seeds(reinterpret_cast<const VertexId*>(seeds.data()), seeds.size());
   std::vector<Dab> dabs;
@@ -91,50 +55,49 @@ auto stroke(Queries& queries, Metric metric, const std::optional<Points>& center
     dabs.push_back({start, radii.data()[i]});
   }
   std::vector<VertexId> ids;
-  const bool has_seeds = queries.with(metric, [&](Searcher& searcher) {
+  const bool has_seeds = method.with(metric, [&](Searcher& searcher) {
     searcher.stroke(dabs, ids);
     return std::ranges::all_of(dabs, [&](const Dab& dab) { return searcher.has_seed(dab.start, dab.radius); });
   });
   return std::pair(owned<std::int32_t>(std::move(ids)), has_seeds);
 }
 
-auto nested(Queries& queries, Metric metric, const Center& center, const Ids& seeds, const Reals& radii) {
+auto nested(ExactMethod& method, Metric metric, const Center& center, const Ids& seeds, const Reals& radii) {
   const Start start = start_of(center, seeds);
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
-  const bool has_seed = queries.with(metric, [&](Searcher& searcher) {
+  const bool has_seed = method.with(metric, [&](Searcher& searcher) {
     searcher.nested(start, numbers_of(radii), ids, counts);
     return radii.size() == 0 || searcher.has_seed(start, radii.data()[radii.size() - 1]);
   });
   return std::tuple(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)), has_seed);
 }
 
-bool contains(Queries& queries, Metric metric, const Center& center, const Ids& seeds, VertexId w, double radius) {
-  return queries.with(metric,
-                      [&](Searcher& searcher) { return searcher.contains(start_of(center, seeds), w, radius); });
+bool contains(ExactMethod& method, Metric metric, const Center& center, const Ids& seeds, VertexId w, double radius) {
+  return method.with(metric, [&](Searcher& searcher) { return searcher.contains(start_of(center, seeds), w, radius); });
 }
 
-double connecting_radius(Queries& queries, Metric metric, const Center& center, const Ids& seeds, VertexId w) {
-  return queries.with(metric,
-                      [&](Searcher& searcher) { return searcher.connecting_radius(start_of(center, seeds), w); });
+double connecting_radius(ExactMethod& method, Metric metric, const Center& center, const Ids& seeds, VertexId w) {
+  return method.with(metric,
+                     [&](Searcher& searcher) { return searcher.connecting_radius(start_of(center, seeds), w); });
 }
 
-auto nearest_connected(Queries& queries, Metric metric, const Center& center, const Ids& seeds, std::size_t k) {
+auto nearest_connected(ExactMethod& method, Metric metric, const Center& center, const Ids& seeds, std::size_t k) {
   std::vector<VertexId> ids;
   std::vector<double> radii;
-  queries.with(metric, [&](Searcher& searcher) {
+  method.with(metric, [&](Searcher& searcher) {
     searcher.nearest_connected(start_of(center, seeds), k, ids, radii);
     return true;
   });
   return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(radii)));
 }
 
-auto nearest_vertices(Queries& queries, const Points& points, unsigned threads, nb::handle progress) {
+auto nearest_vertices(ExactMethod& method, const Points& points, unsigned threads, nb::handle progress) {
   const Run run{.threads = threads, .progress = progress_to(progress)};
   std::vector<VertexId> ids;
   std::vector<double> distances;
   without_lock([&] {
-    for (const auto& [vertex, distance] : nearest(queries.index(), points_of(points), run)) {
+    for (const auto& [vertex, distance] : nearest(method.index(), points_of(points), run)) {
       ids.push_back(vertex);
       distances.push_back(distance);
     }
@@ -144,18 +107,16 @@ auto nearest_vertices(Queries& queries, const Points& points, unsigned threads, 
 
 }  // namespace
 
-void bind_queries(nb::module_& module) {
+void bind_queries(nb::class_<ExactMethod, Method>& exact) {
   const auto center = nb::arg("center").none();
   const auto arg = nb::arg();
-  nb::class_<Queries>(module, "Queries")
-      .def("region", &region, arg, center, arg, arg)
+  exact.def("region", &region, arg, center, arg, arg)
       .def("stroke", &stroke, arg, center, arg, arg)
       .def("nested", &nested, arg, center, arg, arg)
       .def("contains", &contains, arg, center, arg, arg, arg)
       .def("connecting_radius", &connecting_radius, arg, center, arg, arg)
       .def("nearest_connected", &nearest_connected, arg, center, arg, arg)
       .def("nearest", &nearest_vertices, arg, nb::arg("threads") = 1, nb::arg("progress").none() = nb::none());
-  module.def("queries", [](std::shared_ptr<ExactMethod> exact) { return std::make_shared<Queries>(std::move(exact)); });
 }
 
 }  // namespace meshhood::python

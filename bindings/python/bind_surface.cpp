@@ -3,26 +3,24 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
+#include <variant>
 #include <vector>
 
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
-#include <nanobind/stl/array.h>
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/tuple.h>
-
+#include "meshhood/patch.h"
 #include "meshhood/surface.h"
 #include "meshhood/thickness.h"
 
 #include "arrays.h"
+#include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
 #include "methods.h"
-#include "surface_columns.h"
+#include "pool.h"
 
 namespace nb = nanobind;
 
@@ -30,25 +28,66 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
+/// Points of a surface in memory of NumPy, a column for each property. Made with the interpreter lock.
+class SurfaceColumns {
+ public:
+  explicit SurfaceColumns(std::size_t rows)
+      : distances_(rows, "float64"),
+        faces_(rows, "int64"),
+        corners_(rows, "int32", 3),
+        barycentric_(rows, "float64", 3),
+        points_(rows, "float64", 3) {}
+
+  /// On any thread. `corners`: of its triangle.
+  void set(std::size_t row, const SurfacePoint& found, const std::array<VertexId, 3>& corners) {
+    static_assert(static_cast<std::int64_t>(kNoFace) == -1);
+    distances_.values[row] = found.distance;
+    faces_.values[row] = static_cast<std::int64_t>(found.face);
+    corners_.values[row] = corners;
+    barycentric_.values[row] = found.barycentric;
+    points_.values[row] = found.point;
+  }
+
+  /// Distances, faces, the corners of their triangles, barycentric coordinates and points.
+  [[nodiscard]] auto arrays() const {
+    return std::tuple(distances_.array, faces_.array, corners_.array, barycentric_.array, points_.array);
+  }
+
+ private:
+  template <class Value>
+  struct Column {
+    nanobind::object array;
+    std::span<Value> values;
+
+    Column(std::size_t rows, const char* dtype, std::size_t columns = 0)
+        : array(unset(rows, dtype, columns)), values(values_of<Value>(array)) {}
+  };
+
+  Column<double> distances_;
+  Column<std::int64_t> faces_;
+  Column<std::array<VertexId, 3>> corners_;
+  Column<std::array<double, 3>> barycentric_;
+  Column<SpacePoint> points_;
+};
+
 Corners corners_of(bool all) { return all ? Corners::All : Corners::Any; }
 
-Surface of_faces(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets) {
-  const FacesView faces = faces_of(corners, offsets);
+Surface of_faces(const ExactMethod& method, const Faces& given) {
+  const FacesView faces = faces_of(given);
   return without_lock([&] { return Surface(method.index(), faces); });
 }
 
 /// With an index of its own.
-Surface of_mesh(const Input& positions, const Input& corners, const std::optional<Input>& offsets) {
-  const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
+Surface of_mesh(const Mesh& given) {
+  const MeshView mesh = mesh_of(given);
   return without_lock([&] {
     const Index index = build(mesh);
     return Surface(index, mesh.faces);
   });
 }
 
-Surface of_normals(const ExactMethod& method, const Reals& normals, const std::optional<Input>& corners,
-                   const std::optional<Input>& offsets) {
-  const FacesView faces = corners ? faces_of(*corners, offsets) : FacesView{};
+Surface of_normals(const ExactMethod& method, const Reals& normals, const std::optional<Faces>& given) {
+  const FacesView faces = given ? faces_of(*given) : FacesView{};
   return without_lock([&] { return Surface::of_normals(method.index(), numbers_of(normals), faces); });
 }
 
@@ -81,12 +120,10 @@ auto first_hits(const Surface& surface, const Points& origins, const Points& dir
   });
 }
 
-Output<double> measure_thickness(const Surface& surface, const std::optional<Ids>& ids, bool by_sphere,
-                                 unsigned threads, nb::handle progress) {
-  const Run run{.threads = threads, .progress = progress_to(progress)};
-  const BatchVertices vertices = ids ? BatchVertices(ids_of(*ids)) : BatchVertices();
+Output<double> measure_thickness(const Surface& surface, const Call& call, bool by_sphere) {
+  const Run run = call.run();
   const ThicknessMethod method = by_sphere ? ThicknessMethod::Sphere : ThicknessMethod::Ray;
-  return owned<double>(without_lock([&] { return thickness(surface, vertices, method, run); }));
+  return owned<double>(without_lock([&] { return thickness(surface, call.query().vertices, method, run); }));
 }
 
 Output<std::int64_t> faces(const Surface& surface, const Ids& ids, bool all) {
@@ -107,13 +144,90 @@ auto rim(const Surface& surface, const Ids& ids, const SpacePoint& center, doubl
                     owned<std::uint8_t>(std::move(rim.closed)));
 }
 
+/// The surface of an index, with searchers for single starts.
+class Patches {
+  /// A vertex, or a face and a point of it.
+  using Place = std::variant<VertexId, std::pair<std::size_t, SpacePoint>>;
+
+  /// Calls `f(searcher, start)`.
+  template <class F>
+  auto ask(const Place& place, F&& f) {
+    const auto* const on_face = std::get_if<1>(&place);
+    const PatchStart start =
+        on_face != nullptr ? PatchStart(on_face->first, on_face->second) : PatchStart(std::get<0>(place));
+    return searchers_.with([&] { return PatchSearcher(surface_); },
+                           [&](PatchSearcher& searcher) { return f(searcher, start); });
+  }
+
+ public:
+  explicit Patches(Surface surface) : surface_(std::move(surface)) {}
+
+  [[nodiscard]] auto measure_rows(const Call& call) const {
+    const Run run = call.run();
+    Invariants found = without_lock([&] { return invariants(surface_, call.query(), run); });
+    return std::pair(owned<double>(std::move(found.area)), owned<double>(std::move(found.volume)));
+  }
+
+  [[nodiscard]] auto find_gaps(const Call& call) const {
+    const BatchQuery query = call.query();
+    const Run run = call.run();
+    SurfaceColumns columns(query.result_rows(surface_.vertex_count()));
+    without_lock([&] {
+      const auto set = [&](std::size_t row, const SurfacePoint& gap) { columns.set(row, gap, gap.vertices); };
+      for_each_gap(surface_, query, set, run);
+    });
+    return columns.arrays();
+  }
+
+  auto faces(const Place& place, double radius) {
+    const std::vector<std::size_t> found =
+        ask(place, [&](PatchSearcher& searcher, const PatchStart& start) { return searcher.patch(start, radius); });
+    return owned<std::int64_t>(std::vector<std::int64_t>(found.begin(), found.end()));
+  }
+
+  /// Points, the three vertices and weights of each, faces, triangles and the area.
+  auto clip(const Place& place, double radius, double tolerance) {
+    ClippedMesh part = ask(place, [&](PatchSearcher& searcher, const PatchStart& start) {
+      return searcher.clip(start, radius, tolerance);
+    });
+    const std::size_t points = part.points.size();
+    const std::size_t triangles = part.triangles.size();
+    return std::tuple(owned<double>(std::move(part.points), {points, 3}),
+                      owned<std::int32_t>(std::move(part.vertices), {points, 3}),
+                      owned<double>(std::move(part.weights), {points, 3}), owned<std::int64_t>(std::move(part.faces)),
+                      owned<std::int32_t>(std::move(part.triangles), {triangles, 3}), part.area);
+  }
+
+  auto measure(const Place& place, double radius) {
+    const PatchMeasure found =
+        ask(place, [&](PatchSearcher& searcher, const PatchStart& start) { return searcher.measure(start, radius); });
+    return std::pair(found.area, found.volume);
+  }
+
+  /// One row of `find_gaps`.
+  auto find_gap(const Place& place, double radius) {
+    const SurfacePoint found =
+        ask(place, [&](PatchSearcher& searcher, const PatchStart& start) { return searcher.gap(start, radius); });
+    SurfaceColumns columns(1);
+    columns.set(0, found, found.vertices);
+    return columns.arrays();
+  }
+
+ private:
+  Surface surface_;
+  Pool<PatchSearcher> searchers_;
+};
+
+auto make_patches(const ExactMethod& method, const Surface& surface) {
+  return std::make_unique<Patches>(surface.on(method.index()));
+}
+
 }  // namespace
 
 nb::class_<Surface> bind_surface(nb::module_& module) {
-  module.def("surface_of_faces", &of_faces, nb::arg(), nb::arg(), nb::arg("offsets").none());
-  module.def("surface_of_mesh", &of_mesh, nb::arg(), nb::arg(), nb::arg("offsets").none());
-  module.def("surface_of_normals", &of_normals, nb::arg(), nb::arg(), nb::arg("corners").none(),
-             nb::arg("offsets").none());
+  module.def("surface_of_faces", &of_faces);
+  module.def("surface_of_mesh", &of_mesh);
+  module.def("surface_of_normals", &of_normals, nb::arg(), nb::arg(), nb::arg("faces").none());
   nb::class_<Surface> surface(module, "Surface");
   surface.def_prop_ro("face_count", &Surface::face_count)
       .def("paths",
@@ -125,11 +239,18 @@ nb::class_<Surface> bind_surface(nb::module_& module) {
            })
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("first_hits", &first_hits, nb::arg(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
-      .def("thickness", &measure_thickness, nb::arg().none(), nb::arg("by_sphere"), nb::arg("threads"),
-           nb::arg("progress").none())
+      .def("thickness", &measure_thickness, nb::arg(), nb::arg("by_sphere"))
       .def("faces", &faces)
       .def("submesh", &submesh)
       .def("rim", &rim);
+  nb::class_<Patches>(module, "Patches")
+      .def("invariants", &Patches::measure_rows)
+      .def("gaps", &Patches::find_gaps)
+      .def("faces", &Patches::faces)
+      .def("clip", &Patches::clip)
+      .def("measure", &Patches::measure)
+      .def("gap", &Patches::find_gap);
+  module.def("patches", &make_patches);
   return surface;
 }
 

@@ -5,12 +5,14 @@
 
 #include "meshhood/surface.h"
 
+#include "methods.h"
+
 /// The extension module of the Python package: conversions, and the interpreter lock. Arguments have been checked and
 /// converted by meshhood/_mesh.py and meshhood/_convert.py.
 namespace meshhood::python {
 
-/// The methods that answer queries.
-void bind_methods(nanobind::module_& module);
+/// The methods that answer queries, and the nearest vertices of many: connected, and not connected.
+nanobind::class_<ExactMethod, Method> bind_methods(nanobind::module_& module);
 
 /// Sums and other properties of values over neighborhoods.
 void bind_aggregates(nanobind::module_& module);
@@ -18,22 +20,16 @@ void bind_aggregates(nanobind::module_& module);
 /// The functions that make an index, and the other methods from it.
 void bind_makers(nanobind::module_& module);
 
-/// Areas, volumes and gaps of the surface in a ball.
-void bind_patches(nanobind::module_& module);
-
 /// Regions, connecting radii, rings and nearest vertices.
-void bind_queries(nanobind::module_& module);
+void bind_queries(nanobind::class_<ExactMethod, Method>& exact);
 
-/// Surfaces: closest points, and regions as meshes.
+/// Surfaces: closest points, regions as meshes, and areas, volumes and gaps of the surface in a ball.
 nanobind::class_<Surface> bind_surface(nanobind::module_& module);
-
-/// Nearest vertices for many rows: connected, and not connected.
-void bind_surface_queries(nanobind::module_& module);
 
 /// Curvature, of surfaces too.
 void bind_curvature(nanobind::module_& module, nanobind::class_<Surface>& surface);
 
-/// Mesh files, index files, and an index as bytes.
+/// Mesh files, index files, an index as bytes, and welding.
 void bind_files(nanobind::module_& module);
 
 /// Meshes in parts.
@@ -41,8 +37,5 @@ void bind_parts(nanobind::module_& module);
 
 /// The command line as a function. Only where it is built: MESHHOOD_BUILD_CLI.
 void bind_command(nanobind::module_& module);
-
-/// Welding.
-void bind_weld(nanobind::module_& module);
 
 }  // namespace meshhood::python

@@ -1,78 +1,66 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <utility>
 #include <variant>
-#include <vector>
 
-#include "meshhood/adjacency.h"
 #include "meshhood/batch.h"
 #include "meshhood/index.h"
-#include "meshhood/mesh.h"
-#include "meshhood/paper.h"
 #include "meshhood/search.h"
 
 #include "pool.h"
 
 namespace meshhood::python {
 
-/// The answer to one query. `distances` is empty unless requested.
-struct Answer {
-  std::vector<VertexId> ids;
-  std::vector<double> distances;
-};
-
-/// A method of the core with what it borrows. Any number of threads may use it at the same time. Each call is made with
-/// the interpreter lock, which is released while the call works. Throws as the C++ calls of the same names.
+/// A method of the core with what it borrows. Any number of threads may use it at the same time.
 class Method {
  public:
-  /// `owner` owns what `method` borrows.
-  Method(const SearchMethod& method, std::shared_ptr<const void> owner) : owner_(std::move(owner)), method_(method) {}
+  /// `owner` owns what `search` borrows.
+  Method(const SearchMethod& search, std::shared_ptr<const void> owner) : owner_(std::move(owner)), search_(search) {}
   Method(const Method&) = delete;
   Method& operator=(const Method&) = delete;
 
-  Answer neighborhood(VertexId v, double radius, bool distances);
-  std::size_t count(VertexId v, double radius);
-  [[nodiscard]] std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
-                                                         const BatchOptions& options, const Run& run) const;
-  [[nodiscard]] std::vector<std::uint64_t> counts(const BatchQuery& query, const Run& run) const;
+  [[nodiscard]] const SearchMethod& search() const { return search_; }
 
- private:
+  /// Calls `f` with a searcher that no other thread uses. Called with the interpreter lock, which is released
+  /// meanwhile.
   template <class F>
   auto with_searcher(F&& f) {
-    return searchers_.with([this] { return method_.make_searcher(); },
+    return searchers_.with([this] { return search_.make_searcher(); },
                            [&](AnySearcher& searcher) { return std::visit(f, searcher); });
   }
 
+ private:
   std::shared_ptr<const void> owner_;
-  SearchMethod method_;
+  SearchMethod search_;
   Pool<AnySearcher> searchers_;
 };
 
-/// The exact neighborhood by the index, for the calls that only the index has.
+/// The exact neighborhood by the index, and the queries that only the index has.
 class ExactMethod : public Method {
  public:
   explicit ExactMethod(std::shared_ptr<const Index> index) : Method(*index, index), index_(std::move(index)) {}
 
   [[nodiscard]] const Index& index() const { return *index_; }
 
+  /// As `with_searcher`, with a searcher by the metric.
+  template <class F>
+  auto with(Metric metric, F&& f) {
+    return by_metric_[static_cast<std::size_t>(metric)].with([&] { return Searcher(index(), metric); },
+                                                             std::forward<F>(f));
+  }
+
  private:
   std::shared_ptr<const Index> index_;
+  // `Space` is the last metric.
+  std::array<Pool<Searcher>, static_cast<std::size_t>(Metric::Space) + 1> by_metric_;
 };
 
-[[nodiscard]] std::shared_ptr<ExactMethod> exact_method(Index index);
-
-/// The approximate neighborhood by the index of the paper.
-[[nodiscard]] std::shared_ptr<Method> paper_method(std::shared_ptr<const paper::Index> hierarchy,
-                                                   const paper::QueryOptions& options);
-
-/// The neighborhood by another metric.
-[[nodiscard]] std::shared_ptr<Method> metric_method(std::shared_ptr<const ExactMethod> exact, Metric metric);
-
-/// Breadth-first search.
-[[nodiscard]] std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph);
+[[nodiscard]] inline std::shared_ptr<ExactMethod> exact_method(Index index) {
+  return std::make_shared<ExactMethod>(std::make_shared<const Index>(std::move(index)));
+}
 
 }  // namespace meshhood::python

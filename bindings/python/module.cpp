@@ -2,14 +2,12 @@
 #include <exception>
 #include <string>
 
-#include <nanobind/nanobind.h>
-#include <nanobind/stl/string.h>
-
 #include "meshhood/error.h"
 #include "meshhood/kernel_target.h"
 #include "meshhood/version.h"
 
-#include "batch_query.h"
+#include "about.h"
+#include "arrays.h"
 #include "bindings.h"
 
 namespace nb = nanobind;
@@ -71,17 +69,14 @@ NB_MODULE(_core, module) {
   // A daemon thread that sleeps while the process ends keeps its objects.
   nb::set_leak_warnings(false);
   nb::register_exception_translator(meshhood::python::translate);
-  meshhood::python::bind_methods(module);
+  auto exact = meshhood::python::bind_methods(module);
   meshhood::python::bind_aggregates(module);
   meshhood::python::bind_makers(module);
-  meshhood::python::bind_patches(module);
-  meshhood::python::bind_queries(module);
+  meshhood::python::bind_queries(exact);
   auto surface = meshhood::python::bind_surface(module);
   meshhood::python::bind_curvature(module, surface);
-  meshhood::python::bind_surface_queries(module);
   meshhood::python::bind_files(module);
   meshhood::python::bind_parts(module);
-  meshhood::python::bind_weld(module);
 #if defined(MESHHOOD_COMMANDS)
   meshhood::python::bind_command(module);
 #endif

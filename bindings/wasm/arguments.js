@@ -102,14 +102,23 @@ function widened(indices) {
   return indices instanceof Uint16Array ? Uint32Array.from(indices) : indices;
 }
 
-/** Copies faces into the module, and calls `use` with the six arguments that describe them. */
+/** Calls `use` while these faces are those of a call. */
 export function withFaces(instance, { corners, offsets = null }, use) {
-  return instance.with([widened(corners), widened(offsets)], (ids, begins) => use(
-    ids, corners.length, corners instanceof Int32Array, begins, offsets?.length ?? 0, offsets instanceof Int32Array));
+  return instance.with([widened(corners), widened(offsets)], (ids, begins) => {
+    instance.call('take_faces', ids, corners.length, corners instanceof Int32Array, begins, offsets?.length ?? 0,
+      offsets instanceof Int32Array);
+    return use();
+  });
 }
 
-/** The same with positions before them. */
+/** The same for positions. */
+export function withPositions(instance, positions, use) {
+  return instance.with([positions], (xyz) => {
+    instance.call('take_positions', xyz, positions.length, positions instanceof Float64Array);
+    return use();
+  });
+}
+
 export function withMesh(instance, positions, faces, use) {
-  return instance.with([positions], (xyz) =>
-    withFaces(instance, faces, (...six) => use(xyz, positions.length, positions instanceof Float64Array, ...six)));
+  return withPositions(instance, positions, () => withFaces(instance, faces, use));
 }

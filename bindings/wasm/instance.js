@@ -231,9 +231,11 @@ export class Instance {
     return this.take(Uint32Array, this.call('answer_counts'), this.call('answer_counts_size'));
   }
 
-  /** To be called after large answers. */
-  releaseAnswer() {
+  /** All of an answer that may be large, whose memory the module gives back. */
+  takeAnswer() {
+    const answer = { ids: this.takeIds(), reals: this.takeReals(), counts: this.takeCounts() };
     this.call('release_answer');
+    return answer;
   }
 
   text(address, size) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import {
   choose, chooseSome, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectRadius, expectSize,
-  expectType, expectVertex, expectVertices, toReals, withDefaults, withFaces, withMesh,
+  expectType, expectVertex, expectVertices, toReals, withDefaults, withFaces, withMesh, withPositions,
 } from './arguments.js';
 import { Curvature } from './curvature.js';
 import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
@@ -70,8 +70,8 @@ function build(positions, corners, options = {}) {
   expectMesh(positions, { corners, offsets });
   expectVertices(cut, 'cut');
   return makeInstance((instance) =>
-    withMesh(instance, positions, { corners, offsets }, (...mesh) => instance.with([cut], (ends) =>
-      instance.callWithProgress(progress, 'build', ...mesh, ends, cut?.length ?? 0))));
+    withMesh(instance, positions, { corners, offsets }, () => instance.with([cut], (ends) =>
+      instance.callWithProgress(progress, 'build', ends, cut?.length ?? 0))));
 }
 
 /** What a refit needs, checked. */
@@ -84,8 +84,8 @@ function movement(positions, options = {}) {
 
 /** Moves the vertices of the index in `instance`. */
 function move(instance, { positions, changed }) {
-  instance.with([positions, changed], (xyz, list) => instance.call(
-    'refit', xyz, positions.length, positions instanceof Float64Array, list, changed?.length ?? 0));
+  withPositions(instance, positions, () => instance.with([changed], (list) =>
+    instance.call('refit', list, changed?.length ?? 0)));
 }
 
 export class MeshIndex extends Owner {
@@ -125,10 +125,8 @@ export class MeshIndex extends Owner {
 
   get faces() {
     if (!this.instance.call('held_faces')) return null;
-    const corners = this.instance.takeIds();
-    const offsets = this.instance.takeCounts();
-    this.instance.releaseAnswer();
-    return { corners, offsets: offsets.length === 0 ? null : offsets };
+    const { ids, counts } = this.instance.takeAnswer();
+    return { corners: ids, offsets: counts.length === 0 ? null : counts };
   }
 
   get positions() {
@@ -298,31 +296,32 @@ export class MeshIndex extends Owner {
     const given = withDefaults(options, LISTS);
     const { sort, distances } = given;
     if (sort !== null) choose(ORDERS, sort, 'sort');
-    this.#findRows(r, given, { distances: distances || sort === 'distance', byId: sort === 'id' });
-    if (sort === 'index' || sort === 'distance') this.instance.call('sort_answer', ORDERS.indexOf(sort), true);
-    return this.#takeRows(distances);
+    const place = chooseMethod(given);
+    const { ids, reals, counts } = this.#askRows(r, given, () => {
+      this.instance.call('batch', place, false, distances || sort === 'distance', sort === 'id');
+      if (sort === 'index' || sort === 'distance') this.instance.call('sort_answer', ORDERS.indexOf(sort), true);
+    });
+    return distances ? { offsets: counts, ids, distances: reals } : { offsets: counts, ids };
   }
 
   counts(r, options = {}) {
-    this.#findRows(r, withDefaults(options, COUNTS), { countOnly: true });
-    const counts = this.instance.takeCounts();
-    this.instance.releaseAnswer();
-    return counts;
+    const given = withDefaults(options, COUNTS);
+    const place = chooseMethod(given);
+    return this.#askRows(r, given, () => this.instance.call('batch', place, true, false, false)).counts;
   }
 
-  #findRows(r, given, { distances = false, byId = false, countOnly = false }) {
-    const place = chooseMethod(given);
-    withRows(this.instance, r, given, this.#scale(given.unit), () =>
-      this.instance.call('batch', place, countOnly, distances, byId));
+  /** The answer to what `use` calls for the rows. */
+  #askRows(r, given, use) {
+    withRows(this.instance, r, given, this.#scale(given.unit), use);
+    return this.instance.takeAnswer();
   }
 
   kNearest(k, options = {}) {
     const given = withDefaults(options, NEAREST);
     expectSize(k, 'k');
-    this.#findNearest(given, () => this.instance.call('k_nearest', k));
-    const found = { ids: this.instance.takeIds(), distances: this.instance.takeReals() };
-    this.instance.releaseAnswer();
-    return found;
+    expectRadius(given.r);
+    const { ids, reals } = this.#askRows(given.r, given, () => this.instance.call('k_nearest', k));
+    return { ids, distances: reals };
   }
 
   discs(area, options = {}) {
@@ -330,54 +329,36 @@ export class MeshIndex extends Owner {
     expectNumber(area, 'area');
     const areas = this.#weights(given.weights, given.faces);
     if (areas === null) throw new TypeError("weights: null, expected 'area' or a typed array of numbers");
-    this.#findNearest(given, () => this.instance.with([areas], (list) =>
-      this.instance.call('discs', area, list, areas.length)));
-    return this.#takeRows(true);
-  }
-
-  #findNearest(given, use) {
     expectRadius(given.r);
-    withRows(this.instance, given.r, given, this.#scale(given.unit), use);
-  }
-
-  #takeRows(distances) {
-    const rows = { offsets: this.instance.takeCounts(), ids: this.instance.takeIds() };
-    if (distances) rows.distances = this.instance.takeReals();
-    this.instance.releaseAnswer();
-    return rows;
+    const { ids, reals, counts } = this.#askRows(given.r, given, () => this.instance.with([areas], (list) =>
+      this.instance.call('discs', area, list, areas.length)));
+    return { offsets: counts, ids, distances: reals };
   }
 
   nearestUnconnected(r, options = {}) {
     const given = withDefaults(options, ROWS);
-    withRows(this.instance, r, given, this.#scale(given.unit), () => this.instance.call('nearest_unconnected'));
-    const found = { vertex: this.instance.takeIds(), distance: this.instance.takeReals() };
-    this.instance.releaseAnswer();
-    return found;
+    const { ids, reals } = this.#askRows(r, given, () => this.instance.call('nearest_unconnected'));
+    return { vertex: ids, distance: reals };
   }
 
   // The surface in a ball.
 
   invariants(r, options = {}) {
-    this.#callOnSurface('invariants', r, withDefaults(options, PATCHES));
-    const numbers = this.instance.takeReals();
-    this.instance.releaseAnswer();
-    return { area: numbers.slice(0, numbers.length / 2), volume: numbers.slice(numbers.length / 2) };
+    const { reals } = this.#askSurface('invariants', r, withDefaults(options, PATCHES));
+    return { area: reals.slice(0, reals.length / 2), volume: reals.slice(reals.length / 2) };
   }
 
   gaps(r, options = {}) {
-    this.#callOnSurface('gaps', r, withDefaults(options, PATCHES));
-    const numbers = this.instance.takeReals();
-    const found = {
-      face: this.instance.takeCounts(), vertices: this.instance.takeIds(), barycentric: columns(numbers, 0, 3),
-      point: columns(numbers, 3, 6), distance: columns(numbers, 6, 7),
+    const { ids, reals, counts } = this.#askSurface('gaps', r, withDefaults(options, PATCHES));
+    return {
+      face: counts, vertices: ids, barycentric: columns(reals, 0, 3), point: columns(reals, 3, 6),
+      distance: columns(reals, 6, 7),
     };
-    this.instance.releaseAnswer();
-    return found;
   }
 
-  #callOnSurface(name, r, given) {
+  #askSurface(name, r, given) {
     useFaces(this.instance, given.faces);
-    withRows(this.instance, r, given, this.#scale(given.unit), () => this.instance.call(name));
+    return this.#askRows(r, given, () => this.instance.call(name));
   }
 
   patch(start, r, options = {}) {
@@ -389,14 +370,11 @@ export class MeshIndex extends Owner {
     const given = withDefaults(options, CLIP);
     expectNumber(given.tolerance, 'tolerance');
     this.#callOnPatch('clip', start, r, given, given.tolerance);
-    const ids = this.instance.takeIds();
-    const numbers = this.instance.takeReals();
-    const faces = this.instance.takeCounts();
-    this.instance.releaseAnswer();
-    const values = (numbers.length - 1) / 2; // of the points, and of their weights
+    const { ids, reals, counts } = this.instance.takeAnswer();
+    const values = (reals.length - 1) / 2; // of the points, and of their weights
     return {
-      positions: numbers.slice(0, values), corners: ids.slice(values), faces, vertices: ids.slice(0, values),
-      weights: numbers.slice(values, 2 * values), area: numbers[2 * values],
+      positions: reals.slice(0, values), corners: ids.slice(values), faces: counts, vertices: ids.slice(0, values),
+      weights: reals.slice(values, 2 * values), area: reals[2 * values],
     };
   }
 
@@ -434,7 +412,7 @@ export class MeshIndex extends Owner {
 
   aggregate(values, r, options = {}) {
     const given = withDefaults(options, AGGREGATION);
-    const { reduce, weights, kernel, nan, nesting, ddof, q, faces, unit } = given;
+    const { reduce, weights, kernel, nan, nesting, ddof, q, faces } = given;
     const signal = toReals(values, 'values');
     const channels = Math.max(1, Math.floor(signal.length / this.vertexCount) || 0);
     const reductions = chooseSome(REDUCTIONS, reduce, 'reduce');
@@ -444,13 +422,10 @@ export class MeshIndex extends Owner {
     expectSize(ddof, 'ddof');
     expectNumber(q, 'q');
     const weighed = this.#weights(weights, faces);
-    withRows(this.instance, r, given, this.#scale(unit), () =>
+    return this.#askRows(r, given, () =>
       this.instance.with([signal, weighed, reductions], (numbers, weightList, list) => this.instance.call('aggregate',
         numbers, signal.length, channels, weightList, weighed?.length ?? 0, list, reductions.length, ...choices, ddof,
-        q)));
-    const aggregates = this.instance.takeReals();
-    this.instance.releaseAnswer();
-    return aggregates;
+        q))).reals;
   }
 
   smooth(values, fwhm, options = {}) {
@@ -468,35 +443,29 @@ export class MeshIndex extends Owner {
       throw new MeshhoodError('InvalidOption', "weights: 'area' needs the option faces, which an index does not keep");
     }
     expectFaces(faces);
-    withFaces(this.instance, faces, (...six) => this.instance.call('areas', ...six));
+    withFaces(this.instance, faces, () => this.instance.call('areas'));
     return this.instance.takeReals();
   }
 
   curvature(r, options = {}) {
     const given = withDefaults(options, CURVATURE);
-    const { faces, normals, like, fit, filter, unit } = given;
+    const { faces, normals, like, fit, filter } = given;
     if (like !== null) choose(['libigl'], like, 'like');
     const place = choose(FITS, fit, 'fit');
     this.#useNormals(faces, normals);
-    withRows(this.instance, r, given, this.#scale(unit), () =>
+    const { reals, counts } = this.#askRows(r, given, () =>
       this.instance.call('curvature', place, Boolean(filter), like !== null));
-    const numbers = this.instance.takeReals();
-    const state = Uint8Array.from(this.instance.takeCounts());
-    this.instance.releaseAnswer();
-    const parts = [[0, 1], [1, 2], [2, 5], [5, 8]].map((ends) => ends.map((end) => end * state.length));
-    return new Curvature(...parts.map((ends) => numbers.slice(...ends)), state);
+    const parts = [[0, 1], [1, 2], [2, 5], [5, 8]].map((ends) => ends.map((end) => end * counts.length));
+    return new Curvature(...parts.map((ends) => reals.slice(...ends)), Uint8Array.from(counts));
   }
 
   features(r, options = {}) {
     const given = withDefaults(options, FEATURES);
-    const { faces, kinds, filter, unit } = given;
+    const { faces, kinds, filter } = given;
     const places = chooseSome(KINDS, kinds, 'kinds');
     useFaces(this.instance, faces);
-    withRows(this.instance, r, given, this.#scale(unit), () => this.instance.with([places], (list) =>
-      this.instance.call('features', list, places.length, Boolean(filter))));
-    const found = this.instance.takeReals();
-    this.instance.releaseAnswer();
-    return found;
+    return this.#askRows(r, given, () => this.instance.with([places], (list) =>
+      this.instance.call('features', list, places.length, Boolean(filter)))).reals;
   }
 
   thickness(options = {}) {
@@ -505,9 +474,7 @@ export class MeshIndex extends Owner {
     expectVertices(vertices, 'vertices');
     useFaces(this.instance, faces);
     this.instance.with([vertices], (ids) => this.instance.call('thickness', ids, vertices?.length ?? 0, place));
-    const found = this.instance.takeReals();
-    this.instance.releaseAnswer();
-    return found;
+    return this.instance.takeAnswer().reals;
   }
 
   #useNormals(faces, normals) {

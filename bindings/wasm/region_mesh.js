@@ -14,7 +14,7 @@ export class RegionMesh extends Owner {
     const { offsets } = withDefaults(options, { offsets: null });
     expectMesh(positions, { corners, offsets });
     super(makeInstance((instance) =>
-      withMesh(instance, positions, { corners, offsets }, (...mesh) => instance.call('prepare_regions', ...mesh))));
+      withMesh(instance, positions, { corners, offsets }, () => instance.call('prepare_regions'))));
     this.#positions = positions.slice();
     this.#isTriangles = offsets === null;
   }

@@ -18,7 +18,7 @@ export function useFaces(instance, faces) {
     throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which an index does not keep');
   }
   expectFaces(faces);
-  withFaces(instance, faces, (...six) => instance.call('use_faces', ...six));
+  withFaces(instance, faces, () => instance.call('use_faces'));
 }
 
 /** `r` is a radius, or one for each row; or null, with `scales` for all rows. `unit` is a factor. */

@@ -18,7 +18,7 @@ export function weld(positions, corners, options = {}) {
   expectNumber(eps, 'eps');
   const instance = new Instance();
   try {
-    withMesh(instance, positions, { corners, offsets }, (...mesh) => instance.call('weld', ...mesh, eps));
+    withMesh(instance, positions, { corners, offsets }, () => instance.call('weld', eps));
     const ids = instance.takeIds();
     return {
       positions: keptPositions(positions, ids),

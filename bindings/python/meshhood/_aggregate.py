@@ -27,8 +27,6 @@ Missing = Literal["propagate", "omit"]
 Nesting = Literal["own", "patch"]
 Kernel = Literal["epanechnikov", "biweight", "gaussian"]
 
-_KERNELS = ("epanechnikov", "biweight", "gaussian")
-
 
 def smoothing_radius(fwhm: Number) -> float:
     """The radius of the kernel "gaussian" of this full width at half maximum, in the same unit, at which its weight is
@@ -47,8 +45,7 @@ def vertex_areas(V: Any, F: Any = None) -> NDArray[np.float64]:
     >>> bool(abs(meshhood.vertex_areas(V, F).sum() - 4 * np.pi) < 0.2)
     True
     """
-    positions, corners, offsets = whole_mesh_arrays(V, F)
-    return _core.vertex_areas(positions, corners, offsets=offsets)
+    return _core.vertex_areas(whole_mesh_arrays(V, F))
 
 
 class Aggregates(Held):
@@ -100,11 +97,11 @@ class Aggregates(Held):
 
         values : (#V,) or (#V, ...), numbers or bools; each channel by itself. Copied. Or a SurfaceImage of nilearn with
             one part.
-        r, scales, vertices, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
+        r, scales, vertices, F, walls, ignored, metric, unit, max_bytes, workers, progress : see `MeshIndex`.
         reduce : "sum", "mean", "min", "max", "var", "std", "count", "median" or "quantile"; or several, which share one
             search.
         weights : (#V,) finite and >= 0, for sum, mean, var and std, which leave out a vertex of weight 0; "area" for
-            `vertex_areas`. The others ignore them.
+            `vertex_areas`, of `F`. The others ignore them.
         kernel : for sum and mean, how the weight falls with the distance d. None: not at all; "epanechnikov":
             1 - (d/r)^2; "biweight": (1 - (d/r)^2)^2; "gaussian": 1000^-(d/r)^2, of the full width at half maximum whose
             `smoothing_radius` is r.
@@ -114,10 +111,8 @@ class Aggregates(Held):
             and of them the vertices within each smaller radius. With metric="path" or "rings" both are the same.
         ddof : "var" and "std" divide by the number of values minus this, 0 or 1.
         q : for "quantile", 0 to 1, with linear interpolation as in numpy.quantile.
-        F : other faces than those that the index keeps, for weights="area".
         dtype : of the result, float32 or float64. Without it, that of `values` if float32, else float64. All sums are
             computed in float64.
-        max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
 
         Returns an axis of scales if there are any, one of vertices unless `vertices` is a single one, the axes of `values`
         but the first, and one of reductions unless `reduce` is one name. NaN where a neighborhood has no values; 0 for
@@ -141,11 +136,12 @@ class Aggregates(Held):
         names, axis = read_reductions(reduce)
         shape = rows.shape + given.shape[1:] + axis
         check_size(shape, 8, max_bytes)
+        falling = "box" if kernel is None else _convert.choice(kernel, "kernel", get_args(Kernel))
         options = {
             "reduce": [getattr(_core.Reduce, name) for name in names],
-            "kernel": getattr(_core.SmoothingKernel, _kernel(kernel)),
-            "missing": getattr(_core.MissingValues, _convert.choice(nan, "nan", ("propagate", "omit"))),
-            "nesting": getattr(_core.Nesting, _convert.choice(nesting, "nesting", ("own", "patch"))),
+            "kernel": getattr(_core.SmoothingKernel, falling),
+            "missing": getattr(_core.MissingValues, _convert.choice(nan, "nan", get_args(Missing))),
+            "nesting": getattr(_core.Nesting, _convert.choice(nesting, "nesting", get_args(Nesting))),
             "ddof": _convert.integer(ddof, "ddof", 0, 1),
             "quantile": _convert.share(q, "q"),
         }
@@ -155,19 +151,7 @@ class Aggregates(Held):
         if 0 in given.shape[1:]:
             return np.empty(shape, dtype)
         columns = np.array(given, np.float64, order="C").reshape(self._count, int(np.prod(given.shape[1:])))
-        with rows.reporter("aggregate") as report:
-            result = _core.aggregate(
-                rows.index._exact,
-                values=columns,
-                weights=areas,
-                vertices=rows.vertices,
-                radius=rows.radius,
-                threads=rows.threads,
-                max_bytes=2**64 - 1,
-                progress=report,
-                **options,
-                metric=rows.core_metric,
-            )
+        result = rows.ask(_core.aggregate, rows.index._exact, values=columns, weights=areas, **options)
         result = result.reshape(shape).astype(dtype, copy=False)
         return result if result.ndim else float(result)
 
@@ -287,7 +271,7 @@ def _smoothing_radii(fwhm: Any, scales: Any) -> tuple[Any, Any]:
 def _kernel_radii(fwhm: Any, name: str) -> Any:
     if fwhm is None or np.ndim(fwhm) == 0:
         return None if fwhm is None else smoothing_radius(_convert.finite(fwhm, name, or_zero=False))
-    widths = _numbers(fwhm, name, "iuf")
+    widths = _copied(fwhm, name, "iuf")
     wrong = np.argwhere(~((widths > 0) & (widths < np.inf)))
     if wrong.size:
         at = tuple(wrong[0])
@@ -299,9 +283,7 @@ def _values(values, count):
     """`values` as an array of numbers."""
     if hasattr(values, "mesh") and hasattr(values, "data"):  # nilearn's SurfaceImage
         values = only_part(values.data.parts, "values")
-    array = _convert.as_array(values, "values")
-    if array.dtype.kind not in "biuf":
-        raise TypeError(f"values: expected numbers, not {array.dtype}")
+    array = _convert.numbers(values, "values", "biuf")
     if array.ndim == 0 or array.shape[0] != count:
         raise ValueError(f"values: expected an array of shape ({count},) or ({count}, ...), not {array.shape}")
     return array
@@ -319,9 +301,8 @@ def area_weights(index: Held, weights: Any, F: Any) -> Any:
         return None
     if isinstance(weights, str):
         _convert.choice(weights, "weights", ("area",))
-        corners, offsets = index._face_arrays(F)
-        return _core.vertex_areas(index._methods.positions, corners, offsets=offsets)
-    array = _numbers(weights, "weights", "biuf")
+        return _core.vertex_areas((index._methods.positions, *index._face_arrays(F)))
+    array = _copied(weights, "weights", "biuf")
     if array.shape != (index._count,):
         raise ValueError(f"weights: expected an array of shape ({index._count},), not {array.shape}")
     wrong = np.flatnonzero(~((array >= 0) & (array < np.inf)))
@@ -330,16 +311,7 @@ def area_weights(index: Held, weights: Any, F: Any) -> Any:
     return array
 
 
-def _kernel(kernel):
-    if kernel is None:
-        return "box"
-    return _convert.choice(kernel, "kernel", _KERNELS)
-
-
-def _numbers(values, name, kinds):
+def _copied(values, name, kinds):
     """`values` as a new float64 array in C order. A copy, because a `progress` function or another thread may write to
     `values` after they are checked."""
-    array = _convert.as_array(values, name)
-    if array.dtype.kind not in kinds:
-        raise TypeError(f"{name}: expected numbers, not {array.dtype}")
-    return np.array(array, dtype=np.float64, order="C")
+    return np.array(_convert.numbers(values, name, kinds), dtype=np.float64, order="C")

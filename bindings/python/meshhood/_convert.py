@@ -39,6 +39,14 @@ def faces(f, count, name):
     return _numbers_of(f, count, name, "face", "faces").astype(np.int64, copy=False)
 
 
+def numbers(values, name, kinds="iuf"):
+    """`values` as an array of numbers, not copied."""
+    array = as_array(values, name)
+    if array.dtype.kind not in kinds:
+        raise TypeError(f"{name}: expected numbers, not {array.dtype}")
+    return array
+
+
 def _numbers_of(values, count, name, one, many):
     """The result is a copy even if `values` already have the type of ids: another thread, or a `progress` function, may
     write to them during the call."""
@@ -91,8 +99,7 @@ def radii(r, rows):
     array = np.array(as_array(r, "r"))
     if array.ndim == 0:
         return radius(array)
-    if array.dtype.kind not in "iuf":
-        raise TypeError(f"r: expected numbers, not {array.dtype}")
+    array = numbers(array, "r")
     if array.shape != (rows,):
         raise ValueError(
             f"r: expected one number, or one for each of {rows} rows, not an array of shape {array.shape}; several "
@@ -124,9 +131,7 @@ def ascending(values, name):
 
 def points(values, name, advice=""):
     """`values`, one point or (n, 3), as a new float64 array (n, 3) of finite numbers. `advice` ends the error if not."""
-    array = np.array(as_array(values, name))
-    if array.dtype.kind not in "iuf":
-        raise TypeError(f"{name}: expected numbers, not {array.dtype}")
+    array = np.array(numbers(values, name))
     if array.ndim == 1 and array.size == 0:
         array = array.reshape(0, 3)
     if array.ndim not in (1, 2) or array.shape[-1] != 3:

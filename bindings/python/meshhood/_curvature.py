@@ -79,9 +79,7 @@ class Curvature(NamedTuple):
 
 def normals_of(normals: Any, count: int) -> Any:
     """`normals`: (count, 3)."""
-    array = np.array(_convert.as_array(normals, "normals"))
-    if array.dtype.kind not in "iuf":
-        raise TypeError(f"normals: expected numbers, not {array.dtype}")
+    array = _convert.numbers(normals, "normals")
     if array.shape != (count, 3):
         raise ValueError(f"normals: expected an array of shape ({count}, 3), not {array.shape}")
     return array.astype(np.float64).ravel()

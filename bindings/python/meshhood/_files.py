@@ -65,8 +65,7 @@ def read_mesh(
             warnings.warn(f"{os.fsdecode(path)}: {note}", stacklevel=2)
         single = np.asarray(vertices, np.float32)  # as these files have them, though a library may return float64
         if np.array_equal(single, vertices, equal_nan=True):
-            corners, offsets = face_arrays(faces)
-            warn_if_coarse(single, corners, offsets, 3)
+            warn_if_coarse((single, *face_arrays(faces)), 3)
         return Mesh(vertices.astype(real or vertices.dtype, copy=False), faces)
     with reporter(progress, "read_mesh", "bytes") as report:
         vertices, corners, offsets, irregularities = _core.read_mesh(
@@ -110,7 +109,8 @@ def write_mesh(
         raise ValueError(f"path: the extension {extension!r}, expected .ply, .vtk, {', '.join(WRITERS)}")
     if colors is not None and extension in (".vtk", ".gii"):
         raise ValueError(f"colors: expected None for {extension}")
-    positions, corners, offsets = mesh_arrays(V, F)
+    mesh = mesh_arrays(V, F)
+    positions = mesh[0]
     if values is not None and not isinstance(values, Mapping):
         raise TypeError(f"values: {type(values).__name__}, expected a dict of arrays by name, as {{'height': array}}")
     named = [(name, _scalars(numbers, f"values[{name!r}]", len(positions))) for name, numbers in (values or {}).items()]
@@ -118,27 +118,24 @@ def write_mesh(
         colors = np.ascontiguousarray(_convert.as_array(colors, "colors"))
         if colors.dtype != np.uint8 or colors.shape != (len(positions), 3):
             raise ValueError(f"colors: {colors.dtype} of shape {colors.shape}, expected uint8 ({len(positions)}, 3)")
-    placed, walls = _core.place(positions, corners, offsets=offsets) or (positions, None)
-    _core.check_mesh(placed, corners, offsets=offsets)  # as other libraries write anything
+    placed, walls = _core.place(mesh) or (positions, None)
+    whole = placed, *mesh[1:]
+    _core.check_mesh(whole)  # as other libraries write anything
     if extension in WRITERS:
         if walls is not None and extension == ".glb":
             way_out = without_them("meshhood.MeshIndex(V, F)")
             raise ValueError(f"V: {text_of_unplaced(walls)}, which glTF does not know, {way_out}")
         if extension != ".vtp" and not os.fsdecode(path).lower().endswith((".shape.gii", ".func.gii")):
-            warn_if_coarse(np.asarray(positions, np.float32), corners, offsets, 3)
-        content = bytes_of(extension, Writing(positions, corners, offsets, named, colors), os.fsdecode(path))
+            warn_if_coarse((np.asarray(positions, np.float32), *mesh[1:]), 3)
+        content = bytes_of(extension, Writing(*mesh, named, colors), os.fsdecode(path))
         with atomic_file(path) as file:
             file.write(content)
         return
-    _core.write_mesh(
-        path, placed, corners, offsets=offsets, values=named, colors=colors, walls=walls, vtk=extension == ".vtk"
-    )
+    _core.write_mesh(path, whole, values=named, colors=colors, walls=walls, vtk=extension == ".vtk")
 
 
 def _scalars(numbers: Any, name: str, count: int) -> NDArray[np.float32]:
-    array = _convert.as_array(numbers, name)
-    if array.dtype.kind not in "biuf":
-        raise TypeError(f"{name}: expected numbers, not {array.dtype}")
+    array = _convert.numbers(numbers, name, "biuf")
     if array.shape not in ((count,), (count, 3)):
         raise ValueError(f"{name}: expected an array of shape ({count},) or ({count}, 3), not {array.shape}")
     return np.ascontiguousarray(array, np.float32)
@@ -177,4 +174,4 @@ def load(
                 raise ValueError(f"{error}, as MeshIndex.save writes it; a mesh file is read by read_mesh") from None
             raise
     faces = exact.faces
-    return MeshIndex._holding(exact, faces and kept_faces(*faces))
+    return MeshIndex._holding(exact, faces and kept_faces(faces))

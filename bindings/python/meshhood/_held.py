@@ -35,7 +35,6 @@ class Held:
     _last_surface: tuple[Any, Any]  # the key of its faces, and the surface
     _before_refit: list[Any]  # at most one: the exact index, the key, its surface, and what has moved since
     _last_patches: tuple[Any, Any]  # likewise
-    _queries: Any
     _count: int
     _whole: Optional[Held]
     _no_position: Any  # the mask of the vertices without a position, or None
@@ -55,7 +54,6 @@ class Held:
         self._last_surface = (None, None)
         self._before_refit = []
         self._last_patches = (None, None)
-        self._queries = _core.queries(exact)
         self._count = exact.vertex_count
 
     def _method(self, method: Any, metric: Any) -> Any:
@@ -155,7 +153,7 @@ class Held:
         arrays = face_arrays(F)
         key = _digest(arrays)
         if key != self._checked:
-            _core.check_faces(self._methods.graph(), *arrays)
+            _core.check_faces(self._methods.graph(), arrays)
             self._checked = key
         return key, arrays
 
@@ -175,10 +173,10 @@ class Held:
         if normals is not None:
             if F is not None and not needs_faces:
                 raise ValueError("F: expected None, because the normals are given")
-            arrays = self._face_arrays(F) if needs_faces else (None, None)
+            arrays = self._face_arrays(F) if needs_faces else None
             values = normals_of(normals, self._count)
             try:
-                return _core.surface_of_normals(self._exact, values, *arrays)
+                return _core.surface_of_normals(self._exact, values, arrays)
             except ValueError as error:
                 raise ValueError(f"normals: {error}") from None
         return self._surface_of(*self._keyed_faces(F))
@@ -189,7 +187,7 @@ class Held:
             return self._whole._surface_of(key, arrays).on(self._exact)
         kept, surface = self._last_surface
         if kept != key:
-            surface = self._refitted_surface(key) or _core.surface_of_faces(self._exact, *arrays)
+            surface = self._refitted_surface(key) or _core.surface_of_faces(self._exact, arrays)
             self._last_surface = (key, surface)  # replaced as a whole: no lock, which a fork could copy while it is held
         return surface
 

@@ -124,6 +124,9 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         then numbers of edges. "space", the vertices within `r` in space, connected or not; calls about what is
         connected refuse it.
     unit : of `r` and `scales`: "mesh" is that of V, "edge" is `mean_edge_length`.
+    F : other faces than those that the index keeps, or a mesh. What is made of them, such as normals, is kept for the
+        next call with the same faces.
+    max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
     workers, progress : as above. Progress is over all scales. The result does not depend on `workers`.
 
     Vertices are numbered as in V, with int32 ids; at most 2^31 - 1 vertices. V and F are copied: later changes have no
@@ -157,19 +160,18 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         workers: int = -1,
         progress: Progress = None,
     ) -> None:
-        positions, corners, offsets = mesh_arrays(V, F)
-        positions, no_position = placed(positions, corners, offsets, stacklevel=3)
+        mesh, no_position = placed(mesh_arrays(V, F), stacklevel=3)
         options = {"cut": _convert.edges(cut, "cut"), "threads": _convert.threads(workers)}
         with reporter(progress, "MeshIndex") as report:
-            exact = _core.exact(positions, corners, offsets=offsets, **options, progress=report)
+            exact = _core.exact(mesh, **options, progress=report)
         has_faces = keep_faces and not hasattr(F, "tocoo")
-        self._hold(exact, kept_faces(corners, offsets) if has_faces else None)
+        self._hold(exact, kept_faces(mesh[1:]) if has_faces else None)
         if no_position is not None:
             self._hold_without(no_position)
         if not hasattr(F, "tocoo"):
-            warn_if_no_faces(positions, corners, stacklevel=3)
-        warn_if_unwelded(positions, corners, offsets, stacklevel=3)
-        warn_if_coarse(positions, corners, offsets, stacklevel=3)
+            warn_if_no_faces(mesh, stacklevel=3)
+        warn_if_unwelded(mesh, stacklevel=3)
+        warn_if_coarse(mesh, stacklevel=3)
 
     @classmethod
     def _holding(cls, exact: Any, faces: Any = None) -> MeshIndex:
@@ -291,8 +293,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
 
         r, vertices, scales, metric, walls, ignored, unit, workers, progress : see `MeshIndex`.
         return_distance, sort, method, dtype : see `neighborhood`.
-        max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free. A
-            sample of the rows usually shows this within a second.
+        max_bytes : see `MeshIndex`. A sample of the rows usually shows within a second that a result is larger.
 
         `indptr` is int32 if it fits, else int64; `indices` are int32. The arrays are new. All rows are in memory at
         once; to avoid that, use `iter_neighborhoods`.
@@ -349,7 +350,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         (2, 642)
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        counts = rows.shaped(rows.ask("counts", rows.index._method(method, metric).counts))
+        counts = rows.shaped(rows.ask(rows.index._method(method, metric).counts))
         return counts if counts.ndim else int(counts)
 
     def radius_neighbors_graph(
@@ -465,15 +466,8 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
 
         def search(radius: Any, report: Any) -> Any:
             nonlocal left
-            indptr, indices, distances = searched.neighborhoods(
-                rows.vertices,
-                radius,
-                distances=with_distances,
-                sorted=sort == "id",
-                threads=rows.threads,
-                max_bytes=left,
-                progress=report,
-            )
+            call = rows.call(report, radius, left)
+            indptr, indices, distances = searched.neighborhoods(call, distances=with_distances, sorted=sort == "id")
             left = max(0, left - indices.nbytes - distances.nbytes)
             return indptr, indices, distances if with_distances else None
 
@@ -601,5 +595,5 @@ def _as_size(count: float) -> str:
 
 def _unpickled(cls: type[MeshIndex], saved: Any, faces: Any) -> MeshIndex:
     # A copy, because arrays that were sent out of band are memory of the caller.
-    kept = faces and kept_faces(*(None if array is None else np.array(array) for array in faces))
+    kept = faces and kept_faces([None if array is None else np.array(array) for array in faces])
     return cls._holding(_core.from_bytes(np.frombuffer(saved, np.uint8)), kept)

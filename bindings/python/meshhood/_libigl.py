@@ -41,7 +41,7 @@ def principal_curvature(
     if useKring:
         found = index.curvature(radius, metric="rings", like="libigl", workers=workers)
     else:
-        length = _core.libigl_radius(index.positions, *index._face_arrays(None), edges=float(radius))
+        length = _core.libigl_radius((index.positions, *index._face_arrays(None)), edges=float(radius))
         found = index.curvature(length, like="libigl", workers=workers)
     bad = np.flatnonzero(np.isin(found.state, (TOO_FEW, NO_NORMAL))).astype(np.int32)
     return found.d1, found.d2, found.k1, found.k2, bad

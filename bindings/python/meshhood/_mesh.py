@@ -13,7 +13,8 @@ from ._convert import as_array
 
 
 def mesh_arrays(V, F):
-    """Positions (#V by 3, float32 or float64), corners, and the offsets of the polygons or None for triangles."""
+    """A mesh as the library takes it: positions (#V by 3, float32 or float64), corners, and the offsets of the polygons or
+    None for triangles."""
     if F is None:
         V, F = _parts(V)
     positions = positions_of(V)
@@ -24,11 +25,11 @@ def mesh_arrays(V, F):
 
 def whole_mesh_arrays(V, F):
     """The same of a mesh whose vertices all have a position: `MeshIndex` alone takes others."""
-    arrays = positions, corners, offsets = mesh_arrays(V, F)
-    found = _core.place(positions, corners, offsets=offsets)
+    mesh = mesh_arrays(V, F)
+    found = _core.place(mesh)
     if found is not None:
         raise ValueError(f"V: {text_of_unplaced(found[1])}, {without_them('meshhood.MeshIndex(V, F)')}")
-    return arrays
+    return mesh
 
 
 def face_arrays(F):
@@ -40,9 +41,10 @@ def face_arrays(F):
     return _polygons(F) if isinstance(F, tuple) else _faces(F)
 
 
-def kept_faces(corners, offsets):
+def kept_faces(faces):
     """The arrays above, compact and read-only, for vertices that int32 can number; no offsets if all faces are
     triangles. Arrays of this size are not copied."""
+    corners, offsets = faces
     if offsets is not None and len(corners) == 3 * (len(offsets) - 1) and np.all(np.diff(offsets) == 3):
         offsets = None
     wide = np.int32 if len(corners) < 2**31 else np.int64
@@ -357,15 +359,15 @@ def _meshio_block(block):
     return data
 
 
-def placed(positions, corners, offsets, stacklevel):
-    """The positions with those of vertices without one (NaN), in no face, at another vertex; and the mask of these, or
+def placed(mesh, stacklevel):
+    """The mesh with the positions of vertices without one (NaN), in no face, at another vertex; and the mask of these, or
     None. Warns about them."""
-    found = _core.place(positions, corners, offsets=offsets)
+    found = _core.place(mesh)
     if found is None:
-        return positions, None
+        return mesh, None
     positions, walls = found
     warnings.warn(f"V: {text_of_walls(walls)}", stacklevel=stacklevel)
-    return positions, walls
+    return (positions, *mesh[1:]), walls
 
 
 def text_of_walls(walls):
@@ -385,8 +387,9 @@ def without_them(index):
     )
 
 
-def warn_if_no_faces(positions, corners, stacklevel):
+def warn_if_no_faces(mesh, stacklevel):
     """Warns if there is nothing that connects the vertices."""
+    positions, corners, _ = mesh
     if len(positions) > 1 and len(corners) == 0:
         warnings.warn(
             f"F: no faces, so each of the {len(positions)} vertices is a neighborhood of its own; for points without "
@@ -395,9 +398,9 @@ def warn_if_no_faces(positions, corners, stacklevel):
         )
 
 
-def warn_if_coarse(positions, corners, offsets, stacklevel):
+def warn_if_coarse(mesh, stacklevel):
     """Warns if the positions are float32 and their edges are only a few times as long as its resolution."""
-    why = _core.why_coarse(positions, corners, offsets=offsets) if positions.dtype == np.float32 else None
+    why = _core.why_coarse(mesh) if mesh[0].dtype == np.float32 else None
     if why is not None:
         warnings.warn(f"V: {why}; {_KEEP_DIGITS}", stacklevel=stacklevel)
 
@@ -417,9 +420,10 @@ _KEEP_DIGITS = (
 )
 
 
-def warn_if_unwelded(positions, corners, offsets, stacklevel):
+def warn_if_unwelded(mesh, stacklevel):
     """Warns if the faces are separate although their corners coincide or differ by rounding, as in an STL file that was
     read without welding."""
+    positions, corners, offsets = mesh
     faces = len(corners) // 3 if offsets is None else len(offsets) - 1
     triangles = len(corners) - 2 * faces
     # A connected surface of n vertices has at least n - 2 triangles; separate polygons have a third of n to nearly n.
@@ -435,7 +439,7 @@ def warn_if_unwelded(positions, corners, offsets, stacklevel):
         side = np.linalg.norm(first - second, axis=1).mean()
         for share in 10.0 ** np.arange(-7, -2):  # the smallest that is enough: a larger one may join what is apart
             eps = float(f"{side * share:.0e}")
-            distinct = len(_core.weld(positions, corners, offsets=offsets, eps=eps)[0])
+            distinct = len(_core.weld(mesh, eps=eps)[0])
             if 2 * distinct <= len(positions):
                 break
     if 2 * distinct <= len(positions):

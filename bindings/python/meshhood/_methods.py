@@ -54,16 +54,14 @@ def core_metric(metric: str) -> Any:
 
 
 class Methods(dict):
-    """The methods of an index, by name, `Paper` or metric. Each is made at its first use and then kept."""
+    """The methods of an index, by name, `Paper` or metric, and what they are made of. Each is made at its first use and
+    then kept."""
 
     def __init__(self, exact, whole=None):
         """`whole`: of an index with masks, the methods of that without."""
         super().__init__(exact=exact)
         self._whole = whole
-        self._graph = None
-        self._positions = None
-        self._mean_edge_length = None
-        self._hierarchies = {}
+        self._parts = {}
         self._locks = {}
 
     def __missing__(self, method):
@@ -90,46 +88,33 @@ class Methods(dict):
         paper = Paper() if method == "paper" else method
         if not isinstance(paper, Paper):
             raise ValueError(f"method: {method!r}, expected 'exact', 'paper', 'bfs', 'ball' or a Paper")
-        hierarchy = self._hierarchy(paper.levels, paper.discard, paper.fusion_growth)
+        options = {"levels": paper.levels, "discard": paper.discard, "fusion_growth": paper.fusion_growth}
+        hierarchy = self._part(tuple(options.values()), lambda whole: _core.hierarchy(whole.graph(), **options))
         return _core.paper(hierarchy, radius_ratio=paper.radius_ratio)
 
-    def _hierarchy(self, levels, discard, fusion_growth):
-        options = levels, discard, fusion_growth
-        if options not in self._hierarchies:
-            self._hierarchies[options] = _core.hierarchy(
-                self.graph(), levels=levels, discard=discard, fusion_growth=fusion_growth
-            )
-        return self._hierarchies[options]
+    def _part(self, name, make):
+        """What does not depend on masks. `make` is called with the methods of the index without."""
+        if self._whole is not None:
+            return self._whole._part(name, make)
+        with self._making():
+            if name not in self._parts:
+                self._parts[name] = make(self)
+            return self._parts[name]
 
     @property
     def positions(self):
-        """The positions in the order of the mesh, extracted from the index at the first use."""
-        if self._whole is not None:
-            return self._whole.positions
-        with self._making():
-            if self._positions is None:
-                self._positions = _core.positions(self["exact"])
-            return self._positions
+        """In the order of the mesh."""
+        return self._part("positions", lambda whole: _core.positions(whole["exact"]))
 
     def graph(self):
-        """The mesh as a graph, extracted from the index at the first use."""
-        if self._whole is not None:
-            return self._whole.graph()
-        with self._making():
-            if self._graph is None:
-                self._graph = _core.graph(self["exact"])
-            return self._graph
+        """The mesh as a graph."""
+        return self._part("graph", lambda whole: _core.graph(whole["exact"]))
+
+    @property
+    def mean_edge_length(self):
+        return self._part("mean edge", lambda whole: whole.graph().mean_edge_length())
 
     @property
     def known_mean_edge_length(self):
         """None if it has not been computed yet, which takes as long as a pass over all edges."""
-        return self._mean_edge_length if self._whole is None else self._whole.known_mean_edge_length
-
-    @property
-    def mean_edge_length(self):
-        if self._whole is not None:
-            return self._whole.mean_edge_length
-        with self._making():
-            if self._mean_edge_length is None:
-                self._mean_edge_length = self.graph().mean_edge_length()
-            return self._mean_edge_length
+        return self._parts.get("mean edge") if self._whole is None else self._whole.known_mean_edge_length

@@ -38,7 +38,7 @@ def read_other(path: str) -> Optional[_Read]:
     module = optional(form.module, f"{path}: {form.name}")
     try:
         V, F, notes = form.read(module, path)
-        positions, corners, offsets = mesh_arrays(V, F)
+        mesh = positions, corners, offsets = mesh_arrays(V, F)
     except ModuleNotFoundError as error:
         needs = f"{path}: {form.name} needs {error.name}: pip install {error.name}"
         raise ModuleNotFoundError(needs, name=error.name) from None
@@ -50,7 +50,7 @@ def read_other(path: str) -> Optional[_Read]:
         library = form.module.partition(".")[0]
         raise ValueError(f"{path}: {form.name} that {library} cannot read: {str(error) or type(error).__name__}") from error
     try:
-        found = _core.place(positions, corners, offsets=offsets)
+        found = _core.place(mesh)
     except ValueError as error:
         raise ValueError(f"{path}: {str(error).removeprefix('V: ')}") from None
     if found is not None:

@@ -124,10 +124,8 @@ class Patches(Held):
         the ball, and do not depend on how the surface is divided into triangles.
 
         r : one radius, or one for each row. A point at exactly `r` counts.
-        vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`. Ignored vertices have no effect.
+        vertices, scales, F, walls, ignored, unit, workers, progress : see `MeshIndex`. Ignored vertices have no effect.
         metric : "straight" alone, as a patch is in a ball.
-        F : other faces than those that the index keeps. What is made of the faces is kept for the next call with the
-            same faces.
 
         Returns `Invariants`: area, volume. A row depends on the index, the faces, its vertex and the radius alone.
 
@@ -138,7 +136,7 @@ class Patches(Held):
         """
         metric = _convert.choice(metric, "metric", ("straight",))
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        return Invariants(*map(rows.shaped, rows.ask("invariants", rows.index._patches(F).invariants)))
+        return Invariants(*map(rows.shaped, rows.ask(rows.index._patches(F).invariants)))
 
     def gaps(
         self,
@@ -166,7 +164,7 @@ class Patches(Held):
         """
         metric = _convert.choice(metric, "metric", ("straight",))
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        return Gaps(*map(rows.shaped, rows.ask("gaps", rows.index._patches(F).gaps)))
+        return Gaps(*map(rows.shaped, rows.ask(rows.index._patches(F).gaps)))
 
     def patch(
         self,
@@ -189,8 +187,8 @@ class Patches(Held):
         >>> face in index.patch(point, 0.3, face=face)
         True
         """
-        patches, words = self._one_patch(start, r, face, F, walls, unit)
-        return patches.faces(**words)
+        patches, *one = self._one_patch(start, r, face, F, walls, unit)
+        return patches.faces(*one)
 
     def clip(
         self,
@@ -222,9 +220,9 @@ class Patches(Held):
         >>> np.allclose(np.linalg.norm(part.V[len(part.vertices):] - V[42], axis=1), 0.5)
         True
         """
-        patches, words = self._one_patch(start, r, face, F, walls, unit)
+        patches, *one = self._one_patch(start, r, face, F, walls, unit)
         limit = _convert.finite(tolerance, "tolerance", or_zero=False)
-        points, corners, weights, faces, triangles, area = patches.clip(**words, tolerance=limit)
+        points, corners, weights, faces, triangles, area = patches.clip(*one, limit)
         count = int(np.count_nonzero((corners == corners[:, :1]).all(axis=1)))  # of vertices, which come first
         new = corners[count:], weights[count:]
         return Submesh(points, triangles, corners[:count, 0].copy(), faces, area, *new, self._count)
@@ -255,8 +253,8 @@ class Patches(Held):
         >>> face, _, point, _ = index.closest_point([0, 0, 2.0])
         >>> area, volume = index.measure(point, 0.3, face=face)
         """
-        patches, words = self._one_patch(start, r, face, F, walls, unit)
-        return Measure(*patches.measure(**words))
+        patches, *one = self._one_patch(start, r, face, F, walls, unit)
+        return Measure(*patches.measure(*one))
 
     def gap(
         self,
@@ -284,19 +282,17 @@ class Patches(Held):
         >>> bool(abs(index.gap(point, 0.4, face=face).distance - 0.25) < 0.02)
         True
         """
-        patches, words = self._one_patch(start, r, face, F, walls, unit)
-        distance, number, *arrays = (column[0] for column in patches.gap(**words))
+        patches, *one = self._one_patch(start, r, face, F, walls, unit)
+        distance, number, *arrays = (column[0] for column in patches.gap(*one))
         return Gap(float(distance), int(number), *arrays)
 
-    def _one_patch(self, start: Any, r: Any, face: Any, F: Any, walls: Any, unit: Any) -> tuple[Any, dict[str, Any]]:
-        """What has the patches, and the start of one."""
+    def _one_patch(self, start: Any, r: Any, face: Any, F: Any, walls: Any, unit: Any) -> tuple[Any, Any, float]:
+        """What has the patches, and the start and the radius of one."""
         radius = self._scale(unit) * _convert.radius(r)
         patches = self._with_masks(walls, None)._patches(F)
         if face is None:
             if not _convert.is_single(start):
                 raise TypeError("start: a point, expected its face, too: face=, as closest_point or first_hit returns it")
-            vertex = _convert.vertex(start, self._count, "start")
-            return patches, {"vertex": vertex, "face": None, "point": [0.0, 0.0, 0.0], "radius": radius}
+            return patches, _convert.vertex(start, self._count, "start"), radius
         point = _convert.point(start, "start", "invariants, gaps")[0].tolist()
-        number = _convert.integer(face, "face", 0, 2**63 - 1)
-        return patches, {"vertex": 0, "face": number, "point": point, "radius": radius}
+        return patches, (_convert.integer(face, "face", 0, 2**63 - 1), point), radius

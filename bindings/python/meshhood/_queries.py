@@ -203,9 +203,9 @@ class Queries(Held):
             rows = self._corners_of(face, count, seeds)
         else:
             if seeds is None:
-                seeds = self._queries.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
+                seeds = self._exact.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
             rows = _convert.seed_rows(seeds, count, self._count)
-        indices, has_seeds = self._searched(metric, walls, ignored)._queries.stroke(by, centers, rows, radii)
+        indices, has_seeds = self._searched(metric, walls, ignored)._exact.stroke(by, centers, rows, radii)
         _warn_unless(has_seeds, "points: a")
         if by_id:
             indices.sort()
@@ -242,7 +242,7 @@ class Queries(Held):
         center, first = self._start(start, seeds, face, "neighborhoods(scales=radii, vertices=...)")
         by = self._metric_of(center, metric)
         values = _convert.ascending(radii, "radii") * self._scale(unit, metric)
-        counts, ids, has_seed = self._searched(metric, walls, ignored)._queries.nested(by, center, first, values)
+        counts, ids, has_seed = self._searched(metric, walls, ignored)._exact.nested(by, center, first, values)
         _warn_unless(has_seed or not len(first), "start: the")
         return Nested(counts, ids)
 
@@ -268,7 +268,7 @@ class Queries(Held):
         center, first = self._start(start, seeds, face, "a call for each")
         by = self._metric_of(center, metric)
         w, r = _convert.vertex(w, self._count, "w"), self._scale(unit, metric) * _convert.radius(r)
-        return bool(self._searched(metric, walls, ignored)._queries.contains(by, center, first, w, r))
+        return bool(self._searched(metric, walls, ignored)._exact.contains(by, center, first, w, r))
 
     def connecting_radius(
         self,
@@ -292,7 +292,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "a call for each")
         w = _convert.vertex(w, self._count, "w")
-        searched = self._searched(metric, walls, ignored)._queries
+        searched = self._searched(metric, walls, ignored)._exact
         return float(searched.connecting_radius(self._metric_of(center, metric), center, first, w))
 
     def nearest_connected(
@@ -316,7 +316,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "k_nearest(k, vertices), or seeds= around a point")
         k = _convert.integer(k, "k", 1, 2**63 - 1)
-        searched = self._searched(metric, walls, ignored)._queries
+        searched = self._searched(metric, walls, ignored)._exact
         return Connected(*searched.nearest_connected(self._metric_of(center, metric), center, first, k))
 
     @overload
@@ -346,7 +346,7 @@ class Queries(Held):
         if self._count == 0:
             raise ValueError("points: the mesh has no vertices")
         with reporter(progress, "nearest", "points", len(rows)) as report:
-            vertices, distances = self._queries.nearest(rows, threads=_convert.threads(workers), progress=report)
+            vertices, distances = self._exact.nearest(rows, threads=_convert.threads(workers), progress=report)
         is_one = np.ndim(points) == 1 and len(rows) == 1
         return (int(vertices[0]), float(distances[0])) if is_one else (vertices, distances)
 
@@ -367,8 +367,8 @@ class Queries(Held):
     def _around_point(
         self, center: Any, first: Ids, radius: float, metric: str, walls: Any, ignored: Any
     ) -> tuple[Ids, Reals]:
-        queries = self._searched(metric, walls, ignored)._queries
-        ids, distances, has_seed = queries.region(core_metric(metric), center, first, radius)
+        exact = self._searched(metric, walls, ignored)._exact
+        ids, distances, has_seed = exact.region(core_metric(metric), center, first, radius)
         _warn_unless(has_seed or not len(first), "start: the", stacklevel=4)
         return ids, distances
 
@@ -386,7 +386,7 @@ class Queries(Held):
             corners = self._corners_of([_convert.integer(face, "face", 0, 2**63 - 1)], 1, seeds)[0]
             first = corners[corners >= 0]
         elif seeds is None:
-            first = self._queries.nearest(point)[0] if self._count else np.empty(0, np.int32)
+            first = self._exact.nearest(point)[0] if self._count else np.empty(0, np.int32)
         else:
             first = _convert.vertices(np.atleast_1d(seeds), self._count, "seeds")
         x, y, z = point[0]

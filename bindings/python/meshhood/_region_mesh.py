@@ -15,8 +15,8 @@ from ._mesh import whole_mesh_arrays
 from ._optional import optional
 from ._poly_data import poly_data
 from ._repr import shown_in_a_line
+from ._types import Ids
 
-Ids = NDArray[np.int32]
 Corners = Literal["all", "any"]
 
 
@@ -134,8 +134,8 @@ class RegionMesh:
     """
 
     def __init__(self, V: Any, F: Any = None) -> None:
-        positions, corners, offsets = whole_mesh_arrays(V, F)
-        self._hold(positions.copy(), _core.surface_of_mesh(positions, corners, offsets), offsets is None)
+        mesh = positions, _, offsets = whole_mesh_arrays(V, F)
+        self._hold(positions.copy(), _core.surface_of_mesh(mesh), offsets is None)
 
     def _hold(self, positions: Any, surface: Any, is_triangles: bool) -> None:
         self._positions = positions

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 
-from . import _convert
+from . import _convert, _core
 from ._methods import core_metric
 from ._progress import Progress, Report, reporter
 from ._types import METRICS, Ids, Reals
@@ -34,23 +34,18 @@ class Rows:
     threads: int
     progress: Progress
 
-    @property
-    def radius(self) -> Any:
-        """As calls of the library take it that compute all scales at once: a number; an array, one for each row; or a
-        list, of scales."""
-        return self.radii if self.has_scales else self.radii[0]
-
-    @property
-    def core_metric(self) -> Any:
-        return core_metric(self.metric)
-
     def reporter(self, title: str) -> AbstractContextManager[Report]:
         return reporter(self.progress, title, "vertices", self.count * len(self.radii))
 
-    def ask(self, title: str, call: Callable[..., Any], *first: Any, **options: Any) -> Any:
+    def call(self, report: Report, radius: Any, max_bytes: int = 2**64 - 1) -> Any:
+        """As the library takes them."""
+        return _core.Call(self.vertices, radius, core_metric(self.metric), self.threads, report, max_bytes)
+
+    def ask(self, call: Callable[..., Any], *first: Any, max_bytes: int = 2**64 - 1, **options: Any) -> Any:
         """What a call of the library returns for these rows."""
-        with self.reporter(title) as report:
-            return call(*first, self.vertices, self.radius, threads=self.threads, progress=report, **options)
+        radius = self.radii if self.has_scales else self.radii[0]
+        with self.reporter(call.__name__) as report:
+            return call(*first, self.call(report, radius, max_bytes), **options)
 
     def shaped(self, array: Any) -> Any:
         """A result with a row for each vertex, of one scale after the other."""

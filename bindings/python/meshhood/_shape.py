@@ -50,10 +50,8 @@ class Shape(Held):
     ) -> Curvature:
         """Principal curvatures of `vertices` by a quadric that is fitted to their neighborhoods.
 
-        r, vertices, scales, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
+        r, vertices, scales, F, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
         dtype : of the numbers of the result, float64 unless given. All is computed in float64.
-        F : other faces than those that the index keeps, or a mesh. The normals are kept for the next call with the same
-            faces.
         normals : (#V, 3), instead of those of the faces; of any length. NaN where a vertex has none.
         like : "libigl" gives the values of igl.principal_curvature. Its shape operator is wrong where the fitted
             quadric is tilted against the normal, and its neighborhoods have the vertices nearer than `r`.
@@ -80,8 +78,7 @@ class Shape(Held):
             raise ValueError(f"like: {like!r}, expected None with fit='jet'")
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
-        options |= {"filter": bool(filter), "metric": rows.core_metric}
-        found = rows.ask("curvature", rows.index._surface(F, normals).curvatures, **options)
+        found = rows.ask(rows.index._surface(F, normals).curvature, filter=bool(filter), **options)
         return Curvature(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def corrected_curvature(
@@ -113,7 +110,7 @@ class Shape(Held):
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         surface = rows.index._surface(F, normals, needs_faces=True)
-        found = rows.ask("corrected_curvature", surface.corrected, metric=rows.core_metric)
+        found = rows.ask(surface.corrected_curvature)
         return CorrectedCurvature(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def moments(
@@ -148,7 +145,7 @@ class Shape(Held):
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": area_weights(self, weights, F)}
-        found = rows.ask("moments", _core.moments, rows.index._exact, metric=rows.core_metric, **options)
+        found = rows.ask(_core.moments, rows.index._exact, **options)
         return _of_type(rows.shaped(found), dtype)
 
     def principal_components(
@@ -176,8 +173,7 @@ class Shape(Held):
         ((642, 3), (642,))
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        options = {"weights": area_weights(self, weights, F), "metric": rows.core_metric}
-        found = rows.ask("principal_components", _core.principal_components, rows.index._exact, **options)
+        found = rows.ask(_core.principal_components, rows.index._exact, weights=area_weights(self, weights, F))
         return PrincipalComponents(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def features(
@@ -199,13 +195,13 @@ class Shape(Held):
     ) -> Floats:
         """Feature vectors without unit, so that scales can be compared.
 
-        r, vertices, scales, walls, ignored, metric, unit, workers, progress : see `MeshIndex`; scales are for example
+        r, vertices, scales, F, walls, ignored, metric, unit, workers, progress : see `MeshIndex`; scales are for example
             `geometric_radii(a, b, count)`. Radii are > 0. With metric="rings", `r` edges count as `r` times the mean
             length of an edge.
         kinds : one name or several of crease, mean, gaussian, k1, k2, curvedness, shape_index, area, volume, gap,
             height, variation. See docs/curvature.md for what they mean. area, volume and gap are those of `invariants`
             and `gaps`: of the surface, for metric="straight" alone.
-        F, filter, dtype : as for `curvature`.
+        filter, dtype : as for `curvature`.
 
         Returns (#scales, #rows, #kinds), without the first axis if there is one `r`, and without the last if
         `kinds` is one name. NaN where there is no result. `persistence` finds over how many scales a feature lasts. As
@@ -218,12 +214,9 @@ class Shape(Held):
         ((3, 642, 2), (642, 6))
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        options = {
-            "kinds": [getattr(_core.Feature, name) for name in _convert.some_choices(kinds, "kinds", get_args(Kind))],
-            "filter": bool(filter),
-            "metric": rows.core_metric,
-        }
-        found = _of_type(rows.shaped(rows.ask("features", rows.index._surface(F).features, **options)), dtype)
+        chosen = [getattr(_core.Feature, name) for name in _convert.some_choices(kinds, "kinds", get_args(Kind))]
+        found = rows.ask(rows.index._surface(F).features, kinds=chosen, filter=bool(filter))
+        found = _of_type(rows.shaped(found), dtype)
         return found[..., 0] if isinstance(kinds, str) else found
 
 

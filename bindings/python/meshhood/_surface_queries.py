@@ -126,11 +126,11 @@ class SurfaceQueries(Held):
         >>> index = meshhood.MeshIndex.of_faces(V, F)
         >>> smooth = index.smooth(index.positions[:, 2], fwhm=0.3)
         """
-        positions, corners, offsets = whole_mesh_arrays(V, F)
+        mesh = whole_mesh_arrays(V, F)
         threads = _convert.threads(workers)
         with reporter(progress, "of_faces") as report:
-            exact = _core.exact_of_faces(positions, corners, offsets=offsets, threads=threads, progress=report)
-        warn_if_coarse(positions, corners, offsets, stacklevel=3)
+            exact = _core.exact_of_faces(mesh, threads=threads, progress=report)
+        warn_if_coarse(mesh, stacklevel=3)
         return cls._holding(exact)
 
     def nearest_unconnected(
@@ -166,9 +166,7 @@ class SurfaceQueries(Held):
         >>> thin = distance < 0.1
         """
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        exact, by = rows.index._exact, rows.core_metric
-        found = rows.ask("nearest_unconnected", _core.nearest_unconnected, exact, metric=by)
-        vertex, distance = map(rows.shaped, found)
+        vertex, distance = map(rows.shaped, rows.ask(_core.nearest_unconnected, rows.index._exact))
         return Unconnected(vertex, distance) if vertex.ndim else Unconnected(int(vertex), float(distance))
 
     def closest_point(
@@ -178,9 +176,7 @@ class SurfaceQueries(Held):
         points (n, 3) or [], four arrays.
 
         q : 3 numbers, or (n, 3).
-        F : other faces than those that the index keeps. What is made of the faces is kept for the next call with the
-            same faces.
-        workers, progress : as for `MeshIndex`, for many points.
+        F, workers, progress : see `MeshIndex`; workers are for many points.
 
         face : an int, or (n,) int64, the row of F. Of several faces at the same distance, the one with the smallest
             number; faces that meet at a side or a corner have the same distance there, bit for bit.
@@ -267,10 +263,7 @@ class SurfaceQueries(Held):
         """
         rows = read_rows(self, vertices, 0.0, None, "straight", None, None, "mesh", workers, progress)
         by_sphere = _convert.choice(method, "method", ("ray", "sphere")) == "sphere"
-        with rows.reporter("thickness") as report:
-            found = self._surface(F).thickness(
-                rows.vertices, by_sphere=by_sphere, threads=rows.threads, progress=report
-            )
+        found = rows.ask(self._surface(F).thickness, by_sphere=by_sphere)
         return float(found[0]) if rows.shape == () else found
 
     def k_nearest(
@@ -298,19 +291,19 @@ class SurfaceQueries(Held):
             the length of the shortest path along edges, "rings": by the number of edges; each then by place in index
             order.
         fill : the id where a row has fewer than `k` vertices; the distance there is inf.
-        vertices, walls, ignored, unit, workers, progress : see `MeshIndex`. A row whose vertex is a wall is empty. The
-            distances have the unit of V.
-        max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
+        vertices, walls, ignored, unit, max_bytes, workers, progress : see `MeshIndex`. A row whose vertex is a wall is
+            empty. The distances have the unit of V.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> ids, distances = index.k_nearest(20)
         """
         rows = read_rows(self, vertices, r, None, metric, walls, ignored, unit, workers, progress)
-        options = _nearest_options(rows, max_bytes, 1)
-        options["k"] = _convert.integer(k, "k", 1, 2**63 - 1)
-        options["fill"] = _convert.integer(fill, "fill", -(2**31), 2**31 - 1)
-        with rows.reporter("k_nearest") as report:
-            ids, distances = _core.k_nearest(rows.index._exact, rows.vertices, **options, progress=report)
+        limit = _limit(rows, max_bytes, 1)
+        k = _convert.integer(k, "k", 1, 2**63 - 1)
+        fill = _convert.integer(fill, "fill", -(2**31), 2**31 - 1)
+        ids, distances = rows.ask(_core.k_nearest, rows.index._exact, max_bytes=limit, k=k)
+        if fill != -1:
+            ids[ids == -1] = fill
         return Nearest(ids[0], distances[0]) if rows.shape == () else Nearest(ids, distances)
 
     def discs(
@@ -333,8 +326,7 @@ class SurfaceQueries(Held):
         at least `area`; all where they do not. Returns `Discs(indptr, ids, distances)`.
 
         area : > 0, in the square of the unit of V.
-        weights : (#V,), or "area" for `vertex_areas`.
-        F : other faces than those that the index keeps, for weights="area".
+        weights : (#V,), or "area" for `vertex_areas`, of `F` (see `MeshIndex`).
         max_bytes : refuse a larger result with MemoryError; by default, one larger than half of the memory that is free,
             because it is held twice. A sample of the rows usually shows this within a second.
         The other arguments are those of `k_nearest`.
@@ -343,26 +335,19 @@ class SurfaceQueries(Held):
         >>> indptr, ids, distances = index.discs(0.3, [4, 7], metric="path")
         """
         rows = read_rows(self, vertices, r, None, metric, walls, ignored, unit, workers, progress)
-        options = _nearest_options(rows, max_bytes, 2)
+        limit = _limit(rows, max_bytes, 2)
         areas = area_weights(self, weights, F)
         if areas is None:
             raise ValueError("weights: expected 'area' or (#V,) numbers")
         least = _convert.finite(area, "area", or_zero=False)
-        with rows.reporter("discs") as report:
-            return Discs(
-                *_core.discs(rows.index._exact, rows.vertices, area=least, areas=areas, **options, progress=report)
-            )
+        return Discs(*rows.ask(_core.discs, rows.index._exact, max_bytes=limit, area=least, areas=areas))
 
 
-def _nearest_options(rows: Rows, max_bytes: Any, copies: int) -> dict[str, Any]:
+def _limit(rows: Rows, max_bytes: Any, copies: int) -> int:
+    """Of the bytes of rows that have one radius."""
     if not isinstance(rows.radii[0], float):
         raise ValueError("r: expected one radius for all rows")
-    return {
-        "metric": rows.core_metric,
-        "radius": rows.radii[0],
-        "threads": rows.threads,
-        "max_bytes": _convert.max_bytes(max_bytes, copies),
-    }
+    return _convert.max_bytes(max_bytes, copies)
 
 
 def _of_polygons(places: Any, weights: Any, corners: int) -> Reals:

@@ -121,8 +121,7 @@ def _built_page() -> str:
 def _surface(V: Any, F: Any) -> Any:
     if hasattr(F, "tocoo"):
         raise TypeError("F: expected faces, not a graph")
-    positions, corners, offsets = mesh_arrays(V, F)
-    return placed(positions, corners, offsets, stacklevel=4)[0], corners, offsets
+    return placed(mesh_arrays(V, F), stacklevel=4)[0]
 
 
 def _settings(count: int, v: Any, r: Any, unit: Any, ids: Any, values: Any, name: Any) -> dict[str, Any]:

@@ -55,5 +55,5 @@ def weld(V: Any, F: Any = None, eps: Number = 0) -> Welded:
     positions, corners, offsets = whole_mesh_arrays(V, F)
     distance = _convert.finite(eps, "eps", or_zero=True)
     # A copy, because another thread may write to the array once it is checked.
-    vertices, corners, offsets, ids = _core.weld(np.array(positions), corners, offsets=offsets, eps=distance)
+    vertices, corners, offsets, ids = _core.weld((np.array(positions), corners, offsets), eps=distance)
     return Welded(vertices, (offsets, corners) if len(offsets) else corners.reshape(-1, 3), ids)

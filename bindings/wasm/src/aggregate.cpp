@@ -38,10 +38,8 @@ extern "C" {
 }
 
 /// Of the mesh with the positions of the index.
-[[clang::export_name("areas")]] void areas(const void* corners, std::size_t corner_count, bool signed_corners,
-                                           const void* offsets, std::size_t offset_count, bool signed_offsets) {
-  answer.reals = vertex_areas({workspace.graph().view().positions, view_faces(corners, corner_count, signed_corners,
-                                                                              offsets, offset_count, signed_offsets)});
+[[clang::export_name("areas")]] void areas() {
+  answer.reals = vertex_areas({workspace.graph().view().positions, given.faces});
 }
 
 }  // extern "C"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +20,12 @@ struct Answer {
 
 /// One for each instance of the module, which has one thread.
 inline Answer answer;
+
+/// Adds all elements of the rows of a matrix.
+template <class T, std::size_t N>
+void append_rows(std::vector<T>& out, const std::vector<std::array<T, N>>& rows) {
+  for (const auto& row : rows) out.insert(out.end(), row.begin(), row.end());
+}
 
 /// Three ids, the vertices of the triangle; seven reals, its barycentric coordinates in it, the point and its distance;
 /// and a count, the face, of which `kNoFace` has all bits set.

@@ -16,23 +16,9 @@ inline std::span<const std::byte> view_bytes(const void* data, std::size_t size)
   return {static_cast<const std::byte*>(data), size};
 }
 
-inline PositionsView view_positions(const void* xyz, std::size_t scalars, bool is_double) {
-  if (is_double) return std::span(static_cast<const double*>(xyz), scalars);
-  return std::span(static_cast<const float*>(xyz), scalars);
-}
-
-inline IndicesView view_indices(const void* indices, std::size_t count, bool is_signed) {
-  if (is_signed) return std::span(static_cast<const std::int32_t*>(indices), count);
-  return std::span(static_cast<const std::uint32_t*>(indices), count);
-}
-
-/// `offset_count` is 0 for triangles.
-inline FacesView view_faces(const void* corners, std::size_t corner_count, bool signed_corners, const void* offsets,
-                            std::size_t offset_count, bool signed_offsets) {
-  const IndicesView corner_view = view_indices(corners, corner_count, signed_corners);
-  if (offset_count == 0) return FacesView::triangles(corner_view);
-  return FacesView::polygons(view_indices(offsets, offset_count, signed_offsets), corner_view);
-}
+/// The mesh, the faces or the positions of the call that follows, as `take_positions` and `take_faces` have left them.
+/// Borrows the arrays.
+inline MeshView given;
 
 /// All vertices if `vertices` is null.
 inline BatchVertices view_vertices(const VertexId* vertices, std::size_t count) {

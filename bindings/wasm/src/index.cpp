@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The index: making, saving and loading it, and its properties.
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <variant>
@@ -18,18 +19,35 @@ namespace {
 
 std::vector<std::byte> saved;
 
+IndicesView view_indices(const void* indices, std::size_t count, bool is_signed) {
+  if (is_signed) return std::span(static_cast<const std::int32_t*>(indices), count);
+  return std::span(static_cast<const std::uint32_t*>(indices), count);
+}
+
 }  // namespace
 
 extern "C" {
 
+[[clang::export_name("take_positions")]] void take_positions(const void* xyz, std::size_t scalars, bool is_double) {
+  if (is_double) {
+    given.positions = std::span(static_cast<const double*>(xyz), scalars);
+  } else {
+    given.positions = std::span(static_cast<const float*>(xyz), scalars);
+  }
+}
+
+/// `offset_count` is 0 for triangles.
+[[clang::export_name("take_faces")]] void take_faces(const void* corners, std::size_t corner_count, bool signed_corners,
+                                                     const void* offsets, std::size_t offset_count,
+                                                     bool signed_offsets) {
+  const IndicesView flat = view_indices(corners, corner_count, signed_corners);
+  given.faces = offset_count == 0 ? FacesView::triangles(flat)
+                                  : FacesView::polygons(view_indices(offsets, offset_count, signed_offsets), flat);
+}
+
 /// `cut` are the ends of edges that no search crosses, or null.
-[[clang::export_name("build")]] void build(const void* xyz, std::size_t scalars, bool is_double, const void* corners,
-                                           std::size_t corner_count, bool signed_corners, const void* offsets,
-                                           std::size_t offset_count, bool signed_offsets, const VertexId* cut,
-                                           std::size_t cut_count) {
-  const MeshView mesh(view_positions(xyz, scalars, is_double),
-                      view_faces(corners, corner_count, signed_corners, offsets, offset_count, signed_offsets));
-  workspace.build(mesh, std::span(cut, cut_count), {.progress = report_progress});
+[[clang::export_name("build")]] void build(const VertexId* cut, std::size_t cut_count) {
+  workspace.build(given, std::span(cut, cut_count), {.progress = report_progress});
 }
 
 [[clang::export_name("load")]] void load(const void* bytes, std::size_t size) {
@@ -37,11 +55,10 @@ extern "C" {
 }
 
 /// All vertices have moved if `changed` is null.
-[[clang::export_name("refit")]] void refit(const void* xyz, std::size_t scalars, bool is_double,
-                                           const VertexId* changed, std::size_t changed_count) {
+[[clang::export_name("refit")]] void refit(const VertexId* changed, std::size_t changed_count) {
   std::optional<IndicesView> list;
   if (changed != nullptr) list = std::span(changed, changed_count);
-  workspace.refit(view_positions(xyz, scalars, is_double), list);
+  workspace.refit(given.positions, list);
 }
 
 /// Returns the bytes of the index file; `saved_size` has their number.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The surface in a ball. `use_faces` comes first, and `search_by` for the masks.
-#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -18,12 +17,6 @@ namespace {
 PatchStart patch_start = VertexId{0};
 
 void answer_faces(const std::vector<std::size_t>& faces) { answer.counts.assign(faces.begin(), faces.end()); }
-
-/// Adds all elements of the rows of a matrix.
-template <class T, std::size_t N>
-void append_rows(std::vector<T>& out, const std::vector<std::array<T, N>>& rows) {
-  for (const auto& row : rows) out.insert(out.end(), row.begin(), row.end());
-}
 
 }  // namespace
 

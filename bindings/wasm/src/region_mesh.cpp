@@ -13,13 +13,9 @@ namespace meshhood::wasm {
 
 extern "C" {
 
-[[clang::export_name("prepare_regions")]] void prepare_regions(const void* xyz, std::size_t scalars, bool is_double,
-                                                               const void* corners, std::size_t corner_count,
-                                                               bool signed_corners, const void* offsets,
-                                                               std::size_t offset_count, bool signed_offsets) {
-  const FacesView faces = view_faces(corners, corner_count, signed_corners, offsets, offset_count, signed_offsets);
-  workspace.build({view_positions(xyz, scalars, is_double), faces}, {}, {});
-  workspace.use_faces(faces, {});
+[[clang::export_name("prepare_regions")]] void prepare_regions() {
+  workspace.build(given, {}, {});
+  workspace.use_faces(given.faces, {});
 }
 
 /// The counts of the answer are faces.
@@ -41,10 +37,9 @@ extern "C" {
 [[clang::export_name("rim")]] void rim(const VertexId* ids, std::size_t count, double x, double y, double z,
                                        double radius) {
   const Rim outline = workspace.surface().rim({ids, count}, {x, y, z}, radius);
-  answer.reals.clear();
-  for (const SpacePoint& point : outline.points) answer.reals.insert(answer.reals.end(), point.begin(), point.end());
-  answer.ids.clear();
-  for (const auto& edge : outline.edges) answer.ids.insert(answer.ids.end(), edge.begin(), edge.end());
+  answer = {};
+  append_rows(answer.reals, outline.points);
+  append_rows(answer.ids, outline.edges);
   answer.counts.assign(outline.offsets.begin(), outline.offsets.end());
   answer.counts.insert(answer.counts.end(), outline.closed.begin(), outline.closed.end());
 }

@@ -2,22 +2,39 @@
 // The surface: its faces, points on them, and the thickness of its walls. `use_faces` comes first.
 #include <cstddef>
 
+#define XXH_INLINE_ALL  // NOLINT(readability-identifier-naming): the library's own
+#include <xxhash.h>
+
+#include "meshhood/fingerprint.h"
 #include "meshhood/meshhood.h"
 
 #include "answer.h"
 #include "arguments.h"
-#include "face_hash.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
 
+namespace {
+
+/// Of the bytes of the corners and the offsets, in their order: `meshhood::fingerprint` does not see which way round a
+/// face is, on which its normal depends.
+Fingerprint hash_faces(const FacesView& faces) {
+  const std::size_t corner_count = faces.corners().size();
+  XXH3_state_t state;
+  XXH3_128bits_reset(&state);
+  XXH3_128bits_update(&state, &corner_count, sizeof corner_count);
+  for (const IndicesView& indices : {faces.corners(), faces.offsets()}) {
+    indices.visit([&](auto values) { XXH3_128bits_update(&state, values.data(), values.size_bytes()); });
+  }
+  const XXH128_hash_t hash = XXH3_128bits_digest(&state);
+  return {.high = hash.high64, .low = hash.low64};
+}
+
+}  // namespace
+
 extern "C" {
 
-[[clang::export_name("use_faces")]] void use_faces(const void* corners, std::size_t corner_count, bool signed_corners,
-                                                   const void* offsets, std::size_t offset_count, bool signed_offsets) {
-  workspace.use_faces(view_faces(corners, corner_count, signed_corners, offsets, offset_count, signed_offsets),
-                      hash_faces(corners, corner_count, offsets, offset_count));
-}
+[[clang::export_name("use_faces")]] void use_faces() { workspace.use_faces(given.faces, hash_faces(given.faces)); }
 
 /// See `append_point`.
 [[clang::export_name("closest_point")]] void closest_point(double x, double y, double z) {

@@ -9,10 +9,6 @@
 
 namespace meshhood::wasm {
 
-void Workspace::read(std::span<const std::byte> file, const std::string& name, const io::ReadOptions& options) {
-  mesh_ = io::read_mesh(file, name, options);
-}
-
 void Workspace::build(const MeshView& mesh, std::span<const VertexId> cut, const Run& run) {
   if (cut.empty()) return replace_index(meshhood::build(mesh, run));
   const Adjacency whole = adjacency(mesh);

@@ -6,12 +6,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "meshhood/meshhood.h"
-
-#include "io/mesh_io.h"
 
 namespace meshhood::wasm {
 
@@ -43,12 +40,6 @@ struct Searches {
 /// when it is first used.
 class Workspace {
  public:
-  /// Replaces the mesh by that of a file. Throws as `io::read_mesh`.
-  void read(std::span<const std::byte> file, const std::string& name, const io::ReadOptions& options);
-
-  /// The mesh that was read.
-  [[nodiscard]] const io::Mesh& mesh() const { return mesh_; }
-
   /// Replaces the index. `cut` are the ends of edges that no search crosses. Throws as `meshhood::build` and
   /// `cut_edges`.
   void build(const MeshView& mesh, std::span<const VertexId> cut, const Run& run);
@@ -103,7 +94,6 @@ class Workspace {
   [[nodiscard]] Method& kept_method(MethodName name);
   [[nodiscard]] Searches& searches() { return searches_[is_along_surface_ ? 1 : 0][has_masks_ ? 1 : 0]; }
 
-  io::Mesh mesh_;
   std::optional<Index> index_;
   std::optional<GraphData> graph_;
   std::optional<double> mean_edge_;
