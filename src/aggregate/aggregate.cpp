@@ -187,7 +187,7 @@ struct Destination {
     const std::span<double> channels(first + row * stride, count);
     f(channels);
     for (double& value : channels) {
-      if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();  // its sign and payload vary
+      if (std::isnan(value)) value = kNan;  // its sign and payload vary
     }
   }
 };

@@ -37,7 +37,7 @@ struct BoundingBox {
   Point low{kNone, kNone, kNone};
   Point high{-kNone, -kNone, -kNone};
 
-  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  static constexpr double kNone = kInfinity;
 
   void add(const Point& p) { add(BoundingBox{p, p}); }
   void add(const BoundingBox& box) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -89,7 +88,7 @@ class StraightRows final : public RowSearch {
   /// With the first run. The radii of its rows belong to the group.
   void begin_group(std::span<const RowRun> runs) {
     leaves_.clear();
-    double low = std::numeric_limits<double>::infinity();
+    double low = kInfinity;
     double high = 0;
     const LeafId group = group_of(runs.front());
     for (const RowRun& run : runs) {

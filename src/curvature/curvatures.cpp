@@ -191,7 +191,7 @@ void curvatures(const Surface& surface, const BatchQuery& query, const Curvature
 }
 
 double shape_index(double k1, double k2) {
-  if (k1 == 0 && k2 == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (k1 == 0 && k2 == 0) return kNan;
   return 2 * std::numbers::inv_pi * std::atan2(k1 + k2, k1 - k2);
 }
 

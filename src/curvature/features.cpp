@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <numeric>
@@ -29,7 +28,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-constexpr double kNoFeature = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoFeature = kNan;
 
 /// What a kind follows from.
 enum class Source : std::uint8_t { Curvatures, Moments, Patches };

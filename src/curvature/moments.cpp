@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -132,7 +131,7 @@ PrincipalComponents principal_components(const Index& index, const BatchQuery& q
 }
 
 double surface_variation(double least, double middle, double largest) {
-  if (largest == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (largest == 0) return kNan;
   return least / largest / ((least / largest + middle / largest) + 1);
 }
 

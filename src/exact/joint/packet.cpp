@@ -34,8 +34,7 @@ JointRadius::JointRadius(const Frame& frame, double at)
     : radius(at),
       squared(squared_radius(at)),
       bounds(frame, at),
-      inner_squared(inner_of(bounds) > 0 ? inner_of(bounds) * inner_of(bounds)
-                                         : -std::numeric_limits<double>::infinity()),
+      inner_squared(inner_of(bounds) > 0 ? inner_of(bounds) * inner_of(bounds) : -kInfinity),
       outer_squared(outer_of(bounds) * outer_of(bounds)) {}
 
 Packet::Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std::span<const JointQuery> queries)

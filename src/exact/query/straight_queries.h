@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <compare>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -70,7 +70,7 @@ void StraightQueries::for_each_nearest(const Start& start, double most, F&& f) {
   Flood& flood = begin(start);
   for (;;) {
     const double radius = flood.next_radius();
-    if (!(radius <= most) || radius == std::numeric_limits<double>::infinity()) return;
+    if (!(radius <= most) || radius == kNoRadius) return;
     const std::size_t before = flood.reached().size();
     flood.grow(radius);
     found_.clear();
