@@ -275,7 +275,7 @@ class Aggregation {
             }
           };
         },
-        {.lengths = needs_lengths()}, next_pass());
+        next_pass(), needs_lengths());
   }
 
   /// Whether one search serves all scales. By rings, each has its own: their rows have lengths only one by one.

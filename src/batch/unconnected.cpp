@@ -211,7 +211,7 @@ Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, con
       }
     };
   };
-  for_each_packet(index, query, make_visitor, {}, run);
+  for_each_packet(index, query, make_visitor, run);
   return result;
 }
 

@@ -187,7 +187,7 @@ void curvatures(const Surface& surface, const BatchQuery& query, const Curvature
   if (options.open_ball && query.metric != Metric::Rings) closed.radius = opened(query.radius, radii);
   for_each_packet(
       *state.searched, closed,
-      [&](unsigned /*thread*/) { return curvature_visitor(state, query.metric, options, out); }, {}, run);
+      [&](unsigned /*thread*/) { return curvature_visitor(state, query.metric, options, out); }, run);
 }
 
 double shape_index(double k1, double k2) {

@@ -150,7 +150,7 @@ class FeatureExtraction {
       }
       const bool is_of_patches = searches[i].front() == Source::Patches;
       const auto make_writer = [&](unsigned /*thread*/) { return writer_of(searches[i]); };
-      for_each_packet(is_of_patches ? patches_->searched : *surface_.searched, query, make_writer, {}, part);
+      for_each_packet(is_of_patches ? patches_->searched : *surface_.searched, query, make_writer, part);
     }
     return std::move(values_);
   }

@@ -102,7 +102,7 @@ std::vector<double> moments(const Index& index, const BatchQuery& query, const M
     }
   };
   for_each_packet(
-      index, query, [&](unsigned /*thread*/) { return row_visitor(index, query.metric, weights, write); }, {}, run);
+      index, query, [&](unsigned /*thread*/) { return row_visitor(index, query.metric, weights, write); }, run);
   return result;
 }
 
@@ -125,8 +125,7 @@ PrincipalComponents principal_components(const Index& index, const BatchQuery& q
   const MomentWeights weights(IndexAccess::view(index), options.weights);
   PrincipalComponents result = make_components(query.result_rows(index.vertex_count()));
   for_each_packet(
-      index, query, [&](unsigned /*thread*/) { return component_visitor(index, query.metric, weights, result); }, {},
-      run);
+      index, query, [&](unsigned /*thread*/) { return component_visitor(index, query.metric, weights, result); }, run);
   return result;
 }
 
