@@ -128,14 +128,13 @@ TEST_F(Packets, AreWrittenRowByRow) {
     for_each_query(queries, [&](std::size_t row) { expected[row].push_back(index.permutation()[place]); });
   });
   for (const Isa isa : available_isas()) {
-    RowWriter writer(view, isa);
-    writer.begin(pieces);
+    const RowWriter writer(view, isa);
     for (unsigned row = 0; row < kPacketCapacity; ++row) {
       std::vector<VertexId> ids(expected[row].size());
-      writer.write_ids(row, ids);
+      writer.write_ids(pieces, row, ids);
       ASSERT_EQ(ids, expected[row]);
       std::vector<double> distances(mesh.size(), -1);
-      writer.write_distances(row, 0, std::span(distances).first(ids.size()));
+      writer.write_distances(pieces, row, 0, std::span(distances).first(ids.size()));
       for (std::size_t i = 0; i < ids.size(); ++i) {
         ASSERT_EQ(distances[i], distance(mesh.positions_view(), view.id(0), ids[i]));
       }
