@@ -16,7 +16,6 @@
 #include "batch/position_sort.h"
 #include "batch/rows.h"
 #include "batch/size_limit.h"
-#include "exact/bound_index.h"
 #include "exact/index_access.h"
 #include "exact/joint/nearest_packet.h"
 #include "exact/query/arguments.h"

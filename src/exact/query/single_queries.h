@@ -10,7 +10,7 @@
 
 #include "meshhood/search.h"
 
-#include "exact/bound_index.h"
+#include "exact/index_access.h"
 #include "exact/layout.h"
 #include "exact/search/straight_search.h"
 #include "exact/vertex_set.h"
