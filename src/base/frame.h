@@ -21,16 +21,7 @@ struct FramePoint {
 };
 
 /// A sphere in the coordinates of a `Frame`.
-struct FrameSphere {
-  float x;
-  float y;
-  float z;
-  float radius;
-};
-
-[[nodiscard]] inline Point center_of(const FrameSphere& sphere) {
-  return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
-}
+using FrameSphere = Sphere<float>;
 
 /// A box around points.
 struct BoundingBox {

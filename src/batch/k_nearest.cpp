@@ -48,10 +48,6 @@ class NearestRows {
     check_connects(options.metric);
   }
 
-  NearestRows(const NearestRows&) = delete;
-  NearestRows& operator=(const NearestRows&) = delete;
-  ~NearestRows() = default;
-
   [[nodiscard]] const NearestOptions& options() const { return options_; }
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] VertexId vertex(std::size_t row) const { return rows_.vertex(row); }

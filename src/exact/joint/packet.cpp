@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
 
 #include "base/vector.h"
@@ -21,9 +20,6 @@ constexpr double kLargestRadius = 8;
 // error of 12 u a^2, and a threshold is rounded by u a^2: 21 u a^2 in all, less than 2^-19 a^2. A squared distance from
 // the center of the leaf is off by 28 u a^2, less than four times as much.
 constexpr double kRelativeError = 0x1p-19;
-
-float float_above(double value) { return std::nextafter(static_cast<float>(value), kFloatInfinity); }
-float float_below(double value) { return -float_above(-value); }
 
 double inner_of(const TreeBounds& bounds) { return std::min(static_cast<double>(bounds.inner), kLargestRadius); }
 double outer_of(const TreeBounds& bounds) { return std::min(static_cast<double>(bounds.outer), kLargestRadius); }
@@ -52,8 +48,8 @@ Packet::Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std
   ball_.x = bounds.x;
   ball_.y = bounds.y;
   ball_.z = bounds.z;
-  ball_.inner = float_below(static_cast<double>(ball_.inner) - static_cast<double>(bounds.radius));
-  ball_.outer = float_above(static_cast<double>(ball_.outer) + static_cast<double>(bounds.radius));
+  ball_.inner = -next_above(static_cast<double>(bounds.radius) - static_cast<double>(ball_.inner));
+  ball_.outer = next_above(static_cast<double>(ball_.outer) + static_cast<double>(bounds.radius));
 }
 
 void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> queries) {

@@ -6,7 +6,6 @@
 #include <compare>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,9 +20,7 @@ struct NextVertex {
   double distance;  // from the center
   VertexId vertex;
 
-  friend bool operator<(const NextVertex& a, const NextVertex& b) {
-    return std::tie(a.distance, a.vertex) < std::tie(b.distance, b.vertex);
-  }
+  friend auto operator<=>(const NextVertex&, const NextVertex&) = default;
 };
 
 /// The answers of the straight metric: one ball around a vertex by `StraightSearch`, all else by a flood. Each is made
