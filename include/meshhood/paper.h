@@ -40,9 +40,6 @@ struct BuildOptions {
   static constexpr int kAllLevels = 64;
 };
 
-/// Levels are numbered as in sec. 3.1: the base level is 0.
-using LevelSummary = meshhood::LevelSummary;
-
 /// The hierarchy of connected clusters (3.1), with the positions in the order of the clusters.
 ///
 /// Immutable: any number of threads may query it, each with its own `Searcher`. It does not refer to the mesh. An index

@@ -187,7 +187,7 @@ struct Destination {
     const std::span<double> channels(first + row * stride, count);
     f(channels);
     for (double& value : channels) {
-      if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();  // its sign and payload vary
+      if (std::isnan(value)) value = kNan;  // its sign and payload vary
     }
   }
 };
@@ -275,7 +275,7 @@ class Aggregation {
             }
           };
         },
-        {.lengths = needs_lengths()}, next_pass());
+        next_pass(), needs_lengths());
   }
 
   /// Whether one search serves all scales. By rings, each has its own: their rows have lengths only one by one.

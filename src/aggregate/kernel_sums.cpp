@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -186,7 +185,7 @@ class KernelSumReducer final : public PacketReducer {
 
   void set_radii(std::span<const double> radii) {
     units_.clear();
-    least_in_frame_ = std::numeric_limits<double>::infinity();
+    least_in_frame_ = kInfinity;
     for (std::size_t row = 0; row < radii.size(); ++row) {
       set_radius(row, radii[row]);
       least_in_frame_ = std::min(least_in_frame_, in_frame_[row]);
@@ -277,7 +276,7 @@ class KernelSumReducer final : public PacketReducer {
 
   const KernelSums* tables_;
   const AggregateKernels* kernels_ = &aggregate_kernels(best_isa());
-  PerLane<double> given_ = filled(std::numeric_limits<double>::quiet_NaN());  // the radius of each row, NaN if unknown
+  PerLane<double> given_ = filled(kNan);  // the radius of each row, NaN if unknown
   PerLane<double> in_frame_{};
   PerLane<double> radius_ = filled(1);  // in the unit of the row
   KernelRadii squares_{filled(1), {}, filled(1)};

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -133,8 +132,8 @@ class ListedRows {
 
  private:
   [[nodiscard]] static double result(Reduce reduce, double sum, double weights) {
-    if (reduce == Reduce::Mean) sum = weights > 0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
-    return std::isnan(sum) ? std::numeric_limits<double>::quiet_NaN() : sum;  // its sign and payload vary
+    if (reduce == Reduce::Mean) sum = weights > 0 ? sum / weights : kNan;
+    return std::isnan(sum) ? kNan : sum;  // its sign and payload vary
   }
 
   const SignalView& signal_;

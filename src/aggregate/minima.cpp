@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,7 +12,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-constexpr double kAboveAll = std::numeric_limits<double>::infinity();
+constexpr double kAboveAll = kInfinity;
 
 /// Of negated values for the maximum.
 struct Minima {

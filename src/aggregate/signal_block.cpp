@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meshhood::inline v0_1 {
 namespace {
@@ -30,7 +29,7 @@ void multiply(Column& column, int exponent) {
 void drop_large(Column& column) {
   const double bound = std::ldexp(1.0, kLargestExponent + 1);
   for (double& value : column) {
-    if (std::abs(value) >= bound) value = std::copysign(std::numeric_limits<double>::infinity(), value);
+    if (std::abs(value) >= bound) value = std::copysign(kInfinity, value);
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 #include "aggregate/reducers.h"
@@ -99,7 +98,7 @@ double SumColumns::result(const Channel& channel, std::span<const RowSums> sums,
   const auto& [values, exponent] = std::isfinite(sum(channel.values.column)) ? channel.values : channel.large;
   if (reduce_ == Reduce::Sum) return std::ldexp(sum(values), exponent);
   const double weights = sum(channel.weights);
-  if (weights == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (weights == 0) return kNan;
   return std::ldexp(sum(values) / weights, exponent);
 }
 

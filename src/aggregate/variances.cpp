@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -127,7 +126,7 @@ std::vector<Spread> Spreads::by_node(const NodeTree& tree, const Channel& channe
 
 double Spreads::result(const Channel& channel, const Spread& spread) const {
   const double divisor = spread.weight - static_cast<double>(options.ddof);
-  if (!(divisor > 0)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(divisor > 0)) return kNan;
   const double variance = spread.squares / divisor;
   return options.root ? std::ldexp(std::sqrt(variance), -channel.exponent)
                       : std::ldexp(variance, -2 * channel.exponent);

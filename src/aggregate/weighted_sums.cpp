@@ -92,7 +92,7 @@ class WeightedByLength final : public WeightedReducer {
     divisors_.fill(1);
     for (std::size_t i = 0; i < packet.radii.size(); ++i) {
       // Within a radius of 0 all lengths are 0, and all weights 1.
-      divisors_[i] = packet.radii[i] > 0 ? packet.radii[i] : std::numeric_limits<double>::infinity();
+      divisors_[i] = packet.radii[i] > 0 ? packet.radii[i] : kInfinity;
     }
   }
 

@@ -21,23 +21,14 @@ struct FramePoint {
 };
 
 /// A sphere in the coordinates of a `Frame`.
-struct FrameSphere {
-  float x;
-  float y;
-  float z;
-  float radius;
-};
-
-[[nodiscard]] inline Point center_of(const FrameSphere& sphere) {
-  return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
-}
+using FrameSphere = Sphere<float>;
 
 /// A box around points.
 struct BoundingBox {
   Point low{kNone, kNone, kNone};
   Point high{-kNone, -kNone, -kNone};
 
-  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  static constexpr double kNone = kInfinity;
 
   void add(const Point& p) { add(BoundingBox{p, p}); }
   void add(const BoundingBox& box) {

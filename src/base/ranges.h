@@ -7,13 +7,16 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Appends `v`, to the last range if it follows.
-inline void append_to(std::vector<VertexRange>& ranges, VertexId v) {
-  if (!ranges.empty() && ranges.back().end == v) {
-    ++ranges.back().end;
+/// Appends a range, to the last one if it follows.
+inline void append_to(std::vector<VertexRange>& ranges, const VertexRange& next) {
+  if (!ranges.empty() && ranges.back().end == next.begin) {
+    ranges.back().end = next.end;
   } else {
-    ranges.push_back({v, static_cast<VertexId>(v + 1)});
+    ranges.push_back(next);
   }
+}
+inline void append_to(std::vector<VertexRange>& ranges, VertexId v) {
+  append_to(ranges, VertexRange{v, static_cast<VertexId>(v + 1)});
 }
 
 }  // namespace meshhood::inline v0_1

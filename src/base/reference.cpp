@@ -165,11 +165,6 @@ void ReferenceAccess::remove(ReferenceSearcher& searcher, VertexId v) {
              searcher.state_->records);
 }
 
-void ReferenceAccess::measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,
-                              std::vector<double>& out) {
-  searcher.state_->measure(v, ids, out);
-}
-
 void ReferenceAccess::set_query(ReferenceSearcher& searcher, std::uint32_t queries) {
   searcher.state_->query = queries;
 }

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "meshhood/reference.h"
 
@@ -18,10 +17,6 @@ struct ReferenceAccess {
 
   /// No later search enters `v`, which is in no ball from now on. It must not be the vertex of a query.
   static void remove(ReferenceSearcher& searcher, VertexId v);
-
-  /// Refills `out` with the distances of `ids` from `v`.
-  static void measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,
-                      std::vector<double>& out);
 
   /// Continues as if there had been `queries` queries.
   static void set_query(ReferenceSearcher& searcher, std::uint32_t queries);

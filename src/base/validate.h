@@ -31,13 +31,6 @@ namespace meshhood::inline v0_1 {
                                     ", expected a finite number of at most 2^500 in magnitude");
 }
 
-/// Throws as `refuse_position` unless the position is valid.
-inline void check_position(std::size_t v, const Point& p) {
-  if (!is_valid_position(p)) [[unlikely]] {
-    refuse_position(v, p);
-  }
-}
-
 /// As the public functions, on several threads, with the same errors. Throw also Error{Cancelled}.
 void validate(const PositionsView& positions, TaskContext& task);
 void validate(const MeshView& mesh, TaskContext& task);

@@ -108,8 +108,7 @@ void Batch::cut_into_chunks(std::span<const std::uint64_t> in_order) {
 }
 
 void for_each_packet(const Index& index, const BatchQuery& query, const PacketVisitorFactory& make_visitor,
-                     const PacketOptions& options, const Run& run) {
-  if (!make_visitor) raise(ErrorCode::InvalidOption, "make_visitor is empty, expected a function");
+                     const Run& run, bool lengths) {
   const std::vector<BatchRadius> passes = radius_of_passes(query.radius);
   Batch batch(index, {query.vertices, passes.front(), query.metric}, {}, run, passes.size());
   std::vector<PacketVisitor> visitors(batch.task().threads());
@@ -118,8 +117,7 @@ void for_each_packet(const Index& index, const BatchQuery& query, const PacketVi
     batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
       PacketVisitor& visitor = visitors[thread];
       if (!visitor) visitor = make_visitor(thread);
-      if (!visitor) raise(ErrorCode::InvalidOption, "make_visitor returned an empty function");
-      batch.worker(thread).visit(chunk.items, options.lengths, [&](const PacketAnswer& answer) {
+      batch.worker(thread).visit(chunk.items, lengths, [&](const PacketAnswer& answer) {
         visitor(answer);
         batch.task().advance(thread, answer.rows.size());
         return batch.task().should_continue(thread);

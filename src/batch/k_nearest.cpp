@@ -16,7 +16,6 @@
 #include "batch/position_sort.h"
 #include "batch/rows.h"
 #include "batch/size_limit.h"
-#include "exact/bound_index.h"
 #include "exact/index_access.h"
 #include "exact/joint/nearest_packet.h"
 #include "exact/query/arguments.h"
@@ -48,10 +47,6 @@ class NearestRows {
       : index_(index), options_(options), run_(run), rows_({vertices, options.radius}, index.vertex_count()) {
     check_connects(options.metric);
   }
-
-  NearestRows(const NearestRows&) = delete;
-  NearestRows& operator=(const NearestRows&) = delete;
-  ~NearestRows() = default;
 
   [[nodiscard]] const NearestOptions& options() const { return options_; }
   [[nodiscard]] std::size_t size() const { return rows_.size(); }

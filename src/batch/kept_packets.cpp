@@ -110,18 +110,16 @@ KeptPackets& KeptChunks::begin(unsigned thread, std::size_t number) {
 }
 
 void KeptChunks::finish() {
-  std::size_t end = 0;
-  for (const PerThread& thread : threads_) {
-    for (const Chunk& chunk : thread.chunks) end = std::max(end, chunk.number + 1);
-  }
-  chunks_.assign(end, {nullptr, {}});
+  std::size_t count = 0;
+  for (const PerThread& thread : threads_) count += thread.chunks.size();
+  chunks_.resize(count);
   for (const PerThread& thread : threads_) {
     for (const Chunk& chunk : thread.chunks) chunks_[chunk.number] = {&thread.packets, chunk.begin};
   }
 }
 
 KeptPackets::Reader* KeptChunks::find(unsigned thread, std::size_t number) {
-  if (number >= chunks_.size() || chunks_[number].packets == nullptr) return nullptr;
+  if (chunks_.empty()) return nullptr;
   KeptPackets::Reader& reader = threads_[thread].reader;
   reader.begin(*chunks_[number].packets, chunks_[number].begin);
   return &reader;

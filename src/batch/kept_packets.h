@@ -75,13 +75,12 @@ class KeptChunks {
   /// Called once, after all chunks and before `find`.
   void finish();
 
-  /// The reader of a thread, set to the first packet of a chunk, whichever thread has added it. Null if the chunk is
-  /// not kept.
+  /// The reader of a thread, set to the first packet of a chunk, whichever thread has added it. Null after `clear`.
   [[nodiscard]] KeptPackets::Reader* find(unsigned thread, std::size_t number);
 
   [[nodiscard]] std::size_t bytes() const;
 
-  /// Drops what is kept; `find` then finds nothing.
+  /// Drops what is kept.
   void clear();
 
  private:
@@ -98,7 +97,7 @@ class KeptChunks {
   };
 
   struct Found {
-    const KeptPackets* packets;  // null if there is no such chunk
+    const KeptPackets* packets;
     KeptPackets::Place begin;
   };
 

@@ -18,12 +18,6 @@ using PacketVisitor = std::function<void(const PacketAnswer&)>;
 /// for each number, by the thread itself, before its first packet.
 using PacketVisitorFactory = std::function<PacketVisitor(unsigned thread)>;
 
-/// What packets have.
-struct PacketOptions {
-  /// Whether packets have lengths, by paths and by rings. Rings are then searched row by row.
-  bool lengths = false;
-};
-
 /// Visits the neighborhoods of all rows of `query` by its metric, each row in one packet, packets in no stated order.
 /// With scales, all rows are visited for each, and numbered as a result #radii by #rows.
 ///
@@ -36,10 +30,12 @@ struct PacketOptions {
 /// 8 bytes a row, of at most 2^22 rows at a time, and 16 where these are not in index order; and for each thread a
 /// searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).
 ///
+/// lengths  whether packets have lengths, by paths and by rings. Rings are then searched row by row.
+///
 /// All arguments are checked before the first packet is computed. An exception from a visitor, the factory or
 /// `run.progress` ends the call; it is passed on once all threads have stopped.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 void for_each_packet(const Index& index, const BatchQuery& query, const PacketVisitorFactory& make_visitor,
-                     const PacketOptions& options = {}, const Run& run = {});
+                     const Run& run = {}, bool lengths = false);
 
 }  // namespace meshhood::inline v0_1

@@ -119,7 +119,7 @@ struct SearcherFactory {
 };
 
 /// Writes rows from their pieces.
-bool write_pieces(RowWriter& writer, std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
+bool write_pieces(const RowWriter& writer, std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
                   RowReceiver& receiver);
 
 /// The positions of a group: rows by straight lines that lie between two multiples of it should come in one chunk.

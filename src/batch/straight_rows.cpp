@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,8 +9,8 @@
 #include "batch/row_search.h"
 #include "exact/index_access.h"
 #include "exact/joint/joint_search.h"
-#include "exact/query/space_search.h"
-#include "exact/search/straight_search.h"
+#include "exact/query/single_queries.h"
+#include "exact/search/vertex_bfs.h"
 #include "exact/vertex_set.h"
 
 namespace meshhood::inline v0_1 {
@@ -37,6 +36,7 @@ class StraightRows final : public RowSearch {
         metric_(metric),
         isa_(isa),
         is_single_(metric == Metric::Space || is_unlike_a_surface(view_)),
+        is_by_vertex_(metric == Metric::Straight && is_odd(view_)),
         radius_(view_.frame, 0),
         writer_(view_, isa) {}
 
@@ -60,7 +60,8 @@ class StraightRows final : public RowSearch {
       for (const BatchItem& item : items) queries_.push_back({lane_of(item.position), prepared(item.radius)});
       joint_->run(leaf_of_run(runs.front()), queries_);
     } else {
-      found_ = &search(items.front().vertex, items.front().radius);
+      if (!single_) single_ = make_queries(BoundIndex(index_), IndexAccess::share_graph(index_), metric_, isa_);
+      found_ = &single_->search(items.front().vertex, items.front().radius);
     }
     return true;
   }
@@ -76,7 +77,7 @@ class StraightRows final : public RowSearch {
 
   [[nodiscard]] std::span<const Piece> pieces() override {
     if (is_joint_) return joint_->pieces();
-    if (single_ && single_->way == StraightSearch::Way::VertexBfs) found_->align_to_leaves();
+    if (is_by_vertex_) found_->align_to_leaves();
     return pieces_of(*found_);
   }
 
@@ -89,7 +90,7 @@ class StraightRows final : public RowSearch {
   /// With the first run. The radii of its rows belong to the group.
   void begin_group(std::span<const RowRun> runs) {
     leaves_.clear();
-    double low = std::numeric_limits<double>::infinity();
+    double low = kInfinity;
     double high = 0;
     const LeafId group = group_of(runs.front());
     for (const RowRun& run : runs) {
@@ -104,17 +105,6 @@ class StraightRows final : public RowSearch {
     if (!joint_) joint_.emplace(view_, isa_);
     const TreeBounds low_bounds = prepared(low).bounds;
     joint_->begin_group(leaves_, low_bounds, prepared(high).bounds);
-  }
-
-  [[nodiscard]] VertexSet& search(VertexId v, double radius) {
-    if (metric_ == Metric::Space) {
-      if (!space_) space_.emplace(view_, kernels(isa_));
-      space_->search(v, radius);
-      return space_->answer;
-    }
-    if (!single_) single_.emplace(BoundIndex(index_), IndexAccess::share_graph(index_), isa_);
-    single_->search(v, radius);
-    return single_->answer;
   }
 
   [[nodiscard]] const JointRadius& prepared(double radius) {
@@ -146,11 +136,11 @@ class StraightRows final : public RowSearch {
   Metric metric_;
   Isa isa_;
   bool is_single_;  // each row is answered alone: unlike on a surface, few vertices of a leaf have the same neighbors
+  bool is_by_vertex_;   // by `VertexBfs`, whose answers are not aligned to leaves
   JointRadius radius_;  // of the last row, because most batches have one radius
   RowWriter writer_;
   // Made by the first run that needs them:
-  std::optional<StraightSearch> single_;
-  std::optional<SpaceSearch> space_;
+  std::unique_ptr<SingleQueries> single_;
   std::optional<JointSearch> joint_;
   // Of the last run:
   bool is_joint_ = false;
@@ -164,13 +154,12 @@ class StraightRows final : public RowSearch {
 
 }  // namespace
 
-bool write_pieces(RowWriter& writer, std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
+bool write_pieces(const RowWriter& writer, std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
                   RowReceiver& receiver) {
-  writer.begin(answers.pieces);
   for (unsigned i = 0; i < items.size(); ++i) {
     const BatchMemory memory = receiver.memory(items[i].row, answers.counts[i]);
-    writer.write_ids(i, memory.ids);
-    if (distances) writer.write_distances(i, items[i].position, memory.distances);
+    writer.write_ids(answers.pieces, i, memory.ids);
+    if (distances) writer.write_distances(answers.pieces, i, items[i].position, memory.distances);
     if (!receiver.done(items[i].row)) return false;
   }
   return true;

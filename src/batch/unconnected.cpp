@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -26,8 +25,6 @@
 
 namespace meshhood::inline v0_1 {
 namespace {
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Where neighbors are not near in space, nodes are large, and a search through the tree visits most of them. To visit
 /// one for each so many vertices takes about as long as a scan, which then takes over.
@@ -54,7 +51,7 @@ class UnconnectedSearch {
       const std::uint32_t slot = index_->slot[packet.vertices[i]];
       const Point p = index_->position_at(slot);
       const double from_center = std::sqrt(squared_distance(center.exact, p));
-      const double radius = metric_ == Metric::Rings ? kInfinite : packet.radii[i];
+      const double radius = metric_ == Metric::Rings ? kInfinity : packet.radii[i];
       queries_.push_back({Center(index_->frame, p), LeafBall(p, LeafBounds(radius)), from_center, radius});
       open_ |= QueryWord{!index_->is_wall(slot)} << i;
     }
@@ -98,7 +95,7 @@ class UnconnectedSearch {
     double from_center;  // of the search
     double limit;        // the distance of the nearest vertex so far, or the radius
     VertexId vertex = kNoVertex;
-    double distance = kInfinite;
+    double distance = kInfinity;
   };
 
   /// Visits the nodes around the center, until none are left to visit.
@@ -202,7 +199,7 @@ class UnconnectedSearch {
 Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const Run& run) {
   check_connects(query.metric);
   const std::size_t rows = query.result_rows(index.vertex_count());
-  Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kInfinite)};
+  Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kInfinity)};
   const IndexView& view = IndexAccess::view(index);
   const auto make_visitor = [&](unsigned /*thread*/) -> PacketVisitor {
     return [search = UnconnectedSearch(view, query.metric), &result](const PacketAnswer& packet) mutable {
@@ -214,7 +211,7 @@ Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, con
       }
     };
   };
-  for_each_packet(index, query, make_visitor, {}, run);
+  for_each_packet(index, query, make_visitor, run);
   return result;
 }
 

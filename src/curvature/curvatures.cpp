@@ -187,11 +187,11 @@ void curvatures(const Surface& surface, const BatchQuery& query, const Curvature
   if (options.open_ball && query.metric != Metric::Rings) closed.radius = opened(query.radius, radii);
   for_each_packet(
       *state.searched, closed,
-      [&](unsigned /*thread*/) { return curvature_visitor(state, query.metric, options, out); }, {}, run);
+      [&](unsigned /*thread*/) { return curvature_visitor(state, query.metric, options, out); }, run);
 }
 
 double shape_index(double k1, double k2) {
-  if (k1 == 0 && k2 == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (k1 == 0 && k2 == 0) return kNan;
   return 2 * std::numbers::inv_pi * std::atan2(k1 + k2, k1 - k2);
 }
 

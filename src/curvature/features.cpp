@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <numeric>
@@ -29,7 +28,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-constexpr double kNoFeature = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoFeature = kNan;
 
 /// What a kind follows from.
 enum class Source : std::uint8_t { Curvatures, Moments, Patches };
@@ -151,7 +150,7 @@ class FeatureExtraction {
       }
       const bool is_of_patches = searches[i].front() == Source::Patches;
       const auto make_writer = [&](unsigned /*thread*/) { return writer_of(searches[i]); };
-      for_each_packet(is_of_patches ? patches_->searched : *surface_.searched, query, make_writer, {}, part);
+      for_each_packet(is_of_patches ? patches_->searched : *surface_.searched, query, make_writer, part);
     }
     return std::move(values_);
   }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -103,7 +102,7 @@ std::vector<double> moments(const Index& index, const BatchQuery& query, const M
     }
   };
   for_each_packet(
-      index, query, [&](unsigned /*thread*/) { return row_visitor(index, query.metric, weights, write); }, {}, run);
+      index, query, [&](unsigned /*thread*/) { return row_visitor(index, query.metric, weights, write); }, run);
   return result;
 }
 
@@ -126,13 +125,12 @@ PrincipalComponents principal_components(const Index& index, const BatchQuery& q
   const MomentWeights weights(IndexAccess::view(index), options.weights);
   PrincipalComponents result = make_components(query.result_rows(index.vertex_count()));
   for_each_packet(
-      index, query, [&](unsigned /*thread*/) { return component_visitor(index, query.metric, weights, result); }, {},
-      run);
+      index, query, [&](unsigned /*thread*/) { return component_visitor(index, query.metric, weights, result); }, run);
   return result;
 }
 
 double surface_variation(double least, double middle, double largest) {
-  if (largest == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (largest == 0) return kNan;
   return least / largest / ((least / largest + middle / largest) + 1);
 }
 

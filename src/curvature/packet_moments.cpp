@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <variant>
 
@@ -64,7 +63,7 @@ QueryWord PacketMoments::set_unit(LeafId leaf, std::span<const double> radii, Qu
   std::visit(
       [&](auto xyz) {
         const auto box = [&](std::size_t axis) {
-          double low = std::numeric_limits<double>::infinity();
+          double low = kInfinity;
           double high = -low;
           for (std::size_t i = 0; i < index.leaves[leaf].size; ++i) {
             const auto coordinate = static_cast<double>(xyz[3 * (index.leaves[leaf].first + i) + axis]);

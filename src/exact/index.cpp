@@ -6,7 +6,6 @@
 
 #include "meshhood/error.h"
 
-#include "exact/bound_index.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
 #include "exact/weighted_graph.h"

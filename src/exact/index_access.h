@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -57,6 +58,29 @@ struct IndexAccess {
   /// The same from positions and edges, which must be valid.
   [[nodiscard]] static IndexData build_arrays(const PositionsView& positions, const EdgeSource& edges,
                                               TaskContext& task);
+};
+
+/// An index in the state in which a searcher was bound to it. Keeps its memory alive.
+class BoundIndex {
+ public:
+  explicit BoundIndex(const Index& index) : view_(IndexAccess::share(index)), version_(view_->version) {}
+
+  [[nodiscard]] const IndexView& operator*() const { return *view_; }
+  [[nodiscard]] const IndexView* operator->() const { return view_.get(); }
+
+  /// Whether `index` has this memory, so that scratch memory made for this fits, too.
+  [[nodiscard]] bool is_of(const Index& index) const { return view_ == IndexAccess::share(index); }
+
+  /// Throws Error{InvalidOption} if `refit_in_place` has changed the index since.
+  void check_current() const {
+    if (version_ != *view_->newest) raise_outdated();
+  }
+
+  [[noreturn]] static void raise_outdated();
+
+ private:
+  std::shared_ptr<const IndexView> view_;
+  std::uint64_t version_;
 };
 
 /// As without `task`, but polls `task` for cancellation. Reports no progress. Throws Error{Cancelled}.

@@ -45,7 +45,7 @@ std::vector<Move> read_moves(const IndexView& index, const PositionsView& positi
     }
     const auto vertex = static_cast<std::size_t>(v);
     const Point to = point(positions, vertex);
-    check_position(vertex, to);
+    if (!is_valid_position(to)) refuse_position(vertex, to);
     moves.push_back({index.slot[vertex], to});
   }
   std::sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.slot < b.slot; });

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "base/prefetch.h"
+#include "base/ranges.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
@@ -118,22 +119,16 @@ void VertexSet::assign_difference(const VertexSet& all, const VertexSet& part) {
 
 std::span<const VertexRange> VertexSet::ranges() {
   ranges_.clear();
-  const auto append = [&](VertexId begin, VertexId end) {
-    if (!ranges_.empty() && ranges_.back().end == begin) {
-      ranges_.back().end = end;
-    } else {
-      ranges_.push_back({begin, end});
-    }
-  };
   for (const Part& part : parts()) {
     if (part.is_run()) {
-      append(part.begin, part.end);
+      append_to(ranges_, VertexRange{part.begin, part.end});
       continue;
     }
     for (std::uint64_t left = part.lanes; left != 0;) {
       const auto begin = static_cast<unsigned>(std::countr_zero(left));
       const auto end = begin + static_cast<unsigned>(std::countr_one(left >> begin));
-      append(static_cast<VertexId>(part.begin + begin), static_cast<VertexId>(part.begin + end));
+      append_to(ranges_,
+                VertexRange{static_cast<VertexId>(part.begin + begin), static_cast<VertexId>(part.begin + end)});
       left = left >> end << end;
     }
   }

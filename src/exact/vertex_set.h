@@ -41,21 +41,16 @@ class VertexSet {
 
   void clear() { size_ = 0; }
 
-  /// Adds a run of whole leaves, or a subset that is not empty, behind all that were added before. A run that follows
-  /// on a run becomes a part of it.
+  /// Adds a run of whole leaves behind all that were added before. A run that follows on a run becomes a part of it.
   void add(const VertexRange& run) {
     make_room(1);
     add_if(true, run, 0);
   }
-  void add(const LeafSubset& subset) {
-    make_room(1);
-    add_if(true, vertices_of(subset.leaf), subset.lanes);
-  }
 
-  /// The same for a subset that may be all of the leaf.
+  /// The same for vertices of a leaf: none of them, some or all.
   void add_lanes(const LeafSubset& subset) { add_lanes(vertices_of(subset.leaf), subset.lanes); }
 
-  /// The same for any range of at most 32 vertices, none of them, some or all.
+  /// The same for any range of at most 32 vertices.
   void add_lanes(const VertexRange& all, LaneMask lanes) {
     assert(all.end <= index_->vertex_count());
     make_room(1);

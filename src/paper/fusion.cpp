@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Step 4 of sec. 3.2, fusion: Algorithm 2. Deviation: it runs before step 3, because it only needs the parents of the
 // clusters. So there are no siblings or spheres yet to update.
-#include <limits>
 #include <queue>
 #include <utility>
 
@@ -88,7 +87,7 @@ class Fusion {
   [[nodiscard]] ClusterId nearest_touching(ClusterId child, ClusterId donor) const {
     const Point center = mean(below_.position_sum[child], below_.vertex_count[child]);
     ClusterId nearest = kNoCluster;
-    double smallest = std::numeric_limits<double>::infinity();
+    double smallest = kInfinity;
     for (const ClusterId sibling : below_.siblings[child]) {
       const ClusterId cluster = partition_.parent[sibling];
       if (cluster == donor || cluster == nearest) continue;

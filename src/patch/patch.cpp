@@ -151,7 +151,7 @@ void for_each_patch(const Surface& surface, const BatchQuery& query, bool measur
   const PatchState& state = SurfaceAccess::state(surface).patches();
   check_metric(query);
   const auto make_visitor = [&](unsigned /*thread*/) { return patch_visitor(state, measures, visit); };
-  for_each_packet(state.searched, query, make_visitor, {}, run);
+  for_each_packet(state.searched, query, make_visitor, run);
 }
 
 }  // namespace

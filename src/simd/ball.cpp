@@ -46,6 +46,4 @@ TreeBounds::TreeBounds(const Frame& frame, double radius)
     : outer(round_up((radius * (1 + kTreeError) + kTiny) * frame.scale)),
       inner(round_down((radius * (1 - kTreeError) - kTiny) * frame.scale)) {}
 
-TreeBall::TreeBall(const FramePoint& at, const TreeBounds& bounds) : TreeBounds(bounds), x(at.x), y(at.y), z(at.z) {}
-
 }  // namespace meshhood::inline v0_1

@@ -49,7 +49,7 @@ struct TreeBall : TreeBounds {
   float y;
   float z;
 
-  TreeBall(const FramePoint& center, const TreeBounds& bounds);
+  TreeBall(const FramePoint& at, const TreeBounds& bounds) : TreeBounds(bounds), x(at.x), y(at.y), z(at.z) {}
   TreeBall(const Frame& frame, const Point& center, double radius)
       : TreeBall(frame.round(center), TreeBounds(frame, radius)) {}
 };

@@ -3,7 +3,6 @@
 // the cross product of two edges; that of a polygon is Newell's sum.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <string>
 
@@ -65,7 +64,7 @@ void sum_areas(std::span<const Real> xyz, double scale, std::span<const std::uin
 
 void Normals::set(std::size_t place, const Point& n) {
   const double norm = length(n);
-  const double size = norm > 0 ? norm : std::numeric_limits<double>::quiet_NaN();
+  const double size = norm > 0 ? norm : kNan;
   x[place] = n.x / size;
   y[place] = n.y / size;
   z[place] = n.z / size;

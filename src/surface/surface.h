@@ -11,7 +11,7 @@
 #include "meshhood/surface.h"
 
 #include "base/lists.h"
-#include "exact/bound_index.h"
+#include "exact/index_access.h"
 #include "exact/layout.h"
 #include "exact/stored_faces.h"
 #include "patch/meshlets.h"

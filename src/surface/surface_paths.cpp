@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -25,7 +24,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-constexpr double kNoLine = std::numeric_limits<double>::infinity();
+constexpr double kNoLine = kInfinity;
 
 /// The elements of each vertex, sorted. `for_each` as for `gather_rows`.
 template <class T, class ForEach>

@@ -96,7 +96,6 @@ TEST(KeptChunks, AreFoundByTheirNumberWhicheverThreadAddedThem) {
   const auto thread_of = [](std::size_t number) { return static_cast<unsigned>(number / 3 % 2); };
   for (std::size_t i = 0; i < kChunks; ++i) {
     const std::size_t number = (i + kChunks / 3) % kChunks;
-    if (number % 7 == 6) continue;
     KeptPackets& packets = chunks.begin(thread_of(number), number);
     for (std::size_t k = 0; k < number % 3; ++k) packets.add(pieces, std::vector<std::uint64_t>{100 + number + k});
   }
@@ -104,8 +103,7 @@ TEST(KeptChunks, AreFoundByTheirNumberWhicheverThreadAddedThem) {
   for (std::size_t number = kChunks; number-- > 0;) {
     for (const unsigned thread : {0U, 1U}) {
       KeptPackets::Reader* const reader = chunks.find(thread, number);
-      ASSERT_EQ(reader == nullptr, number % 7 == 6);
-      if (reader == nullptr) continue;
+      ASSERT_NE(reader, nullptr);
       for (std::size_t i = 0; i < number % 3; ++i) {
         ASSERT_TRUE(reader->next());
         EXPECT_EQ(reader->counts()[0], 100 + number + i);

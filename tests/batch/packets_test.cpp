@@ -52,7 +52,7 @@ std::vector<double> sums_of(const PacketAnswer& answer, const Index& index, std:
 
 /// Visits all packets on this thread.
 void visit(const Index& index, const BatchQuery& query, const PacketVisitor& visitor) {
-  for_each_packet(index, query, [&](unsigned) { return visitor; }, {}, {.threads = 1});
+  for_each_packet(index, query, [&](unsigned) { return visitor; }, {.threads = 1});
 }
 
 /// One visitor for all threads.
@@ -81,7 +81,7 @@ class Packets : public testing::Test {
                       const std::vector<double> found = sums_of(answer, index, signal);
                       for (std::size_t i = 0; i < found.size(); ++i) result[answer.rows[i]] = found[i];
                     }),
-                    {}, {.threads = threads});
+                    {.threads = threads});
     return result;
   }
 
@@ -128,14 +128,13 @@ TEST_F(Packets, AreWrittenRowByRow) {
     for_each_query(queries, [&](std::size_t row) { expected[row].push_back(index.permutation()[place]); });
   });
   for (const Isa isa : available_isas()) {
-    RowWriter writer(view, isa);
-    writer.begin(pieces);
+    const RowWriter writer(view, isa);
     for (unsigned row = 0; row < kPacketCapacity; ++row) {
       std::vector<VertexId> ids(expected[row].size());
-      writer.write_ids(row, ids);
+      writer.write_ids(pieces, row, ids);
       ASSERT_EQ(ids, expected[row]);
       std::vector<double> distances(mesh.size(), -1);
-      writer.write_distances(row, 0, std::span(distances).first(ids.size()));
+      writer.write_distances(pieces, row, 0, std::span(distances).first(ids.size()));
       for (std::size_t i = 0; i < ids.size(); ++i) {
         ASSERT_EQ(distances[i], distance(mesh.positions_view(), view.id(0), ids[i]));
       }
@@ -214,7 +213,7 @@ TEST_F(Packets, GoToOneVisitorForEachThread) {
                     made.insert(thread);
                     return [&](const PacketAnswer& answer) { rows += answer.rows.size(); };
                   },
-                  {}, {.threads = 3});
+                  {.threads = 3});
   EXPECT_EQ(rows, index.vertex_count());
   ASSERT_FALSE(made.empty());
   for (const unsigned thread : made) {
@@ -235,7 +234,7 @@ TEST_F(Packets, PassOnExceptionsOfAVisitor) {
     const auto visitor = everyone([&](const PacketAnswer&) {
       if (++calls == 3) throw std::runtime_error("enough");
     });
-    EXPECT_THROW(for_each_packet(index, {.radius = 3}, visitor, {}, {.threads = threads}), std::runtime_error);
+    EXPECT_THROW(for_each_packet(index, {.radius = 3}, visitor, {.threads = threads}), std::runtime_error);
   }
 }
 
@@ -247,12 +246,12 @@ TEST_F(Packets, ReportTheRowsAndCanBeCancelled) {
     reports.push_back(done);
     return true;
   };
-  for_each_packet(index, {.radius = 3}, nothing, {}, {.progress = note});
+  for_each_packet(index, {.radius = 3}, nothing, {.progress = note});
   EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
   EXPECT_EQ(reports.front(), 0U);
   EXPECT_EQ(reports.back(), index.vertex_count());
   expect_refused(ErrorCode::Cancelled, "cancelled", [&] {
-    for_each_packet(index, {.radius = 3}, nothing, {},
+    for_each_packet(index, {.radius = 3}, nothing,
                     {.progress = [](std::size_t done, std::size_t total) { return done < total; }});
   });
 }
@@ -269,11 +268,8 @@ TEST_F(Packets, AreRefusedBeforeTheFirstVisit) {
   refused(ErrorCode::InvalidRadius, "row 0", {.radius = negative});
   refused(ErrorCode::InvalidRadius, "2 radii", {.radius = two});
   refused(ErrorCode::InvalidRadius, "radius", {});
-  expect_refused(ErrorCode::InvalidOption, "make_visitor is empty", [&] { for_each_packet(index, {.radius = 1}, {}); });
-  expect_refused(ErrorCode::InvalidOption, "make_visitor returned",
-                 [&] { for_each_packet(index, {.radius = 1}, everyone({})); });
   expect_refused(ErrorCode::InvalidOption, "threads",
-                 [&] { for_each_packet(index, {.radius = 1}, never, {}, {.threads = 5000}); });
+                 [&] { for_each_packet(index, {.radius = 1}, never, {.threads = 5000}); });
 }
 
 }  // namespace

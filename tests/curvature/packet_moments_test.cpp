@@ -103,7 +103,7 @@ TEST(PacketMoments, DoNotDependOnTheScratchMemory) {
           }
         };
       };
-      for_each_packet(*state.searched, {.radius = radii}, make_visitor, {}, {.threads = 1});
+      for_each_packet(*state.searched, {.radius = radii}, make_visitor, {.threads = 1});
     }
   }
   std::printf("%zu rows\n", rows);

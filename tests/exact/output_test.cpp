@@ -22,7 +22,7 @@ VertexSet draw_set(const IndexView& index, Random& random) {
     switch (random.below(4)) {
       case 0: set.add(VertexRange{index.leaf_begin[leaf], index.leaf_begin[leaf + 1]}); break;
       case 1: set.add_lanes(LeafSubset{leaf, all}); break;
-      case 2: set.add(LeafSubset{leaf, (static_cast<LaneMask>(random.bits()) & all) | 1U}); break;
+      case 2: set.add_lanes(LeafSubset{leaf, (static_cast<LaneMask>(random.bits()) & all) | 1U}); break;
       default: break;
     }
   }
@@ -92,7 +92,7 @@ TEST_P(Output, OfFewVerticesIsTheirIds) {
   const IndexView& view = IndexAccess::view(index);
   for (std::size_t vertices = 1; vertices <= 12; ++vertices) {
     VertexSet set(view);
-    set.add(LeafSubset{2, first_lanes(static_cast<unsigned>(vertices)) << 1U});
+    set.add_lanes(LeafSubset{2, first_lanes(static_cast<unsigned>(vertices)) << 1U});
     expect_output(view, set, tried);
   }
 }

@@ -26,7 +26,7 @@ using testing::IsEmpty;
 
 std::vector<int> level_numbers(const paper::Index& index) {
   std::vector<int> numbers;
-  for (const paper::LevelSummary& level : index.levels()) numbers.push_back(level.level);
+  for (const LevelSummary& level : index.levels()) numbers.push_back(level.level);
   return numbers;
 }
 

@@ -57,7 +57,7 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
         expect_same(state, packets, q, search, answer.radii[q]);
       });
     };
-    for_each_packet(state.searched, {.radius = radii}, [&](unsigned) -> PacketVisitor { return visit; }, {},
+    for_each_packet(state.searched, {.radius = radii}, [&](unsigned) -> PacketVisitor { return visit; },
                     {.threads = 1});
   }
 
@@ -162,7 +162,7 @@ TEST(PacketPatches, FollowSidesThatDipIntoTheBall) {
       found = packets.find(answer, false);
       for (TriangleId t = 0; t < state.triangles.size(); ++t) triangles += packets.has(0, t) ? 1 : 0;
     };
-    for_each_packet(index, {.vertices = first, .radius = 0.9}, [&](unsigned) -> PacketVisitor { return visit; }, {},
+    for_each_packet(index, {.vertices = first, .radius = 0.9}, [&](unsigned) -> PacketVisitor { return visit; },
                     {.threads = 1});
     // Beyond so many the patch is searched alone, so that the time is in proportion.
     EXPECT_EQ(found, count > 64 ? 0U : 1U) << count;

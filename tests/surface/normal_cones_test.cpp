@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "exact/bound_index.h"
+#include "exact/index_access.h"
 #include "simd/node_group.h"
 #include "support/families.h"
 #include "support/random.h"

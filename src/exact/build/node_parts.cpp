@@ -56,7 +56,7 @@ double NodeParts::mean_full_radius() const {
     sum += ball_of(*graph_, part.nodes()).radius;
     ++count;
   }
-  return count == 0 ? std::numeric_limits<double>::infinity() : sum / static_cast<double>(count);
+  return count == 0 ? kInfinity : sum / static_cast<double>(count);
 }
 
 double NodeParts::fill() const {

@@ -173,7 +173,7 @@ bool JointGroup::fits_into_core(LeafId leaf) const {
 GroupEntry JointGroup::add_core(LeafId leaf) {
   const auto entry = static_cast<GroupEntry>(leaves_.size());
   add_to_eights(kCore + static_cast<LeafId>(cores_.size()), {0, 0, 0, 0}, false);
-  eights_.back().cores |= bit_of(entry);
+  eights_.back().cores |= node_at(entry % kFanOut);
   Core core{.first_link = core_links_.size(), .first_leaf = core_leaves_.size()};
   entry_of_[leaf] = entry;
   core_leaves_.push_back(leaf);

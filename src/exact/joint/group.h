@@ -114,9 +114,6 @@ class JointGroup {
   GroupEntry add_core(LeafId leaf);
   void add_core_link(const Core& core, GroupEntry linked, LaneMask far_boundary);
   void add_to_eights(LeafId leaf, const FrameSphere& sphere, bool connected);
-  [[nodiscard]] static std::uint8_t bit_of(GroupEntry entry) {
-    return static_cast<std::uint8_t>(1U << entry % kFanOut);
-  }
   void prefetch(const Leaf& leaf) const;
   [[nodiscard]] bool fits_into_core(LeafId leaf) const;
   [[nodiscard]] bool meets_a_leaf(const FrameSphere& sphere) const;

@@ -2,7 +2,6 @@
 #include "exact/joint/joint_search.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 
 namespace meshhood::inline v0_1 {
@@ -13,13 +12,10 @@ JointSearch::JointSearch(const IndexView& index, Isa isa)
 void JointSearch::run(LeafId leaf, std::span<const JointQuery> queries) {
   packet_.emplace(*index_, group_, leaf, queries);
   spread_.run(group_, *packet_);
-  has_counts_ = false;
 }
 
 const PerLane<std::uint64_t>& JointSearch::counts() {
   assert(packet_);  // of the last `run`
-  if (has_counts_) return counts_;
-  has_counts_ = true;
   counts_ = {};
   std::uint64_t common = 0;
   for (const GroupEntry entry : spread_.whole()) {
@@ -29,11 +25,10 @@ const PerLane<std::uint64_t>& JointSearch::counts() {
     if (word == packet_->queries()) {
       common += size;
     } else {
-      for (QueryWord left = word; left != 0; left &= left - 1)
-        counts_[static_cast<std::size_t>(std::countr_zero(left))] += size;
+      for_each_query(word, [&](std::size_t query) { counts_[query] += size; });
     }
   }
-  for_each_lane(packet_->queries(), [&](unsigned query) { counts_[query] += common; });
+  for_each_query(packet_->queries(), [&](std::size_t query) { counts_[query] += common; });
   kernels_->count_words(spread_.words(), spread_.partial(), counts_);
   return counts_;
 }

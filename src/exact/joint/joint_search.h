@@ -52,7 +52,6 @@ class JointSearch {
   JointSpread spread_;
   std::optional<Packet> packet_;
   PerLane<std::uint64_t> counts_{};
-  bool has_counts_ = false;
   std::vector<Piece> pieces_;
 };
 

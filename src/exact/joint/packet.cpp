@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
 
 #include "base/vector.h"
@@ -22,9 +21,6 @@ constexpr double kLargestRadius = 8;
 // the center of the leaf is off by 28 u a^2, less than four times as much.
 constexpr double kRelativeError = 0x1p-19;
 
-float float_above(double value) { return std::nextafter(static_cast<float>(value), kFloatInfinity); }
-float float_below(double value) { return -float_above(-value); }
-
 double inner_of(const TreeBounds& bounds) { return std::min(static_cast<double>(bounds.inner), kLargestRadius); }
 double outer_of(const TreeBounds& bounds) { return std::min(static_cast<double>(bounds.outer), kLargestRadius); }
 
@@ -34,8 +30,7 @@ JointRadius::JointRadius(const Frame& frame, double at)
     : radius(at),
       squared(squared_radius(at)),
       bounds(frame, at),
-      inner_squared(inner_of(bounds) > 0 ? inner_of(bounds) * inner_of(bounds)
-                                         : -std::numeric_limits<double>::infinity()),
+      inner_squared(inner_of(bounds) > 0 ? inner_of(bounds) * inner_of(bounds) : -kInfinity),
       outer_squared(outer_of(bounds) * outer_of(bounds)) {}
 
 Packet::Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std::span<const JointQuery> queries)
@@ -53,8 +48,8 @@ Packet::Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std
   ball_.x = bounds.x;
   ball_.y = bounds.y;
   ball_.z = bounds.z;
-  ball_.inner = float_below(static_cast<double>(ball_.inner) - static_cast<double>(bounds.radius));
-  ball_.outer = float_above(static_cast<double>(ball_.outer) + static_cast<double>(bounds.radius));
+  ball_.inner = -next_above(static_cast<double>(bounds.radius) - static_cast<double>(ball_.inner));
+  ball_.outer = next_above(static_cast<double>(ball_.outer) + static_cast<double>(bounds.radius));
 }
 
 void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> queries) {

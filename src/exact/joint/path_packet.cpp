@@ -8,7 +8,7 @@ constexpr std::uint32_t kNoNumber = 0xFFFFFFFF;
 
 constexpr PathLengths kReachedByNone = [] {
   PathLengths lengths{};
-  lengths.fill(std::numeric_limits<double>::infinity());
+  lengths.fill(kInfinity);
   return lengths;
 }();
 

@@ -18,27 +18,25 @@ class RowWriter {
  public:
   RowWriter(const IndexView& index, Isa isa) : index_(&index), kernels_(&joint_kernels(isa)) {}
 
-  /// Begins with the pieces of a packet, which must outlive the calls below.
-  void begin(std::span<const Piece> pieces) { pieces_ = pieces; }
-
-  /// Writes the ids of a row. `ids` has as many places as the row has vertices.
-  void write_ids(unsigned query, std::span<VertexId> ids) const;
+  /// Writes the ids of a row from the pieces of its packet. `ids` has as many places as the row has vertices.
+  void write_ids(std::span<const Piece> pieces, unsigned query, std::span<VertexId> ids) const;
 
   /// Writes the distances from the vertex at a slot in the order of the ids.
-  void write_distances(unsigned query, std::uint32_t slot, std::span<double> distances) const;
+  void write_distances(std::span<const Piece> pieces, unsigned query, std::uint32_t slot,
+                       std::span<double> distances) const;
 
  private:
   const IndexView* index_;
   const JointKernels* kernels_;
-  std::span<const Piece> pieces_;
 };
 
-inline void RowWriter::write_ids(unsigned query, std::span<VertexId> ids) const {
+inline void RowWriter::write_ids(std::span<const Piece> pieces, unsigned query, std::span<VertexId> ids) const {
   const VertexId* permutation = index_->permutation.empty() ? nullptr : index_->permutation.data();
-  kernels_->write_row(pieces_, index_->leaf_begin.data(), query, permutation, ids);
+  kernels_->write_row(pieces, index_->leaf_begin.data(), query, permutation, ids);
 }
 
-inline void RowWriter::write_distances(unsigned query, std::uint32_t slot, std::span<double> distances) const {
+inline void RowWriter::write_distances(std::span<const Piece> pieces, unsigned query, std::uint32_t slot,
+                                       std::span<double> distances) const {
   const Point center = index_->position_at(slot);
   double* next = distances.data();
   std::visit(
@@ -46,7 +44,7 @@ inline void RowWriter::write_distances(unsigned query, std::uint32_t slot, std::
         const auto write = [&](std::size_t vertex) {
           *next++ = std::sqrt(squared_distance(point(xyz, vertex), center));
         };
-        for (const Piece& piece : pieces_) {
+        for (const Piece& piece : pieces) {
           const std::size_t first = index_->leaf_begin[piece.leaves.begin];
           if (!piece.is_run()) {
             for_each_lane(kernels_->lanes_of(piece.reached, query), [&](unsigned lane) { write(first + lane); });

@@ -128,14 +128,11 @@ void JointSpread::find_inside(JointGroup& group, const Packet& packet, GroupEntr
   const BallWords found =
       kernels_->ball_words(group.points(entry), index_->open_lanes(leaf), packet.balls(), inside, doubts);
   states_[entry].word = found.all;
-  for (LaneMask lanes = found.in_doubt; lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<unsigned>(std::countr_zero(lanes));
+  for_each_lane(found.in_doubt, [&](unsigned lane) {
     const Point vertex = index_->position(leaf, lane);
-    for (QueryWord left = doubts[lane]; left != 0; left &= left - 1) {
-      const auto query = static_cast<unsigned>(std::countr_zero(left));
-      inside[lane] |= QueryWord{packet.holds(query, vertex)} << query;
-    }
-  }
+    for_each_query(doubts[lane],
+                   [&](std::size_t query) { inside[lane] |= QueryWord{packet.holds(query, vertex)} << query; });
+  });
 }
 
 /// Pushes the words of a leaf over its links. Which links take them cannot be predicted, so they are chosen first,

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "base/prefetch.h"
 
@@ -34,7 +33,7 @@ Flood::State& Flood::state_of(LeafId leaf) {
   const Leaf& record = index_->leaves[leaf];
   return states_.set(leaf, {.open = index_->open_lanes(leaf),
                             .connected = record.connected,
-                            .wakes = std::numeric_limits<double>::infinity(),
+                            .wakes = kInfinity,
                             .squares = squared_distances(record.bounds, center_)});
 }
 
@@ -80,7 +79,7 @@ void Flood::grow(double radius, std::uint32_t target) {
   sleepers_.wake(ball_.squared_radius, [&](const Sleepers::Entry& entry) {
     State& state = states_[entry.leaf];
     if (state.wakes != entry.bound) return;  // outdated: the leaf has another entry with a smaller bound
-    state.wakes = std::numeric_limits<double>::infinity();
+    state.wakes = kInfinity;
     wake(entry.leaf, state);
   });
   constexpr std::size_t kVerticesAhead = 8;
@@ -161,7 +160,7 @@ LaneMask Flood::border(const State& state, const Leaf& leaf) const {
 double Flood::nearest_square(const Leaf& leaf, LaneMask lanes) const {
   return std::visit(
       [&](auto xyz) {
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         for_each_lane(lanes, [&](unsigned lane) {
           least = std::min(least, squared_distance(point(xyz, std::size_t{leaf.first} + lane), ball_.center));
         });
@@ -178,12 +177,12 @@ double Flood::next_radius() {
     if (is_current && state.is_exact) return std::sqrt(entry.bound);
     sleepers_.remove_first();
     if (!is_current) continue;
-    state.wakes = std::numeric_limits<double>::infinity();
+    state.wakes = kInfinity;
     const Leaf& record = index_->leaves[entry.leaf];
     const LaneMask lanes = border(state, record);
     if (lanes != 0) rest(entry.leaf, state, nearest_square(record, lanes), true);
   }
-  return std::numeric_limits<double>::infinity();
+  return kInfinity;
 }
 
 bool Flood::has_reached(std::uint32_t slot) const {

@@ -2,7 +2,6 @@
 #include "exact/query/path_search.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <type_traits>
 
@@ -12,7 +11,7 @@ namespace {
 // So narrow that few paths become shorter in their bucket, and so wide that most buckets have paths.
 constexpr double kBucketsPerEdge = 8;
 
-constexpr double kUnreached = std::numeric_limits<double>::infinity();
+constexpr double kUnreached = kInfinity;
 
 // No path is shorter.
 constexpr double kWall = -1;

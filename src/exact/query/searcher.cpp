@@ -11,12 +11,10 @@
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
 #include "exact/query/single_queries.h"
-#include "exact/query/space_search.h"
 #include "exact/query/straight_queries.h"
 #include "shared/distance.h"
 
 namespace meshhood::inline v0_1 {
-namespace {
 
 std::unique_ptr<SingleQueries> make_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph, Metric metric,
                                             Isa isa) {
@@ -24,8 +22,6 @@ std::unique_ptr<SingleQueries> make_queries(BoundIndex index, std::shared_ptr<Ke
   if (metric == Metric::Space) return make_space_queries(std::move(index), std::move(graph), isa);
   return std::make_unique<StraightQueries>(std::move(index), std::move(graph), isa);
 }
-
-}  // namespace
 
 void SingleQueries::check(const Start& start, std::string_view where) const {
   index.check_current();
@@ -60,10 +56,11 @@ void SingleQueries::list(const Start& start, double radius, std::vector<VertexId
 void SingleQueries::nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& ids,
                            std::vector<std::size_t>& sizes) {
   VertexSet before(*index);
+  VertexSet ring(*index);
   for (const double radius : radii) {
     VertexSet& found = search(start, radius);
-    answer.assign_difference(found, before);
-    append_ids(answer, *index, *kernels, ids);
+    ring.assign_difference(found, before);
+    append_ids(ring, *index, *kernels, ids);
     sizes.push_back(ids.size());
     std::swap(before, found);
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -11,17 +10,18 @@
 
 #include "meshhood/search.h"
 
-#include "exact/bound_index.h"
+#include "exact/index_access.h"
 #include "exact/layout.h"
 #include "exact/search/straight_search.h"
 #include "exact/vertex_set.h"
 #include "exact/weighted_graph.h"
+#include "shared/distance.h"
 #include "simd/kernels.h"
 
 namespace meshhood::inline v0_1 {
 
 /// The connecting radius of a vertex that no radius connects.
-inline constexpr double kNoRadius = std::numeric_limits<double>::infinity();
+inline constexpr double kNoRadius = kInfinity;
 
 /// The answers to single queries by one metric. Arguments are valid, unless a function says that it checks them.
 struct SingleQueries {
@@ -75,6 +75,14 @@ struct SingleQueries {
   /// Adds the `k` >= 1 nearest vertices, and their connecting radii.
   virtual void nearest(const Start& start, std::size_t k, std::vector<VertexId>& ids, std::vector<double>& radii) = 0;
 };
+
+/// By the metric. Each part is made when it is first needed.
+[[nodiscard]] std::unique_ptr<SingleQueries> make_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph,
+                                                          Metric metric, Isa isa);
+
+/// In space.
+[[nodiscard]] std::unique_ptr<SingleQueries> make_space_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph,
+                                                                Isa isa);
 
 /// By path distance or number of edges.
 [[nodiscard]] std::unique_ptr<SingleQueries> make_length_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph,

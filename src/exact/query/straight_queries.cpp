@@ -2,12 +2,6 @@
 #include "exact/query/straight_queries.h"
 
 namespace meshhood::inline v0_1 {
-namespace {
-
-/// Whether one search answers a query: the start is a vertex.
-bool is_neighborhood(const Start& start) { return !start.center(); }
-
-}  // namespace
 
 void StraightQueries::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) {
   SingleQueries::rebind(std::move(bound), std::move(kept));
@@ -29,7 +23,7 @@ void StraightQueries::add_reached(std::size_t skip, std::vector<LeafSubset>& fou
 }
 
 VertexSet& StraightQueries::search(const Start& start, double radius) {
-  if (is_neighborhood(start)) {
+  if (!start.center()) {
     neighborhoods().search(start.vertex(), radius);  // which checks the arguments
     return neighborhoods_->answer;
   }
@@ -48,7 +42,7 @@ void StraightQueries::collect(const Start& start, double radius, std::vector<Lea
 
 void StraightQueries::nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& ids,
                              std::vector<std::size_t>& sizes) {
-  if (is_neighborhood(start)) return SingleQueries::nested(start, radii, ids, sizes);
+  if (!start.center()) return SingleQueries::nested(start, radii, ids, sizes);
   Flood& flood = begin(start);
   for (const double radius : radii) {
     const std::size_t before = flood.reached().size();

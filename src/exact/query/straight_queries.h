@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <compare>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,9 +20,7 @@ struct NextVertex {
   double distance;  // from the center
   VertexId vertex;
 
-  friend bool operator<(const NextVertex& a, const NextVertex& b) {
-    return std::tie(a.distance, a.vertex) < std::tie(b.distance, b.vertex);
-  }
+  friend auto operator<=>(const NextVertex&, const NextVertex&) = default;
 };
 
 /// The answers of the straight metric: one ball around a vertex by `StraightSearch`, all else by a flood. Each is made
@@ -70,7 +67,7 @@ void StraightQueries::for_each_nearest(const Start& start, double most, F&& f) {
   Flood& flood = begin(start);
   for (;;) {
     const double radius = flood.next_radius();
-    if (!(radius <= most) || radius == std::numeric_limits<double>::infinity()) return;
+    if (!(radius <= most) || radius == kNoRadius) return;
     const std::size_t before = flood.reached().size();
     flood.grow(radius);
     found_.clear();

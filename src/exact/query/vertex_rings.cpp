@@ -34,7 +34,7 @@ std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
 }
 
 std::vector<std::vector<std::uint32_t>> VertexRings::rings() {
-  std::vector<std::vector<std::uint32_t>> rings(ring_count());
+  std::vector<std::vector<std::uint32_t>> rings(queue_.empty() ? 0 : edges_to(queue_.back()) + 1);
   for (const std::uint32_t place : places()) rings[edges_to(place)].push_back(place);
   return rings;
 }

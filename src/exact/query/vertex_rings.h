@@ -26,12 +26,8 @@ class VertexRings final : public PacketLengths {
   /// there are, without the ignored ones.
   std::size_t run(std::uint32_t slot, std::uint32_t rings);
 
-  /// How many rings there are, of which the last may have ignored vertices alone; 0 for a wall.
-  [[nodiscard]] std::size_t ring_count() const {
-    return queue_.empty() ? 0 : std::size_t{edges_to_[queue_.back()]} + 1;
-  }
-
-  /// These vertices ring by ring, by their places in index order, each ring ascending.
+  /// These vertices ring by ring, by their places in index order, each ring ascending. The last ring may have had
+  /// ignored vertices alone.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> rings();
 
   /// These vertices, by their places in index order, ascending. Valid until the next `run`.

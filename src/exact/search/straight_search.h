@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "exact/bound_index.h"
+#include "exact/index_access.h"
 #include "exact/layout.h"
 #include "exact/search/component.h"
 #include "exact/search/leaf_bfs.h"

@@ -30,7 +30,7 @@ void Waves::run(NodeId home, const TreeBall& ball, GroupStates& states) {
 /// Makes a node pending that is linked with a reached one.
 void Waves::meet(NodeId node, GroupStates& states) {
   const std::uint32_t group = node / kFanOut;
-  const auto bit = static_cast<NodeSet>(1U << node % kFanOut);
+  const NodeSet bit = node_at(node % kFanOut);
   if (!states.is_known(group)) {
     states.set(group, {}).pending = bit;
     groups_.push_back(group);
