@@ -15,7 +15,7 @@ PROMISES = [
     ("CHANGELOG.md", r"The public API\*\* is .*installed headers.*CMake.*pkg-config.*exit codes.*Python.*JavaScript"),
     ("CHANGELOG.md", r"versions read all released formats of both; a newer format is refused, with advice"),
     ("CHANGELOG.md", r"What will go is marked `\[\[deprecated\]\]`, or warns, for one minor version before"),
-    ("CHANGELOG.md", r"the ABI, with the soname, in each minor version until 1\.0"),
+    ("CHANGELOG.md", r"the ABI, with the soname and the inline namespace, in each minor version until 1\.0"),
     ("SECURITY.md", r"To report a weakness:\*\*.*The last minor version gets the fixes"),
     ("SECURITY.md", r"trusted\?.* mesh files, index files.* no\. .*with `trusted` \| yes\. .*a pickle of Python.* yes"),
     ("packaging/RELEASE.md", r"the address of the maintainer, which step 1 fills in"),
