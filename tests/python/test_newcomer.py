@@ -138,6 +138,8 @@ ERRORS = (
         "values: ndarray, expected a dict of arrays by name, as {'height': array}"),
     ('index.gaps(1, metric="path")', ValueError,
         "metric: 'path', expected 'straight'"),
+    ("meshhood.MeshIndex(V, F.T)", ValueError,
+        f"F: expected (#F, 3), not shape (3, {len(F)}); F.T has it"),
     ("index.nearest([1, 2])", ValueError,
         "points: expected 3 numbers or an array (n, 3), not an array of shape (2,)"),
     ("index.first_hit([0, 0, 0], [0, 0, 0])", ValueError,

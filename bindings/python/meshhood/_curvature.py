@@ -45,6 +45,8 @@ class Curvature(NamedTuple):
     count: NDArray[np.uint32]  # type: ignore[assignment]
 
     def __repr__(self) -> str:
+        if not self.k1.shape:
+            return f"<meshhood.Curvature: k1 {self.k1}, k2 {self.k2}>"
         rows = " by ".join(map(str, self.k1.shape))
         fitted = f", {np.count_nonzero(self.ok)} ok" if isinstance(self.state, np.ndarray) else ""
         return f"<meshhood.Curvature: {rows} rows{fitted}>"

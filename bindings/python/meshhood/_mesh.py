@@ -111,6 +111,9 @@ def _faces(F):
             f"F: expected (#F, k), a tuple (offsets, corners), or padded faces (one dimension), not shape {array.shape}"
         )
     count, corners = array.shape
+    # Three or four polygons that have all vertices, some repeatedly, are triangles or quadrilaterals in columns.
+    if count in (3, 4) and corners > 16 and len(np.unique(array[0])) < corners:
+        raise ValueError(f"F: expected (#F, {count}), not shape {array.shape}; F.T has it")
     if corners == 3:
         return array.ravel(), None
     return array.ravel(), np.arange(count + 1, dtype=np.int64) * corners
