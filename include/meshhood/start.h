@@ -74,8 +74,8 @@ struct NearestVertex {
 /// has no such vertex. O(log #V) on most surfaces. Allocates nothing; any thread.
 [[nodiscard]] NearestVertex nearest(const Index& index, const SpacePoint& point);
 
-/// That of each point, in their order. Near points follow each other in the search, so that it is faster than one by
-/// one. Throws as the overload above, naming the point, and Error{Cancelled}. Memory: 32 bytes a point.
+/// The same for many points, in their order; faster than one by one, as near points are searched after each other.
+/// Throws as the overload above, naming the row, and Error{Cancelled}. 32 bytes a point, half of them the result.
 [[nodiscard]] std::vector<NearestVertex> nearest(const Index& index, std::span<const SpacePoint> points,
                                                  const Run& run = {});
 

@@ -38,8 +38,8 @@ inline constexpr float kExitSlack = 1 + 0x1p-20F;
 /// and `(high wall - high) * inverse`; the smaller one is the entry.
 struct BoxRay {
   struct Axis {
-    float low;   // where the ray begins, and its error more, so that the box grows by it
-    float high;  // its error less
+    float low;   // where the ray begins, plus the error of positions, so that the box grows by it
+    float high;  // the same, minus the error
     float inverse;
   };
   Axis x;

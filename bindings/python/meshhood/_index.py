@@ -510,8 +510,9 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         workers, progress : as for the class.
 
         Returns a new index, with the attributes of a subclass. This one stays as it is, and threads may search it
-        meanwhile. The two share all memory but positions and bounds. Answers are exact whatever the positions; `quality`
-        says when a new index would answer faster.
+        meanwhile. The two share all memory but positions and bounds. With `changed`, what this index has made of its
+        faces is kept for the first call of the new one that needs it, and renewed then. Answers are exact whatever the
+        positions; `quality` says when a new index would answer faster.
 
         >>> moved = meshhood.MeshIndex(V, F).refit(2 * V)
         """
