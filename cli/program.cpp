@@ -116,16 +116,24 @@ bool are_numbers(std::span<const std::string> words) {
   return std::all_of(words.begin(), words.end(), [](const std::string& word) { return io::parse_real<double>(word); });
 }
 
-/// Turns `--point X Y Z` into `--point X,Y,Z`. An option of CLI11 with one to three values would also take the FILE
-/// that follows `--point X,Y,Z`.
-void join_points(std::vector<std::string>& arguments) {
+/// Turns `--point X Y Z` into `--point X,Y,Z`, and `--weld EPS` into `--weld=EPS`. An option of CLI11 with one to three
+/// values would also take the FILE that follows `--point X,Y,Z`, and a flag takes no value after a blank.
+void join_values(std::vector<std::string>& arguments) {
   constexpr std::size_t kAxes = 3;
-  for (std::size_t i = 0; i + kAxes < arguments.size(); ++i) {
-    if (arguments[i] != "--point" || !are_numbers(std::span(arguments).subspan(i + 1, kAxes))) continue;
-    arguments[i + 1] += ',' + arguments[i + 2] + ',' + arguments[i + 3];
-    arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i + 2),
-                    arguments.begin() + static_cast<std::ptrdiff_t>(i + 1 + kAxes));
+  std::vector<std::string> joined;
+  for (std::span<const std::string> rest = arguments; !rest.empty();) {
+    const std::string& name = rest.front();
+    rest = rest.subspan(1);
+    joined.push_back(name);
+    if (name == "--point" && rest.size() >= kAxes && are_numbers(rest.first(kAxes))) {
+      joined.push_back(fmt::format("{}", fmt::join(rest.first(kAxes), ",")));
+      rest = rest.subspan(kAxes);
+    } else if (name == "--weld" && !rest.empty() && are_numbers(rest.first(1))) {
+      joined.back() += '=' + rest.front();
+      rest = rest.subspan(1);
+    }
   }
+  arguments = std::move(joined);
 }
 
 std::vector<std::string> names_of_options(const CLI::App& app) {
@@ -165,7 +173,7 @@ std::string unknown_argument(const CLI::App& program) {
 void run(CLI::App& program, std::vector<std::string> arguments) {
   try {
     refuse_empty_values(arguments);
-    join_points(arguments);
+    join_values(arguments);
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
     program.parse(std::move(arguments));
     if (program.get_subcommands().empty()) raise(ErrorCode::InvalidOption, "a command is missing; see --help");

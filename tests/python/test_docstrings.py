@@ -6,6 +6,7 @@ import doctest
 import importlib
 import inspect
 import pkgutil
+import re
 import webbrowser
 
 import meshhood
@@ -29,6 +30,14 @@ def objects():
 
 OBJECTS = {**dict(objects()), "distributed": meshhood.distributed, "meshhood": meshhood}
 OF_PARTS = ("distributed", "open_parts", "map_meshes", "Parts", "OpenPart", "PartSize")
+
+
+def test_the_list_of_calls_has_each():
+    lists = inspect.getdoc(meshhood).split("shows one:")[1]
+    calls = re.findall(r"[\w.]+", re.sub(r"^- .*?:|; .*:", " ", lists, flags=re.M))
+    of_index = {name for name in dir(meshhood.MeshIndex) if name[0] != "_"}
+    functions = {f"meshhood.{name}" for name in meshhood.__all__ if inspect.isfunction(getattr(meshhood, name))}
+    assert set(calls) == of_index | functions | {"meshhood.RegionMesh"}
 
 
 @pytest.mark.parametrize("name", OBJECTS)

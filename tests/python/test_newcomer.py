@@ -92,6 +92,8 @@ ERRORS = (
         "all rows are scales="),
     ("index.neighborhoods(1, [3.0])", TypeError,
         "vertices: expected integers, not float64"),
+    ("index.neighborhoods(1, V[:2])", TypeError,
+        "vertices: expected integers, not float32; a point is the start of `neighborhood(point, r)`"),
     ("index.neighborhoods(1, scales=[1])", TypeError,
         "r: given, but so are scales; expected one of them"),
     ("index.neighborhoods(scales=3)", ValueError,

@@ -50,6 +50,7 @@ def test_faces_and_submesh_of_a_region(mesh):
     part = mesher.submesh(ids, "any")
     np.testing.assert_array_equal(part.vertices[part.F], F[part.faces])
     np.testing.assert_array_equal(part.V, V[part.vertices])
+    np.testing.assert_array_equal(meshhood.MeshIndex(part).faces, part.F)
 
 
 def test_rim_of_polygons_on_a_sheet_is_one_loop():

@@ -92,7 +92,8 @@ def test_thickness_of_a_box_by_both_methods():
     for method in ("ray", "sphere"):
         np.testing.assert_array_equal(index.thickness(inner, method=method), 0.5)
         assert index.thickness(int(inner[0]), method=method) == 0.5
-    assert index.thickness().shape == (len(V),)
+    with pytest.warns(UserWarning, match=r"inf for \d+ of 162 vertices.*F=F\[:, ::-1\]"):
+        assert index.thickness(F=np.array(F)[:, ::-1]).shape == (len(V),)
     with pytest.raises(ValueError, match="method"):
         index.thickness(method="cone")
 

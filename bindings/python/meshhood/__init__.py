@@ -8,6 +8,21 @@ component that contains v.
     >>> index = meshhood.MeshIndex(V, F)
     >>> near = index.neighborhood(42, 1.5)
     >>> indptr, indices = index.neighborhoods(1.5, [42, 43])
+
+The calls, by what they answer; those without a dot are of `MeshIndex`, and help(meshhood.MeshIndex.count) shows one:
+
+- neighborhoods: neighborhood, neighborhoods, iter_neighborhoods, nested, stroke, contains, count, counts
+- the same as a mesh or a graph: faces, submesh, rim, radius_neighbors_graph, meshhood.RegionMesh, meshhood.padded
+- nearest vertices: k_nearest, nearest_connected, nearest_unconnected, connecting_radius, discs
+- from points in space: nearest, closest_point, first_hit, neighborhood
+- the surface in the ball: invariants, measure, gaps, gap, patch, clip; through a wall: thickness
+- values on the vertices: smooth, smoothing_matrix, aggregate, meshhood.smoothing_radius, meshhood.vertex_areas
+- shape: curvature, corrected_curvature, features, principal_components, moments, meshhood.principal_curvature,
+  meshhood.persistence, meshhood.geometric_radii
+- other indexes: from_points, of_faces, masked, refit, quality, save, meshhood.load
+- of an index: positions, permutation, mean_edge_length, n_vertices, nbytes, meshhood.show_config
+- meshes and pictures: meshhood.read_mesh, meshhood.write_mesh, meshhood.weld, meshhood.view, meshhood.plot_neighborhood
+- beyond the memory: meshhood.partition, meshhood.open_parts
 """
 
 from . import _core

@@ -58,7 +58,9 @@ def _numbers_of(values, count, name, one, many):
             raise ValueError(f"{name}: a bool mask of shape {array.shape}, expected ({count},)")
         array = np.flatnonzero(array)
     if array.dtype.kind not in "iu":
-        raise TypeError(f"{name}: expected integers, not {array.dtype}")
+        points = array.dtype.kind == "f" and array.ndim == 2 and array.shape[1] == 3
+        hint = "; a point is the start of `neighborhood(point, r)`" if points else ""
+        raise TypeError(f"{name}: expected integers, not {array.dtype}{hint}")
     if array.ndim == 0:
         raise ValueError(f"{name}: one {one}, expected a list of {many}: [{array}]")
     if array.ndim != 1:

@@ -241,6 +241,8 @@ def _is_mesh(V):
 def _parts(mesh):
     """Positions and faces of a mesh of another library or of this package."""
     _refuse_path(mesh, "V")
+    if hasattr(mesh, "V") and hasattr(mesh, "F"):  # Submesh
+        return mesh.V, mesh.F
     if hasattr(mesh, "mesh") and hasattr(mesh, "data"):  # nilearn's SurfaceImage
         mesh = mesh.mesh
     if hasattr(mesh, "parts"):
