@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "exact/build/collect_rows.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
@@ -9,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/run.h"
+
+#include "base/lists.h"
 
 namespace meshhood::test {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "exact/build/edge_buckets.h"
-
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "exact/build/links.h"
 #include "support/random.h"
 
 namespace meshhood::test {

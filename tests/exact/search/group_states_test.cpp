@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "exact/search/group_states.h"
-
 #include <gtest/gtest.h>
 
 #include "exact/index_access.h"
+#include "exact/search/reach.h"
 #include "support/families.h"
 
 namespace meshhood::test {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Sets of leaves against the ranges of vertices below nodes.
-#include "exact/search/leaf_bits.h"
-
 #include <cstdio>
 
 #include <gtest/gtest.h>
 
 #include "exact/index_access.h"
+#include "exact/search/component.h"
 #include "support/families.h"
 
 namespace meshhood::test {
