@@ -2,6 +2,7 @@
 #include "meshhood/patch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -58,13 +59,16 @@ struct PatchSearcher::State {
       return run_at(*surface, search, start.vertex(), radius, measures);
     }
     check_point(start.point(), "point");
-    find_start(*start.face(), {start.point()[0], start.point()[1], start.point()[2]});
-    search.run({start.point()[0], start.point()[1], start.point()[2]}, radius, starts, measures);
+    const Point center{start.point()[0], start.point()[1], start.point()[2]};
+    find_start(*start.face(), center, radius);
+    search.run(center, radius, starts, measures);
     return !starts.empty();
   }
 
-  /// The triangle of a face that is nearest to a point.
-  void find_start(std::size_t face, const Point& p) {
+  /// The triangle of a face that is nearest to a point; none if it has no point in the ball. A point on the face is off
+  /// it by the rounding of its coordinates, which are as large as those of the corners.
+  void find_start(std::size_t face, const Point& p, double radius) {
+    constexpr double kRounding = 0x1p-48;
     const IndexView& index = *surface->index;
     const Triangles& all = surface->triangles;
     if (face >= surface->faces->size()) {
@@ -73,7 +77,10 @@ struct PatchSearcher::State {
     }
     starts.clear();
     double least = kInfinity;
+    double reach = radius;
     for (const VertexId corner : (*surface->faces)[face]) {
+      const Point at = index.position_of(corner);
+      reach = std::max({reach, kRounding * std::abs(at.x), kRounding * std::abs(at.y), kRounding * std::abs(at.z)});
       for (const TriangleId t : all.fan(index.place(corner))) {
         if (all.face[t] != face) continue;
         const double distance = nearest_in_triangle(p, corners_of(index, all.corners[t]), index.frame.scale).distance;
@@ -82,6 +89,7 @@ struct PatchSearcher::State {
         starts.assign(1, t);
       }
     }
+    if (least > reach) starts.clear();
   }
 };
 
