@@ -10,7 +10,8 @@
 
 #include "base/vector.h"
 #include "patch/clipped_triangle.h"
-#include "patch/patches.h"
+#include "patch/packet_patches.h"
+#include "patch/search.h"
 #include "patch/twofold.h"
 #include "surface/face_triangles.h"
 #include "surface/triangle_point.h"
@@ -168,10 +169,9 @@ class GapSearch {
 
 }  // namespace
 
-SurfacePoint FoundPatch::gap() const {
-  if (packet_) return packet_->gap(query_);
+SurfacePoint PatchSearch::gap() const {
   SurfacePoint gap;
-  if (exists_) GapSearch(*state_, OnePatch(*search_), 1).run({&gap, 1});
+  if (exists()) GapSearch(*state_, OnePatch(*this), 1).run({&gap, 1});
   return gap;
 }
 

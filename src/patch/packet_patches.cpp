@@ -214,7 +214,7 @@ void PacketPatches::add_clipped(TriangleId t, std::size_t query) {
     dips_.push_back({query, t, i});
     if (all.is_border(t, static_cast<unsigned>(i))) sums_[query].meet_border();
   }
-  if (measures_) sums_[query].add_cut(clipped, balls_[query]);
+  if (measures_) clipped.add_to(sums_[query]);
 }
 
 /// In the order in which they were found, which may find more.

@@ -136,7 +136,7 @@ void PatchSearch::add_cut(TriangleId t, const PatchTriangle& triangle) {
     if (clipped.dips(i)) state_->triangles.for_each_beside(t, i, [&](TriangleId other) { visit(other); });
     add_side(i, clipped.meets(i));
   }
-  if (measures_) sums_.add_cut(clipped, ball_);
+  if (measures_) clipped.add_to(sums_);
 }
 
 }  // namespace meshhood::inline v0_1

@@ -13,7 +13,6 @@
 #include "shared/parallel.h"
 #include "surface/face_tree.h"
 #include "surface/first_hit.h"
-#include "surface/normal_cones.h"
 #include "surface/surface.h"
 #include "surface/triangle_point.h"
 

@@ -19,7 +19,6 @@
 #include "meshhood/surface.h"
 
 #include "batch/packets.h"
-#include "patch/patches.h"
 #include "patch/search.h"
 #include "support/families.h"
 #include "support/family_name.h"
@@ -75,7 +74,8 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
       for (TriangleId t = first[0]; t < first[1]; ++t) EXPECT_TRUE(packets.has(q, t));
     }
     EXPECT_EQ(packets.exists(q), !triangles.empty());
-    const SurfacePoint alone = FoundPatch(state, search, radius, !triangles.empty()).gap();
+    EXPECT_EQ(search.exists(), !triangles.empty());
+    const SurfacePoint alone = search.gap();
     EXPECT_EQ(packets.gap(q).face, alone.face);
     EXPECT_EQ(packets.gap(q).corners, alone.corners);
     EXPECT_EQ(packets.gap(q).distance, alone.distance);

@@ -15,7 +15,7 @@
 
 #include "base/vector.h"
 #include "patch/clipped_triangle.h"
-#include "patch/rim.h"
+#include "patch/sums.h"
 #include "simd/patches.h"
 #include "support/exact_answer.h"
 #include "support/random.h"

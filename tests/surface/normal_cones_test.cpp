@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The cones of a tree, against the triangles in their groups.
-#include "surface/normal_cones.h"
+#include "surface/face_tree.h"
 
 #include <algorithm>
 #include <cmath>
