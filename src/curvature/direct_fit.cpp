@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/vector.h"
-#include "curvature/direct_moments.h"
 #include "curvature/packet_moments.h"
 #include "exact/index_access.h"
 #include "exact/neighbors.h"
@@ -46,12 +45,7 @@ void DirectFit::filter(const Point& normal) {
 /// Returns the factor by which the coordinates were multiplied.
 double DirectFit::set_points(std::uint32_t place) {
   const Point center = surface_->position(place);
-  double extent = 0;
-  for (const std::uint32_t i : found_) {
-    const Point p = surface_->index->frame.scale * (surface_->position(i) - center);
-    extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  const double scale = scale_for(extent);
+  const double scale = scale_for(extent_of(*surface_->index, found_, center));
   points_.clear();
   for (const std::uint32_t i : found_) points_.push_back(scale * (surface_->position(i) - center));
   return scale;

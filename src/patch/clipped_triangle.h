@@ -10,7 +10,6 @@
 #include "patch/sums.h"
 #include "patch/twofold.h"
 #include "shared/distance.h"
-#include "simd/angle.h"
 #include "simd/patches.h"
 
 namespace meshhood::inline v0_1 {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "shared/distance.h"
-#include "simd/angle.h"
+#include "simd/patches.h"
 
 namespace meshhood::inline v0_1 {
 
