@@ -122,9 +122,8 @@ ReducerFactory make_factory(const IndexView& index, const NodeTree& tree, Signal
   }
   SumColumns columns(std::move(block), reduce);
   if (query.kernel == SmoothingKernel::Box) return sum_reducers(tree, std::move(columns));
-  const bool has_lengths = is_along_edges(query.metric);
-  if (has_lengths || query.kernel == SmoothingKernel::Gaussian) {
-    return weighted_reducers(index, std::move(columns), query.kernel, has_lengths);
+  if (is_along_edges(query.metric) || query.kernel == SmoothingKernel::Gaussian) {
+    return weighted_reducers(index, std::move(columns), query.kernel);
   }
   return kernel_sum_reducers(index, tree, std::move(columns), query.kernel == SmoothingKernel::Biweight);
 }

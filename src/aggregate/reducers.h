@@ -78,8 +78,7 @@ struct VarianceOptions {
 
 /// Sum and mean with a weight for each vertex of a row, where no moments of few terms give the sum over a node: weights
 /// that fall with the distance as a Gaussian, or if packets have lengths, by any kernel but the box with these.
-[[nodiscard]] ReducerFactory weighted_reducers(const IndexView& index, SumColumns columns, SmoothingKernel kernel,
-                                               bool has_lengths);
+[[nodiscard]] ReducerFactory weighted_reducers(const IndexView& index, SumColumns columns, SmoothingKernel kernel);
 
 // Weighted sums and means of many channels over rows that are listed: each id and its weight are found once, and serve
 // all channels. For small neighborhoods this takes less time than sums over nodes, which are made for each channel.

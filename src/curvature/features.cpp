@@ -19,7 +19,7 @@
 
 #include "base/vector.h"
 #include "batch/rows.h"
-#include "curvature/visit_moments.h"
+#include "curvature/packet_moments.h"
 #include "patch/packet_patches.h"
 #include "shared/distance.h"
 #include "shared/text.h"

@@ -14,7 +14,6 @@
 
 #include "curvature/packet_moments.h"
 #include "curvature/symmetric.h"
-#include "curvature/visit_moments.h"
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
 #include "shared/distance.h"

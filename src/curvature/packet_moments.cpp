@@ -10,7 +10,6 @@
 #include <variant>
 
 #include "base/vector.h"
-#include "curvature/visit_moments.h"
 
 namespace meshhood::inline v0_1 {
 namespace {

@@ -15,7 +15,6 @@
 #include "patch/clipped_triangle.h"
 #include "patch/search.h"
 #include "surface/face_triangles.h"
-#include "surface/triangle_point.h"
 
 namespace meshhood::inline v0_1 {
 namespace {

@@ -14,7 +14,6 @@
 #include "patch/search.h"
 #include "patch/twofold.h"
 #include "surface/face_triangles.h"
-#include "surface/triangle_point.h"
 
 namespace meshhood::inline v0_1 {
 namespace {

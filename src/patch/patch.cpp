@@ -20,7 +20,6 @@
 #include "shared/text.h"
 #include "surface/face_triangles.h"
 #include "surface/surface.h"
-#include "surface/triangle_point.h"
 
 namespace meshhood::inline v0_1 {
 namespace {

@@ -12,9 +12,9 @@
 #include "batch/rows.h"
 #include "shared/parallel.h"
 #include "surface/face_tree.h"
+#include "surface/face_triangles.h"
 #include "surface/first_hit.h"
 #include "surface/surface.h"
-#include "surface/triangle_point.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
