@@ -107,8 +107,7 @@ class GapSearch {
   void visit(MeshletId meshlet, std::span<const Real> xyz) {
     const QueryWord queries = may_reach(meshlet) & ~patches_->having_all(meshlet);
     if (queries == 0) return;
-    const std::vector<TriangleId>& first = state_->triangles.first_of_meshlet;
-    for (TriangleId t = first[meshlet]; t < first[meshlet + std::size_t{1}]; ++t) {
+    for (const TriangleId t : state_->triangles.of_meshlet(meshlet)) {
       if (const QueryWord others = queries & ~patches_->having(t); others != 0) compare(t, others, xyz);
     }
   }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -62,20 +63,11 @@ class LeafParts {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> at_places_;  // place and triangle
 };
 
-/// From counts at one place further on to where the items of each begin.
-void add_up(std::vector<std::uint32_t>& counts) {
-  for (std::size_t i = 1; i < counts.size(); ++i) counts[i] += counts[i - 1];
-}
-
-template <class... Arrays>
-std::size_t bytes_of(const Arrays&... arrays) {
-  return (... + (arrays.size() * sizeof(arrays[0])));
-}
-
 }  // namespace
 
 std::size_t Triangles::bytes() const {
-  return bytes_of(corners, face, flags, first_fan, fans, first_of_meshlet, of_block, loose);
+  const auto bytes_of = [](const auto&... arrays) { return (... + (arrays.size() * sizeof(arrays[0]))); };
+  return bytes_of(corners, face, flags, first_of_meshlet, of_block, loose) + fans.bytes();
 }
 
 Triangles::Triangles(const IndexView& index, const StoredFaces& faces) {
@@ -141,20 +133,14 @@ void Triangles::make_meshlets(const IndexView& index, const std::vector<Triangle
 }
 
 void Triangles::make_fans(std::size_t places) {
-  const auto for_each_corner = [&](auto&& f) {
-    for (TriangleId t = 0; t < size(); ++t) {
+  fans = gather_lists<TriangleId, std::uint32_t>(places, [&](auto&& f) {
+    for (auto t = static_cast<TriangleId>(size()); t-- > 0;) {
       const auto& [a, b, c] = corners[t];
-      f(t, a);
-      if (b != a) f(t, b);
-      if (c != a && c != b) f(t, c);
+      f(a, t);
+      if (b != a) f(b, t);
+      if (c != a && c != b) f(c, t);
     }
-  };
-  first_fan.assign(places + 1, 0);
-  for_each_corner([&](TriangleId, std::uint32_t place) { ++first_fan[place + std::size_t{1}]; });
-  add_up(first_fan);
-  std::vector<std::uint32_t> next(first_fan.begin(), first_fan.end() - 1);
-  fans.resize(first_fan.back());
-  for_each_corner([&](TriangleId t, std::uint32_t place) { fans[next[place]++] = t; });
+  });
 }
 
 namespace {
@@ -183,7 +169,7 @@ void Triangles::find_borders(const IndexView& index) {
   std::vector<std::uint32_t> neighbors;  // the ends of edges
   for (std::uint32_t first = 0; first < index.vertex_count(); ++first) {
     sides.clear();
-    for (const TriangleId t : fan(first)) {
+    for (const TriangleId t : fans[first]) {
       for (std::uint32_t i = 0; i < 3; ++i) {
         if (const Side side = side_of(t, i); side.first == first) sides.push_back({side, t, i});
       }
@@ -216,21 +202,20 @@ void Triangles::find_borders(const IndexView& index) {
 
 namespace {
 
-/// The sums over the triangles `begin .. end - 1`, and their box. Corners are seen from the center of the sphere, so
-/// that the moment is as accurate far from the origin.
-Meshlet make_meshlet(const IndexView& index, const Triangles& triangles, TriangleId begin, TriangleId end) {
+/// Corners are seen from the center of the sphere, so that the moment is as accurate far from the origin.
+Meshlet make_meshlet(const IndexView& index, const Triangles& triangles, MeshletId meshlet) {
   BoundingBox box;
-  for (TriangleId t = begin; t < end; ++t) {
+  for (const TriangleId t : triangles.of_meshlet(meshlet)) {
     for (const Point& corner : corners_of(index, triangles.corners[t])) box.add(corner);
   }
-  Meshlet sums{box, 0, 0, {0, 0, 0}, 0, 0, false};
-  for (TriangleId t = begin; t < end; ++t) {
+  Meshlet sums{box, 0, 0, {0, 0, 0}, 0, false};
+  for (const TriangleId t : triangles.of_meshlet(meshlet)) {
     std::array<Point, 3> corners = corners_of(index, triangles.corners[t]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      corners[i] = index.frame.scale * (corners[i] - sums.center());
-      sums.radius = std::max(sums.radius, length(corners[i]));
-      sums.has_border |= triangles.is_border(t, static_cast<unsigned>(i));
+    for (Point& corner : corners) {
+      corner = index.frame.scale * (corner - sums.center());
+      sums.radius = std::max(sums.radius, length(corner));
     }
+    sums.has_border |= triangles.has_border(t);
     const Point area = 0.5 * doubled_vector_area(corners[0], corners[1], corners[2]);
     sums.area += length(area);
     sums.vector_area = sums.vector_area + area;
@@ -251,50 +236,34 @@ Index without_ignored(const Index& given) {
 
 Meshlets::Meshlets(const IndexView& index, const Triangles& triangles) {
   const std::size_t count = triangles.first_of_meshlet.size() - 1;
-  meshlets.reserve(count + 1);
-  for (MeshletId meshlet = 0; meshlet < count; ++meshlet) add(index, triangles, meshlet);
-  corners.shrink_to_fit();
-  meshlets.push_back({});
-  meshlets.back().first_corner = static_cast<std::uint32_t>(corners.size());
-  list_by_leaf(index);
+  meshlets.reserve(count);
+  std::vector<std::uint32_t> places;
+  for (MeshletId meshlet = 0; meshlet < count; ++meshlet) {
+    meshlets.push_back(make_meshlet(index, triangles, meshlet));
+    places.clear();
+    for (const TriangleId t : triangles.of_meshlet(meshlet)) {
+      places.insert(places.end(), triangles.corners[t].begin(), triangles.corners[t].end());
+    }
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    corners.add(places);
+  }
+  corners.elements.shrink_to_fit();
+  of_leaf = gather_lists<MeshletId, std::uint32_t>(index.leaf_count(), [&](auto&& f) {
+    for (auto meshlet = static_cast<MeshletId>(count); meshlet-- > 0;) {
+      std::optional<LeafId> last;
+      for (const std::uint32_t place : corners[meshlet]) {  // those of a leaf follow each other
+        const LeafId leaf = leaf_of(index.slot_at(place));
+        if (leaf != last) f(leaf, meshlet);
+        last = leaf;
+      }
+    }
+  });
   boxes.build(count, [&](std::size_t i) {
     const BoundingBox& box = meshlets[i].box;
     return BoundingBox{index.frame.to_frame(box.low), index.frame.to_frame(box.high)};
   });
 }
-
-void Meshlets::add(const IndexView& index, const Triangles& triangles, MeshletId meshlet) {
-  const TriangleId begin = triangles.first_of_meshlet[meshlet];
-  const TriangleId end = triangles.first_of_meshlet[meshlet + std::size_t{1}];
-  const auto first = static_cast<std::ptrdiff_t>(corners.size());
-  for (TriangleId t = begin; t < end; ++t) {
-    corners.insert(corners.end(), triangles.corners[t].begin(), triangles.corners[t].end());
-  }
-  std::sort(corners.begin() + first, corners.end());
-  corners.erase(std::unique(corners.begin() + first, corners.end()), corners.end());
-  meshlets.push_back(make_meshlet(index, triangles, begin, end));
-  meshlets.back().first_corner = static_cast<std::uint32_t>(first);
-}
-
-void Meshlets::list_by_leaf(const IndexView& index) {
-  std::vector<std::pair<LeafId, MeshletId>> all;
-  for (MeshletId meshlet = 0; meshlet < size(); ++meshlet) {
-    for (const std::uint32_t place : corners_of(meshlet)) {
-      const std::pair next(leaf_of(index.slot_at(place)), meshlet);
-      if (all.empty() || all.back() != next) all.push_back(next);  // places of a leaf follow each other
-    }
-  }
-  std::sort(all.begin(), all.end());
-  first_of_leaf.assign(index.leaf_count() + 1, 0);
-  of_leaf.reserve(all.size());
-  for (const auto& [leaf, meshlet] : all) {
-    ++first_of_leaf[leaf + std::size_t{1}];
-    of_leaf.push_back(meshlet);
-  }
-  std::partial_sum(first_of_leaf.begin(), first_of_leaf.end(), first_of_leaf.begin());
-}
-
-std::size_t Meshlets::bytes() const { return bytes_of(meshlets, corners, first_of_leaf, of_leaf) + boxes.bytes(); }
 
 PatchState::PatchState(const Index& given, const StoredFaces& all)
     : searched(without_ignored(given)),

@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <ranges>
 #include <span>
 #include <vector>
 
 #include "base/frame.h"
+#include "base/lists.h"
 #include "base/vector.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
@@ -33,8 +35,7 @@ struct Triangles {
   std::vector<std::array<std::uint32_t, 3>> corners;  // places in index order
   std::vector<std::uint32_t> face;                    // of each: its number in the mesh
   std::vector<std::uint8_t> flags;                    // bits 0 to 2: the sides at borders; 3 to 5: diagonals
-  std::vector<std::uint32_t> first_fan;               // by place, and one more: in `fans`
-  std::vector<TriangleId> fans;                       // the triangles at each place
+  Lists<TriangleId> fans;                             // the triangles at each place, ascending
   std::vector<TriangleId> first_of_meshlet;           // by meshlet, and one more
   std::vector<MeshletId> of_block;                    // the meshlet of each eighth triangle
   bool are_of_index = true;                           // whether each side that is no diagonal is an edge of the index
@@ -52,8 +53,9 @@ struct Triangles {
   [[nodiscard]] std::size_t size() const { return corners.size(); }
   [[nodiscard]] std::size_t bytes() const;
 
-  [[nodiscard]] std::span<const TriangleId> fan(std::uint32_t place) const {
-    return std::span(fans).subspan(first_fan[place], first_fan[place + std::size_t{1}] - first_fan[place]);
+  /// Those of a meshlet.
+  [[nodiscard]] auto of_meshlet(MeshletId meshlet) const {
+    return std::views::iota(first_of_meshlet[meshlet], first_of_meshlet[meshlet + std::size_t{1}]);
   }
 
   /// The first step is without a branch, since whether it is needed is seldom clear. More are rare.
@@ -78,8 +80,8 @@ struct Triangles {
   template <class Visit>
   void for_each_beside(TriangleId t, std::size_t side, Visit&& visit) const {
     const Side wanted = side_of(t, side);
-    const auto a = fan(wanted.first);
-    const auto b = fan(wanted.last);
+    const auto a = fans[wanted.first];
+    const auto b = fans[wanted.last];
     for (const TriangleId other : a.size() < b.size() ? a : b) {
       if (other == t) continue;
       if (side_of(other, 0) == wanted || side_of(other, 1) == wanted || side_of(other, 2) == wanted) visit(other);
@@ -115,9 +117,8 @@ struct Meshlet {
   BoundingBox box;
   double radius;  // of a bounding sphere about the center
   double area;
-  Point vector_area;           // the sum of area times normal
-  double moment;               // the sum of area times the distance of the plane from `center`, along the normal
-  std::uint32_t first_corner;  // in `Meshlets::corners`
+  Point vector_area;  // the sum of area times normal
+  double moment;      // the sum of area times the distance of the plane from `center`, along the normal
   bool has_border;
 
   [[nodiscard]] Point center() const { return 0.5 * box.low + 0.5 * box.high; }
@@ -125,30 +126,17 @@ struct Meshlet {
 
 /// What a search takes at once where it lies inside a ball, and finds at once where it lies far away.
 struct Meshlets {
-  std::vector<Meshlet> meshlets;             // and one more, for the end of the last corners
-  std::vector<std::uint32_t> corners;        // the places at each meshlet, ascending
-  std::vector<std::uint32_t> first_of_leaf;  // by leaf, and one more: in `of_leaf`
-  std::vector<MeshletId> of_leaf;            // those with a corner in it, ascending
-  BoxTree boxes;                             // of the meshlets
+  std::vector<Meshlet> meshlets;
+  Lists<std::uint32_t> corners;  // the places at each meshlet, ascending
+  Lists<MeshletId> of_leaf;      // those with a corner in it, ascending
+  BoxTree boxes;                 // of the meshlets
 
   Meshlets(const IndexView& index, const Triangles& triangles);
 
-  [[nodiscard]] std::size_t bytes() const;
-
-  [[nodiscard]] std::size_t size() const { return meshlets.size() - 1; }
-
-  [[nodiscard]] std::span<const std::uint32_t> corners_of(MeshletId meshlet) const {
-    return std::span(corners).subspan(meshlets[meshlet].first_corner,
-                                      meshlets[meshlet + std::size_t{1}].first_corner - meshlets[meshlet].first_corner);
+  [[nodiscard]] std::size_t size() const { return meshlets.size(); }
+  [[nodiscard]] std::size_t bytes() const {
+    return meshlets.size() * sizeof(Meshlet) + corners.bytes() + of_leaf.bytes() + boxes.bytes();
   }
-
-  [[nodiscard]] std::span<const MeshletId> at_leaf(LeafId leaf) const {
-    return std::span(of_leaf).subspan(first_of_leaf[leaf], first_of_leaf[leaf + std::size_t{1}] - first_of_leaf[leaf]);
-  }
-
- private:
-  void add(const IndexView& index, const Triangles& triangles, MeshletId meshlet);
-  void list_by_leaf(const IndexView& index);
 };
 
 /// What all searches of the patches of a surface share. The walls of the index are left out.

@@ -27,7 +27,7 @@ namespace {
 /// Runs the search around a vertex.
 void run_at(const PatchState& state, PatchSearch& search, VertexId v, double radius, bool measures) {
   const std::uint32_t slot = state.index->slot[v];
-  const std::span<const TriangleId> fan = state.triangles.fan(state.index->place_at(slot));
+  const std::span<const TriangleId> fan = state.triangles.fans[state.index->place_at(slot)];
   search.run(state.index->position_at(slot), radius, fan, measures);
 }
 
@@ -71,7 +71,7 @@ struct PatchSearcher::State {
     for (const VertexId corner : (*surface->faces)[face]) {
       const Point at = index.position_of(corner);
       reach = std::max({reach, kRounding * std::abs(at.x), kRounding * std::abs(at.y), kRounding * std::abs(at.z)});
-      for (const TriangleId t : all.fan(index.place(corner))) {
+      for (const TriangleId t : all.fans[index.place(corner)]) {
         if (all.face[t] != face) continue;
         const double distance = nearest_in_triangle(p, corners_of(index, all.corners[t]), index.frame.scale).distance;
         if (!(distance < least)) continue;

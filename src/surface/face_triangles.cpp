@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <utility>
 #include <variant>
 
+#include "base/lists.h"
 #include "base/vector.h"
 
 namespace meshhood::inline v0_1 {
@@ -38,24 +38,21 @@ void Triangulator::run(std::uint32_t face, std::span<const VertexId> corners, Tr
   }
 }
 
-// Counting sort by the first corner of each face.
 std::vector<Triangle> triangles_in_index_order(const IndexView& index, const StoredFaces& faces) {
-  std::vector<std::size_t> next(index.vertex_count() + 1, 0);
-  for (std::size_t face = 0; face < faces.size(); ++face) {
-    if (const std::size_t count = triangle_count(faces[face].size())) {
-      next[first_place(index, faces[face]) + std::size_t{1}] += count;
+  std::size_t count = 0;
+  for (std::size_t face = 0; face < faces.size(); ++face) count += triangle_count(faces[face].size());
+  check_triangle_count(count);
+  const auto by_first_place = gather_lists<std::uint32_t, std::size_t>(index.vertex_count(), [&](auto&& f) {
+    for (std::size_t face = faces.size(); face-- > 0;) {
+      if (faces[face].size() >= 3) f(first_place(index, faces[face]), static_cast<std::uint32_t>(face));
     }
-  }
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  check_triangle_count(next.back());
-  std::vector<Triangle> triangles(next.back());
+  });
+  std::vector<Triangle> triangles(count);
   Triangulator triangulator(index);
-  for (std::size_t face = 0; face < faces.size(); ++face) {
-    const std::size_t count = triangle_count(faces[face].size());
-    if (count == 0) continue;
-    std::size_t& begin = next[first_place(index, faces[face])];
-    triangulator.run(static_cast<std::uint32_t>(face), faces[face], &triangles[begin]);
-    begin += count;
+  Triangle* next = triangles.data();
+  for (const std::uint32_t face : by_first_place.elements) {
+    triangulator.run(face, faces[face], next);
+    next += triangle_count(faces[face].size());
   }
   return triangles;
 }

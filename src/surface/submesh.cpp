@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "meshhood/error.h"
 
+#include "base/lists.h"
 #include "base/vector.h"
 #include "exact/query/arguments.h"
 #include "shared/distance.h"
@@ -85,17 +85,13 @@ struct Polyline {
 /// polyline has the direction of its first segment.
 class Joiner {
  public:
-  Joiner(std::span<const Segment> segments, std::size_t points)
-      : segments_(segments), begin_(points + 1), of_point_(2 * segments.size()), is_used_(segments.size()) {
-    for (const Segment& segment : segments) {
-      ++begin_[segment.from];
-      ++begin_[segment.to];
-    }
-    std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
-    for (std::size_t i = segments.size(); i-- > 0;) {
-      of_point_[--begin_[segments[i].from]] = i;
-      of_point_[--begin_[segments[i].to]] = i;
-    }
+  Joiner(std::span<const Segment> segments, std::size_t points) : segments_(segments), is_used_(segments.size()) {
+    of_points_ = gather_lists<std::size_t, std::size_t>(points, [&](auto&& f) {
+      for (std::size_t i = segments.size(); i-- > 0;) {
+        f(segments[i].from, i);
+        f(segments[i].to, i);
+      }
+    });
   }
 
   std::vector<Polyline> join() {
@@ -114,7 +110,7 @@ class Joiner {
   }
 
  private:
-  [[nodiscard]] bool is_end(std::uint32_t point) const { return begin_[point + 1] - begin_[point] != 2; }
+  [[nodiscard]] bool is_end(std::uint32_t point) const { return of_points_[point].size() != 2; }
 
   /// From `start`, an end of segment `next`, to an end or back to `start`.
   Polyline walk(std::size_t next, std::uint32_t start) {
@@ -129,14 +125,13 @@ class Joiner {
       }
       line.points.push_back(at);
       if (is_end(at)) return line;
-      const std::size_t first = of_point_[begin_[at]];
-      next = is_used_[first] ? of_point_[begin_[at] + 1] : first;
+      const std::span<const std::size_t> both = of_points_[at];
+      next = is_used_[both[0]] ? both[1] : both[0];
     }
   }
 
   std::span<const Segment> segments_;
-  std::vector<std::size_t> begin_;     // by point: where its segments begin in `of_point_`
-  std::vector<std::size_t> of_point_;  // segments
+  Lists<std::size_t, std::size_t> of_points_;  // the segments at each point, ascending
   std::vector<bool> is_used_;
 };
 
