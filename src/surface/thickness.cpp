@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The thickness of a wall: along a ray, and by a ball that shrinks until no opposite face lies in it.
-#include "meshhood/thickness.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+
+#include "meshhood/surface.h"
 
 #include "base/vector.h"
 #include "batch/position_sort.h"
