@@ -15,12 +15,12 @@
 
 #include "base/vector.h"
 #include "patch/clipped_triangle.h"
-#include "patch/rim.h"
+#include "patch/sums.h"
 #include "simd/patches.h"
 #include "support/exact_answer.h"
 #include "support/random.h"
 #include "support/scale.h"
-#include "surface/triangle_point.h"
+#include "surface/face_triangles.h"
 
 namespace meshhood::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "simd/aggregate.h"
-#include "simd/paths.h"
+#include "simd/joint.h"
 #include "support/exact_answer.h"
 #include "support/random.h"
 #include "support/scale.h"

@@ -28,7 +28,6 @@
 #include "meshhood/search.h"
 #include "meshhood/serialize.h"
 #include "meshhood/surface.h"
-#include "meshhood/thickness.h"
 #include "meshhood/unconnected.h"
 
 #include "batch/batch.h"
