@@ -263,7 +263,7 @@ class Aggregation {
             }
           };
         },
-        next_pass(), needs_lengths());
+        next_pass(), packet_form());
   }
 
   /// Whether one search serves all scales. By rings, each has its own: their rows have lengths only one by one.
@@ -277,9 +277,11 @@ class Aggregation {
     return {result_.data() + radius * rows_ * numbers_ + first * reductions, numbers_, count * reductions};
   }
 
-  /// For weights, and to cut scales.
-  [[nodiscard]] bool needs_lengths() const {
-    return is_along_edges(query_.metric) && (query_.kernel != SmoothingKernel::Box || shares_search());
+  [[nodiscard]] PacketForm packet_form() const {
+    const bool has_weights = query_.kernel != SmoothingKernel::Box;
+    if (is_along_edges(query_.metric) && (has_weights || shares_search())) return PacketForm::WithLengths;
+    // Reducers that take nodes get them in one order from any pieces.
+    return query_.kernel == SmoothingKernel::Gaussian ? PacketForm::InOrder : PacketForm::AsFound;
   }
 
   /// `blocks`: how many blocks of channels it reduces.

@@ -41,8 +41,9 @@ void BatchWorker::find(std::span<const BatchItem> chunk, bool distances, RowRece
   }
 }
 
-void BatchWorker::visit(std::span<const BatchItem> chunk, bool lengths,
+void BatchWorker::visit(std::span<const BatchItem> chunk, PacketForm form,
                         const std::function<bool(const PacketAnswer&)>& sink) {
+  const bool lengths = form == PacketForm::WithLengths;
   for_each_answer(chunk, lengths, [&](std::span<const BatchItem> items) {
     rows_.clear();
     vertices_.clear();
@@ -52,8 +53,8 @@ void BatchWorker::visit(std::span<const BatchItem> chunk, bool lengths,
       vertices_.push_back(item.vertex);
       radii_.push_back(item.radius);
     }
-    return sink(
-        {rows_, vertices_, radii_, search_->queries(), search_->pieces(), lengths ? search_->lengths() : nullptr});
+    const std::span<const Piece> pieces = search_->pieces(form != PacketForm::AsFound);
+    return sink({rows_, vertices_, radii_, search_->queries(), pieces, lengths ? search_->lengths() : nullptr});
   });
 }
 
@@ -168,7 +169,7 @@ void Batch::cut_into_chunks(std::span<const std::uint64_t> in_order) {
 }
 
 void for_each_packet(const Index& index, const BatchQuery& query, const PacketVisitorFactory& make_visitor,
-                     const Run& run, bool lengths) {
+                     const Run& run, PacketForm form) {
   const std::vector<BatchRadius> passes = radius_of_passes(query.radius);
   Batch batch(index, {query.vertices, passes.front(), query.metric}, {}, run, passes.size());
   std::vector<PacketVisitor> visitors(batch.task().threads());
@@ -177,7 +178,7 @@ void for_each_packet(const Index& index, const BatchQuery& query, const PacketVi
     batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
       PacketVisitor& visitor = visitors[thread];
       if (!visitor) visitor = make_visitor(thread);
-      batch.worker(thread).visit(chunk.items, lengths, [&](const PacketAnswer& answer) {
+      batch.worker(thread).visit(chunk.items, form, [&](const PacketAnswer& answer) {
         visitor(answer);
         batch.task().advance(thread, answer.rows.size());
         return batch.task().should_continue(thread);

@@ -14,6 +14,7 @@
 #include "meshhood/mesh.h"
 
 #include "batch/kept_packets.h"
+#include "batch/packets.h"
 #include "batch/position_sort.h"
 #include "batch/row_search.h"
 #include "batch/rows.h"
@@ -38,9 +39,8 @@ class BatchWorker {
   /// `kept` is null, or reads what `count` kept of the same chunk, none of whose rows was dropped.
   void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver, KeptPackets::Reader* kept);
 
-  /// Passes on the packets of a chunk, with the lengths of the metric if they are wanted. `sink` returns false to drop
-  /// the rest.
-  void visit(std::span<const BatchItem> chunk, bool lengths, const std::function<bool(const PacketAnswer&)>& sink);
+  /// Passes on the packets of a chunk. `sink` returns false to drop the rest.
+  void visit(std::span<const BatchItem> chunk, PacketForm form, const std::function<bool(const PacketAnswer&)>& sink);
 
  private:
   /// Answers a chunk run by run, and calls `f(items)` after each until it returns false.

@@ -46,7 +46,7 @@ class SingleRows final : public RowSearch {
 
   [[nodiscard]] QueryWord queries() const override { return 1; }
 
-  [[nodiscard]] std::span<const Piece> pieces() override {
+  [[nodiscard]] std::span<const Piece> pieces(bool /*in_order*/) override {
     raise(ErrorCode::InvalidOption, "this method has no packets, expected the exact index, paths or rings");
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "meshhood/batch.h"
@@ -18,6 +19,13 @@ using PacketVisitor = std::function<void(const PacketAnswer&)>;
 /// for each number, by the thread itself, before its first packet.
 using PacketVisitorFactory = std::function<PacketVisitor(unsigned thread)>;
 
+/// What the visitors read.
+enum class PacketForm : std::uint8_t {
+  InOrder,      // the pieces of a packet in index order
+  AsFound,      // in another order, which saves up to a tenth of the time where it does not matter
+  WithLengths,  // in index order, with lengths by paths and by rings
+};
+
 /// Visits the neighborhoods of all rows of `query` by its metric, each row in one packet, packets in no stated order.
 /// With scales, all rows are visited for each, and numbered as a result #radii by #rows.
 ///
@@ -30,12 +38,12 @@ using PacketVisitorFactory = std::function<PacketVisitor(unsigned thread)>;
 /// 8 bytes a row, of at most 2^22 rows at a time, and 16 where these are not in index order; and for each thread a
 /// searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).
 ///
-/// lengths  whether packets have lengths, by paths and by rings. Rings are then searched row by row.
+/// form    with lengths, rings are searched row by row.
 ///
 /// All arguments are checked before the first packet is computed. An exception from a visitor, the factory or
 /// `run.progress` ends the call; it is passed on once all threads have stopped.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 void for_each_packet(const Index& index, const BatchQuery& query, const PacketVisitorFactory& make_visitor,
-                     const Run& run = {}, bool lengths = false);
+                     const Run& run = {}, PacketForm form = PacketForm::InOrder);
 
 }  // namespace meshhood::inline v0_1

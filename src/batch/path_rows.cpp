@@ -37,7 +37,7 @@ class PathRows final : public RowSearch {
 
   [[nodiscard]] const PerLane<std::uint64_t>& counts() override { return counts_ = packet_.counts(); }
   [[nodiscard]] QueryWord queries() const override { return first_lanes(static_cast<unsigned>(queries_.size())); }
-  [[nodiscard]] std::span<const Piece> pieces() override { return packet_.pieces(); }
+  [[nodiscard]] std::span<const Piece> pieces(bool /*in_order*/) override { return packet_.pieces(); }
   [[nodiscard]] PacketLengths* lengths() override { return &packet_; }
   [[nodiscard]] bool writes_pieces(bool /*distances*/) const override { return false; }  // rows ascend by length
 

@@ -216,7 +216,7 @@ class RingRows final : public RowSearch {
 
   [[nodiscard]] const PerLane<std::uint64_t>& counts() override { return counts_; }
   [[nodiscard]] QueryWord queries() const override { return first_lanes(rows_); }
-  [[nodiscard]] std::span<const Piece> pieces() override {
+  [[nodiscard]] std::span<const Piece> pieces(bool /*in_order*/) override {
     return by_vertex_ ? by_vertex_->pieces() : packet_.pieces();
   }
   [[nodiscard]] PacketLengths* lengths() override {

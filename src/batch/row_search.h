@@ -128,8 +128,8 @@ class RowSearch {
   /// The queries that have a neighborhood, as far as it is known.
   [[nodiscard]] virtual QueryWord queries() const = 0;
 
-  /// The answers as pieces, which ascend in index order, without overlap. Not for a search of another order.
-  [[nodiscard]] virtual std::span<const Piece> pieces() = 0;
+  /// The answers as pieces without overlap, in index order if that is wanted. Not for a search of another order.
+  [[nodiscard]] virtual std::span<const Piece> pieces(bool in_order = true) = 0;
 
   /// The lengths of what `pieces` has returned, of rows with distances; null by straight lines.
   [[nodiscard]] virtual PacketLengths* lengths() { return nullptr; }

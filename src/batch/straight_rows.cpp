@@ -75,8 +75,8 @@ class StraightRows final : public RowSearch {
   [[nodiscard]] QueryWord queries() const override { return is_joint_ ? joint_->queries() : 1; }
   [[nodiscard]] bool writes_pieces(bool /*distances*/) const override { return true; }
 
-  [[nodiscard]] std::span<const Piece> pieces() override {
-    if (is_joint_) return joint_->pieces();
+  [[nodiscard]] std::span<const Piece> pieces(bool in_order) override {
+    if (is_joint_) return joint_->pieces(in_order);
     if (is_by_vertex_) found_->align_to_leaves();
     return pieces_of(*found_);
   }

@@ -288,7 +288,7 @@ const PerLane<std::uint64_t>& JointSearch::counts() {
   return counts_;
 }
 
-std::span<const Piece> JointSearch::pieces() {
+std::span<const Piece> JointSearch::pieces(bool in_order) {
   assert(packet_);
   pieces_.clear();
   for (const GroupEntry entry : spread_.whole()) {
@@ -304,12 +304,13 @@ std::span<const Piece> JointSearch::pieces() {
     const LeafId leaf = group_.leaf(found.words);
     pieces_.push_back({{leaf, leaf + 1}, 0, spread_.words()[found.words].reached.data()});
   }
-  std::ranges::sort(pieces_, {}, [](const Piece& piece) { return piece.leaves.begin; });
-  join_runs();
+  if (in_order) put_in_order();
   return pieces_;
 }
 
-void JointSearch::join_runs() {
+/// Sorts the pieces, and joins runs.
+void JointSearch::put_in_order() {
+  std::ranges::sort(pieces_, {}, [](const Piece& piece) { return piece.leaves.begin; });
   std::size_t kept = 0;
   for (const Piece& piece : pieces_) {
     Piece* const last = kept == 0 ? nullptr : &pieces_[kept - 1];

@@ -184,11 +184,11 @@ class JointSearch {
   /// Those whose vertex is not a wall.
   [[nodiscard]] QueryWord queries() const { return packet_->queries(); }
 
-  /// The neighborhoods, in index order; adjacent runs of the same queries are one. Valid until the next `run`.
-  [[nodiscard]] std::span<const Piece> pieces();
+  /// The neighborhoods. In index order, adjacent runs of the same queries are one. Valid until the next `run`.
+  [[nodiscard]] std::span<const Piece> pieces(bool in_order);
 
  private:
-  void join_runs();
+  void put_in_order();
 
   const IndexView* index_;
   const JointKernels* kernels_;

@@ -39,7 +39,7 @@ struct PacketAnswer {
   std::span<const VertexId> vertices;  ///< of each row, an id of the caller
   std::span<const double> radii;       ///< of each row
   QueryWord queries = 0;               ///< all; of several rows, without those of walls, whose neighborhoods are empty
-  std::span<const Piece> pieces;       ///< in index order, without overlap; see simd/joint.h
+  std::span<const Piece> pieces;       ///< without overlap, as the visitor has asked for them; see simd/joint.h
   PacketLengths* lengths = nullptr;    ///< null by straight lines, whose lengths positions give, and unless asked for
 };
 
