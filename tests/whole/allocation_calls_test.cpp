@@ -14,6 +14,7 @@
 
 #include "support/failing_allocations.h"
 #include "support/families.h"
+#include "support/scale.h"
 
 namespace meshhood::test {
 namespace {
@@ -143,6 +144,7 @@ TEST_F(AllocationInEachCall, OfTheSurface) {
 }
 
 TEST_F(AllocationInEachCall, OfTheIndexAndTheGraph) {
+  shortages.skip_to_every(20 / scaled(20));
   expect_each({
       {"quality", [&] { return Numbers{quality(index).gain}; }},
       {"check", [&] { return Numbers{static_cast<double>(index.check(mesh.view()).size())}; }},

@@ -33,9 +33,7 @@
 
 #include "batch/batch.h"
 #include "batch/position_sort.h"
-#include "exact/build/node_parts.h"
 #include "exact/query/single_queries.h"
-#include "support/divided_nodes.h"
 #include "support/failing_allocations.h"
 #include "support/families.h"
 #include "support/family_name.h"
@@ -505,26 +503,6 @@ TEST(AllocationInASort, LeavesTheSameRows) {
                         EXPECT_TRUE(std::ranges::is_sorted(sorted) || ending == Ending::OutOfMemory);
                         EXPECT_TRUE(std::ranges::is_permutation(sorted, rows));
                       });
-}
-
-TEST(AllocationInTheDissolvingOfParts, LeavesEachNodeInOnePart) {
-  Shortages shortages;
-  Random random(3);
-  for (int i = 0; i < 20; ++i) {
-    const DividedNodes before = draw_divided_nodes(random);
-    shortages.fail_each([&] { return before.node_parts(); }, dissolve_small_parts,
-                        [&](const NodeParts& after, Ending ending) {
-                          if (ending == Ending::Well) {
-                            EXPECT_EQ(fault_of(before, after), "");
-                          }
-                          std::size_t nodes = 0;
-                          for (std::uint32_t part = 0; part < after.size(); ++part) {
-                            for (const std::uint32_t node : after[part]) EXPECT_EQ(after.part_of(node), part);
-                            nodes += after[part].size();
-                          }
-                          EXPECT_EQ(nodes, before.graph.size());
-                        });
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Allocation, testing::ValuesIn(three_families()), family_name);
