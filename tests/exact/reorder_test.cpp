@@ -12,7 +12,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "meshhood/batch.h"
 #include "meshhood/search.h"
 
 #include "support/families.h"
@@ -123,23 +122,6 @@ TEST(Reorder, IsTheSameForAnyNumberOfThreads) {
     EXPECT_THAT(differences(other.index, expected.index), IsEmpty());
     EXPECT_EQ(other.permutation, expected.permutation);
     EXPECT_EQ(other.corners, expected.corners);
-  }
-}
-
-TEST(Reorder, BatchesGiveTheSameRows) {
-  const TestMesh mesh = make_grid(60, 60, true).finish(true);
-  const ReorderedMesh reordered = reorder(mesh.view());
-  const Index index = build(mesh.view());
-  const Neighborhoods before = neighborhoods(index, {.radius = 3.0});
-  const Neighborhoods now = neighborhoods(reordered.index, {.radius = 3.0}, {}, {.threads = 2});
-  for (std::size_t v = 0; v < mesh.size(); ++v) {
-    std::vector<VertexId> found(now.ids.begin() + static_cast<std::ptrdiff_t>(now.offsets[v]),
-                                now.ids.begin() + static_cast<std::ptrdiff_t>(now.offsets[v + 1]));
-    for (VertexId& id : found) id = reordered.permutation[id];
-    const std::size_t old = reordered.permutation[v];
-    const std::vector<VertexId> expected(before.ids.begin() + static_cast<std::ptrdiff_t>(before.offsets[old]),
-                                         before.ids.begin() + static_cast<std::ptrdiff_t>(before.offsets[old + 1]));
-    ASSERT_EQ(found, expected) << "vertex " << v;
   }
 }
 
