@@ -21,8 +21,8 @@
 #include "meshhood/meshhood.h"
 #include "meshhood/reorder.h"
 
+#include "batch/batch.h"
 #include "batch/row_search.h"
-#include "batch/worker.h"
 #include "exact/index_access.h"
 #include "io/index_io.h"
 #include "measure/timing.h"

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "meshhood/corrected_curvature.h"
 #include "meshhood/curvature.h"
 #include "meshhood/error.h"
 #include "meshhood/features.h"

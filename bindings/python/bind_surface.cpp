@@ -13,7 +13,6 @@
 
 #include "meshhood/patch.h"
 #include "meshhood/surface.h"
-#include "meshhood/thickness.h"
 
 #include "arrays.h"
 #include "batch_query.h"

@@ -606,7 +606,7 @@ export class MeshIndex {
 
   /**
    * The area of the patch of each vertex, the connected surface in the ball, and the volume of the part of the ball
-   * behind it, NaN where a border lies in the ball. A point at exactly r counts.
+   * behind it, NaN where a border lies in the patch or where there is none. A point at exactly r counts.
    *
    * @param r the radius, or one for each row; null with `scales`, which make the arrays #scales by #rows
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh
@@ -626,7 +626,10 @@ export class MeshIndex {
   /** A patch as a mesh of triangles that end at the sphere. Throws likewise. */
   clip(start: Start, r: number, options: PatchOptions & { tolerance?: number }): ClippedMesh;
 
-  /** Area and volume of one patch: a row of `invariants`, but for rounding, also of a point. Throws likewise. */
+  /**
+   * Area and volume of one patch: a row of `invariants`, but for rounding, also of a point. Where there is no patch, as
+   * of a point farther than r from its face: 0 and NaN. Throws likewise.
+   */
   measure(start: Start, r: number, options: PatchOptions): { area: number; volume: number };
 
   /** The gap of one patch: a row of `gaps`, but for rounding, also of a point; null if there is none. Throws likewise. */

@@ -43,7 +43,8 @@ class PatchStart {
   template <std::convertible_to<Vertex> V>
   PatchStart(const V& v) : vertex_(Vertex(v)) {}
 
-  /// point  on the face, up to rounding (see `Surface::closest_point` and `point_on_face`).
+  /// point  on the face, up to rounding (see `Surface::closest_point` and `point_on_face`). There is no patch if the
+  ///        face is farther from it than the radius.
   PatchStart(std::size_t face, const SpacePoint& point) : face_(face), point_(point) {}
 
   /// The vertex, unless there is a face.
@@ -92,7 +93,7 @@ class PatchSearcher {
  public:
   explicit PatchSearcher(const Surface& surface);
 
-  /// The numbers of the faces, ascending. None for a vertex without faces.
+  /// The numbers of the faces, ascending. None where there is no patch, as at a vertex without faces.
   [[nodiscard]] std::vector<std::size_t> patch(const PatchStart& start, double radius);
 
   /// The patch as a mesh. Vertices of the ball are points of it; all others have the distance `radius` from the start,
@@ -114,7 +115,7 @@ class PatchSearcher {
   ///
   /// The volume is that of the part of the ball behind the patch, which other patches in the ball do not change. Where
   /// a border of the mesh, or a side at which its orientation changes, lies in the patch, or where there is no patch,
-  /// it is NaN. A sheet without thickness has nothing behind it.
+  /// whose area is 0, it is NaN. A sheet without thickness has nothing behind it.
   [[nodiscard]] PatchMeasure measure(const PatchStart& start, double radius);
 
   /// The nearest point of the surface in the ball that is not of the patch; of several faces at the same distance, the

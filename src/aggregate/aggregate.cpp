@@ -16,10 +16,8 @@
 
 #include "meshhood/error.h"
 
-#include "aggregate/listed_sums.h"
-#include "aggregate/maximal_nodes.h"
 #include "aggregate/node_tree.h"
-#include "aggregate/patch_cutter.h"
+#include "aggregate/packet_cuts.h"
 #include "aggregate/reducers.h"
 #include "aggregate/signal_block.h"
 #include "batch/packets.h"
@@ -90,9 +88,6 @@ class CheckedQuery {
   /// The radius of each pass over the rows.
   [[nodiscard]] std::span<const BatchRadius> passes() const { return passes_; }
 
-  /// Whether the neighborhoods of smaller radii are cut from those of the largest.
-  [[nodiscard]] bool has_patches() const { return query_.nesting == Nesting::Patch && !query_.radius.list(); }
-
  private:
   AggregateQuery query_;
   std::vector<VertexId> vertices_;
@@ -127,9 +122,8 @@ ReducerFactory make_factory(const IndexView& index, const NodeTree& tree, Signal
   }
   SumColumns columns(std::move(block), reduce);
   if (query.kernel == SmoothingKernel::Box) return sum_reducers(tree, std::move(columns));
-  const bool has_lengths = is_along_edges(query.metric);
-  if (has_lengths || query.kernel == SmoothingKernel::Gaussian) {
-    return weighted_reducers(index, std::move(columns), query.kernel, has_lengths);
+  if (is_along_edges(query.metric) || query.kernel == SmoothingKernel::Gaussian) {
+    return weighted_reducers(index, std::move(columns), query.kernel);
   }
   return kernel_sum_reducers(index, tree, std::move(columns), query.kernel == SmoothingKernel::Biweight);
 }
@@ -177,17 +171,11 @@ struct Destination {
 
   void write(const PacketAnswer& packet, PacketReducer& reducer) const {
     for (std::size_t i = 0; i < packet.rows.size(); ++i) {
-      write(packet.rows[i], [&](std::span<double> channels) { reducer.write(i, channels); });
-    }
-  }
-
-  /// `f(channels)` sets the results of a row.
-  template <class F>
-  void write(std::size_t row, F&& f) const {
-    const std::span<double> channels(first + row * stride, count);
-    f(channels);
-    for (double& value : channels) {
-      if (std::isnan(value)) value = kNan;  // its sign and payload vary
+      const std::span<double> channels(first + packet.rows[i] * stride, count);
+      reducer.write(i, channels);
+      for (double& value : channels) {
+        if (std::isnan(value)) value = kNan;  // its sign and payload vary
+      }
     }
   }
 };
@@ -203,7 +191,7 @@ class Aggregation {
         signal_(signal),
         query_(checked.query()),
         radii_(checked.passes()),
-        has_patches_(checked.has_patches()),
+        has_patches_(query_.nesting == Nesting::Patch && !query_.radius.list()),
         rows_(checked.rows()),
         numbers_(signal.channels * query_.reduce.size()),
         result_(result),
@@ -310,11 +298,11 @@ class Aggregation {
   const Index& index_;
   const IndexView& view_;
   NodeTree tree_;
-  const SignalView& signal_;
+  SignalView signal_;
   const AggregateQuery& query_;
   std::span<const BatchRadius> radii_;  // of the passes
   std::vector<std::size_t> passes_;     // those whose rows are not listed
-  bool has_patches_;
+  bool has_patches_;                    // whether the neighborhoods of smaller radii are cut from those of the largest
   std::size_t rows_;
   std::size_t numbers_;  // of a row
   std::span<double> result_;
@@ -324,35 +312,26 @@ class Aggregation {
   std::size_t passes_begun_ = 0;
 };
 
-/// The signal, copied where the result lies in its memory: a part of the result is written before all is read.
-class UnchangedSignal {
- public:
-  UnchangedSignal(const SignalView& signal, std::span<const double> result) : signal_(signal) {
-    signal.values.visit([&](auto values) {
-      if (!overlap(std::as_bytes(values), std::as_bytes(result))) return;
-      values_.assign(values.begin(), values.end());
-      signal_.values = values_;
-    });
-    if (overlap(std::as_bytes(signal.weights), std::as_bytes(result))) {
-      weights_.assign(signal.weights.begin(), signal.weights.end());
-      signal_.weights = weights_;
-    }
+bool overlap(std::span<const std::byte> a, std::span<const std::byte> b) {
+  return std::less()(a.data(), b.data() + b.size()) && std::less()(b.data(), a.data() + a.size());
+}
+
+/// The signal, copied into `values` and `weights` where the result lies in its memory: a part of the result is written
+/// before all is read.
+SignalView unchanged(const SignalView& signal, std::span<const double> result, std::vector<double>& values,
+                     std::vector<double>& weights) {
+  SignalView kept = signal;
+  signal.values.visit([&](auto given) {
+    if (!overlap(std::as_bytes(given), std::as_bytes(result))) return;
+    values.assign(given.begin(), given.end());
+    kept.values = values;
+  });
+  if (overlap(std::as_bytes(signal.weights), std::as_bytes(result))) {
+    weights.assign(signal.weights.begin(), signal.weights.end());
+    kept.weights = weights;
   }
-  UnchangedSignal(const UnchangedSignal&) = delete;
-  UnchangedSignal& operator=(const UnchangedSignal&) = delete;
-  ~UnchangedSignal() = default;
-
-  [[nodiscard]] const SignalView& view() const { return signal_; }
-
- private:
-  static bool overlap(std::span<const std::byte> a, std::span<const std::byte> b) {
-    return std::less()(a.data(), b.data() + b.size()) && std::less()(b.data(), a.data() + a.size());
-  }
-
-  SignalView signal_;
-  std::vector<double> values_;
-  std::vector<double> weights_;
-};
+  return kept;
+}
 
 /// The product, if its doubles fit into memory of `max_bytes`.
 std::size_t checked_size(std::size_t radii, std::size_t rows, std::size_t channels, std::size_t reductions,
@@ -387,8 +366,9 @@ void aggregate(const Index& index, const SignalView& signal, const AggregateQuer
     raise(ErrorCode::InvalidOption,
           "the result has room for " + std::to_string(result.size()) + " numbers, expected " + std::to_string(size));
   }
-  const UnchangedSignal unchanged(signal, result);
-  Aggregation(index, unchanged.view(), checked, result, run).run();
+  std::vector<double> values;
+  std::vector<double> weights;
+  Aggregation(index, unchanged(signal, result, values, weights), checked, result, run).run();
 }
 
 std::vector<double> aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query,

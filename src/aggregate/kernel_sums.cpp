@@ -9,7 +9,6 @@
 #include "base/vector.h"
 #include "shared/distance.h"
 #include "simd/aggregate.h"
-#include "simd/gaussian.h"
 
 namespace meshhood::inline v0_1 {
 namespace {

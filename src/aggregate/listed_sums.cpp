@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "aggregate/listed_sums.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -18,7 +18,6 @@ constexpr double kAboveAll = kInfinity;
 struct Minima {
   struct Channel {
     Column values;
-    bool has_nan;
     std::vector<double> of_nodes;
   };
 
@@ -40,8 +39,7 @@ Minima::Minima(const NodeTree& tree, SignalBlock block, bool is_maximum, Missing
     }
     std::vector<double> minima =
         reduced_by_node(tree, values, [&](std::span<const double> some) { return minimum_of(some); });
-    const bool has_nan = std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
-    channels.push_back({std::move(values), has_nan, std::move(minima)});
+    channels.push_back({std::move(values), std::move(minima)});
   }
 }
 
@@ -100,21 +98,15 @@ class MinimumReducer final : public PacketReducer {
 
   void lower(std::size_t channel, std::span<const double> values, const QueryWord* queries) {
     Rows& rows = rows_[channel];
-    PerLane<double> numbers{};
-    PerLane<QueryWord> words{};
-    if (minima_->channels[channel].has_nan) {
-      for (std::size_t k = 0; k < values.size(); ++k) {
-        const bool is_nan = std::isnan(values[k]);
-        (is_nan ? rows.with_nan : rows.with_number) |= queries[k];
-        numbers[k] = is_nan ? 0 : values[k];
-        words[k] = is_nan ? 0 : queries[k];
-      }
-      queries = words.data();
-      values = std::span(numbers).first(values.size());
-    } else {
-      for (std::size_t k = 0; k < values.size(); ++k) rows.with_number |= queries[k];
+    PerLane<double> numbers;
+    PerLane<QueryWord> words;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const bool is_nan = std::isnan(values[k]);
+      (is_nan ? rows.with_nan : rows.with_number) |= queries[k];
+      numbers[k] = is_nan ? 0 : values[k];
+      words[k] = is_nan ? 0 : queries[k];
     }
-    kernels_->lower_minima(values, queries, rows.minima);
+    kernels_->lower_minima(std::span(numbers).first(values.size()), words.data(), rows.minima);
   }
 
   const Minima* minima_;

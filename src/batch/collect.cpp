@@ -12,7 +12,7 @@
 
 #include "base/prefetch.h"
 #include "batch/batch.h"
-#include "batch/size_limit.h"
+#include "batch/rows.h"
 #include "shared/large_pages.h"
 
 namespace meshhood::inline v0_1 {

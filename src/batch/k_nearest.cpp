@@ -15,7 +15,6 @@
 
 #include "batch/position_sort.h"
 #include "batch/rows.h"
-#include "batch/size_limit.h"
 #include "exact/index_access.h"
 #include "exact/joint/nearest_packet.h"
 #include "exact/query/arguments.h"

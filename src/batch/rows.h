@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/error.h"
 
 namespace meshhood::inline v0_1 {
 
@@ -48,6 +54,60 @@ class Rows {
   std::optional<std::vector<double>> radii_;
   std::size_t size_;
   double radius_;  // of all rows, unless there are `radii_`
+};
+
+/// Refuses lists of more bytes than the caller allows.
+class SizeLimit {
+ public:
+  /// `item_bytes`: of an id with what stands beside it.
+  SizeLimit(std::uint64_t max_bytes, std::size_t item_bytes, std::size_t rows)
+      : rows_(rows), max_bytes_(max_bytes), item_bytes_(item_bytes), max_items_(max_bytes / item_bytes) {}
+
+  /// A row from each of `kSample` stretches of the rows. The multiplier scatters them, so that the sample is right for
+  /// alternating rows too.
+  static constexpr std::size_t kSample = 64;
+  [[nodiscard]] std::size_t sampled_row(std::size_t i) const {
+    return i * stretch() + i * std::size_t{0x9E37'79B1} % stretch();
+  }
+  [[nodiscard]] std::size_t stretch() const { return rows_ / kSample; }
+
+  /// Refuses a result that is far too large, by the sizes of the sampled rows: to find all rows would show it only
+  /// after most of the time is spent. `how_exact`: what the sizes are.
+  void check_sample(std::span<const double> sizes, const char* how_exact) const {
+    constexpr double kDeviations = 4;  // so that no result is refused by chance
+    const auto rows = static_cast<double>(rows_);
+    const double mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / kSample;
+    double variance = 0;
+    for (const double size : sizes) variance += (size - mean) * (size - mean) / kSample;
+    if (allows(rows * (mean - kDeviations * std::sqrt(variance / kSample)))) return;
+    refuse(how_exact, static_cast<std::uint64_t>(std::llround(rows * mean)));
+  }
+
+  [[nodiscard]] bool allows(double items) const { return items <= static_cast<double>(max_items_); }
+  [[nodiscard]] std::uint64_t max_items() const { return max_items_; }
+
+  /// Any thread: counts the items of some rows.
+  void add(std::uint64_t items) {
+    const std::uint64_t total = total_.fetch_add(items, std::memory_order_relaxed) + items;
+    if (total > max_items_) refuse("at least ", total);
+  }
+
+  /// After all rows were added: whether the result and `bytes` more are within the limit.
+  [[nodiscard]] bool leaves(std::uint64_t bytes) const { return bytes <= max_bytes_ - total_ * item_bytes_; }
+
+  /// `items`: the size of the result, as far as it is known.
+  [[noreturn]] void refuse(const char* how_exact, std::uint64_t items) const {
+    raise(ErrorCode::TooLarge, "the result of " + std::to_string(rows_) + " rows, " + how_exact +
+                                   std::to_string(items * item_bytes_) + " bytes, exceeds max_bytes, " +
+                                   std::to_string(max_bytes_));
+  }
+
+ private:
+  std::size_t rows_;
+  std::uint64_t max_bytes_;
+  std::uint64_t item_bytes_;
+  std::uint64_t max_items_;
+  std::atomic<std::uint64_t> total_{0};
 };
 
 }  // namespace meshhood::inline v0_1

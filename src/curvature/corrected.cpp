@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "meshhood/aggregate.h"
-#include "meshhood/corrected_curvature.h"
+#include "meshhood/curvature.h"
 #include "meshhood/error.h"
 
 #include "base/validate.h"

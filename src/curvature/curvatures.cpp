@@ -15,11 +15,9 @@
 
 #include "base/prefetch.h"
 #include "base/vector.h"
-#include "curvature/direct_fit.h"
 #include "curvature/packet_moments.h"
 #include "curvature/quadric.h"
 #include "curvature/symmetric.h"
-#include "curvature/visit_moments.h"
 #include "exact/index_access.h"
 #include "shared/large_pages.h"
 #include "surface/surface.h"

@@ -19,8 +19,8 @@
 
 #include "base/vector.h"
 #include "batch/rows.h"
-#include "curvature/visit_moments.h"
-#include "patch/patches.h"
+#include "curvature/packet_moments.h"
+#include "patch/packet_patches.h"
 #include "shared/distance.h"
 #include "shared/text.h"
 #include "surface/surface.h"
@@ -72,15 +72,12 @@ double moment_feature(Feature kind, const PrincipalComponents& found, std::size_
   return -4 * dot({center[0] / radius, center[1] / radius, center[2] / radius}, normal);
 }
 
-double patch_feature(Feature kind, const FoundPatch& patch, double radius) {
-  if (kind == Feature::Gap) {
-    const SurfacePoint gap = patch.gap();
-    return gap.face == kNoFace ? kNoFeature : gap.distance / radius;
-  }
-  const double area = patch.area();
-  if (!(area > 0)) return kNoFeature;
-  if (kind == Feature::Area) return area / radius / radius / std::numbers::pi;
-  return patch.volume() / radius / radius / radius / (4 * std::numbers::pi / 3);
+double patch_feature(Feature kind, const RowPatch& patch) {
+  const double r = patch.radius;
+  if (kind == Feature::Gap) return patch.gap.face == kNoFace ? kNoFeature : patch.gap.distance / r;
+  if (!(patch.area > 0)) return kNoFeature;
+  if (kind == Feature::Area) return patch.area / r / r / std::numbers::pi;
+  return patch.volume / r / r / r / (4 * std::numbers::pi / 3);
 }
 
 bool is_length(double radius) { return radius > 0 && std::isfinite(radius); }
@@ -233,10 +230,10 @@ class FeatureExtraction {
   }
 
   PacketVisitor patch_writer() {
-    const bool measures =
-        std::ranges::any_of(kinds_, [](Feature kind) { return kind == Feature::Area || kind == Feature::Volume; });
-    return patch_visitor(*patches_, measures, [this](std::size_t row, const FoundPatch& patch) {
-      write_row(Source::Patches, row, [&](Feature kind) { return patch_feature(kind, patch, patch.radius()); });
+    const auto has = [this](Feature kind) { return std::ranges::find(kinds_, kind) != kinds_.end(); };
+    const PatchParts parts{.measures = has(Feature::Area) || has(Feature::Volume), .gaps = has(Feature::Gap)};
+    return patch_visitor(*patches_, parts, [this](std::size_t row, const RowPatch& patch) {
+      write_row(Source::Patches, row, [&](Feature kind) { return patch_feature(kind, patch); });
     });
   }
 

@@ -4,22 +4,77 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "meshhood/error.h"
 
-#include "curvature/direct_moments.h"
 #include "curvature/packet_moments.h"
 #include "curvature/symmetric.h"
-#include "curvature/visit_moments.h"
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
 #include "shared/distance.h"
+#include "simd/kernels.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
+
+/// The moments of one neighborhood from the offsets of its vertices from the query vertex. Slower than `PacketMoments`,
+/// but accurate where the vertices of a leaf are much farther apart than the radius. One object a thread.
+class DirectMoments {
+ public:
+  /// Borrows what `source` names, which has no filter. `index` is that of `source`.
+  DirectMoments(const Index& index, const MomentSource& source) : searched_(&index), source_(source) {}
+
+  /// Sums the neighborhood of the vertex at `place` in index order.
+  void sum(std::uint32_t place, double radius) {
+    if (!searcher_) searcher_.emplace(*searched_, source_.metric);
+    find_places(*searcher_, *source_.index, place, radius, found_);
+    const Point center = source_.index->position(place);
+    set_units(center);
+    PaddedMoments sums{};
+    for (std::size_t begin = 0; begin < found_.size(); begin += kLeafCapacity) {
+      const std::size_t size = std::min<std::size_t>(found_.size() - begin, kLeafCapacity);
+      for (std::size_t k = 0; k < size; ++k) {
+        const std::uint32_t i = found_[begin + k];
+        points_.set(k, scale_ * (source_.index->position(i) - center),
+                    source_.weights.empty() ? 1 : std::ldexp(source_.weights[i], weight_exponent_));
+      }
+      for (std::size_t k = size; k % 8 != 0; ++k) points_.set(k, {0, 0, 0}, 0);
+      PaddedMoments some;
+      moment_kernels(best_isa()).sum(points_, size, some);
+      add(sums, some);
+    }
+    for (std::size_t m = 0; m < kMomentCount; ++m) moments_.at[m][0] = sums.at[m];
+  }
+
+  /// The moments about the query vertex, those of query 0, in the unit of `scale()`. Valid until the next `sum`.
+  [[nodiscard]] const QueryMoments& moments() const { return moments_; }
+  [[nodiscard]] double scale() const { return scale_; }
+  /// Weights were multiplied by two to this power.
+  [[nodiscard]] int weight_exponent() const { return weight_exponent_; }
+
+ private:
+  /// Powers of two that bring the longest offset and the largest weight of the neighborhood to about 1.
+  void set_units(const Point& center) {
+    scale_ = unit_factor(extent_of(*source_.index, found_, center), source_.index->frame);
+    double weight = 0;
+    for (const std::uint32_t i : found_) weight = std::max(weight, source_.weights.empty() ? 1 : source_.weights[i]);
+    weight_exponent_ = weight > 0 ? -std::ilogb(weight) : 0;
+  }
+
+  const Index* searched_;
+  MomentSource source_;
+  std::optional<Searcher> searcher_;
+  std::vector<std::uint32_t> found_;
+  double scale_ = 1;
+  int weight_exponent_ = 0;
+  MomentPoints points_{};
+  QueryMoments moments_{};
+};
 
 /// The moments of one row about its query vertex, as `PacketMoments` has them.
 struct RowMoments {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "base/vector.h"
@@ -170,14 +172,16 @@ bool PacketMoments::faces_all(const Leaf& leaf) const {
   return all;
 }
 
-void PacketMoments::add(LeafId leaf, QueryWord word) {
+/// In index order, which does not depend on what else is in the packet.
+void PacketMoments::add(const Piece& piece) {
+  if (!piece.is_run()) return add_leaf(piece.leaves.begin, piece.reached);
   std::array<QueryWord, kPacketCapacity> words;
-  words.fill(word);
-  add(leaf, words.data());
+  words.fill(piece.queries);
+  for (LeafId leaf = piece.leaves.begin; leaf < piece.leaves.end; ++leaf) add_leaf(leaf, words.data());
 }
 
 /// A query that has all vertices of a leaf gets their sum, another one those that it has.
-void PacketMoments::add(LeafId leaf, const QueryWord* words) {
+void PacketMoments::add_leaf(LeafId leaf, const QueryWord* words) {
   const QueryWord open = active_ & ~sure_.queries(leaf);
   const Leaf& of = source_.index->leaves[leaf];
   if (open == 0 || of.size == 0) return;  // a group with fewer than eight leaves has empty ones
@@ -263,6 +267,22 @@ bool PacketMoments::is_accurate(std::size_t query) const {
   const double a2 = per_weight * after_.second[query];
   const double a4 = per_weight * after_.fourth[query];
   return b4 <= kMostLoss * a4 && b2 * b4 <= (kMostLoss * kMostLoss) * ((a2 * a2) * a2);
+}
+
+PacketVisitor moment_visitor(const MomentSource& source, MomentVisitor visit) {
+  const auto sums = std::make_shared<PacketMoments>(source, best_isa());
+  return [sums, &index = *source.index, visit = std::move(visit)](const PacketAnswer& packet) {
+    std::array<std::uint32_t, kPacketCapacity> memory;
+    const auto places = std::span(memory).first(packet.rows.size());
+    std::ranges::transform(packet.vertices, places.begin(), [&](VertexId v) { return index.place(v); });
+    const LeafId leaf = leaf_of(index.slot[packet.vertices.front()]);
+    for (QueryWord left = first_lanes(static_cast<unsigned>(places.size())); left != 0;) {
+      const QueryWord queries = sums->begin(leaf, places, packet.radii, left, packet.queries);
+      for (const Piece& piece : packet.pieces) sums->add(piece);
+      visit({packet.rows, places, packet.radii, queries}, *sums, sums->finish());
+      left &= ~queries;
+    }
+  };
 }
 
 }  // namespace meshhood::inline v0_1

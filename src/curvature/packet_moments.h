@@ -4,12 +4,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
+#include <vector>
 
+#include "meshhood/curvature.h"
+#include "meshhood/moments.h"
+#include "meshhood/search.h"
+
+#include "base/epoch_array.h"
 #include "base/frame.h"
-#include "curvature/sure_leaves.h"
+#include "base/vector.h"
+#include "batch/packets.h"
 #include "curvature/symmetric.h"
+#include "exact/layout.h"
+#include "simd/ball.h"
+#include "simd/leaf.h"
 #include "simd/moments.h"
 #include "surface/surface.h"
 
@@ -21,6 +34,26 @@ namespace meshhood::inline v0_1 {
   if (!(extent > 0)) return frame.scale;
   constexpr int kLargestFactorExponent = 1000;
   return std::ldexp(1.0, std::min(std::ilogb(frame.scale) - std::ilogb(extent) - 1, kLargestFactorExponent));
+}
+
+/// The places in index order of the vertices of the neighborhood of the one at `place`. They ascend.
+inline void find_places(Searcher& searcher, const IndexView& index, std::uint32_t place, double radius,
+                        std::vector<std::uint32_t>& found) {
+  found.clear();
+  for (const VertexRange& range : searcher.ranges(index.id(place), radius)) {
+    for (VertexId i = range.begin; i < range.end; ++i) found.push_back(i);
+  }
+}
+
+/// How far these places reach from a point along an axis, in the frame.
+[[nodiscard]] inline double extent_of(const IndexView& index, std::span<const std::uint32_t> places,
+                                      const Point& center) {
+  double extent = 0;
+  for (const std::uint32_t i : places) {
+    const Point p = index.frame.scale * (index.position(i) - center);
+    extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  return extent;
 }
 
 /// The values from which the moments of a packet are computed, in index order.
@@ -37,6 +70,77 @@ struct PointDistribution {
   Eigen3 axes;
 };
 [[nodiscard]] PointDistribution distribution_of(const QueryMoments& moments, std::size_t query);
+
+/// The *sure leaves* of a leaf for a radius: leaves that are whole in the neighborhoods of all its vertices, as spheres
+/// and links tell. They depend on index, leaf and radius alone, and those of a smaller radius are a prefix of those of
+/// a larger one. So a sum over them is made once for queries of any radii.
+///
+/// Let the leaf have the sphere (c, s), and another leaf the sphere (d, t). Each vertex of the one is at most
+/// s + |c - d| + t, the *reach* of the other, from each vertex of the latter. A sure leaf is connected, has a reach of
+/// at most the radius, and is the leaf itself or linked with a sure leaf. So all its vertices are in the ball, and
+/// connected with the query vertex by leaves in the ball. Leaves with walls are not connected; one with ignored
+/// vertices is not whole, and is left out, too.
+class SureLeaves {
+ public:
+  /// Borrows the index.
+  explicit SureLeaves(const IndexView& index) : index_(&index), queries_(index.leaf_count()) {}
+
+  /// Begins with a leaf, for growing radii.
+  void begin(LeafId leaf);
+
+  /// The next sure leaf for this radius; none if there are no more. The order is that of Prim's algorithm: of
+  /// the leaves that are linked with those before, the one of least reach. It does not depend on the radii.
+  [[nodiscard]] std::optional<LeafId> next(const TreeBounds& radius);
+
+  /// The queries whose sum has a leaf already: set by the caller for one that `next` returned, at first none.
+  void set_queries(LeafId leaf, QueryWord queries) { queries_[leaf] = queries; }
+  [[nodiscard]] QueryWord queries(LeafId leaf) const { return queries_.is_known(leaf) ? queries_[leaf] : 0; }
+
+ private:
+  struct Entry {
+    double reach;  // in the frame
+    LeafId leaf;
+  };
+
+  /// Whether `a` comes after `b`.
+  static bool is_later(const Entry& a, const Entry& b) {
+    return a.reach != b.reach ? a.reach > b.reach : a.leaf > b.leaf;
+  }
+
+  void meet(LeafId leaf);
+
+  const IndexView* index_;
+  FrameSphere center_{};
+  std::vector<Entry> frontier_;    // a heap
+  EpochArray<QueryWord> queries_;  // known of the leaves that were met
+};
+
+inline void SureLeaves::begin(LeafId leaf) {
+  queries_.forget();
+  frontier_.clear();
+  center_ = index_->leaves[leaf].bounds;
+  meet(leaf);
+}
+
+inline std::optional<LeafId> SureLeaves::next(const TreeBounds& radius) {
+  if (frontier_.empty() || frontier_.front().reach > static_cast<double>(radius.inner)) return std::nullopt;
+  std::pop_heap(frontier_.begin(), frontier_.end(), is_later);
+  const LeafId leaf = frontier_.back().leaf;
+  frontier_.pop_back();
+  for (const Link& link : index_->links_of(leaf)) meet(link.leaf);
+  return leaf;
+}
+
+/// Takes a leaf into the frontier, once.
+inline void SureLeaves::meet(LeafId leaf) {
+  if (queries_.is_known(leaf)) return;
+  queries_.set(leaf, 0);
+  const Leaf& other = index_->leaves[leaf];
+  if (!other.connected || index_->ignored_lanes(leaf) != 0) return;
+  const double distance = length(center_of(other.bounds) - center_of(center_));
+  frontier_.push_back({(double{center_.radius} + distance) + double{other.bounds.radius}, leaf});
+  std::push_heap(frontier_.begin(), frontier_.end(), is_later);
+}
 
 /// Of each query, the sums of the squares and fourth powers of distances.
 struct MomentSizes {
@@ -62,11 +166,8 @@ class PacketMoments {
   QueryWord begin(LeafId leaf, std::span<const std::uint32_t> places, std::span<const double> radii, QueryWord queries,
                   QueryWord with_vertices);
 
-  /// A leaf whose vertices all belong to the queries of `word`. Leaves ascend from call to call.
-  void add(LeafId leaf, QueryWord word);
-
-  /// The same for a leaf with a word for each vertex.
-  void add(LeafId leaf, const QueryWord* words);
+  /// A part of the answer. Leaves ascend from call to call.
+  void add(const Piece& piece);
 
   /// The moments about the query vertices, in a unit that makes their coordinates about 1: `scale()` times those of
   /// the mesh, a power of two. Valid until the next `begin`.
@@ -98,6 +199,7 @@ class PacketMoments {
   void set_axis(LeafId leaf);
   void add_sure_leaves(LeafId leaf, std::span<const double> radii);
   [[nodiscard]] bool faces_all(const Leaf& leaf) const;
+  void add_leaf(LeafId leaf, const QueryWord* words);
   void add_terms_of(const Leaf& leaf, std::span<const QueryWord> words, QueryWord all);
   void add_terms();
   void set_points(const Leaf& leaf);
@@ -125,5 +227,50 @@ class PacketMoments {
   MomentSizes before_;  // about the center
   MomentSizes after_;   // about the query vertices
 };
+
+// The visitors of packets that sum moments, and what is made of these. Each is for one thread, and borrows its
+// arguments.
+
+/// The rows of a packet. Row i is query i of the moments.
+struct MomentRows {
+  std::span<const std::size_t> rows;      // their numbers in the query
+  std::span<const std::uint32_t> places;  // their vertices in index order
+  std::span<const double> radii;          // of their closed balls
+  QueryWord queries;                      // those that have moments here; the others come in another call
+};
+
+/// Receives the moments of the neighborhoods of a packet about its query vertices, in the unit of `sums.scale()`.
+using MomentVisitor =
+    std::function<void(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments)>;
+
+/// Calls `visit` with each packet, once for the rows of each unit.
+///
+/// The moments of a row depend on index, source, vertex and radius alone, bit for bit: see `PacketMoments`.
+[[nodiscard]] PacketVisitor moment_visitor(const MomentSource& source, MomentVisitor visit);
+
+/// Weights in index order, times a power of two that brings the largest to where no sum overflows and weights 2^1300
+/// times smaller are sums without loss.
+struct MomentWeights {
+  std::vector<double> values;
+  int exponent = 0;
+
+  /// Throws Error{InvalidOption}.
+  MomentWeights(const IndexView& index, std::span<const double> given);
+};
+
+/// Writes the principal components of each row.
+[[nodiscard]] PacketVisitor component_visitor(const Index& index, Metric metric, const MomentWeights& weights,
+                                              PrincipalComponents& out);
+
+/// Memory for as many rows.
+[[nodiscard]] PrincipalComponents make_components(std::size_t rows);
+
+/// Writes the curvatures of each row.
+[[nodiscard]] PacketVisitor curvature_visitor(const OrientedIndex& surface, Metric metric,
+                                              const CurvatureOptions& options, const CurvatureMemory& out);
+
+/// Memory for as many rows.
+[[nodiscard]] Curvatures make_curvatures(std::size_t rows);
+[[nodiscard]] CurvatureMemory memory_of(Curvatures& curvatures);
 
 }  // namespace meshhood::inline v0_1

@@ -14,8 +14,7 @@
 #include "exact/layout.h"
 #include "exact/stored_faces.h"
 #include "exact/verify.h"
-#include "format/section_reader.h"
-#include "format/section_writer.h"
+#include "format/format.h"
 #include "shared/aligned_buffer.h"
 #include "shared/parallel.h"
 

@@ -8,7 +8,6 @@
 #include "meshhood/adjacency.h"
 #include "meshhood/index.h"
 
-#include "exact/arrays.h"
 #include "exact/build/edge_source.h"
 #include "exact/layout.h"
 #include "exact/weighted_graph.h"

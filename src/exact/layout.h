@@ -13,12 +13,13 @@
 #include <variant>
 #include <vector>
 
+#include "meshhood/adjacency.h"
 #include "meshhood/index.h"
 
 #include "base/frame.h"
 #include "base/prefetch.h"
-#include "exact/root_tree.h"
 #include "exact/stored_faces.h"
+#include "shared/raw_vector.h"
 #include "simd/leaf.h"
 #include "simd/node_group.h"
 
@@ -102,6 +103,14 @@ struct LeafGroupRange {
 
 /// Leaves first.
 using Tree = std::vector<TreeLevel>;
+
+/// Bounding spheres over the root groups, for searches that follow no links. A mesh of many components has many root
+/// groups. Those of one level are in a kd order, so neighbors in the list lie close together.
+struct RootTree {
+  std::vector<std::uint32_t> groups;  // without a parent; of the highest level first
+  // First a sphere around each of `groups`, then on each level one around eight of those before; the last has one.
+  std::vector<std::vector<FrameSphere>> levels;
+};
 
 /// Read-only view of an index, used by searches. `owner` and `geometry` keep the arrays alive.
 struct IndexView {
@@ -244,11 +253,52 @@ void for_each_array(F&& f, Indexes&... indexes) {
   f(ArrayInfo{"mean_radii", &IndexBytes::tree}, indexes.mean_radii...);
 }
 
-/// The levels of a tree. There is a mean radius for each.
-[[nodiscard]] Tree make_levels(std::span<const std::uint32_t> levels, std::span<const GroupRecord> records,
-                               std::span<const double> mean_radii);
+/// Bounding spheres over the root groups. O(groups). Takes records that are not verified yet.
+[[nodiscard]] RootTree make_root_tree(std::span<const Group> groups, std::span<const GroupRecord> records,
+                                      std::span<const std::uint32_t> parents);
 
 /// Sets `tree`, `roots` and `leaf_groups`, which follow from the arrays. Takes arrays that are not verified yet.
 void derive(IndexView& index);
+
+/// The arrays of an `IndexView` that follow from the edges and from the division into leaves. Indexes that `refit` has
+/// made share them.
+struct ConnectivityData {
+  RawVector<VertexId> permutation;
+  RawVector<std::uint32_t> slot;
+  std::vector<VertexId> leaf_begin;
+  std::vector<Link> links;
+  std::vector<CrossEdge> cross_edges;
+  RawVector<LaneMask> adjacency;
+  std::vector<std::uint32_t> levels;
+  std::vector<GroupRecord> records;
+  std::vector<NodeId> parents;
+  std::vector<NodeLink> node_links;
+};
+
+/// Positions in index order, padded.
+using OrderedPositions = std::variant<RawVector<float>, RawVector<double>>;
+
+/// The arrays that change with the positions.
+struct GeometryData {
+  Frame frame;
+  OrderedPositions positions;
+  std::vector<Leaf> leaves;
+  std::vector<Group> groups;
+  std::vector<double> mean_radii;
+};
+
+/// All arrays of an `IndexView`, filled by `build`.
+struct IndexData : ConnectivityData, GeometryData {};
+
+[[nodiscard]] PositionsInOrder view_of(const OrderedPositions& positions);
+
+/// A view of `data`, which must outlive it. Without `tree` if the groups are not filled yet.
+[[nodiscard]] IndexView view_of(const IndexData& data);
+
+/// A view that owns `data`.
+[[nodiscard]] std::shared_ptr<IndexView> make_view(IndexData data);
+
+/// Makes `view` own `geometry`, and refer to it. If memory runs out, `view` is as it was.
+void set_geometry(IndexView& view, std::shared_ptr<GeometryData> geometry);
 
 }  // namespace meshhood::inline v0_1

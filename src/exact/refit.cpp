@@ -15,10 +15,9 @@
 #include "meshhood/error.h"
 
 #include "base/validate.h"
-#include "exact/arrays.h"
-#include "exact/build/geometry.h"
 #include "exact/build/tree.h"
 #include "exact/index_access.h"
+#include "exact/layout.h"
 #include "exact/weighted_graph.h"
 #include "shared/text.h"
 

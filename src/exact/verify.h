@@ -5,7 +5,7 @@
 #include <span>
 
 #include "exact/layout.h"
-#include "format/section_reader.h"
+#include "format/format.h"
 #include "shared/parallel.h"
 
 namespace meshhood::inline v0_1::file {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The level loop of sec. 3.2. Each step has a file of its own.
+// The level loop of sec. 3.2, whose steps are in select.cpp, fusion.cpp and link.cpp.
 #include <algorithm>
 #include <cmath>
 #include <string>

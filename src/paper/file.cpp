@@ -10,8 +10,7 @@
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
 
-#include "format/section_reader.h"
-#include "format/section_writer.h"
+#include "format/format.h"
 #include "paper/draft.h"
 #include "paper/hierarchy.h"
 #include "shared/aligned_buffer.h"

@@ -13,9 +13,8 @@
 
 #include "base/vector.h"
 #include "patch/clipped_triangle.h"
-#include "patch/patches.h"
+#include "patch/search.h"
 #include "surface/face_triangles.h"
-#include "surface/triangle_point.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
@@ -219,9 +218,9 @@ class Clip {
 
 }  // namespace
 
-ClippedMesh clip_patch(const PatchState& state, const PatchSearch& search, double radius, double tolerance) {
-  Clip clip(state, search.ball(), radius, tolerance);
-  for (const TriangleId t : search.triangles()) clip.add(t);
+ClippedMesh PatchSearch::clip(double radius, double tolerance) const {
+  Clip clip(*state_, ball_, radius, tolerance);
+  for (const TriangleId t : triangles()) clip.add(t);
   return clip.finish();
 }
 

@@ -208,4 +208,9 @@ ClippedTriangle::Measure ClippedTriangle::measure(RimArcs& rim) {
   return {doubled / 2, distance};
 }
 
+void ClippedTriangle::add_to(PatchSums& sums) {
+  const auto [area, distance] = measure(sums.rim());
+  sums.add_cut(area, distance, *ball_);
+}
+
 }  // namespace meshhood::inline v0_1

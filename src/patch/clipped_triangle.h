@@ -7,28 +7,12 @@
 #include <cstdint>
 
 #include "base/vector.h"
-#include "patch/rim.h"
+#include "patch/sums.h"
 #include "patch/twofold.h"
 #include "shared/distance.h"
-#include "simd/angle.h"
 #include "simd/patches.h"
 
 namespace meshhood::inline v0_1 {
-
-/// A ball, and the unit of the frame.
-struct PatchBall {
-  Point center;
-  double squared;  // of the predicate
-  double scale;    // of the frame, a power of two
-  double radius;   // in the frame
-  double unit;     // 1 / radius in the unit of the mesh; infinite if that is next to nothing
-
-  [[nodiscard]] bool contains(const Point& p) const { return squared_distance(center, p) <= squared; }
-};
-
-[[nodiscard]] inline PatchBall patch_ball(const Point& center, double radius, double scale) {
-  return {center, squared_radius(radius), scale, scale * radius, radius > 0 ? 1 / radius : kInfinity};
-}
 
 /// The corner or side of a triangle after number `i`.
 [[nodiscard]] constexpr std::size_t after(std::size_t i) { return i == 2 ? 0 : i + 1; }
@@ -62,6 +46,7 @@ class ClippedTriangle {
 
   /// Adds the arcs to `rim`.
   [[nodiscard]] Measure measure(RimArcs& rim);
+  void add_to(PatchSums& sums);
 
   /// Finds what follows.
   void find_outline();

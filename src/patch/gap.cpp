@@ -10,10 +10,10 @@
 
 #include "base/vector.h"
 #include "patch/clipped_triangle.h"
-#include "patch/patches.h"
+#include "patch/packet_patches.h"
+#include "patch/search.h"
 #include "patch/twofold.h"
 #include "surface/face_triangles.h"
-#include "surface/triangle_point.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
@@ -107,8 +107,7 @@ class GapSearch {
   void visit(MeshletId meshlet, std::span<const Real> xyz) {
     const QueryWord queries = may_reach(meshlet) & ~patches_->having_all(meshlet);
     if (queries == 0) return;
-    const std::vector<TriangleId>& first = state_->triangles.first_of_meshlet;
-    for (TriangleId t = first[meshlet]; t < first[meshlet + std::size_t{1}]; ++t) {
+    for (const TriangleId t : state_->triangles.of_meshlet(meshlet)) {
       if (const QueryWord others = queries & ~patches_->having(t); others != 0) compare(t, others, xyz);
     }
   }
@@ -168,10 +167,9 @@ class GapSearch {
 
 }  // namespace
 
-SurfacePoint FoundPatch::gap() const {
-  if (packet_) return packet_->gap(query_);
+SurfacePoint PatchSearch::gap() const {
   SurfacePoint gap;
-  if (exists_) GapSearch(*state_, OnePatch(*search_), 1).run({&gap, 1});
+  if (exists()) GapSearch(*state_, OnePatch(*this), 1).run({&gap, 1});
   return gap;
 }
 

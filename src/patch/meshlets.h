@@ -1,30 +1,124 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <ranges>
 #include <span>
 #include <vector>
 
 #include "base/frame.h"
+#include "base/lists.h"
 #include "base/vector.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
 #include "exact/stored_faces.h"
-#include "patch/triangles.h"
 #include "shared/distance.h"
 #include "surface/box_tree.h"
+#include "surface/face_triangles.h"
 
 namespace meshhood::inline v0_1 {
+
+/// A triangle by its number. Those of a meshlet follow each other.
+using TriangleId = std::uint32_t;
+using MeshletId = std::uint32_t;
+
+/// The triangles of the faces of a mesh, and which of them meet.
+///
+/// A face with a wall, or with fewer than three corners, has none. A *side* joins two corners. A diagonal of a polygon
+/// is a side of its own, even where another face has the same corners. A *meshlet* has the triangles of faces whose
+/// corners that come first in index order are in one leaf, as far as corners join them.
+struct Triangles {
+  std::vector<std::array<std::uint32_t, 3>> corners;  // places in index order
+  std::vector<std::uint32_t> face;                    // of each: its number in the mesh
+  std::vector<std::uint8_t> flags;                    // bits 0 to 2: the sides at borders; 3 to 5: diagonals
+  Lists<TriangleId> fans;                             // the triangles at each place, ascending
+  std::vector<TriangleId> first_of_meshlet;           // by meshlet, and one more
+  std::vector<MeshletId> of_block;                    // the meshlet of each eighth triangle
+  bool are_of_index = true;                           // whether each side that is no diagonal is an edge of the index
+
+  /// An edge of the index that is no side: between two faces with walls, or of a face with two corners. By places.
+  struct LooseEdge {
+    std::uint32_t first;
+    std::uint32_t last;
+  };
+  std::vector<LooseEdge> loose;  // ascending
+
+  /// Throws Error{InvalidMesh} if no face without a wall has a triangle, and Error{TooLarge} beyond 2^32 / 3 triangles.
+  Triangles(const IndexView& index, const StoredFaces& faces);
+
+  [[nodiscard]] std::size_t size() const { return corners.size(); }
+  [[nodiscard]] std::size_t bytes() const;
+
+  /// Those of a meshlet.
+  [[nodiscard]] auto of_meshlet(MeshletId meshlet) const {
+    return std::views::iota(first_of_meshlet[meshlet], first_of_meshlet[meshlet + std::size_t{1}]);
+  }
+
+  /// The first step is without a branch, since whether it is needed is seldom clear. More are rare.
+  [[nodiscard]] MeshletId meshlet_of(TriangleId t) const {
+    MeshletId meshlet = of_block[t / kBlock];
+    meshlet += static_cast<MeshletId>(first_of_meshlet[meshlet + std::size_t{1}] <= t);
+    while (first_of_meshlet[meshlet + std::size_t{1}] <= t) ++meshlet;
+    return meshlet;
+  }
+
+  /// The sum of the vector areas of some triangles, in the frame.
+  [[nodiscard]] Point normal_of(const IndexView& index, std::span<const TriangleId> some) const;
+
+  /// Whether a side does not have as many triangles in one direction as in the other: a border of the surface, or where
+  /// its orientation changes.
+  [[nodiscard]] bool is_border(TriangleId t, unsigned side) const { return (flags[t] >> side & 1U) != 0; }
+  [[nodiscard]] bool is_diagonal(TriangleId t, unsigned side) const { return (flags[t] >> (3 + side) & 1U) != 0; }
+  [[nodiscard]] bool has_border(TriangleId t) const { return (flags[t] & 7U) != 0; }
+
+  /// Calls `visit` with each other triangle at a side, ascending. The fan of one of its ends is searched: the smaller,
+  /// because all sides of a vertex in many triangles may be asked for.
+  template <class Visit>
+  void for_each_beside(TriangleId t, std::size_t side, Visit&& visit) const {
+    const Side wanted = side_of(t, side);
+    const auto a = fans[wanted.first];
+    const auto b = fans[wanted.last];
+    for (const TriangleId other : a.size() < b.size() ? a : b) {
+      if (other == t) continue;
+      if (side_of(other, 0) == wanted || side_of(other, 1) == wanted || side_of(other, 2) == wanted) visit(other);
+    }
+  }
+
+ private:
+  static constexpr TriangleId kBlock = 8;
+
+  /// Its ends, ascending; and the face of a diagonal, `kShared` of other sides.
+  struct Side {
+    static constexpr std::uint32_t kShared = std::numeric_limits<std::uint32_t>::max();
+
+    std::uint32_t first;
+    std::uint32_t last;
+    std::uint32_t owner;
+
+    bool operator==(const Side&) const = default;
+  };
+
+  [[nodiscard]] Side side_of(TriangleId t, std::size_t i) const {
+    const auto [first, last] = std::minmax(corners[t][i], corners[t][(i + 1) % 3]);
+    return {first, last, is_diagonal(t, static_cast<unsigned>(i)) ? face[t] : Side::kShared};
+  }
+
+  void make_meshlets(const IndexView& index, const std::vector<Triangle>& all);
+  void make_fans(std::size_t places);
+  void find_borders(const IndexView& index);
+};
 
 /// Sums over the triangles of a meshlet. Lengths are in the frame, points in the unit of the mesh.
 struct Meshlet {
   BoundingBox box;
   double radius;  // of a bounding sphere about the center
   double area;
-  Point vector_area;           // the sum of area times normal
-  double moment;               // the sum of area times the distance of the plane from `center`, along the normal
-  std::uint32_t first_corner;  // in `Meshlets::corners`
+  Point vector_area;  // the sum of area times normal
+  double moment;      // the sum of area times the distance of the plane from `center`, along the normal
   bool has_border;
 
   [[nodiscard]] Point center() const { return 0.5 * box.low + 0.5 * box.high; }
@@ -32,30 +126,17 @@ struct Meshlet {
 
 /// What a search takes at once where it lies inside a ball, and finds at once where it lies far away.
 struct Meshlets {
-  std::vector<Meshlet> meshlets;             // and one more, for the end of the last corners
-  std::vector<std::uint32_t> corners;        // the places at each meshlet, ascending
-  std::vector<std::uint32_t> first_of_leaf;  // by leaf, and one more: in `of_leaf`
-  std::vector<MeshletId> of_leaf;            // those with a corner in it, ascending
-  BoxTree boxes;                             // of the meshlets
+  std::vector<Meshlet> meshlets;
+  Lists<std::uint32_t> corners;  // the places at each meshlet, ascending
+  Lists<MeshletId> of_leaf;      // those with a corner in it, ascending
+  BoxTree boxes;                 // of the meshlets
 
   Meshlets(const IndexView& index, const Triangles& triangles);
 
-  [[nodiscard]] std::size_t bytes() const;
-
-  [[nodiscard]] std::size_t size() const { return meshlets.size() - 1; }
-
-  [[nodiscard]] std::span<const std::uint32_t> corners_of(MeshletId meshlet) const {
-    return std::span(corners).subspan(meshlets[meshlet].first_corner,
-                                      meshlets[meshlet + std::size_t{1}].first_corner - meshlets[meshlet].first_corner);
+  [[nodiscard]] std::size_t size() const { return meshlets.size(); }
+  [[nodiscard]] std::size_t bytes() const {
+    return meshlets.size() * sizeof(Meshlet) + corners.bytes() + of_leaf.bytes() + boxes.bytes();
   }
-
-  [[nodiscard]] std::span<const MeshletId> at_leaf(LeafId leaf) const {
-    return std::span(of_leaf).subspan(first_of_leaf[leaf], first_of_leaf[leaf + std::size_t{1}] - first_of_leaf[leaf]);
-  }
-
- private:
-  void add(const IndexView& index, const Triangles& triangles, MeshletId meshlet);
-  void list_by_leaf(const IndexView& index);
 };
 
 /// What all searches of the patches of a surface share. The walls of the index are left out.

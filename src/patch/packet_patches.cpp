@@ -57,7 +57,7 @@ void PacketPatches::set_balls(const PacketAnswer& packet) {
     balls_[q] = patch_ball(index.position(place), packet.radii[q], index.frame.scale);
     if (!std::isfinite(balls_[q].unit) || !std::isfinite(balls_[q].radius)) leave(q);
     centers_.set(q, balls_[q].center);
-    sums_[q].clear(state_->triangles.normal_of(index, state_->triangles.fan(place)));
+    sums_[q].clear(state_->triangles.normal_of(index, state_->triangles.fans[place]));
   });
 }
 
@@ -88,7 +88,7 @@ void PacketPatches::leave_loose() {
 
 void PacketPatches::touch(LeafId leaf) {
   leaves_.push_back(leaf);
-  for (const MeshletId meshlet : state_->meshlets.at_leaf(leaf)) {
+  for (const MeshletId meshlet : state_->meshlets.of_leaf[leaf]) {
     if (all_.is_known(meshlet)) continue;
     all_.set(meshlet, 0);
     meshlets_.push_back(meshlet);
@@ -98,7 +98,7 @@ void PacketPatches::touch(LeafId leaf) {
 void PacketPatches::add_meshlet(MeshletId meshlet) {
   QueryWord all = queries_;
   QueryWord some = 0;
-  for (const std::uint32_t place : state_->meshlets.corners_of(meshlet)) {
+  for (const std::uint32_t place : state_->meshlets.corners[meshlet]) {
     all &= words_[place];
     some |= words_[place];
   }
@@ -111,8 +111,7 @@ void PacketPatches::add_meshlet(MeshletId meshlet) {
     add_whole({.area = sums.area, .vector = sums.vector_area, .point = sums.center(), .moment = sums.moment}, all);
   }
   if (some == all) return;
-  const std::vector<TriangleId>& first = state_->triangles.first_of_meshlet;
-  for (TriangleId t = first[meshlet]; t < first[meshlet + std::size_t{1}]; ++t) add_triangle(t, some & ~all);
+  for (const TriangleId t : state_->triangles.of_meshlet(meshlet)) add_triangle(t, some & ~all);
 }
 
 void PacketPatches::add_triangle(TriangleId t, QueryWord queries) {
@@ -214,7 +213,7 @@ void PacketPatches::add_clipped(TriangleId t, std::size_t query) {
     dips_.push_back({query, t, i});
     if (all.is_border(t, static_cast<unsigned>(i))) sums_[query].meet_border();
   }
-  if (measures_) sums_[query].add_cut(clipped, balls_[query]);
+  if (measures_) clipped.add_to(sums_[query]);
 }
 
 /// In the order in which they were found, which may find more.

@@ -4,11 +4,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "meshhood/surface.h"
 
 #include "base/epoch_array.h"
+#include "batch/packets.h"
 #include "exact/joint/packet_answer.h"
 #include "patch/clipped_triangle.h"
 #include "patch/meshlets.h"
@@ -110,5 +112,24 @@ class PacketPatches {
   std::array<PatchSums, kPacketCapacity> sums_;
   std::vector<SurfacePoint> gaps_;  // by query; none before they are asked for
 };
+
+/// What of patches is asked for.
+struct PatchParts {
+  bool measures;
+  bool gaps;
+};
+
+/// The patch of a row. What is not asked for stays as it is.
+struct RowPatch {
+  double radius;
+  double area = kNan;
+  double volume = kNan;
+  SurfacePoint gap = {};
+};
+
+using RowPatchVisitor = std::function<void(std::size_t row, const RowPatch& patch)>;
+
+/// A visitor of packets of `state.searched`, for one thread, that calls `visit` with the patch of each row.
+[[nodiscard]] PacketVisitor patch_visitor(const PatchState& state, PatchParts parts, RowPatchVisitor visit);
 
 }  // namespace meshhood::inline v0_1

@@ -2,6 +2,7 @@
 #include "meshhood/patch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,27 +16,19 @@
 #include "exact/query/arguments.h"
 #include "patch/meshlets.h"
 #include "patch/packet_patches.h"
-#include "patch/patches.h"
 #include "patch/search.h"
 #include "shared/text.h"
 #include "surface/face_triangles.h"
 #include "surface/surface.h"
-#include "surface/triangle_point.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// Runs the search around a vertex. Returns whether there is a patch.
-bool run_at(const PatchState& state, PatchSearch& search, VertexId v, double radius, bool measures) {
+/// Runs the search around a vertex.
+void run_at(const PatchState& state, PatchSearch& search, VertexId v, double radius, bool measures) {
   const std::uint32_t slot = state.index->slot[v];
-  const std::span<const TriangleId> fan = state.triangles.fan(state.index->place_at(slot));
+  const std::span<const TriangleId> fan = state.triangles.fans[state.index->place_at(slot)];
   search.run(state.index->position_at(slot), radius, fan, measures);
-  return !fan.empty();
-}
-
-void check_metric(const BatchQuery& query) {
-  if (query.metric == Metric::Straight) return;
-  raise(ErrorCode::InvalidOption, "a patch by another metric, expected the straight one");
 }
 
 }  // namespace
@@ -49,8 +42,7 @@ struct PatchSearcher::State {
   PatchSearch search;
   std::vector<TriangleId> starts;
 
-  /// Returns whether there is a patch.
-  bool run(const PatchStart& start, double radius, bool measures) {
+  void run(const PatchStart& start, double radius, bool measures) {
     owner->index.check_current();
     check_radius(radius);
     if (!start.face()) {
@@ -58,13 +50,15 @@ struct PatchSearcher::State {
       return run_at(*surface, search, start.vertex(), radius, measures);
     }
     check_point(start.point(), "point");
-    find_start(*start.face(), {start.point()[0], start.point()[1], start.point()[2]});
-    search.run({start.point()[0], start.point()[1], start.point()[2]}, radius, starts, measures);
-    return !starts.empty();
+    const Point center{start.point()[0], start.point()[1], start.point()[2]};
+    find_start(*start.face(), center, radius);
+    search.run(center, radius, starts, measures);
   }
 
-  /// The triangle of a face that is nearest to a point.
-  void find_start(std::size_t face, const Point& p) {
+  /// The triangle of a face that is nearest to a point; none if it has no point in the ball. A point on the face is off
+  /// it by the rounding of its coordinates, which are as large as those of the corners.
+  void find_start(std::size_t face, const Point& p, double radius) {
+    constexpr double kRounding = 0x1p-48;
     const IndexView& index = *surface->index;
     const Triangles& all = surface->triangles;
     if (face >= surface->faces->size()) {
@@ -73,8 +67,11 @@ struct PatchSearcher::State {
     }
     starts.clear();
     double least = kInfinity;
+    double reach = radius;
     for (const VertexId corner : (*surface->faces)[face]) {
-      for (const TriangleId t : all.fan(index.place(corner))) {
+      const Point at = index.position_of(corner);
+      reach = std::max({reach, kRounding * std::abs(at.x), kRounding * std::abs(at.y), kRounding * std::abs(at.z)});
+      for (const TriangleId t : all.fans[index.place(corner)]) {
         if (all.face[t] != face) continue;
         const double distance = nearest_in_triangle(p, corners_of(index, all.corners[t]), index.frame.scale).distance;
         if (!(distance < least)) continue;
@@ -82,6 +79,7 @@ struct PatchSearcher::State {
         starts.assign(1, t);
       }
     }
+    if (least > reach) starts.clear();
   }
 };
 
@@ -100,7 +98,7 @@ ClippedMesh PatchSearcher::clip(const PatchStart& start, double radius, double t
     raise(ErrorCode::InvalidOption, "tolerance " + to_text(tolerance) + ", expected one from 1e-12 to 1");
   }
   state_->run(start, radius, true);
-  ClippedMesh mesh = clip_patch(*state_->surface, state_->search, radius, tolerance);
+  ClippedMesh mesh = state_->search.clip(radius, tolerance);
   mesh.area = state_->search.area();
   return mesh;
 }
@@ -111,8 +109,8 @@ PatchMeasure PatchSearcher::measure(const PatchStart& start, double radius) {
 }
 
 SurfacePoint PatchSearcher::gap(const PatchStart& start, double radius) {
-  const bool exists = state_->run(start, radius, false);
-  return FoundPatch(*state_->surface, state_->search, radius, exists).gap();
+  state_->run(start, radius, false);
+  return state_->search.gap();
 }
 
 namespace {
@@ -120,53 +118,58 @@ namespace {
 /// Visits the patches of packets, on one thread.
 class PacketVisit {
  public:
-  PacketVisit(const PatchState& state, bool measures, RowPatchVisitor visit)
-      : state_(&state), packet_(state), measures_(measures), visit_(std::move(visit)) {}
+  PacketVisit(const PatchState& state, PatchParts parts, RowPatchVisitor visit)
+      : state_(&state), parts_(parts), packet_(state), visit_(std::move(visit)) {}
 
   void run(const PacketAnswer& answer) {
-    const QueryWord found = packet_.find(answer, measures_);
+    const QueryWord found = packet_.find(answer, parts_.measures);
     for (std::size_t q = 0; q < answer.rows.size(); ++q) {  // walls, too, which are no queries of a packet
-      const double radius = answer.radii[q];
+      RowPatch patch{answer.radii[q]};
       if ((found >> q & 1U) != 0) {
-        visit_(answer.rows[q], FoundPatch(*state_, packet_, q, radius));
+        if (parts_.measures) patch = {patch.radius, packet_.area(q), packet_.volume(q)};
+        if (parts_.gaps) patch.gap = packet_.gap(q);
       } else {
         if (!search_) search_.emplace(*state_);
-        const bool exists = run_at(*state_, *search_, answer.vertices[q], radius, measures_);
-        visit_(answer.rows[q], FoundPatch(*state_, *search_, radius, exists));
+        run_at(*state_, *search_, answer.vertices[q], patch.radius, parts_.measures);
+        if (parts_.measures) patch = {patch.radius, search_->area(), search_->volume()};
+        if (parts_.gaps) patch.gap = search_->gap();
       }
+      visit_(answer.rows[q], patch);
     }
   }
 
  private:
   const PatchState* state_;
+  PatchParts parts_;
   PacketPatches packet_;
   std::optional<PatchSearch> search_;  // of those that are not found in packets
-  bool measures_;
   RowPatchVisitor visit_;
 };
 
 /// Calls `visit` with the patch of each row, on any thread.
-void for_each_patch(const Surface& surface, const BatchQuery& query, bool measures, const Run& run,
+void for_each_patch(const Surface& surface, const BatchQuery& query, PatchParts parts, const Run& run,
                     const RowPatchVisitor& visit) {
   const PatchState& state = SurfaceAccess::state(surface).patches();
-  check_metric(query);
-  const auto make_visitor = [&](unsigned /*thread*/) { return patch_visitor(state, measures, visit); };
+  if (query.metric != Metric::Straight) {
+    raise(ErrorCode::InvalidOption, "a patch by another metric, expected the straight one");
+  }
+  const auto make_visitor = [&](unsigned /*thread*/) { return patch_visitor(state, parts, visit); };
   for_each_packet(state.searched, query, make_visitor, run);
 }
 
 }  // namespace
 
-PacketVisitor patch_visitor(const PatchState& state, bool measures, RowPatchVisitor visit) {
-  const auto visits = std::make_shared<PacketVisit>(state, measures, std::move(visit));
+PacketVisitor patch_visitor(const PatchState& state, PatchParts parts, RowPatchVisitor visit) {
+  const auto visits = std::make_shared<PacketVisit>(state, parts, std::move(visit));
   return [visits](const PacketAnswer& answer) { visits->run(answer); };
 }
 
 Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run) {
   const std::size_t size = query.result_rows(surface.vertex_count());
   Invariants result{std::vector<double>(size), std::vector<double>(size)};
-  for_each_patch(surface, query, true, run, [&](std::size_t row, const FoundPatch& patch) {
-    result.area[row] = patch.area();
-    result.volume[row] = patch.volume();
+  for_each_patch(surface, query, {.measures = true, .gaps = false}, run, [&](std::size_t row, const RowPatch& patch) {
+    result.area[row] = patch.area;
+    result.volume[row] = patch.volume;
   });
   return result;
 }
@@ -178,8 +181,8 @@ std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, 
 }
 
 void for_each_gap(const Surface& surface, const BatchQuery& query, const SurfacePointVisitor& visit, const Run& run) {
-  for_each_patch(surface, query, false, run,
-                 [&](std::size_t row, const FoundPatch& patch) { visit(row, patch.gap()); });
+  for_each_patch(surface, query, {.measures = false, .gaps = true}, run,
+                 [&](std::size_t row, const RowPatch& patch) { visit(row, patch.gap); });
 }
 
 }  // namespace meshhood::inline v0_1

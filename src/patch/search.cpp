@@ -20,8 +20,8 @@ std::vector<TriangleId> PatchSearch::triangles() const {
   const Triangles& all = state_->triangles;
   const auto seen = std::span(triangles_).first(seen_count_);
   std::vector<TriangleId> result(seen.begin(), seen.end());
-  for (const MeshletId c : meshlets_) {
-    for (TriangleId t = all.first_of_meshlet[c]; t < all.first_of_meshlet[c + std::size_t{1}]; ++t) result.push_back(t);
+  for (const MeshletId meshlet : meshlets_) {
+    for (const TriangleId t : all.of_meshlet(meshlet)) result.push_back(t);
   }
   std::ranges::sort(result, {}, [&](TriangleId t) { return std::pair(all.face[t], t); });
   result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -55,7 +55,7 @@ inline void PatchSearch::visit(TriangleId t) {
 
 inline void PatchSearch::enter(std::uint32_t place) {
   inside_.add(place);
-  for (const TriangleId t : state_->triangles.fan(place)) visit(t);
+  for (const TriangleId t : state_->triangles.fans[place]) visit(t);
 }
 
 /// Steps from the triangles seen and the meshlets taken until there are no more.
@@ -111,7 +111,7 @@ void PatchSearch::take(MeshletId meshlet) {
 
 /// All corners of a meshlet that is taken are in the ball.
 void PatchSearch::leave(MeshletId meshlet) {
-  for (const std::uint32_t place : state_->meshlets.corners_of(meshlet)) {
+  for (const std::uint32_t place : state_->meshlets.corners[meshlet]) {
     if (!inside_.has(place)) enter(place);
   }
 }
@@ -136,7 +136,7 @@ void PatchSearch::add_cut(TriangleId t, const PatchTriangle& triangle) {
     if (clipped.dips(i)) state_->triangles.for_each_beside(t, i, [&](TriangleId other) { visit(other); });
     add_side(i, clipped.meets(i));
   }
-  if (measures_) sums_.add_cut(clipped, ball_);
+  if (measures_) clipped.add_to(sums_);
 }
 
 }  // namespace meshhood::inline v0_1

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "meshhood/patch.h"
+
 #include "base/epoch_array.h"
 #include "patch/clipped_triangle.h"
 #include "patch/meshlets.h"
@@ -28,9 +30,20 @@ class PatchSearch {
   /// Finds the patch around `center` that has the triangles `starts`. `measures`: its area and volume, too.
   void run(const Point& center, double radius, std::span<const TriangleId> starts, bool measures);
 
-  /// Of the last run, with `measures`; in the unit of the mesh. No volume without a triangle.
+  // Of the last run.
+
+  /// Whether there is a triangle.
+  [[nodiscard]] bool exists() const { return seen_count_ > 0; }
+
+  /// In the unit of the mesh, with `measures`.
   [[nodiscard]] double area() const { return sums_.area(ball_); }
-  [[nodiscard]] double volume() const { return seen_count_ == 0 ? kNan : sums_.volume(ball_); }
+  [[nodiscard]] double volume() const { return exists() ? sums_.volume(ball_) : kNan; }
+
+  /// The nearest point of a triangle in the ball that the patch does not have.
+  [[nodiscard]] SurfacePoint gap() const;
+
+  /// As a mesh, without its area. `radius`: that of the run.
+  [[nodiscard]] ClippedMesh clip(double radius, double tolerance) const;
 
   [[nodiscard]] const PatchBall& ball() const { return ball_; }
   /// A triangle is of the patch if it was seen, or its meshlet taken.

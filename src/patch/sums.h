@@ -1,11 +1,87 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "patch/clipped_triangle.h"
-#include "patch/rim.h"
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 #include "shared/distance.h"
+#include "simd/patches.h"
 
 namespace meshhood::inline v0_1 {
+
+/// A ball, and the unit of the frame.
+struct PatchBall {
+  Point center;
+  double squared;  // of the predicate
+  double scale;    // of the frame, a power of two
+  double radius;   // in the frame
+  double unit;     // 1 / radius in the unit of the mesh; infinite if that is next to nothing
+
+  [[nodiscard]] bool contains(const Point& p) const { return squared_distance(center, p) <= squared; }
+};
+
+[[nodiscard]] inline PatchBall patch_ball(const Point& center, double radius, double scale) {
+  return {center, squared_radius(radius), scale, scale * radius, radius > 0 ? 1 / radius : kInfinity};
+}
+
+/// The circle in which a plane meets the unit sphere.
+struct Circle {
+  Point normal;     // a unit vector; 0 if the plane is that of a triangle without an area
+  double distance;  // of the plane, along the normal
+
+  [[nodiscard]] bool exists() const { return normal.x != 0 || normal.y != 0 || normal.z != 0; }
+  [[nodiscard]] double radius() const { return std::sqrt((1 - distance) * (1 + distance)); }
+
+  /// The middle of the arc of the angle `theta` counterclockwise about the normal, from `u` to `w`.
+  [[nodiscard]] Point middle(double theta, const Point& u, const Point& w) const;
+};
+
+/// The arcs of the unit sphere along which a patch leaves it, which bound the part of the sphere behind the patch.
+///
+/// The potential of the area form that is singular at -k, the opposite of the pole k, gives, for the arc from u to w
+/// about the unit vector n in the plane at height h, of the angle theta,
+///     theta (1 - h) - T(n, u, w) + T(k, u, w),
+/// with T the signed area of a spherical triangle, T = 2 arg(1 + n.u + u.w + w.n + i n.(u x w)) (van Oosterom and
+/// Strackee, "The solid angle of a plane triangle", 1983). The area to the right of all arcs is minus the sum, modulo
+/// 4 pi. So the complex numbers are multiplied, and one arctangent is taken of the product. For h < 0, n is replaced by
+/// -n: the arc is then -theta about it, and T is far from its singularity. An arc that is not short is divided, since
+/// opposite ends have no spherical triangle.
+class RimArcs {
+ public:
+  /// Begins with a patch whose normal is about this one, of any length. Seen from there, the rim lies all around, most
+  /// often far from the opposite point, where the potential is singular.
+  void clear(const Point& normal);
+
+  [[nodiscard]] const Point& pole() const { return pole_; }
+
+  /// An arc of the angle `theta` counterclockwise about the normal, from `u` to `w`. O(1).
+  void add(const Circle& circle, double theta, const Point& u, const Point& w);
+
+  /// An arc that `PatchKernels` have measured: what its angle adds, and its factors of the products.
+  void add_measured(double turn, const Complex& factor, const Complex& from_pole, const Point& u, const Point& w);
+
+  /// A whole circle.
+  void add_circle(double h);
+
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+
+  /// The area behind, in [0, 4 pi). What is less than the error below 4 pi is 0: a sheet without thickness rather than
+  /// a crack without width.
+  [[nodiscard]] double area_behind() const;
+
+ private:
+  void add_factors(const Complex& factor, const Complex& from_pole, const Point& u, const Point& w);
+
+  std::vector<std::pair<Point, Point>> ends_;
+  Complex product_{1, 0};
+  Point pole_{0, 0, 1};
+  Complex from_pole_{1, 0};             // the product of the factors of the pole
+  double least_from_pole_ = kInfinity;  // the square of the smallest
+  double sum_ = 0;
+  std::size_t count_ = 0;
+};
 
 /// Area and volume of the patch around the center of a ball, from its parts.
 ///
@@ -26,8 +102,6 @@ class PatchSums {
   /// The part of a triangle that is not, `area` and `distance` in units of the radius. The caller adds its arcs to
   /// `rim`.
   void add_cut(double area, double distance, const PatchBall& ball);
-  /// The same, with its arcs.
-  void add_cut(ClippedTriangle& clipped, const PatchBall& ball);
 
   [[nodiscard]] RimArcs& rim() { return rim_; }
 

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "simd/aggregate.h"
-#include "simd/gaussian.h"
 #include "simd/leaf.h"
 
 #define HWY_TARGET_INCLUDE "simd/aggregate_kernels.cpp"

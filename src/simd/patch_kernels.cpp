@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <numbers>
 
-#include "simd/angle.h"
 #include "simd/patches.h"
 
 #define HWY_TARGET_INCLUDE "simd/patch_kernels.cpp"
@@ -73,7 +72,7 @@ HWY_INLINE Numbers arguments(const Turns& numbers) {
   return chosen(hn::Lt(numbers.imaginary, zero), negated(half), half);
 }
 
-/// `half_area` of src/patch/rim.cpp.
+/// `half_area` of src/patch/sums.cpp.
 HWY_INLINE Turns half_areas(const Vectors& n, const Vectors& u, const Vectors& w) {
   const auto products =
       hn::Add(hn::Add(hn::Add(splat(1.0), scalar_product(n, u)), scalar_product(u, w)), scalar_product(w, n));

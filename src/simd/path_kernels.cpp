@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "simd/joint.h"
 #include "simd/leaf.h"
-#include "simd/paths.h"
 
 #define HWY_TARGET_INCLUDE "simd/path_kernels.cpp"
 #include "simd/lanes-inl.h"

@@ -43,23 +43,21 @@ class BoxTree {
   template <class BoxOf>
   void renew(std::vector<std::size_t> items, BoxOf&& box_of);
 
-  /// Calls `visit(item)` for the items whose box is at most `reach()` away from `center`, and for some others; those of
-  /// near nodes first. `reach` is called again after each visit; it never grows. All are in the frame.
-  template <class Reach, class Visit>
-  void search(const Point& center, Reach&& reach, Visit&& visit) const {
-    search(center, reach, visit, kAll);
-  }
+  /// For `enters`: no group is left out.
+  struct All {
+    bool operator()(std::size_t /*level*/, std::size_t /*number*/) const { return true; }
+  };
 
-  /// Without the groups, by level and number, for which `enters` is false.
-  template <class Reach, class Visit, class Enters>
-  void search(const Point& center, Reach&& reach, Visit&& visit, Enters&& enters) const;
+  /// Calls `visit(item)` for the items whose box is at most `reach()` away from `center`, and for some others; those of
+  /// near nodes first. `reach` is called again after each visit; it never grows. All are in the frame. Leaves out the
+  /// groups, by level and number, for which `enters` is false.
+  template <class Reach, class Visit, class Enters = All>
+  void search(const Point& center, Reach&& reach, Visit&& visit, Enters&& enters = {}) const;
 
   template <class Shape>
   class Walk;
   template <class Reach>
   class Line;
-
-  static constexpr auto kAll = [](std::size_t, std::size_t) { return true; };  // groups
 
   [[nodiscard]] std::size_t bytes() const;
 
@@ -139,8 +137,8 @@ class BoxTree::Walk {
 
   /// Calls `visit(item)` for the next items, then opens one group. If this group holds items, calls `fetch(item)` for
   /// those that may be visited later. False at the end.
-  template <class Visit, class Fetch, class Enters>
-  bool advance(Visit&& visit, Fetch&& fetch, Enters&& enters);
+  template <class Visit, class Fetch, class Enters = All>
+  bool advance(Visit&& visit, Fetch&& fetch, Enters&& enters = {});
 
  private:
   template <class Fetch, class Enters>

@@ -16,8 +16,8 @@
 #include "shared/large_pages.h"
 #include "shared/parallel.h"
 #include "surface/face_tree.h"
+#include "surface/face_triangles.h"
 #include "surface/surface.h"
-#include "surface/triangle_point.h"
 
 namespace meshhood::inline v0_1 {
 namespace {

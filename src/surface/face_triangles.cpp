@@ -2,10 +2,14 @@
 #include "surface/face_triangles.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <limits>
-#include <numeric>
+#include <utility>
 #include <variant>
 
+#include "base/lists.h"
 #include "base/vector.h"
 
 namespace meshhood::inline v0_1 {
@@ -34,24 +38,21 @@ void Triangulator::run(std::uint32_t face, std::span<const VertexId> corners, Tr
   }
 }
 
-// Counting sort by the first corner of each face.
 std::vector<Triangle> triangles_in_index_order(const IndexView& index, const StoredFaces& faces) {
-  std::vector<std::size_t> next(index.vertex_count() + 1, 0);
-  for (std::size_t face = 0; face < faces.size(); ++face) {
-    if (const std::size_t count = triangle_count(faces[face].size())) {
-      next[first_place(index, faces[face]) + std::size_t{1}] += count;
+  std::size_t count = 0;
+  for (std::size_t face = 0; face < faces.size(); ++face) count += triangle_count(faces[face].size());
+  check_triangle_count(count);
+  const auto by_first_place = gather_lists<std::uint32_t, std::size_t>(index.vertex_count(), [&](auto&& f) {
+    for (std::size_t face = faces.size(); face-- > 0;) {
+      if (faces[face].size() >= 3) f(first_place(index, faces[face]), static_cast<std::uint32_t>(face));
     }
-  }
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  check_triangle_count(next.back());
-  std::vector<Triangle> triangles(next.back());
+  });
+  std::vector<Triangle> triangles(count);
   Triangulator triangulator(index);
-  for (std::size_t face = 0; face < faces.size(); ++face) {
-    const std::size_t count = triangle_count(faces[face].size());
-    if (count == 0) continue;
-    std::size_t& begin = next[first_place(index, faces[face])];
-    triangulator.run(static_cast<std::uint32_t>(face), faces[face], &triangles[begin]);
-    begin += count;
+  Triangle* next = triangles.data();
+  for (const std::uint32_t face : by_first_place.elements) {
+    triangulator.run(face, faces[face], next);
+    next += triangle_count(faces[face].size());
   }
   return triangles;
 }
@@ -71,6 +72,112 @@ SurfacePoint surface_point(const IndexView& index, const StoredFaces& faces, std
     result.corners[i] = static_cast<std::size_t>(std::ranges::find(all, result.vertices[i]) - all.begin());
   }
   return result;
+}
+
+namespace {
+
+double length_of(const Point& offset) {
+  return std::sqrt((offset.x * offset.x + offset.y * offset.y) + offset.z * offset.z);
+}
+
+class Candidates {
+ public:
+  Candidates(const Point& q, const std::array<Point, 3>& corners, double scale) : corners_(&corners) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      from_q_[i] = corners[i] - q;
+      scaled_[i] = scale * from_q_[i];
+      sides_[i] = scale * (corners[(i + 1) % 3] - corners[i]);
+    }
+  }
+
+  TrianglePoint best() {
+    for (std::size_t i = 0; i < 3; ++i) offer_side(i, (i + 1) % 3);
+    offer_inside();
+    return best_;
+  }
+
+ private:
+  /// The nearest point of a side, seen from the same end by all triangles that have it.
+  void offer_side(std::size_t i, std::size_t j) {
+    if (is_before((*corners_)[j], (*corners_)[i])) std::swap(i, j);
+    const double share = share_of_side(scaled_[i], scaled_[j]);
+    std::array<double, 3> weights{};
+    if (share == 0 || share == 1) {
+      const std::size_t end = share == 0 ? i : j;
+      weights[end] = 1;
+      offer(weights, (*corners_)[end], from_q_[end]);
+      return;
+    }
+    weights[i] = 1 - share;
+    weights[j] = share;
+    const Point side = share * ((*corners_)[j] - (*corners_)[i]);
+    offer(weights, (*corners_)[i] + side, from_q_[i] + side);
+  }
+
+  /// The foot of the perpendicular, if it lies in the triangle: its share of the height over the longest side, then its
+  /// share of this side.
+  ///
+  /// Let L be the longest side, w the height over it, h the distance of `q` from the plane, and e = 2^-53. `height` is
+  /// a difference of vectors of length L: rounding tilts it out of the plane by eL/w. The second step makes it
+  /// orthogonal to the side. So the foot is off across by d = eL(1 + h/w), or else lies outside, d > w; along the side
+  /// it is right to eL. Where h < w, d < 2eL. Beyond, the distance is off by d^2/2h < eL. A normal would move it along
+  /// by eL^2/w.
+  void offer_inside() {
+    const std::size_t i = longest(sides_);
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    const Point side = sides_[i];
+    const double square = dot(side, side);
+    if (square == 0) return;
+    const auto without_side = [&](const Point& p) { return p - (dot(p, side) / square) * side; };
+    const auto across = [&](const Point& p) { return without_side(without_side(p)); };
+    const Point third = -1.0 * sides_[k];
+    const Point height = across(third);
+    const double square_of_height = dot(height, height);
+    if (square_of_height == 0) return;
+    const Point to_q = -1.0 * scaled_[i];
+    std::array<double, 3> weights{};
+    weights[k] = dot(height, across(to_q)) / square_of_height;
+    weights[j] = dot(side, to_q - weights[k] * third) / square;
+    if (!(weights[j] > 0 && weights[k] > 0 && weights[j] + weights[k] < 1)) return;
+    weights[i] = std::max((1 - weights[j]) - weights[k], 0.0);
+    const auto from_i = [&](std::size_t corner) { return weights[corner] * ((*corners_)[corner] - (*corners_)[i]); };
+    const Point offset = from_i(j) + from_i(k);
+    offer(weights, (*corners_)[i] + offset, from_q_[i] + offset);
+  }
+
+  void offer(const std::array<double, 3>& weights, const Point& point, const Point& offset) {
+    const double distance = length_of(offset);
+    if (has_one_ && !(distance < best_.distance)) return;
+    has_one_ = true;
+    best_ = {weights, point, distance};
+  }
+
+  const std::array<Point, 3>* corners_;
+  std::array<Point, 3> from_q_;
+  std::array<Point, 3> scaled_;  // the same in units of the frame
+  std::array<Point, 3> sides_;
+  TrianglePoint best_{};
+  bool has_one_ = false;
+};
+
+}  // namespace
+
+double share_of_side(const Point& a, const Point& b) {
+  const Point side = b - a;
+  const double square = dot(side, side);
+  if (square == 0) return 0;
+  const double share = -dot(a, side) / square;
+  return share > 0 ? std::min(share, 1.0) : 0;  // 0 where it is not a number
+}
+
+std::size_t longest(const std::array<Point, 3>& sides) {
+  const auto by_length = [](const Point& a, const Point& b) { return dot(a, a) < dot(b, b); };
+  return static_cast<std::size_t>(std::max_element(sides.begin(), sides.end(), by_length) - sides.begin());
+}
+
+TrianglePoint nearest_in_triangle(const Point& q, const std::array<Point, 3>& corners, double scale) {
+  return Candidates(q, corners, scale).best();
 }
 
 }  // namespace meshhood::inline v0_1

@@ -11,7 +11,7 @@
 #include "exact/layout.h"
 #include "shared/distance.h"
 #include "surface/face_tree.h"
-#include "surface/triangle_point.h"
+#include "surface/face_triangles.h"
 
 namespace meshhood::inline v0_1 {
 
@@ -72,8 +72,7 @@ class FirstHitSearch {
 
   /// One step, at whose end memory is fetched for the next one. False at the end.
   bool advance() {
-    return walk_.advance([&](std::size_t i) { meet(i); }, [&](std::size_t i) { prefetch(&tree_->triangles()[i]); },
-                         BoxTree::kAll);
+    return walk_.advance([&](std::size_t i) { meet(i); }, [&](std::size_t i) { prefetch(&tree_->triangles()[i]); });
   }
 
   /// So far; at an infinite distance if none was met.

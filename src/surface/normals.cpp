@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The normal of a vertex is the sum of the vector areas of its faces, normalized. The vector area of a triangle is half
-// the cross product of two edges; that of a polygon is Newell's sum.
+// the cross product of two edges; that of a polygon is Newell's sum. Its length is the area, of which the vertices of a
+// face have equal shares.
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "meshhood/aggregate.h"
 #include "meshhood/error.h"
 
+#include "base/frame.h"
 #include "base/vector.h"
 #include "shared/parallel.h"
 #include "surface/surface.h"
@@ -58,6 +62,13 @@ void sum_areas(std::span<const Real> xyz, double scale, std::span<const std::uin
   for (std::size_t place = first; place < end; ++place) {
     normals.set(place, {normals.x[place], normals.y[place], normals.z[place]});
   }
+}
+
+/// The length of the vector area, in the unit of the frame.
+template <class Real>
+double frame_area(const StridedPositions<Real>& xyz, const Frame& frame, std::span<const VertexId> corners) {
+  const auto corner = [&](std::size_t i) { return frame.to_frame(point(xyz, corners[i])); };
+  return length(doubled_vector_area(corners.size(), corner)) / 2;
 }
 
 }  // namespace
@@ -118,6 +129,21 @@ Normals read_normals(const IndexView& index, std::span<const double> given) {
     normals.set(i, {n.x / largest, n.y / largest, n.z / largest});  // its square may overflow
   }
   return normals;
+}
+
+std::vector<double> vertex_areas(const MeshView& mesh) {
+  validate(mesh);
+  const Frame frame = make_frame(mesh.positions);
+  std::vector<double> areas(mesh.positions.size());
+  mesh.positions.visit([&](const auto& xyz) {
+    mesh.faces.for_each([&](std::size_t /*face*/, std::span<const VertexId> corners) {
+      if (corners.size() < 3) return;
+      const double share = frame_area(xyz, frame, corners) / static_cast<double>(corners.size());
+      for (const VertexId corner : corners) areas[corner] += share;
+    });
+  });
+  for (double& area : areas) area = (area / frame.scale) / frame.scale;
+  return areas;
 }
 
 }  // namespace meshhood::inline v0_1

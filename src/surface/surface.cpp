@@ -46,12 +46,6 @@ FaceArrays copy(const MeshView& mesh) {
   return make_face_arrays(mesh.faces);
 }
 
-FaceArrays copy(const Index& index, const MeshView& mesh) {
-  FaceArrays faces = copy(mesh);
-  check_positions(IndexAccess::view(index), mesh);
-  return faces;
-}
-
 /// Without repeats, ascending.
 template <class Number>
 void sort_out(std::vector<Number>& numbers) {
@@ -166,8 +160,9 @@ void Surface::State::renew(SurfaceGeometry& made, std::span<const VertexId> chan
 Surface::Surface(const Index& index, const FacesView& faces)
     : Surface(std::make_unique<State>(index, copy(MeshView{index.positions(), faces}))) {}
 
-Surface::Surface(const Index& index, const MeshView& mesh)
-    : Surface(std::make_unique<State>(index, copy(index, mesh))) {}
+Surface::Surface(const Index& index, const MeshView& mesh) : Surface(std::make_unique<State>(index, copy(mesh))) {
+  check_positions(IndexAccess::view(index), mesh);
+}
 
 Surface::Surface(std::unique_ptr<State> state) : state_(std::move(state)) {}
 

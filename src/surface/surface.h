@@ -19,7 +19,6 @@
 #include "shared/kept.h"
 #include "shared/raw_vector.h"
 #include "surface/face_tree.h"
-#include "surface/normal_cones.h"
 
 namespace meshhood::inline v0_1 {
 
@@ -128,6 +127,9 @@ struct SurfaceAccess {
 };
 
 using SurfaceState = SurfaceAccess::State;
+
+/// Where the segment from `inside`, a point of the ball, to `outside` leaves the ball; `outside` if that is inside too.
+[[nodiscard]] Point exit_point(const Point& inside, const Point& outside, const Point& center, double radius);
 
 /// The normals of the vertices of faces.
 [[nodiscard]] Normals make_normals(const IndexView& index, const FacesView& faces, TaskContext& task);

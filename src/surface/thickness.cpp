@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: MIT
 // The thickness of a wall: along a ray, and by a ball that shrinks until no opposite face lies in it.
-#include "meshhood/thickness.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+
+#include "meshhood/surface.h"
 
 #include "base/vector.h"
 #include "batch/position_sort.h"
 #include "batch/rows.h"
 #include "shared/parallel.h"
 #include "surface/face_tree.h"
+#include "surface/face_triangles.h"
 #include "surface/first_hit.h"
-#include "surface/normal_cones.h"
 #include "surface/surface.h"
-#include "surface/triangle_point.h"
 
 namespace meshhood::inline v0_1 {
 namespace {

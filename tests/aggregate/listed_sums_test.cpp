@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Sums of many channels over listed rows, against those of each channel by itself over nodes.
-#include "aggregate/listed_sums.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +12,7 @@
 #include "meshhood/aggregate.h"
 #include "meshhood/meshhood.h"
 
+#include "aggregate/reducers.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/random.h"

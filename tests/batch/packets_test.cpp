@@ -18,8 +18,8 @@
 
 #include "meshhood/meshhood.h"
 
+#include "batch/row_search.h"
 #include "exact/index_access.h"
-#include "exact/joint/row_writer.h"
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/random.h"

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "meshhood/corrected_curvature.h"
 #include "meshhood/curvature.h"
 #include "meshhood/index.h"
 

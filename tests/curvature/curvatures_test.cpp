@@ -21,7 +21,7 @@
 #include "meshhood/refit.h"
 
 #include "base/vector.h"
-#include "curvature/direct_fit.h"
+#include "curvature/quadric.h"
 #include "exact/index_access.h"
 #include "support/families.h"
 #include "support/refusal.h"

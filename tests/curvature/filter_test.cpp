@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/aggregate.h"
-#include "meshhood/corrected_curvature.h"
 #include "meshhood/curvature.h"
 #include "meshhood/features.h"
 #include "meshhood/masks.h"

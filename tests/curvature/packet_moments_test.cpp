@@ -57,13 +57,7 @@ std::pair<QueryWord, const QueryMoments*> sum(PacketMoments& sums, const IndexVi
   for (const VertexId v : packet.vertices) places.push_back(index.place(v));
   const LeafId leaf = leaf_of(index.slot[packet.vertices.front()]);
   const QueryWord some = sums.begin(leaf, places, packet.radii, queries, packet.queries);
-  for (const auto& [leaves, word, reached] : packet.pieces) {
-    if (reached != nullptr) {
-      sums.add(leaves.begin, reached);
-    } else {
-      for (LeafId i = leaves.begin; i < leaves.end; ++i) sums.add(i, word);
-    }
-  }
+  for (const Piece& piece : packet.pieces) sums.add(piece);
   return {some, &sums.finish()};
 }
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Sure leaves are whole in the exact answers of all vertices of their leaf, and those of a smaller radius come first.
-#include "curvature/sure_leaves.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -12,6 +10,7 @@
 
 #include "meshhood/meshhood.h"
 
+#include "curvature/packet_moments.h"
 #include "exact/index_access.h"
 #include "support/families.h"
 #include "support/random.h"

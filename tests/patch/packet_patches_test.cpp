@@ -19,7 +19,6 @@
 #include "meshhood/surface.h"
 
 #include "batch/packets.h"
-#include "patch/patches.h"
 #include "patch/search.h"
 #include "support/families.h"
 #include "support/family_name.h"
@@ -53,7 +52,7 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
       tally.left += count_of(answer.queries & ~found);
       for_each_query(found, [&](std::size_t q) {
         const std::uint32_t place = state.index->place(answer.vertices[q]);
-        search.run(state.index->position(place), answer.radii[q], state.triangles.fan(place), true);
+        search.run(state.index->position(place), answer.radii[q], state.triangles.fans[place], true);
         expect_same(state, packets, q, search, answer.radii[q]);
       });
     };
@@ -71,11 +70,11 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
     ASSERT_EQ(triangles, search.triangles());
     for (MeshletId meshlet = 0; meshlet < state.meshlets.size(); ++meshlet) {
       if ((packets.having_all(meshlet) >> q & 1U) == 0) continue;
-      const auto first = state.triangles.first_of_meshlet.begin() + meshlet;
-      for (TriangleId t = first[0]; t < first[1]; ++t) EXPECT_TRUE(packets.has(q, t));
+      for (const TriangleId t : state.triangles.of_meshlet(meshlet)) EXPECT_TRUE(packets.has(q, t));
     }
     EXPECT_EQ(packets.exists(q), !triangles.empty());
-    const SurfacePoint alone = FoundPatch(state, search, radius, !triangles.empty()).gap();
+    EXPECT_EQ(search.exists(), !triangles.empty());
+    const SurfacePoint alone = search.gap();
     EXPECT_EQ(packets.gap(q).face, alone.face);
     EXPECT_EQ(packets.gap(q).corners, alone.corners);
     EXPECT_EQ(packets.gap(q).distance, alone.distance);

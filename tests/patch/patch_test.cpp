@@ -609,6 +609,34 @@ TEST(Patch, DoesNotHaveFacesWithAWall) {
   }
 }
 
+TEST(Patch, IsNoneOfAPointBeyondTheRadiusFromItsFace) {
+  TestMesh mesh = make_box({1, 1, 1}, 1);
+  Case test(mesh);
+  const std::size_t face = test.surface.closest_point({0.4, 0.3, 7}).face;
+  const PatchStart above{face, {0.4, 0.3, 3}};
+  EXPECT_TRUE(test.searcher.patch(above, 1.9).empty());
+  EXPECT_EQ(test.searcher.measure(above, 1.9).area, 0);
+  EXPECT_TRUE(std::isnan(test.searcher.measure(above, 1.9).volume));
+  EXPECT_TRUE(test.searcher.clip(above, 1.9).triangles.empty());
+  EXPECT_EQ(test.searcher.gap(above, 1.9).face, kNoFace);
+  EXPECT_THAT(test.searcher.patch(above, 2), testing::ElementsAre(face)) << "a point at exactly the radius";
+  EXPECT_EQ(test.searcher.measure(above, 2).volume, 0);
+}
+
+/// Coordinates are rounded, so a point is seldom exactly on its face.
+TEST(Patch, OfAPointHasItsFaceAtAnyRadius) {
+  Case test(make_ball(2));
+  Random random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const SurfacePoint on =
+        test.surface.closest_point({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+    for (const double radius : {0.0, 1e-30}) {
+      EXPECT_THAT(test.searcher.patch({on.face, on.point}, radius), testing::Contains(on.face));
+      EXPECT_FALSE(std::isnan(test.searcher.measure({on.face, on.point}, radius).volume));
+    }
+  }
+}
+
 TEST(Patch, IsTheSameFarFromTheOrigin) {
   TestMesh mesh = make_ball(3);
   for (double& x : mesh.positions) x = std::round(x * 0x1p20) / 0x1p20;

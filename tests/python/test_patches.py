@@ -52,6 +52,10 @@ def test_points_of_a_plate_of_twelve_triangles_have_area_volume_and_gap():
             np.testing.assert_allclose(gap.barycentric @ V[gap.vertices], gap.point, rtol=1e-14)
     assert index.measure(point, 3 / index.mean_edge_length, face=face, unit="edge") == pytest.approx(tuple(index.measure(point, 3, face=face)))
     assert repr(index.measure(point, 3, face=face)).startswith("<meshhood.Measure: area 28.27")
+    above = [30, 60, 4.0]  # farther than the radius from its face, so without a patch
+    face, *_ = index.closest_point(above)
+    assert index.measure(above, 2.9, face=face) == pytest.approx((0, np.nan), nan_ok=True)
+    assert index.patch(above, 2.9, face=face).size == 0 and index.gap(above, 2.9, face=face).face == -1
     assert repr(gap).startswith(f"<meshhood.Gap: distance 1.0, face {gap.face}, vertices [")
 
 

@@ -15,7 +15,7 @@
 #include "support/exact_answer.h"
 #include "support/random.h"
 #include "support/scale.h"
-#include "surface/triangle_point.h"
+#include "surface/face_triangles.h"
 
 namespace meshhood::test {
 namespace {

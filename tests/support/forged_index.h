@@ -13,8 +13,8 @@
 
 #include "meshhood/index.h"
 
-#include "exact/arrays.h"
 #include "exact/index_access.h"
+#include "exact/layout.h"
 #include "format/format.h"
 #include "shared/checksum.h"
 #include "support/index_bytes.h"

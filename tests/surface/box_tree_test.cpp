@@ -121,7 +121,7 @@ TEST_P(TreeOf, VisitsEveryBoxThatARayMeetsOnce) {
     const auto reach_of_ray = [&] { return reach; };
     BoxTree::Line line(origin, direction, reach_of_ray);
     BoxTree::Walk walk(tree, line);
-    while (walk.advance([&](std::size_t i) { ++visits[i]; }, [](std::size_t) {}, BoxTree::kAll)) {
+    while (walk.advance([&](std::size_t i) { ++visits[i]; }, [](std::size_t) {})) {
     }
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       ASSERT_LE(visits[i], 1);

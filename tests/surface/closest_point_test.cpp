@@ -28,7 +28,7 @@
 #include "support/refusal.h"
 #include "support/scale.h"
 #include "support/test_triangles.h"
-#include "surface/triangle_point.h"
+#include "surface/face_triangles.h"
 
 namespace meshhood::test {
 namespace {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The cones of a tree, against the triangles in their groups.
-#include "surface/normal_cones.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -14,6 +12,7 @@
 #include "support/families.h"
 #include "support/random.h"
 #include "support/round_meshes.h"
+#include "surface/face_tree.h"
 #include "surface/surface.h"
 
 namespace meshhood::test {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Faces, submeshes and rims of regions, against passes over all faces of small meshes of every kind.
-#include "surface/submesh.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,6 +19,7 @@
 #include "support/region_oracle.h"
 #include "support/scale.h"
 #include "support/submesh_checks.h"
+#include "surface/surface.h"
 
 namespace meshhood::test {
 namespace {

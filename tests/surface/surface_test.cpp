@@ -15,7 +15,6 @@
 #include "meshhood/masks.h"
 #include "meshhood/refit.h"
 #include "meshhood/search.h"
-#include "meshhood/thickness.h"
 
 #include "support/families.h"
 #include "support/family_name.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The thickness of walls: of shapes for which it is known, and against a scan of all faces in long double.
-#include "meshhood/thickness.h"
 
 #include <algorithm>
 #include <array>

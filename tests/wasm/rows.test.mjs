@@ -243,6 +243,7 @@ test('area, volume and gap of a vertex are a row of all, and so of a point', () 
   [0.3, 0.3, 0].forEach((x, axis) => near(gap.point[axis], x));
   const walls = Uint8Array.of(1, 0, 0, 0, 0, 0, 0, 0);
   assert.deepEqual(two.measure(0, 0.4, { faces: corners, walls }), { area: 0, volume: NaN });
+  assert.deepEqual(two.measure([0.3, 0.3, 0.5], 0.2, { faces: corners, face: 4 }), { area: 0, volume: NaN });
   assert.equal(two.gap(0, 0.4, { faces: corners, walls }), null);
   assert.throws(() => two.measure(point, 1, options), { name: 'TypeError', message: /^face: null/ });
   assert.throws(() => two.gap(8, 1, options), { code: 'VertexOutOfRange' });

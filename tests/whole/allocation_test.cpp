@@ -4,7 +4,6 @@
 // allocation_calls_test has the other calls.
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <memory>
 #include <numeric>
 #include <optional>

@@ -1,4 +1,4 @@
-"""The tree over 512 leaves of a flat patch, and a ball: what src/exact/search/descent.cpp finds."""
+"""The tree over 512 leaves of a flat patch, and a ball: what src/exact/search/reach.cpp finds."""
 
 import math
 import random

@@ -1,4 +1,4 @@
-"""A folded strip and a ball, in cross section: which nodes of one level src/exact/search/waves.cpp reaches."""
+"""A folded strip and a ball, in cross section: which nodes of one level src/exact/search/reach.cpp reaches."""
 
 import math
 

@@ -178,7 +178,8 @@ class Patches(Held):
     ) -> NDArray[np.int64]:
         """The rows of F that have a point in the patch of `start` and the radius `r`, ascending.
 
-        start : a vertex; or, with `face`, a point of that face, 3 numbers, as `closest_point` returns them.
+        start : a vertex; or, with `face`, a point of that face, 3 numbers, as `closest_point` returns them. There is no
+            patch if the point is farther than `r` from the face.
         F, walls, unit : as for `invariants`.
 
         >>> index = meshhood.MeshIndex(V, F)

@@ -10,7 +10,6 @@
 
 #include "base/adjacency.h"
 #include "base/validate.h"
-#include "exact/build/geometry.h"
 #include "exact/build/leaves.h"
 #include "exact/build/links.h"
 #include "exact/build/node_links.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "exact/build/node_groups.h"
+#include "exact/build/node_parts.h"
 #include "exact/layout.h"
 #include "shared/parallel.h"
 

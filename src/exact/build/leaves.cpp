@@ -15,9 +15,8 @@
 #include "meshhood/error.h"
 
 #include "base/vector.h"
-#include "exact/build/cell_components.h"
 #include "exact/build/cells.h"
-#include "exact/build/link_collector.h"
+#include "exact/build/links.h"
 #include "exact/layout.h"
 
 namespace meshhood::inline v0_1 {

@@ -7,9 +7,6 @@
 #include <bit>
 #include <numeric>
 
-#include "exact/build/edge_buckets.h"
-#include "exact/build/link_collector.h"
-
 namespace meshhood::inline v0_1 {
 namespace {
 

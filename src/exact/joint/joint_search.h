@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -8,13 +11,154 @@
 #include <vector>
 
 #include "exact/joint/group.h"
-#include "exact/joint/packet.h"
-#include "exact/joint/spread.h"
 #include "exact/layout.h"
 #include "simd/joint.h"
 #include "simd/kernels.h"
 
 namespace meshhood::inline v0_1 {
+
+/// A radius in the forms that are compared: in the frame, and exactly.
+struct JointRadius {
+  double radius;
+  double squared;  // of the predicate
+  TreeBounds bounds;
+  double inner_squared;  // of `bounds`; minus infinity if it is no ball
+  double outer_squared;
+
+  JointRadius(const Frame& frame, double at);
+};
+
+/// A query of a packet: a vertex of its leaf, and a radius.
+struct JointQuery {
+  unsigned lane;
+  JointRadius radius;
+};
+
+/// Up to 32 queries from one leaf, ready to be compared with spheres and vertices.
+class Packet {
+ public:
+  /// `queries` are 1 to 32 from `leaf`, which is one of those that `group` began with.
+  Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std::span<const JointQuery> queries);
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// Those whose vertex is not a wall. The others have no ball.
+  [[nodiscard]] QueryWord queries() const { return balls_.queries; }
+  [[nodiscard]] const PacketBalls& balls() const { return balls_; }
+  [[nodiscard]] LeafId leaf() const { return leaf_; }
+  [[nodiscard]] unsigned lane(std::size_t query) const { return lanes_[query]; }
+
+  /// Around the leaf: `outer` around all balls, `inner` within each.
+  [[nodiscard]] const TreeBall& ball() const { return ball_; }
+
+  /// The exact predicate.
+  [[nodiscard]] bool holds(std::size_t query, const Point& vertex) const {
+    return squared_distance(vertex, index_->position(leaf_, lanes_[query])) <= squared_radii_[query];
+  }
+
+ private:
+  void set_balls(const JointGroup& group, std::span<const JointQuery> queries);
+
+  const IndexView* index_;
+  LeafId leaf_;
+  std::size_t size_;
+  TreeBall ball_;
+  PacketBalls balls_;
+  std::array<unsigned, kPacketCapacity> lanes_;
+  std::array<double, kPacketCapacity> squared_radii_;
+};
+
+/// A set of pending entries, a bit for each. They are taken in ascending order, sweep by sweep: entries that were
+/// discovered early, near the group, come first, and one that gains several times in one sweep is taken once.
+class Worklist {
+ public:
+  /// Empty, for entries below `size`.
+  void reset(std::size_t size) { words_.assign((size + 63) / 64, 0); }
+
+  void add(std::uint32_t entry) {
+    assert(entry / 64 < words_.size());
+    words_[entry / 64] |= std::uint64_t{1} << entry % 64;
+    again_ |= entry / 64 < at_;
+  }
+
+  /// Calls `f(entry)`, which may add entries, until none is left.
+  template <class F>
+  void run(F&& f) {
+    do {
+      again_ = false;
+      for (at_ = 0; at_ < words_.size(); ++at_) {
+        while (words_[at_] != 0) {
+          const auto bit = static_cast<std::uint32_t>(std::countr_zero(words_[at_]));
+          words_[at_] &= words_[at_] - 1;
+          f(static_cast<std::uint32_t>(at_) * 64 + bit);
+        }
+      }
+    } while (again_);
+  }
+
+ private:
+  std::vector<std::uint64_t> words_;
+  std::size_t at_ = 0;
+  bool again_ = false;
+};
+
+/// Compares the entries of a group with the balls of a packet, and finds what its queries reach there, by a
+/// breadth-first search for all queries at once. A query reaches a vertex if its ball holds the vertex and the query
+/// reaches a neighbor of the vertex. Words only grow, and an entry that has gained pushes its words over its links. So
+/// the search ends, and its result is exactly the components.
+class JointSpread {
+ public:
+  JointSpread(const IndexView& index, Isa isa)
+      : index_(&index), kernels_(&joint_kernels(isa)), tree_kernels_(&kernels(isa)) {}
+
+  /// Finds what the queries of `packet` reach.
+  void run(JointGroup& group, const Packet& packet);
+
+  /// The entries that lie in all balls, and were reached.
+  [[nodiscard]] std::span<const GroupEntry> whole() const { return whole_; }
+  /// The queries that reach such an entry, and so all of its vertices.
+  [[nodiscard]] QueryWord whole_word(GroupEntry entry) const { return states_[entry].word; }
+
+  /// The other leaves that were reached: their words are those of `words()` at the entry.
+  [[nodiscard]] std::span<const LeafOfWords> partial() const { return partial_; }
+  [[nodiscard]] const LeafWords* words() const { return words_.data(); }
+
+ private:
+  enum class Kind : std::uint8_t { Outside, Whole, Partial };
+
+  struct State {
+    Kind kind;
+    bool closed;       // nothing can be added
+    bool is_touched;   // words_ are those of this packet
+    bool has_inside;   // and so are the words `inside`
+    QueryWord word;    // whole: the queries that reach it; partial: those whose ball holds all of the leaf
+    QueryWord pushed;  // whole: the queries that were pushed on
+  };
+
+  void leave_out_ignored(const JointGroup& group);
+  void classify(const JointGroup& group, const Packet& packet);
+  void start(const JointGroup& group, const Packet& packet);
+  void take(JointGroup& group, const Packet& packet, GroupEntry entry);
+  void take_whole(JointGroup& group, const Packet& packet, GroupEntry entry);
+  void take_partial(JointGroup& group, const Packet& packet, GroupEntry entry);
+  void find_inside(JointGroup& group, const Packet& packet, GroupEntry entry);
+  void push_leaf(JointGroup& group, const Packet& packet, GroupEntry entry, LaneMask gained);
+  void push_over(const Packet& packet, const PerLane<QueryWord>& reached, const JointGroup::EntryLink& link);
+  template <class F>
+  void push(const Packet& packet, GroupEntry entry, QueryWord word, F&& f);
+  void add_to_whole(const Packet& packet, GroupEntry entry, QueryWord word);
+  PerLane<QueryWord>& pending(GroupEntry entry);
+
+  const IndexView* index_;
+  const JointKernels* kernels_;
+  const Kernels* tree_kernels_;
+  std::vector<std::uint32_t> numbers_;  // 0, 1, 2 ...
+  std::vector<GroupContainment> sides_;
+  std::vector<State> states_;
+  std::vector<LeafWords> words_;  // by entry
+  Worklist worklist_;
+  std::vector<GroupEntry> whole_;
+  std::vector<LeafOfWords> partial_;
+};
 
 /// Answers up to 32 queries of one leaf at once: the exact neighborhoods, as `Searcher` finds them one by one. See
 /// docs/joint.md. Owns the scratch memory: 4 bytes a leaf of the mesh, and 1 kB for each leaf that the balls of a group

@@ -9,7 +9,7 @@
 
 #include "base/epoch_array.h"
 #include "exact/layout.h"
-#include "exact/query/path_order.h"
+#include "exact/query/path_search.h"
 #include "simd/ball.h"
 #include "simd/kernels.h"
 

@@ -7,7 +7,7 @@
 #include "meshhood/mesh.h"
 
 #include "exact/layout.h"
-#include "simd/paths.h"
+#include "simd/joint.h"
 
 /// The neighborhoods of many vertices without a list of ids for each.
 ///

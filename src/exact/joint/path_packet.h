@@ -19,7 +19,7 @@
 #include "exact/layout.h"
 #include "exact/query/path_search.h"
 #include "exact/weighted_graph.h"
-#include "simd/paths.h"
+#include "simd/joint.h"
 
 namespace meshhood::inline v0_1 {
 

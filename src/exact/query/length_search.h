@@ -10,7 +10,7 @@
 #include "meshhood/metric.h"
 
 #include "exact/layout.h"
-#include "exact/query/path_queue.h"
+#include "exact/query/path_search.h"
 #include "exact/vertex_set.h"
 #include "exact/weighted_graph.h"
 #include "simd/kernels.h"

@@ -2,11 +2,19 @@
 #include "exact/query/path_search.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cstddef>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 
 namespace meshhood::inline v0_1 {
 namespace {
+
+// So that the number of buckets in a unit of length is finite.
+constexpr double kNarrowestBucket = 0x1p-1000;
+
+bool is_shorter(const Path& a, const Path& b) { return a.length < b.length; }
 
 // So narrow that few paths become shorter in their bucket, and so wide that most buckets have paths.
 constexpr double kBucketsPerEdge = 8;
@@ -18,7 +26,55 @@ constexpr double kWall = -1;
 
 bool is_longer(const Path& a, const Path& b) { return a.length > b.length; }
 
+// So that the number of intervals in a unit of length is finite.
+constexpr double kShortestRange = 0x1p-900;
+
+// Intervals with more paths are sorted one by one.
+constexpr std::uint32_t kFewPaths = 16;
+
+/// By insertion: for paths that are nearly in order.
+void sort_by_insertion(std::span<Path> paths) {
+  for (std::size_t i = 1; i < paths.size(); ++i) {
+    const Path path = paths[i];
+    std::size_t k = i;
+    for (; k > 0 && comes_before(path, paths[k - 1]); --k) paths[k] = paths[k - 1];
+    paths[k] = path;
+  }
+}
+
 }  // namespace
+
+void PathQueue::clear(double width) {
+  width_ = std::max(width, kNarrowestBucket);
+  base_ = 0;
+  scale_ = 1 / width_;
+  buckets_.clear();
+  beyond_.clear();
+  open_ = 0;
+}
+
+bool PathQueue::open() {
+  open_ = buckets_.find_from(open_);
+  if (open_ == PathBuckets::kCount) {
+    if (beyond_.empty()) return false;
+    begin_window();
+  }
+  return true;
+}
+
+/// Begins a window with the shortest path beyond the last, whose buckets are empty.
+void PathQueue::begin_window() {
+  const auto [first, last] = std::minmax_element(beyond_.begin(), beyond_.end(), is_shorter);
+  base_ = first->length;
+  scale_ = 1 / std::max(width_, (last->length - base_) / (PathBuckets::kCount - 1));
+  open_ = 0;
+  std::erase_if(beyond_, [&](const Path& path) {
+    const double at = position(path.length);
+    if (!(at < PathBuckets::kCount)) return false;
+    buckets_.add(static_cast<std::size_t>(at), path);
+    return true;
+  });
+}
 
 PathSearch::PathSearch(const IndexView& index, KeptGraph& graph)
     : index_(&index),
@@ -170,6 +226,37 @@ std::span<const Path> PathSearch::found_in_order() {
   if (found_.empty()) return {};
   if (!has_one_start_) std::iter_swap(found_.begin(), std::ranges::min_element(found_, comes_before));
   return order_.sorted(found_.front(), std::span(found_).subspan(1));
+}
+
+std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path> paths) {
+  sorted_.resize(paths.size() + 1);
+  sorted_.front() = first;
+  const std::span<Path> result = std::span(sorted_).subspan(1);
+  double longest = kShortestRange;
+  for (const Path& path : paths) longest = std::max(longest, path.length);
+  const double scale = static_cast<double>(paths.size()) / longest;
+  const auto interval = [&](const Path& path) { return static_cast<std::size_t>(path.length * scale); };
+  ends_.assign(paths.size() + 2, 0);  // rounding may lead to the interval after the last
+  for (const Path& path : paths) ++ends_[interval(path)];
+  std::uint32_t begin = 0;
+  std::uint32_t most = 0;
+  for (std::uint32_t& end : ends_) {
+    most = std::max(most, end);
+    begin += std::exchange(end, begin);
+  }
+  for (const Path& path : paths) result[ends_[interval(path)]++] = path;
+  if (most <= kFewPaths) {
+    sort_by_insertion(result);
+    assert(std::is_sorted(result.begin(), result.end(), comes_before));
+    return sorted_;
+  }
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    const std::size_t from = i == 0 ? 0 : ends_[i - 1];
+    std::sort(result.begin() + static_cast<std::ptrdiff_t>(from),
+              result.begin() + static_cast<std::ptrdiff_t>(ends_[i]), comes_before);
+  }
+  assert(std::is_sorted(result.begin(), result.end(), comes_before));
+  return sorted_;
 }
 
 }  // namespace meshhood::inline v0_1

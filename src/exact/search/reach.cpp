@@ -2,11 +2,138 @@
 #include "exact/search/reach.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/prefetch.h"
 #include "exact/node_search.h"
 
 namespace meshhood::inline v0_1 {
+namespace {
+
+/// The most nodes of a level that may intersect the surface of the ball: more than one sheet of mesh has.
+///
+/// On a plane, nodes that are squares with a half diagonal of m have an area of 2 m^2. The nodes that intersect have
+/// their centers within m of a circle of radius r, so there are about 4 pi r m / 2 m^2 = 6.3 r / m of them; on a
+/// smooth scan, 5.6 were measured. 14 is chosen: a little more than two such sheets. So is 12, for balls no larger
+/// than a node: a group and a half.
+std::size_t most_intersecting(double radius_in_frame, double mean_radius) {
+  return 12 + static_cast<std::size_t>(std::min(14 * radius_in_frame / mean_radius, 1e9));
+}
+
+}  // namespace
+
+void Waves::run(NodeId home, const TreeBall& ball, GroupStates& states) {
+  groups_.clear();
+  next_wave_.clear();
+  meet(home, states);
+  for (std::size_t placed = 0; !next_wave_.empty();) {
+    std::swap(wave_, next_wave_);
+    next_wave_.clear();
+    place(placed, ball, states);
+    placed = groups_.size();
+    for (const std::uint32_t group : wave_) spread(group, states);
+  }
+  // What was not reached is not connected with the query vertex. To look at it again would only take time.
+  for (const std::uint32_t group : groups_) {
+    GroupState& state = states[group];
+    state.whole &= state.reached;
+    state.intersecting &= state.reached;
+  }
+}
+
+/// Makes a node pending that is linked with a reached one.
+void Waves::meet(NodeId node, GroupStates& states) {
+  const std::uint32_t group = node / kFanOut;
+  const NodeSet bit = node_at(node % kFanOut);
+  if (!states.is_known(group)) {
+    states.set(group, {}).pending = bit;
+    groups_.push_back(group);
+    next_wave_.push_back(group);
+    fetch_lines(&index_->groups[group], sizeof(Group) / kCacheLine);
+    prefetch(&index_->records[group]);
+    return;
+  }
+  GroupState& state = states[group];
+  if ((state.reached & bit) != 0) return;
+  if (state.pending == 0) next_wave_.push_back(group);
+  state.pending |= bit;
+}
+
+/// Compares the groups met since the last wave with the ball.
+void Waves::place(std::size_t first_new, const TreeBall& ball, GroupStates& states) {
+  const auto met = std::span(groups_).subspan(first_new);
+  if (containments_.size() < met.size()) containments_.resize(2 * met.size());
+  kernels_->classify(index_->groups.data(), met, ball, containments_.data());
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    GroupState& state = states[met[i]];
+    const GroupRecord& record = index_->records[met[i]];
+    state.place(record, containments_[i]);
+    fetch_lines(index_->node_links.data() + record.first_link, 2);
+  }
+}
+
+/// Reaches what is pending in the group and what is linked with it there, and meets their links.
+void Waves::spread(std::uint32_t group, GroupStates& states) {
+  const GroupRecord& record = index_->records[group];
+  GroupState& state = states[group];
+  const auto open = static_cast<NodeSet>((state.whole | state.intersecting) & ~state.reached);
+  const NodeSet from = state.pending & open;
+  state.pending = 0;
+  if (from == 0) return;
+  const NodeSet added = reachable_nodes(record.linked, from, open);
+  state.reached |= added;
+  for (const NodeLink& link : index_->node_links_of(record)) {
+    if ((link.mine & added) != 0) meet(link.node(), states);
+  }
+}
+
+bool Descent::run(std::size_t level, std::span<const std::uint32_t> groups, const Query& query,
+                  std::size_t limited_above, GroupStates& states) {
+  groups_.assign(groups.begin(), groups.end());
+  std::sort(groups_.begin(), groups_.end());
+  intersecting_.clear();
+  for (const std::uint32_t group : groups_) append(group, states[group].intersecting);
+  for (;; --level) {
+    if (level > limited_above &&
+        intersecting_.size() > most_intersecting(query.radius_in_frame, index_->tree[level].mean_radius))
+      return false;
+    if (level == 0) return true;
+    const std::size_t first = groups_.size();
+    add_children();
+    place(first, query.tree_ball, states);
+  }
+}
+
+void Descent::append(std::uint32_t group, NodeSet intersecting) {
+  // Writes eight nodes, and keeps those in the set: faster than branching for each.
+  const std::size_t size = intersecting_.size();
+  intersecting_.resize(size + kFanOut);
+  for (std::size_t i = 0; i < kFanOut; ++i) intersecting_[size + i] = group * kFanOut + kBitPositions[intersecting][i];
+  intersecting_.resize(size + count_of(intersecting));
+}
+
+/// Appends the groups that the intersecting nodes cover.
+void Descent::add_children() {
+  for (const NodeId node : intersecting_) {
+    const std::uint32_t child = index_->records[node / kFanOut].first_child + node % kFanOut;
+    groups_.push_back(child);
+    fetch_lines(&index_->groups[child], sizeof(Group) / kCacheLine);
+    prefetch(&index_->records[child]);
+  }
+}
+
+/// Compares the groups from `first` on with the ball; their intersecting nodes are the new ones.
+void Descent::place(std::size_t first, const TreeBall& ball, GroupStates& states) {
+  const auto below = std::span(groups_).subspan(first);
+  if (containments_.size() < below.size()) containments_.resize(2 * below.size());
+  kernels_->classify(index_->groups.data(), below, ball, containments_.data());
+  intersecting_.clear();
+  for (std::size_t i = 0; i < below.size(); ++i) {
+    GroupState& state = states.set(below[i], {});
+    state.place(index_->records[below[i]], containments_[i]);
+    append(below[i], state.intersecting);
+  }
+}
 
 /// Begins with large nodes, which are few. Where they reach more than a single sheet, begins again with small ones,
 /// which leave out what is not connected at that scale. Leaves save nothing over a search along their links.

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The order of paths by length, against `std::sort`.
-#include "exact/query/path_order.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "exact/query/path_search.h"
 #include "support/random.h"
 
 namespace meshhood::test {

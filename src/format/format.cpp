@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "format/section_reader.h"
+#include "format/format.h"
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstring>
 
 #include "meshhood/error.h"
+#include "meshhood/serialize.h"
 
 #include "shared/checksum.h"
 
@@ -80,6 +82,26 @@ void verify_fields(const Header& header) {
   if (header.vertices > kMaxVertices) {
     refuse_header(offsetof(Header, vertices),
                   std::to_string(header.vertices) + " vertices, but the limit is " + std::to_string(kMaxVertices));
+  }
+}
+
+std::span<const std::byte> bytes_of(const Header& header) { return std::as_bytes(std::span(&header, 1)); }
+
+/// Writes zeros up to the next multiple of the alignment.
+void pad(std::uint64_t bytes, const Sink& sink) {
+  static constexpr std::array<std::byte, kIndexAlignment> kZeros{};
+  const auto missing = static_cast<std::size_t>(aligned(bytes) - bytes);
+  if (missing != 0) sink(std::span(kZeros).first(missing));
+}
+
+/// Writes in chunks, so that progress and cancellation stay responsive.
+void write_chunks(std::span<const std::byte> bytes, const Sink& sink, TaskContext& task) {
+  constexpr std::size_t kChunk = std::size_t{4} << 20;
+  while (!bytes.empty()) {
+    const auto chunk = bytes.first(std::min(bytes.size(), kChunk));
+    sink(chunk);
+    bytes = bytes.subspan(chunk.size());
+    task.step(chunk.size());
   }
 }
 
@@ -195,4 +217,78 @@ void SectionReader::refuse(const void* place, const std::string& message) const 
   refuse_at(after == table_.begin() ? "header" : quoted(name_of(*(after - 1))), byte, message);
 }
 
+void SectionWriter::add_bytes(std::string_view name, std::span<const std::byte> bytes) {
+  assert(name.size() <= Section{}.name.size());
+  parts_.push_back({std::string(name), bytes});
+}
+
+std::size_t SectionWriter::parts() const {
+  std::size_t bytes = 0;
+  for (const Part& part : parts_) bytes += part.bytes.size();
+  return 2 * bytes;  // one pass for the checksums, one to write
+}
+
+std::vector<Section> SectionWriter::make_table(TaskContext& task) const {
+  std::vector<Section> table;
+  std::uint64_t begin = head_bytes(parts_.size());
+  for (const Part& part : parts_) {
+    Section& section = table.emplace_back();
+    std::copy(part.name.begin(), part.name.end(), section.name.begin());
+    section.begin = begin;
+    section.bytes = part.bytes.size();
+    section.checksum = checksum({part.bytes});
+    task.step(part.bytes.size());
+    begin = aligned(begin + part.bytes.size());
+  }
+  return table;
+}
+
+void SectionWriter::write(Header header, const Sink& sink, TaskContext& task) const {
+  if constexpr (std::endian::native != std::endian::little) {
+    raise(ErrorCode::MalformedIndex, "saving an index requires a little-endian machine");
+  }
+  header.format = format_of(header.kind);
+  std::vector<Section> table = make_table(task);
+  header.sections = static_cast<std::uint32_t>(table.size());
+  header.bytes = aligned(table.back().begin + table.back().bytes);
+  // The section table and the zeros up to the first section, which the header's checksum covers.
+  std::vector<std::byte> rest(static_cast<std::size_t>(head_bytes(table.size())) - sizeof(Header));
+  std::ranges::copy(std::as_bytes(std::span(table)), rest.begin());
+  header.checksum = checksum({bytes_of(header).first(offsetof(Header, checksum)), rest});
+  sink(bytes_of(header));
+  sink(rest);
+  for (const Part& part : parts_) {
+    write_chunks(part.bytes, sink, task);
+    pad(part.bytes.size(), sink);
+  }
+  task.report_progress();
+}
+
 }  // namespace meshhood::inline v0_1::file
+
+namespace meshhood::inline v0_1 {
+
+bool is_index(std::span<const std::byte> first_bytes) {
+  return first_bytes.size() >= file::kMagic.size() &&
+         std::memcmp(first_bytes.data(), file::kMagic.data(), file::kMagic.size()) == 0;
+}
+
+IndexHeader read_header(std::span<const std::byte> bytes) { return read_header(bytes, bytes.size()); }
+
+IndexHeader read_header(std::span<const std::byte> first_bytes, std::uint64_t size) {
+  const file::Header header = file::read_header(first_bytes, size);
+  return {.format = header.format,
+          .kind = header.kind,
+          .is_double = header.scalar_bytes == sizeof(double),
+          .vertices = header.vertices,
+          .bytes = header.bytes,
+          .mesh = header.mesh};
+}
+
+void check_mesh(const IndexHeader& header, const Fingerprint& mesh) {
+  if (header.mesh == mesh) return;
+  raise(ErrorCode::MalformedIndex,
+        "built from mesh " + to_text(header.mesh) + ", but the given mesh is " + to_text(mesh));
+}
+
+}  // namespace meshhood::inline v0_1
