@@ -24,12 +24,7 @@ if(MESHHOOD_BUILD_CLI)
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_terminal.py $<TARGET_FILE:meshhood_cli>)
   add_test(NAME cli.manual
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_manual.py $<TARGET_FILE:meshhood_cli>)
-  # In the short tests and under sanitizers io/shared_meshes reads the same meshes, which is faster.
   if(MESHHOOD_LONG_TESTS AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
-    add_test(NAME cli.manifest
-      COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_manifest.py
-        $<TARGET_FILE:meshhood_cli> ${PROJECT_SOURCE_DIR}/../shared)
-    set_tests_properties(cli.manifest PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
     add_test(NAME cli.pairs
       COMMAND ${with_python} -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_pairs.py
         $<TARGET_FILE:meshhood_cli> ${PROJECT_SOURCE_DIR}/../shared)

@@ -12,19 +12,18 @@ target_compile_options(meshhood_families PRIVATE $<$<CONFIG:Release>:-O1>)
 
 set(parts
   base/adjacency base/frame base/mesh base/triangulate shared/coarse_float shared/distance base/sphere base/reference base/error shared/helper_threads shared/parallel shared/raw_vector
-  base/cut_edges base/epoch_array base/number_set base/packed_positions base/face_graph base/kd_order
+  base/cut_edges base/epoch_array base/number_set base/packed_positions base/face_graph
   aggregate/aggregate aggregate/listed_sums aggregate/smoothing
   batch/batch batch/packets batch/path_rows batch/position_sort batch/kept_packets batch/k_nearest batch/unconnected
-  exact/build_threads exact/collect_rows exact/edge_buckets exact/edge_source exact/masked exact/link_points
-  exact/nearest_packet exact/node_parts exact/path_packet exact/quality exact/refit exact/check exact/damage exact/file exact/index exact/verify
+  exact/build_threads exact/masked exact/link_points
+  exact/nearest_packet exact/path_packet exact/quality exact/refit exact/check exact/damage exact/file exact/index exact/verify
   exact/search_order exact/search_rare exact/search_traps exact/threads
   exact/query/any_center exact/query/nearest exact/query/path_order exact/query/path_search exact/query/single_queries
-  exact/search/component exact/search/group_states exact/search/leaf_bits
-  exact/output exact/search/vertex_bfs exact/vertex_set
-  paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
+  exact/search/component exact/search/vertex_bfs
+  paper/create paper/select paper/fusion paper/link paper/build paper/check paper/query paper/file
   patch/clip patch/packet_patches patch/patch surface/box_tree surface/closest_point surface/first_hit surface/normal_cones surface/submesh surface/surface surface/surface_paths surface/thickness
   curvature/bits curvature/corrected curvature/curvatures curvature/features curvature/filter curvature/moments curvature/packet_moments curvature/quadric curvature/sure_leaves
-  simd/joint_kernels simd/kernels simd/moment_kernels simd/patch_kernels simd/path_kernels
+  simd/kernels simd/patch_kernels
   whole/arguments whole/metrics whole/outlives whole/robustness whole/same_bits whole/differential)
 if(WIN32)
   list(REMOVE_ITEM parts base/packed_positions shared/parallel) # mmap and fork

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -335,7 +336,7 @@ class Aggregate : public testing::Test {
 TEST_F(Aggregate, OfLargeNeighborhoodsEqualsTheDefinition) {
   std::vector<VertexId> leaves;  // of five places in index order
   for (std::size_t i = 0; i < 5; ++i) {
-    const auto place = scene.index().permutation().subspan(700 * i, 30);
+    const auto place = scene.index().permutation().subspan(700 * i, scaled(30, 4));
     leaves.insert(leaves.end(), place.begin(), place.end());
   }
   for (const Nesting nesting : {Nesting::Own, Nesting::Patch}) {
@@ -369,7 +370,10 @@ TEST_F(Aggregate, OfSeveralRadiiEqualsThatOfEachRadius) {
 TEST_F(Aggregate, OfSeveralReductionsHasTheBitsOfEach) {
   const std::vector<Reduce> sums{Reduce::Mean, Reduce::Sum};
   const std::vector<Reduce> all(kReductions.begin(), kReductions.end());
+  std::vector<VertexId> rows(scaled(scene.size(), 300));
+  std::iota(rows.begin(), rows.end(), 0);
   const auto compare = [&](const SignalView& view, AggregateQuery query, const std::vector<Reduce>& reductions) {
+    query.vertices = rows;
     query.reduce = reductions;
     const std::vector<std::uint64_t> together = bits_of(aggregate(scene.index(), view, query, {.threads = 2}));
     for (std::size_t k = 0; k < reductions.size(); ++k) {

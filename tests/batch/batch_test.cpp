@@ -191,6 +191,16 @@ TEST_F(Batches, InIndexOrderAreTheSameRowsSortedByTheirPlaceInTheIndex) {
   for (std::size_t row = 0; row < rows.vertices.size(); ++row) ASSERT_EQ(order_on_one_thread.at(row), row);
 }
 
+TEST_F(Batches, OfAReorderedMeshAreThoseOfTheMesh) {
+  const ReorderedMesh reordered = reorder(mesh.view());
+  const Streamed before = rows_of(neighborhoods(index, {.radius = 3}));
+  Streamed now = rows_of(neighborhoods(reordered.index, {.radius = 3}, {}, {.threads = 2}));
+  for (VertexId v = 0; v < index.vertex_count(); ++v) {
+    for (VertexId& id : now.ids[v]) id = reordered.permutation[id];
+    ASSERT_EQ(now.ids[v], before.ids[reordered.permutation[v]]);
+  }
+}
+
 TEST_F(Batches, KeptStayInTheOrderOfTheirRows) {
   const RandomRows rows(mesh.view(), 3000, 5);
   for (const SearchMethod& method : {SearchMethod(index), SearchMethod::ball_scan(mesh.positions_view())}) {

@@ -72,7 +72,8 @@ class Plain:
         following = np.arange(1, len(corners) + 1)
         following[offsets[1:] - 1] = offsets[:-1]
         pairs = np.sort(np.stack([self.corners, self.corners[following]]), axis=0)
-        pairs = np.unique(pairs[:, pairs[0] != pairs[1]], axis=1)
+        pairs, faces_of_side = np.unique(pairs[:, pairs[0] != pairs[1]], axis=1, return_counts=True)
+        self.sides = pairs, faces_of_side
         removed = {tuple(sorted(self.kept[list(edge)])) for edge in cut}
         self.edges = np.array([edge for edge in pairs.T if tuple(edge) not in removed]) if cut else pairs.T
         self.mean_edge = np.linalg.norm(self.V[self.edges[:, 0]] - self.V[self.edges[:, 1]], axis=1).mean()

@@ -550,6 +550,19 @@ def fits(run, wrong):
 # Files.
 
 
+@functools.lru_cache(maxsize=None)
+def figures(mesh):
+    _, faces_of_side = mesh.sides
+    left, components = set(mesh.corners.tolist()), 0
+    while left:
+        left -= set(mesh.neighborhood(min(left), math.inf))
+        components += 1
+    welded = mesh.kept != np.arange(len(mesh.V))
+    return {"faces": len(mesh.offsets) - 1, "components": components, "boundary_edges": int((faces_of_side == 1).sum()),
+            "nonmanifold_edges": int((faces_of_side > 2).sum()), "welded_vertices": int(welded.sum()),
+            "repeated_positions": len(mesh.V) - len(np.unique(mesh.V, axis=0))}
+
+
 def info(run, wrong):
     question = Question(run)
     text = run.text()
@@ -557,6 +570,8 @@ def info(run, wrong):
     document = json.loads(text) if question.json else {key: int(number) for key, number in numbers}
     expect(wrong, "vertices", document["vertices"], question.files.count)
     expect(wrong, "edges", document["edges"], len(question.mesh.edges))
+    if question.json:
+        expect(wrong, "figures", {name: document[name] for name in figures(question.mesh)}, figures(question.mesh))
     if "--index" in run.asked and not ("paper" in document["index"] if question.json else "index of the paper" in text):
         wrong.append("no sizes of the indexes")
     return 1

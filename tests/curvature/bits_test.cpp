@@ -168,7 +168,7 @@ TEST(Bits, OfARowDoNotDependOnTheRadiiOfOthersOnEveryFamily) {
   Random random(13);
   std::size_t meshes = 0;
   for (const Family& family : families()) {
-    TestMesh mesh = make_mesh(family, 5, 300);
+    TestMesh mesh = make_mesh(family, 5, scaled(300, 80));
     if (mesh.size() < 10 || mesh.face_count() == 0) continue;
     SCOPED_TRACE(family.name);
     const Subject s(std::move(mesh));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,7 @@
 
 #include "support/families.h"
 #include "support/refusal.h"
+#include "support/scale.h"
 #include "support/test_mesh.h"
 
 namespace meshhood::test {
@@ -75,7 +77,9 @@ TEST(Features, OfSeveralKindsHaveTheBitsOfEach) {
   for (std::size_t v = 0; v < ignored.size(); v += 7) ignored[v] = 1;
   std::vector<Feature> kinds;
   for (int kind = 0; kind <= static_cast<int>(Feature::Variation); ++kind) kinds.push_back(static_cast<Feature>(kind));
-  const BatchQuery query{.radius = BatchRadius::scales(bumps.radii)};
+  std::vector<VertexId> rows(scaled(bumps.mesh.size(), 100));
+  std::iota(rows.begin(), rows.end(), 0);
+  const BatchQuery query{.vertices = rows, .radius = BatchRadius::scales(bumps.radii)};
   const auto compare = [&](const Surface& surface) {
     std::size_t most = 0;
     std::size_t end = 0;

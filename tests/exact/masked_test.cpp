@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(Families, MaskedFamily, testing::ValuesIn(families()), 
 TEST(Masked, GivesTheAnswersOfTheGraphWithoutWallsOnALargeSheet) {
   Random random(4);
   Ways ways;
-  for (int round = 0; round < 10; ++round) {
+  for (std::size_t round = 0; round < scaled(10, 2); ++round) {
     MaskedCase scene(bumpy_grid(70), random);
     const Oracle oracle(scene.mesh());
     ASSERT_NO_FATAL_FAILURE(compare_single(scene, random, oracle, ways));

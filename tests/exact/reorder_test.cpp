@@ -12,7 +12,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "meshhood/batch.h"
 #include "meshhood/search.h"
 
 #include "support/families.h"
@@ -124,15 +123,6 @@ TEST(Reorder, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(other.permutation, expected.permutation);
     EXPECT_EQ(other.corners, expected.corners);
   }
-}
-
-TEST(Reorder, BatchesGiveTheSameSizes) {
-  const TestMesh mesh = make_grid(60, 60, true).finish(true);
-  const ReorderedMesh reordered = reorder(mesh.view());
-  const Index index = build(mesh.view());
-  const std::vector<std::uint64_t> before = counts(index, {.radius = 3.0});
-  const std::vector<std::uint64_t> now = counts(reordered.index, {.radius = 3.0}, {.threads = 2});
-  for (std::size_t v = 0; v < now.size(); ++v) EXPECT_EQ(now[v], before[reordered.permutation[v]]);
 }
 
 TEST(Reorder, CanBeCancelled) {

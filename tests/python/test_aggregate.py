@@ -60,7 +60,6 @@ def test_errors_name_the_argument(plates):
         ("values: expected numbers", TypeError, lambda: index.aggregate(values.astype(complex), 1)),
         ("scales: radius nan", ValueError, lambda: index.aggregate(values, scales=[1, np.nan])),
         ("unexpected keyword argument .sort.", TypeError, lambda: index.aggregate(values, 1, sort="id")),
-        ("reduce: 'medium'", ValueError, lambda: index.aggregate(values, 1, "medium")),
         ("reduce: 'medium', expected 'sum' or 'mean'", ValueError, lambda: index.aggregate(values, 1, ("mean", "medium"))),
         ("reduce: there are none", ValueError, lambda: index.aggregate(values, 1, ())),
         ("reduce: expected a name or several, not int", TypeError, lambda: index.aggregate(values, 1, 3)),
@@ -74,7 +73,6 @@ def test_errors_name_the_argument(plates):
         ("weights: vertex 0: -1.0, expected a finite number >= 0", ValueError, lambda: index.aggregate(values, 1, weights=np.full(n, -1.0))),
         (f"vertices: row 1: vertex {n}", ValueError, lambda: index.aggregate(values, 1, vertices=[0, n])),
         ("bytes, exceeds max_bytes, 100", MemoryError, lambda: index.aggregate(values, 1, max_bytes=100)),
-        ("fwhm: 0", ValueError, lambda: index.smooth(values, 0)),
     ):
         with pytest.raises(error, match=cause):
             call()

@@ -98,12 +98,3 @@ def test_code_runs(name, tmp_path, monkeypatch):
 
 def test_there_are_pages():
     assert {"README.md", "docs/index.md", "docs/readers/scan.md", "docs/coming_from/scipy.md"} <= set(PAGES)
-
-
-def test_everything_public_is_described():
-    for name in set(meshhood.__all__) - {"__version__"}:
-        thing = getattr(meshhood, name)
-        assert thing.__doc__
-        public = [part for part in vars(thing) if callable(getattr(thing, part)) and not part.startswith("_")]
-        for part in public if thing.__module__ == "meshhood._index" else []:
-            assert getattr(thing, part).__doc__, f"{name}.{part}"

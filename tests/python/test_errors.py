@@ -205,10 +205,8 @@ def test_the_class_can_be_used_as_others():
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     (
-        (lambda: INDEX.count(3, None), TypeError, "r: missing"),
         (lambda: INDEX.curvature(), TypeError, "r: missing"),
         (lambda: INDEX.smooth(np.ones(50), 1.0, scales=[1.0]), TypeError, "fwhm: given, but so are scales"),
-        (lambda: INDEX.smoothing_matrix(), TypeError, "fwhm: missing"),
         (lambda: INDEX.smooth(np.ones(50), 1.0, weights=-np.ones(50)), ValueError, "weights: vertex 0: -1.0"),
         (lambda: INDEX.refit("hand.stl"), TypeError, r"V: a path, .* read_mesh\(path\)"),
     ),

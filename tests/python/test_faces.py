@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The faces that an index keeps, for the calls that need them."""
+"""The faces that an index keeps, in each form, file and copy. test_words.py has the calls that need them."""
 
 import pickle
 
@@ -11,17 +11,6 @@ from scipy.sparse import csr_array
 
 V, TRIANGLES = meshes.two_plates(12)
 V = V + 0.2 * np.sin(V[:, [1, 2, 0]])  # curved
-VALUES = np.arange(len(V), dtype=float)
-
-CALLS = {
-    "curvature": lambda index, **F: index.curvature(2.5, **F).k1,
-    "corrected curvature": lambda index, **F: index.corrected_curvature(2.5, **F).measures,
-    "features": lambda index, **F: index.features(scales=[1.5, 2.5], kinds=("crease", "area"), **F),
-    "aggregate": lambda index, **F: index.aggregate(VALUES, 2.5, weights="area", **F),
-    "smooth": lambda index, **F: index.smooth(VALUES, 2.5, weights="area", **F),
-    "moments": lambda index, **F: index.moments(2.5, weights="area", **F),
-    "principal components": lambda index, **F: index.principal_components(2.5, weights="area", **F).variances,
-}
 
 
 def polygons():
@@ -45,12 +34,6 @@ def F(request):
     return request.param
 
 
-@pytest.mark.parametrize("call", CALLS)
-def test_a_call_uses_the_faces_of_the_index(F, call):
-    kept, without = meshhood.MeshIndex(V, F), meshhood.MeshIndex(V, F, keep_faces=False)
-    np.testing.assert_array_equal(CALLS[call](kept), CALLS[call](without, F=F))
-
-
 def test_triangles_are_rows_of_three_in_whatever_form_they_are_given():
     offsets = 3 * np.arange(len(TRIANGLES) + 1)
     padded = np.insert(TRIANGLES, 0, 3, axis=1).ravel()
@@ -58,8 +41,7 @@ def test_triangles_are_rows_of_three_in_whatever_form_they_are_given():
         np.testing.assert_array_equal(meshhood.MeshIndex(V, F).faces, TRIANGLES.astype(np.int32), strict=True)
 
 
-@pytest.mark.parametrize("call", CALLS)
-def test_an_index_without_faces_says_so(tmp_path, call):
+def test_an_index_without_faces_says_so(tmp_path):
     edges = np.concatenate([TRIANGLES[:, [0, 1]], TRIANGLES[:, [1, 2]], TRIANGLES[:, [2, 0]]]).T
     graph = csr_array((np.ones(edges.shape[1]), tuple(edges)), shape=(len(V), len(V)))
     meshhood.MeshIndex(V, TRIANGLES).save(tmp_path / "plates.mhi")
@@ -70,8 +52,8 @@ def test_an_index_without_faces_says_so(tmp_path, call):
     ):
         assert index.faces is None
         with pytest.raises(ValueError, match=r"F: expected the faces, because this index has none.*saved without faces=True"):
-            CALLS[call](index)
-        CALLS[call](index, F=TRIANGLES)
+            index.curvature(2.5)
+        index.curvature(2.5, F=TRIANGLES)
 
 
 WAYS = ({}, {"mmap": True}, {"mmap": True, "trusted": True})
@@ -89,8 +71,6 @@ def test_a_file_may_have_the_faces(F, way, tmp_path):
     else:
         np.testing.assert_array_equal(loaded.faces, index.faces)
         assert loaded.faces.dtype == index.faces.dtype
-    for call in CALLS.values():
-        np.testing.assert_array_equal(call(loaded), call(index))
     np.testing.assert_array_equal(loaded.curvature(5.0, unit="edge").k1, index.curvature(5.0, unit="edge").k1)
     assert loaded.nbytes == index.nbytes
     assert loaded.refit(2 * V).faces is not None
@@ -157,13 +137,3 @@ def test_an_index_does_not_share_the_memory_of_buffers_that_it_was_unpickled_fro
     np.testing.assert_array_equal(index.faces, TRIANGLES)
     with pytest.raises(ValueError, match="read-only"):
         index.faces[0, 0] = 1
-
-
-@pytest.mark.parametrize("protocol", range(2, pickle.HIGHEST_PROTOCOL + 1))
-def test_copies_have_the_faces(F, protocol):
-    index = meshhood.MeshIndex(V, F)
-    copy = pickle.loads(pickle.dumps(index, protocol))
-    assert copy.nbytes == index.nbytes
-    np.testing.assert_array_equal(copy.curvature(2.5).k1, index.curvature(2.5).k1)
-    moved = index.refit(2 * V)
-    np.testing.assert_allclose(moved.curvature(5).k1, index.curvature(2.5).k1 / 2, atol=1e-12)

@@ -2,6 +2,7 @@
 """Long calls: progress, Ctrl-C, and other threads that run meanwhile (reliability rows P3 and P5)."""
 
 import contextlib
+import itertools
 import os
 import pickle
 import signal
@@ -15,6 +16,7 @@ import numpy as np
 import pytest
 
 SIDE = 300
+METHODS = ("exact", "paper", "bfs", "ball")
 
 
 @pytest.fixture(scope="module")
@@ -22,26 +24,26 @@ def index():
     return meshhood.MeshIndex(*meshes.two_plates(SIDE))
 
 
-def aggregate(index, r, **options):
-    return index.aggregate(np.ones(len(index)), r, **options)
-
-
-def curvature(index, r, **options):
-    return index.curvature(r, normals=np.tile([0.0, 0, 1], (len(index), 1)), **options)
-
-
-def without_end(index, method="exact", progress=None):
+def without_end(index, progress):
     """Batches without a receiver, in little memory."""
     while True:
-        index.counts(SIDE / 3.0, method=method, progress=progress)
+        index.counts(SIDE / 3.0, progress=progress)
 
 
-def again_and_again(call):
-    def calls():
-        while True:
-            call()
-
-    return calls
+# Each is called again and again.
+CALLS = (
+    *(f"index.counts(SIDE / 3.0, method={method!r})" for method in METHODS),
+    *(f"index.aggregate(ones, SIDE / 3.0, workers={workers})" for workers in (1, 2)),
+    *(f"index.curvature(SIDE / 3.0, workers={workers})" for workers in (1, 2)),
+    "index.count(0, 1.0, method=meshhood.Paper(fusion_growth=next(growth)))",
+    "meshhood.MeshIndex(index.positions, index.faces)",
+    "meshhood.read_mesh(folder / 'large.obj')",
+    "meshhood.load(folder / 'index')",
+    "meshhood.load(folder / 'index', mmap=True)",
+    "index.save(folder / 'index')",
+    "pickle.dumps(index)",
+    "pickle.loads(pickled)",
+)
 
 
 @pytest.fixture
@@ -69,28 +71,6 @@ def ctrl_c():
     return press
 
 
-@pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
-def test_ctrl_c_in_a_batch(index, ctrl_c, method):
-    before = index.count(0, 1.0, method=method)
-    seconds = ctrl_c(lambda: without_end(index, method))
-    print(f"{method}: KeyboardInterrupt after {1000 * seconds:.0f} ms")
-    assert index.count(0, 1.0, method=method) == before
-
-
-@pytest.mark.parametrize("call", (aggregate, curvature))
-@pytest.mark.parametrize("workers", (1, 2))
-def test_ctrl_c_in_sums_over_neighborhoods(index, ctrl_c, call, workers):
-    seconds = ctrl_c(again_and_again(lambda: call(index, SIDE / 3.0, workers=workers)))
-    print(f"{call.__name__}, {workers} workers: KeyboardInterrupt after {1000 * seconds:.0f} ms")
-    assert index.aggregate(np.ones(len(index)), 0.0, "sum", vertices=7) == 1
-
-
-def test_ctrl_c_in_a_build(ctrl_c):
-    V, F = meshes.two_plates(SIDE)
-    seconds = ctrl_c(again_and_again(lambda: meshhood.MeshIndex(V, F)))
-    print(f"build: KeyboardInterrupt after {1000 * seconds:.0f} ms")
-
-
 OPEN_FILES = Path("/proc/self/fd")
 
 
@@ -101,31 +81,29 @@ def nothing_stays_open():
     assert before == (len(list(OPEN_FILES.iterdir())) if OPEN_FILES.is_dir() else 0)
 
 
-def test_ctrl_c_while_reading_a_mesh(tmp_path, ctrl_c):
-    file = tmp_path / "large.obj"
-    file.write_text("v 1.25 2.5 3.75\n" * 1_000_000)
+@pytest.fixture(scope="module")
+def names(index, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("files")
+    (folder / "large.obj").write_text("v 1.25 2.5 3.75\n" * 1_000_000)
+    index.save(folder / "index")
+    made = {"ones": np.ones(len(index)), "growth": itertools.count(0.001, 0.001), "pickled": pickle.dumps(index)}
+    return {**globals(), **made, "index": index, "folder": folder}
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_ctrl_c_ends_a_call(names, ctrl_c, call):
+    index, folder = names["index"], names["folder"]
+
+    def call_without_end():
+        while True:
+            eval(call, names)
+
     with nothing_stays_open():
-        seconds = ctrl_c(again_and_again(lambda: meshhood.read_mesh(file)))
-    print(f"read_mesh: KeyboardInterrupt after {1000 * seconds:.0f} ms")
-    assert len(meshhood.read_mesh(file).vertices) == 1_000_000
-
-
-@pytest.mark.parametrize("mmap", (False, True))
-def test_ctrl_c_while_loading_an_index(index, tmp_path, ctrl_c, mmap):
-    index.save(tmp_path / "index")
-    with nothing_stays_open():
-        seconds = ctrl_c(again_and_again(lambda: meshhood.load(tmp_path / "index", mmap=mmap)))
-    print(f"load: KeyboardInterrupt after {1000 * seconds:.0f} ms")
-
-
-def test_ctrl_c_while_saving_an_index(index, tmp_path, ctrl_c):
-    file = tmp_path / "index"
-    index.save(file)  # so that there is a file, however slow the machine is
-    with nothing_stays_open():
-        seconds = ctrl_c(again_and_again(lambda: index.save(file)))
-    print(f"save: KeyboardInterrupt after {1000 * seconds:.0f} ms")
-    assert list(tmp_path.iterdir()) == [file]
-    assert len(meshhood.load(file)) == len(index)
+        seconds = ctrl_c(call_without_end)
+    print(f"{call}: KeyboardInterrupt after {1000 * seconds:.0f} ms")
+    assert {path.name for path in folder.iterdir()} == {"index", "large.obj"}
+    assert len(meshhood.load(folder / "index")) == len(index)
+    assert [index.count(0, 1.0, method=method) for method in METHODS] == [3, 3, 3, 4]
 
 
 def test_ctrl_c_while_saving_leaves_the_old_file(index, tmp_path):
@@ -137,17 +115,6 @@ def test_ctrl_c_while_saving_leaves_the_old_file(index, tmp_path):
     assert file.read_text() == "old"
 
 
-def test_ctrl_c_in_pickling(index, ctrl_c):
-    seconds = ctrl_c(again_and_again(lambda: pickle.dumps(index)))
-    print(f"pickling: KeyboardInterrupt after {1000 * seconds:.0f} ms")
-
-
-def test_ctrl_c_in_unpickling(index, ctrl_c):
-    pickled = pickle.dumps(index)
-    seconds = ctrl_c(again_and_again(lambda: pickle.loads(pickled)))
-    print(f"unpickling: KeyboardInterrupt after {1000 * seconds:.0f} ms")
-
-
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with names here")
 @pytest.mark.parametrize("read", (meshhood.read_mesh, meshhood.load))
 def test_ctrl_c_while_waiting_for_a_pipe(tmp_path, ctrl_c, read):
@@ -156,35 +123,6 @@ def test_ctrl_c_while_waiting_for_a_pipe(tmp_path, ctrl_c, read):
     with open(pipe, "r+b", buffering=0), nothing_stays_open():  # a writer that never writes
         seconds = ctrl_c(lambda: read(pipe))
     print(f"{read.__name__}: KeyboardInterrupt after {1000 * seconds:.0f} ms")
-
-
-def test_ctrl_c_in_a_build_of_the_paper(index, ctrl_c):
-    def builds_without_end():
-        growth = 0.0
-        while True:
-            growth += 0.001
-            index.count(0, 1.0, method=meshhood.Paper(fusion_growth=growth))
-
-    seconds = ctrl_c(builds_without_end)
-    print(f"hierarchy: KeyboardInterrupt after {1000 * seconds:.0f} ms")
-
-
-@pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
-def test_an_exception_of_progress_ends_the_call(index, method):
-    def enough(done, total):
-        raise LookupError("enough")
-
-    with pytest.raises(LookupError, match="enough"):
-        index.neighborhoods(1.0, method=method, progress=enough)
-    with pytest.raises(LookupError, match="enough"):
-        meshhood.MeshIndex(*meshes.two_plates(20), progress=enough)
-    assert index.count(0, 0.0, method=method) == 1
-
-
-def test_progress_bar(index, capsys):
-    pytest.importorskip("tqdm")
-    index.neighborhoods(1.0, range(100), progress=True)
-    assert "100" in capsys.readouterr().err
 
 
 def test_other_threads_run_during_a_batch(index):
@@ -203,5 +141,5 @@ def test_other_threads_run_during_a_batch(index):
     thread = threading.Thread(target=beside)
     thread.start()
     with pytest.raises(StopIteration):
-        without_end(index, progress=watch)
+        without_end(index, watch)
     thread.join()

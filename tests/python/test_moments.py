@@ -70,7 +70,6 @@ def test_wrong_arguments_are_refused_by_name(plates):
         (lambda: index.features(scales=[1, 0], F=F), "^scales: radius 1: 0"),
         (lambda: index.features(1, F=F, kinds="ridge"), "kinds: 'ridge'"),
         (lambda: index.features(1, F=F, kinds=[]), "kinds: there are none"),
-        (lambda: index.curvature(1, F=F, fit="sphere"), "fit: 'sphere'"),
         (lambda: index.curvature(1, F=F, fit="jet", like="libigl"), "like: 'libigl', expected None with fit='jet'"),
         (lambda: meshhood.persistence(np.zeros((2, 3)), [1.0], 0.5), "values: expected an array of shape"),
         (lambda: meshhood.persistence(np.zeros((2, 3)), [2.0, 1.0], 0.5), "1 after 2"),

@@ -94,13 +94,6 @@ def test_the_way_out_that_an_error_names_leads_out(call, tmp_path):
     np.testing.assert_array_equal(index.counts(2.5), scanned().counts(2.5)[part.vertices])
 
 
-def test_one_in_a_face_is_an_error():
-    V, F = scan()
-    V[F[7, 1]] = np.nan
-    with pytest.raises(ValueError, match=rf"V: vertex {F[7, 1]} has no position \(NaN\), but face \d+ has it as corner \d"):
-        meshhood.MeshIndex(V, F)
-
-
 def test_a_face_of_no_vertex_is_still_named():
     V, F = scan()
     F[3, 2] = len(V)

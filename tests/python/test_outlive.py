@@ -19,6 +19,7 @@ V[:, 2] += np.sin(V[:, 0]) * np.cos(V[:, 1] / 2) / 8
 COUNT = len(V)
 RANDOM = np.random.default_rng(3)
 MOVED = (V * [1.1, 0.9, 1] + RANDOM.uniform(-0.2, 0.2, V.shape)).astype(np.float32)
+SOME = np.arange(COUNT) % 7 == 3  # that move alone
 OTHER_FACES = F[: len(F) // 2]
 START = 43  # with OTHER_FACES its gap has another face
 ARGUMENTS = {
@@ -92,11 +93,11 @@ def takes(name, *words):
 def test_what_was_made_before_a_refit(name, tmp_path):
     index = meshhood.MeshIndex(V, F)
     before, held = values_of(made(index, name, tmp_path)), made(index, name, tmp_path)
-    for changed in (None, np.arange(COUNT)):
-        unused = meshhood.MeshIndex(V, F).refit(MOVED, changed)
+    for changed, moved in ((None, MOVED), (np.arange(COUNT), MOVED), (SOME, np.where(SOME[:, None], MOVED, V))):
+        unused = meshhood.MeshIndex(V, F).refit(moved, changed)
         back = values_of(made(unused.refit(V, changed), name, tmp_path))
         fresh = values_of(made(unused, name, tmp_path))
-        refitted = index.refit(MOVED, changed)
+        refitted = index.refit(moved, changed)
         assert values_of(made(refitted, name, tmp_path)) == fresh
         assert values_of(made(refitted.refit(V, changed), name, tmp_path)) == back
         assert back == before or name == "quality"  # of other bounds

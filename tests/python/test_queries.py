@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Nearest vertices, cut edges, faces and rims; refused arguments. test_pairs.py has the answers of all calls."""
+"""Nearest vertices, cut edges, faces and rims, parameters of the paper; refused arguments. test_pairs.py has the answers
+of all calls, and test_newcomer.py whole messages."""
 
 import numpy as np
 import pytest
@@ -30,6 +31,19 @@ def test_nearest_is_that_of_a_scan(mesh):
     vertices, _ = index.nearest(V[:50], workers=2, progress=lambda part, whole: done.append((part, whole)))
     np.testing.assert_array_equal(vertices, np.arange(50))
     assert done[0] == (0, 50) and done[-1] == (50, 50)
+
+
+def test_paper_with_other_parameters():
+    index = meshhood.MeshIndex(*folded(12))
+    one_cluster = meshhood.Paper(levels=64, discard=64, fusion_growth=0)
+    single_vertices = meshhood.Paper(levels=1)
+    # One cluster that holds all makes each answer the ball; single vertices make it exact.
+    for paper, method in ((one_cluster, "ball"), (single_vertices, "exact"), (meshhood.Paper(), "paper")):
+        for got, want in zip(*(index.neighborhoods(2.5, sort="id", method=m) for m in (paper, method))):
+            np.testing.assert_array_equal(got, want)
+    wide = meshhood.MeshIndex(*folded(40))
+    few, many = (wide.counts(12.0, method=meshhood.Paper(radius_ratio=ratio)).sum() for ratio in (100, 1))
+    assert few < many
 
 
 def test_cut_edges_are_not_crossed():
@@ -65,24 +79,16 @@ def test_rim_of_polygons_on_a_sheet_is_one_loop():
     ("call", "message"),
     [
         (lambda i: i.neighborhood(np.zeros((2, 3)), 1), r"start: expected a vertex or 3 numbers"),
-        (lambda i: i.neighborhood([0, np.nan, 0], 1), r"start: row 0: coordinate 1 is nan"),
-        (lambda i: i.neighborhood(144, 1), r"start: vertex 144, but the mesh has 36 vertices"),
         (lambda i: i.neighborhood(3, 1, seeds=[3]), r"seeds: expected None"),
         (lambda i: i.neighborhood([0.0, 0.0, 0.0], 1, seeds=[0, 36]), r"seeds: row 1: vertex 36"),
         (lambda i: i.neighborhood(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
         (lambda i: i.neighborhood(0, 1, walls=np.full(36, 0.5)), r"walls: expected integers, not float64"),
-        (lambda i: i.neighborhood(0, 1, ignored=np.zeros(35, bool)), r"ignored: a bool mask of shape \(35,\)"),
         (lambda i: i.stroke([[0, 0, 0]], 1, seeds=[[0], [1]]), r"seeds: expected \(1,\) or \(1, k\)"),
-        (lambda i: i.stroke([[0, 0, 0]], [1, 2]), r"r: expected one number, or one for each of 1 rows"),
-        (lambda i: i.nested(0, [1, 1]), r"radii: value 1: radius 1.0, expected more than 1.0"),
         (lambda i: i.nested(0, [np.nan]), r"radii: value 0: radius nan"),
-        (lambda i: i.contains(0, 36, 1), r"w: vertex 36"),
         (lambda i: i.connecting_radius(0, -1), r"w: vertex -1"),
         (lambda i: i.nearest_connected(0, -1), r"k: -1"),
         (lambda i: i.nested(36, range(2), metric="rings"), r"start: vertex 36"),
         (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], [], 1), r"start: expected a vertex or 3 numbers, not .* \(0,\)"),
-        (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], np.zeros((4, 3)), 1), r"start: expected a vertex .* \(4, 3\)"),
-        (lambda i: i.neighborhood(np.zeros((1, 3)), 1), r"start: expected a vertex or 3 numbers, not .* \(1, 3\)"),
         (lambda i: i.neighborhood(0, 1, metric="path", method="bfs"), r"method: 'bfs', expected 'exact'"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 1), (0, 8)]), r"cut: edge 1: vertices 0 and 8"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 9)]), r"^cut: edge 0: vertex 9, but the mesh has 9 vertices"),

@@ -29,11 +29,6 @@ def test_polygons(tmp_path):
     assert len(meshhood.MeshIndex(V, (offsets, corners))) == 4
 
 
-def test_no_file(tmp_path):
-    with pytest.raises(FileNotFoundError, match="nothing.ply"):
-        meshhood.read_mesh(tmp_path / "nothing.ply")
-
-
 def test_progress(tmp_path):
     file = tmp_path / "triangle.off"
     file.write_text(TRIANGLE)
@@ -41,16 +36,6 @@ def test_progress(tmp_path):
     meshhood.read_mesh(file, progress=lambda done, total: calls.append((done, total)))
     assert calls[0] == (0, len(TRIANGLE))
     assert calls[-1] == (len(TRIANGLE), len(TRIANGLE))
-
-
-def test_an_exception_of_progress_ends_reading(tmp_path):
-    def enough(done, total):
-        raise LookupError("enough")
-
-    file = tmp_path / "triangle.off"
-    file.write_text(TRIANGLE)
-    with pytest.raises(LookupError, match="enough"):
-        meshhood.read_mesh(file, progress=enough)
 
 
 def test_malformed(tmp_path):

@@ -81,25 +81,6 @@ def test_results_outlive_a_loaded_index(index, file, mmap):
     np.testing.assert_array_equal(permutation, index.permutation)
 
 
-@pytest.mark.parametrize("V", (np.zeros((0, 3)), np.ones((1, 3), np.float32)))
-def test_tiny_meshes(V, tmp_path):
-    index = meshhood.MeshIndex(V, np.zeros((0, 3), int))
-    index.save(tmp_path / "small")
-    for other in (meshhood.load(tmp_path / "small"), pickle.loads(pickle.dumps(index))):
-        assert len(other) == len(V)
-        np.testing.assert_array_equal(other.neighborhoods(1.0)[1], np.arange(len(V)))
-
-
-@pytest.mark.parametrize("mmap", (False, True))
-def test_files_that_are_not_indexes_are_refused(file, mmap, tmp_path):
-    whole = file.read_bytes()
-    contents = {"empty": b"", "text": b"OFF\n" * 1000, "short": whole[:-64], "long": whole + bytes(64)}
-    for name, content in contents.items():
-        (tmp_path / name).write_bytes(content)
-        with pytest.raises(ValueError, match=name + ".*byte"):
-            meshhood.load(tmp_path / name, mmap=mmap)
-
-
 def test_an_endless_file_that_is_not_an_index_is_refused():
     with pytest.raises(ValueError, match="not a saved index"):
         meshhood.load("/dev/zero")
@@ -115,19 +96,6 @@ def test_a_changed_byte_of_a_pickle_is_refused(index, file):
 
 
 GOLDEN = Path(__file__).resolve().parents[1] / "golden"
-GOLDEN_OF_THE_PAPER = sorted(GOLDEN.glob("format1/paper*.mhi"))
-
-
-def test_an_older_index_is_refused():
-    message = "float.mhi: header, byte 12: format 1, but this version reads format 3: build the index again"
-    with pytest.raises(ValueError, match=message):
-        meshhood.load(GOLDEN / "format1" / "float.mhi")
-
-
-@pytest.mark.parametrize("file", GOLDEN_OF_THE_PAPER, ids=lambda file: file.stem)
-def test_an_index_of_the_paper_is_refused(file):
-    with pytest.raises(ValueError, match=f"{file.name}: header, byte 48: a paper index, expected an exact index"):
-        meshhood.load(file)
 
 
 @pytest.mark.parametrize("file", sorted(GOLDEN.glob("format3/*.mhi")), ids=lambda file: file.stem)
@@ -138,36 +106,6 @@ def test_indexes_saved_by_the_cpp_library_are_loaded(file):
     for v in range(0, len(index), 7):
         ids = index.neighborhood(v, 1.0, sort="id")
         np.testing.assert_array_equal(ids, index.neighborhood(v, 1.0, sort="id", method="bfs"))
-
-
-@pytest.mark.parametrize("mmap", (False, True))
-def test_an_exception_of_progress_ends_loading(file, mmap):
-    def enough(done, total):
-        raise LookupError("enough")
-
-    with pytest.raises(LookupError, match="enough"):
-        meshhood.load(file, mmap=mmap, progress=enough)
-
-
-def test_an_exception_of_progress_leaves_the_old_file(index, file):
-    calls = []
-    other = meshhood.MeshIndex(*meshes.two_plates(5))
-    other.save(file, progress=lambda done, total: calls.append(done))
-    index.save(file)
-    old = file.read_bytes()
-    for last in range(len(calls)):
-        reports = []
-
-        def enough(done, total):
-            reports.append(done)
-            if len(reports) > last:
-                raise LookupError("enough")
-
-        with pytest.raises(LookupError, match="enough"):
-            other.save(file, progress=enough)
-        assert file.read_bytes() == old
-        assert list(file.parent.iterdir()) == [file]
-    print(f"{len(calls)} reports of saving")
 
 
 @pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))

@@ -48,16 +48,6 @@ def test_types():
         INDEX.aggregate(VALUES, 2.0, dtype=np.int32)
 
 
-def test_many_channels_are_each_channel_by_itself():
-    many = RANDOM.normal(size=(COUNT, 70))
-    many[3, 5] = np.nan
-    for words in ({}, {"weights": "area"}, {"nan": "omit"}, MASKS, {"vertices": [5, 3, 3]}):
-        together = INDEX.smooth(many, 2.0, **words)
-        for channel in (0, 5, 69):
-            alone = INDEX.smooth(many[:, channel], 2.0, **words)
-            np.testing.assert_allclose(together[:, channel], alone, rtol=1e-11, atol=1e-13)
-
-
 def test_a_bar_has_a_title_and_counts_vertices(monkeypatch):
     tqdm = pytest.importorskip("tqdm.auto")
     bars = []
@@ -80,7 +70,6 @@ def test_a_bar_has_a_title_and_counts_vertices(monkeypatch):
 @pytest.mark.parametrize(
     ("call", "message"),
     (
-        (lambda: INDEX.neighborhood([100, 120, 130], 5.0), r"start: integers .*neighborhoods\(r, vertices\)"),
         (lambda: INDEX.neighborhood(np.array([1, 2, 3]), 5.0), r"start: integers .*neighborhoods\(r, vertices\)"),
         (lambda: INDEX.nearest_connected([100, 120, 130], 5), r"start: integers .*k_nearest\(k, vertices\)"),
         (lambda: INDEX.nearest_connected([1, 2], 100), r"start: integers .*k_nearest\(k, vertices\)"),
@@ -91,15 +80,6 @@ def test_a_bar_has_a_title_and_counts_vertices(monkeypatch):
 def test_vertices_are_not_taken_for_a_point(call, message):
     with pytest.raises(TypeError, match=message):
         call()
-
-
-def test_errors_blame_the_argument_at_fault():
-    with pytest.raises(ValueError, match=r"vertices: .* faces are passed as F="):
-        INDEX.curvature(5.0, F)
-    with pytest.raises(ValueError, match="method: 'bfs', expected 'exact' with walls"):
-        INDEX.counts(1.0, walls=WALLS, method="bfs")
-    with pytest.raises(ValueError, match="walls: "):
-        INDEX.counts(1.0, walls=[COUNT])
 
 
 @pytest.mark.parametrize("number", (int, np.uint8, float))

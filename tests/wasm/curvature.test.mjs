@@ -125,17 +125,6 @@ test('normals of other faces replace those that are kept, and faces may change i
   second.forEach((value, v) => assert.ok(Math.abs(value + first[v]) < 1e-12));
 });
 
-test('the rows of a part are those of the whole up to rounding', () => {
-  const index = build(hills);
-  const whole = index.curvature(3, { faces: hills });
-  const vertices = index.permutation.subarray(100, 200);
-  const part = index.curvature(3, { faces: hills, vertices });
-  vertices.forEach((v, row) => {
-    assert.ok(Math.abs(part.k1[row] - whole.k1[v]) < 1e-12);
-    assert.ok(Math.abs(part.k2[row] - whole.k2[v]) < 1e-12);
-  });
-});
-
 test('wrong arguments give the errors of C++ and leave the index usable', () => {
   const index = build(hills);
   const signal = values(hills);

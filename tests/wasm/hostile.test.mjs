@@ -34,7 +34,6 @@ const refused = {
   'vertices.ply': Buffer.concat([lines(...BINARY, `element vertex ${TURN + 3}`, ...XYZ, 'end_header'), THREE]),
   'text_vertices.ply': lines(...TEXT, `element vertex ${TURN + 3}`, ...XYZ, 'end_header', ...ROWS),
   'most_vertices.ply': lines(...TEXT, 'element vertex 18446744073709551615', ...XYZ, 'end_header', ...ROWS),
-  'digits.ply': lines(...TEXT, `element vertex ${'9'.repeat(4000)}`, ...XYZ, 'end_header', ...ROWS),
   'faces.ply': Buffer.concat([
     lines(...BINARY, 'element vertex 3', ...XYZ, `element face ${TURN + 1}`, LIST, 'end_header'), THREE, words(3, 0, 1, 2)]),
   'list.ply': Buffer.concat([
@@ -54,13 +53,7 @@ const refused = {
   'back.obj': lines('v 0 0 0', 'v 1 0 0', 'v 0 1 0', `f 1 2 -${TURN + 1}`),
   'facets.stl': binaryStl(WRAPPING, 0),
   'one_facet.stl': binaryStl(WRAPPING + 1, 1),
-  'infinite.obj': lines('v 0 0 1e999'),
   'huge.ply': lines(...TEXT, 'element vertex 1', ...XYZ.map((x) => x.replace('float', 'double')), 'end_header', '1e151 0 0'),
-  'nan.off': lines('OFF', '1 1 0', '0 nan 0', '1 0'),
-  'empty.ply': Buffer.of(),
-  'what.xyz': lines('hello'),
-  'facet.stl': lines('solid s', 'facet normal 0 0 1', 'outer loop', 'vertex 0 0 0'),
-  'markup.ply': lines(...TEXT, '<script>alert(1)</script>'),
   'escape.ply': lines(...TEXT, 'element \x1b[2J\x07 \x00'),
   '<img src=x onerror=alert(1)>.obj': lines('v 0'),
   'control \x01\x1b[2J\x7f\x85\n.obj': lines('v 0'),

@@ -45,16 +45,7 @@ test('a neighborhood of a point with seeds is that of the command line', () => {
   }
 });
 
-test('nested radii have the neighborhoods of each radius', () => {
-  const radii = Float64Array.of(1, 2.5, 4, 9);
-  const { counts, ids } = index.nested(333, radii, { walls });
-  radii.forEach((radius, i) => {
-    assert.deepEqual(ids.slice(0, counts[i]).sort(), index.neighborhood(333, radius, { walls, sort: 'id' }));
-  });
-  assert.throws(() => index.nested(333, Float64Array.of(2, 1)), { code: 'InvalidRadius', message: /more than 2/ });
-});
-
-for (const metric of ['path', 'rings']) {
+for (const metric of ['straight', 'path', 'rings']) {
   test(`nested radii by ${metric} have the neighborhoods of each radius, each ring in index order`, () => {
     const place = new Uint32Array(vertices);
     index.permutation.forEach((v, i) => { place[v] = i; });

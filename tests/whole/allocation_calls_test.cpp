@@ -14,6 +14,7 @@
 
 #include "support/failing_allocations.h"
 #include "support/families.h"
+#include "support/scale.h"
 
 namespace meshhood::test {
 namespace {
@@ -61,6 +62,8 @@ class AllocationInEachCall : public testing::Test {
   const Index index = build(mesh.view());
   const Surface surface{index, mesh.view()};
   const std::vector<VertexId> some{0, 1, 2, 17, 90, 91};
+  const std::vector<SpacePoint> points = std::vector<SpacePoint>(3, {3.1, 3.2, 9});
+  const std::vector<SpacePoint> down = std::vector<SpacePoint>(3, {0, 0, -1});
   std::vector<double> values = std::vector<double>(mesh.size());
   Shortages shortages;
 };
@@ -81,6 +84,27 @@ TEST_F(AllocationInEachCall, OfQueriesAndBatches) {
                        }});
     }
   }
+  for (const Nesting nesting : {Nesting::Own, Nesting::Patch}) {
+    const bool is_own = nesting == Nesting::Own;
+    calls.push_back({is_own ? "smoothing at two scales" : "variances of a patch", [=, this] {
+                       return aggregate(index, {values},
+                                        {.radius = BatchRadius::scales({2.0, 1.0}),
+                                         .reduce = {is_own ? Reduce::Mean : Reduce::Variance},
+                                         .kernel = is_own ? SmoothingKernel::Gaussian : SmoothingKernel::Box,
+                                         .nesting = nesting},
+                                        run);
+                     }});
+  }
+  for (const Metric metric : {Metric::Straight, Metric::Path}) {
+    const NearestOptions options{.metric = metric};
+    calls.push_back({"k nearest", [=, this] { return numbers(k_nearest(index, some, 20, options, run).ids); }});
+    calls.push_back({"discs", [=, this] {
+                       const Numbers ones(mesh.size(), 1.0);
+                       return numbers(discs(index, some, 20, ones, options, run).ids);
+                     }});
+  }
+  calls.push_back({"nearest unconnected", [&] { return nearest_unconnected(index, query(), run).distance; }});
+  calls.push_back({"nearest", [&] { return Numbers{nearest(index, points, run)[0].distance}; }});
   calls.push_back({"a searcher bound again", [&] {
                      const Index other = build(mesh.view(), run);
                      Searcher searcher(index);
@@ -112,6 +136,7 @@ TEST_F(AllocationInEachCall, OfShape) {
       {"persistence", [&] { return persistence(Numbers{1, 2, 3, 4}, Numbers{1, 2}, 1).strength; }},
       {"radii", [&] { return geometric_radii(1, 8, 4); }},
       {"corrected curvature", [&] { return corrected_curvatures(surface, query(), run).measures; }},
+      {"curvature", [&] { return curvatures(Surface(index, mesh.view()), query(), {}, run).d2; }},
       {"curvature by normals of the caller",
        [&] {
          const Numbers up(mesh.positions.size(), 0.5);
@@ -121,16 +146,30 @@ TEST_F(AllocationInEachCall, OfShape) {
 }
 
 TEST_F(AllocationInEachCall, OfTheSurface) {
+  const std::vector<VertexId> near = Searcher(index).neighborhood(17, 2.5);
   expect_each({
       {"invariants", [&] { return invariants(surface, query(), run).area; }},
       {"gaps", [&] { return Numbers{gaps(surface, query(), run)[0].distance}; }},
       {"a patch", [&] { return numbers(PatchSearcher(surface).patch(17, 2.5)); }},
       {"its measure", [&] { return Numbers{PatchSearcher(surface).measure(17, 2.5).area}; }},
       {"its gap", [&] { return Numbers{PatchSearcher(surface).gap(17, 2.5).distance}; }},
+      {"a clipped patch", [&] { return numbers(PatchSearcher(surface).clip(17, 2.5).faces); }},
       {"faces", [&] { return numbers(surface.on(index).faces(some, Corners::Any)); }},
+      {"a submesh",
+       [&] { return numbers(Surface(build(mesh.view(), run), mesh.view()).submesh(some, Corners::Any).corners); }},
+      {"its rim", [&] { return Numbers{surface.rim(near, points[0], kInfinity).points[0][0]}; }},
+      {"closest points", [&] { return Numbers{Surface(index, mesh.view()).closest_points(points, run)[0].distance}; }},
+      {"first hits", [&] { return Numbers{Surface(index, mesh.view()).first_hits(points, down, run)[0].distance}; }},
+      {"paths over the surface",
+       [&] {
+         const Index along = surface_paths(Surface(index, mesh.view()), run);
+         return numbers(Searcher(along, Metric::Path).neighborhood(17, 2.5));
+       }},
       {"areas", [&] { return areas_of(Surface(index, mesh.view())); }},
       {"areas of a mesh", [&] { return vertex_areas(mesh.view()); }},
       {"thickness by rays", [&] { return thickness(surface, some, ThicknessMethod::Ray, run); }},
+      {"thickness by spheres",
+       [&] { return thickness(Surface(index, mesh.view()), some, ThicknessMethod::Sphere, run); }},
       {"a refit in place",
        [&] {
          Index moving = build(mesh.view(), run);
@@ -143,6 +182,7 @@ TEST_F(AllocationInEachCall, OfTheSurface) {
 }
 
 TEST_F(AllocationInEachCall, OfTheIndexAndTheGraph) {
+  shortages.skip_to_every(20 / scaled(20));
   expect_each({
       {"quality", [&] { return Numbers{quality(index).gain}; }},
       {"check", [&] { return Numbers{static_cast<double>(index.check(mesh.view()).size())}; }},
@@ -156,6 +196,7 @@ TEST_F(AllocationInEachCall, OfTheIndexAndTheGraph) {
          const std::vector<VertexId> cut{0, 1};
          return numbers(cut_edges(all.view(), cut).neighbors);
        }},
+      {"faces as vertices", [&] { return numbers(face_graph(mesh.view()).adjacency.neighbors); }},
       {"points that are linked",
        [&] {
          const Index linked = build_linked(mesh.positions_view(), 1.5, {}, run);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Every allocation of a build, a save, a load, a query and a batch fails once (R2 and C5 of docs/reliability.md). The
 // call throws or succeeds without the memory; nothing leaks, and existing objects answer as before.
+// allocation_calls_test has the other calls.
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -13,28 +13,18 @@
 
 #include <gtest/gtest.h>
 
-#include "meshhood/aggregate.h"
 #include "meshhood/batch.h"
-#include "meshhood/curvature.h"
-#include "meshhood/face_graph.h"
 #include "meshhood/index.h"
-#include "meshhood/k_nearest.h"
-#include "meshhood/link_points.h"
 #include "meshhood/paper.h"
-#include "meshhood/patch.h"
 #include "meshhood/reference.h"
 #include "meshhood/refit.h"
 #include "meshhood/reorder.h"
 #include "meshhood/search.h"
 #include "meshhood/serialize.h"
-#include "meshhood/surface.h"
-#include "meshhood/unconnected.h"
 
 #include "batch/batch.h"
 #include "batch/position_sort.h"
-#include "exact/build/node_parts.h"
 #include "exact/query/single_queries.h"
-#include "support/divided_nodes.h"
 #include "support/failing_allocations.h"
 #include "support/families.h"
 #include "support/family_name.h"
@@ -257,25 +247,6 @@ TEST_P(Allocation, FailsInASearchAlongEdges) {
   expect_answered_along_edges<RingSearcher>(shortages, mesh, index);
 }
 
-TEST_P(Allocation, FailsInARegionMesh) {
-  std::vector<VertexId> ids;
-  Searcher(index).neighborhood(0, distance(mesh.view().positions, 0, 9), ids);
-  const SpacePoint center = point_on_face(index, std::array<VertexId, 1>{0}, std::array{1.0});
-  const auto make = [&](std::optional<Submesh>& made) {
-    const Surface surface(build(mesh.view()), mesh.view());
-    static_cast<void>(surface.rim(ids, center, kInfinity));
-    made = surface.submesh(ids, Corners::Any);
-  };
-  std::optional<Submesh> well;
-  make(well);
-  shortages.fail_each(nothing_yet<Submesh>(), make, [&](const std::optional<Submesh>& made, Ending ending) {
-    EXPECT_EQ(made.has_value(), ending == Ending::Well);
-    if (made) {
-      EXPECT_EQ(made->corners, well->corners);
-    }
-  });
-}
-
 TEST_P(Allocation, FailsInAQueryOfThePapersIndex) { expect_queries<paper::Searcher>(shortages, mesh, paper_index); }
 
 TEST_P(Allocation, FailsInABreadthFirstSearch) {
@@ -361,109 +332,6 @@ TEST_P(Allocation, FailsInABatchOnTwoThreads) {
   expect_batches(shortages, mesh, paper_index, 2);
 }
 
-TEST_P(Allocation, FailsInAnAggregate) {
-  const std::vector<double> values(mesh.size(), 1.0);
-  const double radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4;
-  for (const auto& [reduce, kernel] :
-       std::initializer_list<std::pair<Reduce, SmoothingKernel>>{{Reduce::Mean, SmoothingKernel::Biweight},
-                                                                 {Reduce::Mean, SmoothingKernel::Gaussian},
-                                                                 {Reduce::Maximum, SmoothingKernel::Box},
-                                                                 {Reduce::Variance, SmoothingKernel::Box}}) {
-    const AggregateQuery query{.radius = BatchRadius::scales({radius, radius / 2}),
-                               .reduce = {reduce},
-                               .kernel = kernel,
-                               .nesting = reduce == Reduce::Mean ? Nesting::Own : Nesting::Patch};
-    const std::vector<double> expected = aggregate(index, {values}, query, kOneThread);
-    shortages.fail_each([] { return std::vector<double>(); },
-                        [&](std::vector<double>& result) { result = aggregate(index, {values}, query, kOneThread); },
-                        [&](const std::vector<double>& result, Ending ending) {
-                          EXPECT_EQ(result, ending == Ending::Well ? expected : std::vector<double>());
-                        });
-  }
-}
-
-TEST_P(Allocation, FailsInACurvature) {
-  if (mesh.face_count() == 0) GTEST_SKIP() << "no faces, no normals";
-  const double radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4;
-  const std::vector<VertexId> some{0, 1, 2, 17, 130, 131};
-  const auto fit = [&] {
-    return curvatures(Surface(index, mesh.view()), {.vertices = some, .radius = radius}, {}, kOneThread);
-  };
-  const Curvatures expected = fit();
-  shortages.fail_each(
-      nothing_yet<Curvatures>(), [&](std::optional<Curvatures>& made) { made = fit(); },
-      [&](const std::optional<Curvatures>& made, Ending ending) {
-        ASSERT_EQ(made.has_value(), ending == Ending::Well);
-        if (!made) return;
-        EXPECT_EQ(made->k1, expected.k1);
-        EXPECT_EQ(made->d2, expected.d2);
-        EXPECT_EQ(made->state, expected.state);
-      });
-}
-
-TEST_P(Allocation, FailsInACallForTheNearest) {
-  const double radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4;
-  const std::vector<VertexId> some{0, 1, 2, 17, 130, 131};
-  const TestMesh grid = make_grid(9, 9, false);
-  // Each returns a list of ids.
-  std::vector<std::function<std::vector<VertexId>()>> calls{
-      [&] { return nearest_unconnected(index, {.vertices = some, .radius = radius}, kOneThread).vertex; },
-      [&] { return k_nearest(index, some, 20, {}, kOneThread).ids; },
-      [&] { return k_nearest(index, some, 20, {.metric = Metric::Path}, kOneThread).ids; },
-      [&] { return discs(index, some, 20, std::vector<double>(mesh.size(), 1.0), {}, kOneThread).ids; },
-      [&] {
-        std::vector<VertexId> found;
-        for (const auto& [vertex, distance] : nearest(index, std::vector<SpacePoint>(3), kOneThread)) {
-          found.push_back(vertex);
-        }
-        return found;
-      },
-      [&] { return link_points(mesh.positions_view(), radius / 2, {}, kOneThread).neighbors; },
-      [&] { return face_graph(grid.view()).adjacency.neighbors; }};
-  if (mesh.face_count() != 0) {
-    calls.emplace_back([&] {
-      const Surface surface(index, mesh.view().faces);
-      const std::vector<SurfacePoint> found = surface.closest_points(std::vector<SpacePoint>(3), kOneThread);
-      return std::vector<VertexId>{static_cast<VertexId>(found[0].face)};
-    });
-    calls.emplace_back([&] {
-      const Index along = surface_paths(Surface(index, mesh.view().faces), kOneThread);
-      return Searcher(along, Metric::Path).neighborhood(0, radius);
-    });
-    calls.emplace_back([&] {
-      const std::vector<SpacePoint> origins(3, {0.1, 0.2, 9});
-      const std::vector<SpacePoint> directions(3, {0, 0, -1});
-      const Surface surface(index, mesh.view().faces);
-      const std::vector<SurfacePoint> found = surface.first_hits(origins, directions, kOneThread);
-      return std::vector<VertexId>{static_cast<VertexId>(found[0].face)};
-    });
-    calls.emplace_back([&] {
-      const Surface surface(index, mesh.view().faces);
-      std::vector<VertexId> finite;
-      for (const double across : thickness(surface, some, ThicknessMethod::Sphere, kOneThread)) {
-        finite.push_back(static_cast<VertexId>(across < kInfinity));
-      }
-      return finite;
-    });
-    calls.emplace_back([&] {
-      const Surface surface(index, mesh.view().faces);
-      const ClippedMesh part = PatchSearcher(surface).clip(0, 2 * radius);
-      return std::vector<VertexId>{static_cast<VertexId>(part.triangles.size()), part.triangles.back()[0]};
-    });
-  }
-  for (const auto& call : calls) {
-    const std::vector<VertexId> expected = call();
-    shortages.fail_each(
-        nothing_yet<std::vector<VertexId>>(), [&](std::optional<std::vector<VertexId>>& made) { made = call(); },
-        [&](const std::optional<std::vector<VertexId>>& made, Ending ending) {
-          ASSERT_EQ(made.has_value(), ending == Ending::Well);
-          if (made) {
-            EXPECT_EQ(*made, expected);
-          }
-        });
-  }
-}
-
 TEST_P(Allocation, FailsInABuildOnTwoThreads) {
   // Large enough to divide each step between two threads.
   const TestMesh large = make_mesh(GetParam(), 1, 5000);
@@ -504,26 +372,6 @@ TEST(AllocationInASort, LeavesTheSameRows) {
                         EXPECT_TRUE(std::ranges::is_sorted(sorted) || ending == Ending::OutOfMemory);
                         EXPECT_TRUE(std::ranges::is_permutation(sorted, rows));
                       });
-}
-
-TEST(AllocationInTheDissolvingOfParts, LeavesEachNodeInOnePart) {
-  Shortages shortages;
-  Random random(3);
-  for (int i = 0; i < 20; ++i) {
-    const DividedNodes before = draw_divided_nodes(random);
-    shortages.fail_each([&] { return before.node_parts(); }, dissolve_small_parts,
-                        [&](const NodeParts& after, Ending ending) {
-                          if (ending == Ending::Well) {
-                            EXPECT_EQ(fault_of(before, after), "");
-                          }
-                          std::size_t nodes = 0;
-                          for (std::uint32_t part = 0; part < after.size(); ++part) {
-                            for (const std::uint32_t node : after[part]) EXPECT_EQ(after.part_of(node), part);
-                            nodes += after[part].size();
-                          }
-                          EXPECT_EQ(nodes, before.graph.size());
-                        });
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Allocation, testing::ValuesIn(three_families()), family_name);

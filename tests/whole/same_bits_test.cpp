@@ -22,6 +22,7 @@
 #include "support/limited_isa.h"
 #include "support/oracle.h"
 #include "support/random.h"
+#include "support/scale.h"
 
 namespace meshhood::test {
 namespace {
@@ -284,16 +285,21 @@ Bits bits_of(const Call& call, const std::vector<VertexId>& rows, unsigned threa
   return bits;
 }
 
-/// Calls `f(scene, call)` for all calls without masks, and with masks at the last radius.
+/// Calls `f(scene, call)` for all calls without masks, and with masks at the last radius; or each time for a share of
+/// the calls, others than the time before.
 template <class F>
 void for_each_call(const std::vector<double>& radii, F&& f) {
   std::vector<Scene> all = scenes();
+  std::size_t times = 0;
   for (Scene& scene : all) {
     for (const double edges : radii) {
       for (const bool has_masks : {false, true}) {
         if (has_masks && edges != radii.back()) continue;
         scene.set_masks(has_masks);
-        for (const Call& call : all_calls(scene, edges * scene.edge)) {
+        const std::vector<Call> calls = all_calls(scene, edges * scene.edge);
+        const std::size_t step = calls.size() / scaled(calls.size(), 4);
+        for (std::size_t i = times++ % step; i < calls.size(); i += step) {
+          const Call& call = calls[i];
           SCOPED_TRACE(call.name + ", " + std::to_string(edges) + " edges" + (has_masks ? ", masks" : ""));
           f(scene, call);
           if (testing::Test::HasFatalFailure()) return;
