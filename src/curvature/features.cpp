@@ -44,12 +44,10 @@ Source source_of(Feature kind) {
   }
 }
 
-double crease(double k1, double k2) { return std::abs(k1) >= std::abs(k2) ? k1 : k2; }
-
 /// From the curvatures, times the radius.
 double curvature_feature(Feature kind, double k1, double k2) {
   switch (kind) {
-    case Feature::Crease: return crease(k1, k2);
+    case Feature::Crease: return std::abs(k1) >= std::abs(k2) ? k1 : k2;
     case Feature::Mean: return (k1 + k2) / 2;
     case Feature::Gaussian: return k1 * k2;
     case Feature::K1: return k1;

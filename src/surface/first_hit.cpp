@@ -89,16 +89,14 @@ SurfacePoint surface_point(const SurfaceState& state, const FaceTree& tree, cons
 }
 
 /// Every triangle that a ray meets counts.
-struct EachCounts {
-  bool operator()(std::size_t, const TrianglePoint&) const { return true; }
-};
+constexpr auto kEachCounts = [](std::size_t, const TrianglePoint&) { return true; };
 
 /// Finds the first hit of each ray from `begin` to `end`, of several rays by turns, and calls `visit(i, point)`.
 template <class RayOf, class Visit>
 void search_together(const SurfaceState& state, const FaceTree& tree, std::size_t begin, std::size_t end,
                      RayOf&& ray_of, Visit&& visit) {
   struct Started {
-    std::optional<FirstHitSearch<EachCounts>> search;
+    std::optional<FirstHitSearch<decltype(kEachCounts)>> search;
     std::size_t ray = 0;
   };
   std::array<Started, kRaysTogether> places;
@@ -109,7 +107,7 @@ void search_together(const SurfaceState& state, const FaceTree& tree, std::size_
     if (next == end) return false;
     free.ray = next++;
     const auto [origin, direction] = ray_of(free.ray);
-    free.search.emplace(*state.index, tree, origin, direction, EachCounts{});
+    free.search.emplace(*state.index, tree, origin, direction, kEachCounts);
     return true;
   };
   std::size_t running = 0;
@@ -172,7 +170,7 @@ SurfacePoint Surface::first_hit(const SpacePoint& origin, const SpacePoint& dire
   TaskContext alone;
   const FaceTree& tree = state.tree(alone);
   return surface_point(state, tree,
-                       find_first_hit(*state.index, tree, to_point(origin), to_point(direction), EachCounts{}));
+                       find_first_hit(*state.index, tree, to_point(origin), to_point(direction), kEachCounts));
 }
 
 std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origins,

@@ -68,10 +68,6 @@ class OppositeSide {
     return is_opposite(doubled_area(*index_, tree_->triangles()[i]), normal_);
   }
 
-  [[nodiscard]] std::array<Point, 3> corners(std::size_t i) const {
-    return corners_of(*index_, tree_->triangles()[i].corners);
-  }
-
   /// Along the ray, to the first of the faces for which `is_counted(i)`.
   template <class IsCounted>
   [[nodiscard]] double way_to_first(IsCounted&& is_counted) const {
@@ -90,7 +86,8 @@ class OppositeSide {
         index_->frame.to_frame(center), [&] { return reach_of(std::min(radius, nearest.at.distance) * scale, scale); },
         [&](std::size_t i) {
           if (touches(i) || !opposes(i)) return;
-          const TriangleHit found{i, nearest_in_triangle(center, corners(i), scale)};
+          const std::array<Point, 3> corners = corners_of(*index_, tree_->triangles()[i].corners);
+          const TriangleHit found{i, nearest_in_triangle(center, corners, scale)};
           if (precedes(found, nearest, tree_->triangles())) nearest = found;
         },
         [&](std::size_t level, std::size_t group) { return cones.may_oppose(level, group, normal_); });
