@@ -40,12 +40,6 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
   limit.check_sample(sizes, "about ");
 }
 
-/// How many ids each of `threads` may count before it adds them. All together are at most a sixteenth of the limit.
-std::uint64_t ids_at_once(const SizeLimit& limit, unsigned threads) {
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 16;
-  return std::min(kMost, limit.max_items() / (std::uint64_t{16} * threads));
-}
-
 /// Of the result.
 SizeLimit limit_of(const BatchOptions& options, const Run& run, std::size_t rows) {
   return {run.max_bytes, sizeof(VertexId) + (options.distances ? sizeof(double) : 0), rows};
@@ -57,8 +51,8 @@ struct ForWriting {
   KeptChunks& kept;
 };
 
-/// Ids that a thread has counted and not yet added to the limit. It seldom adds them, because threads wait for each
-/// other to change a number that they share. Not beside those of another thread.
+/// Ids that a thread has counted and not yet added to the limit (see `share_at_once`). Not beside those of another
+/// thread.
 struct alignas(64) NewIds {
   std::uint64_t count = 0;
 };
@@ -66,7 +60,7 @@ struct alignas(64) NewIds {
 /// `writing` is null for rows that are only counted.
 void count_rows(Batch& batch, std::uint64_t* sizes, const ForWriting* writing) {
   const unsigned threads = batch.task().threads();
-  const std::uint64_t most_ids = writing == nullptr ? 0 : ids_at_once(writing->limit, threads);
+  const std::uint64_t most_ids = writing == nullptr ? 0 : share_at_once(writing->limit.max_items(), threads);
   std::vector<NewIds> new_ids(threads);
   batch.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
     std::uint64_t& ids = new_ids[thread].count;

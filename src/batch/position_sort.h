@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "meshhood/start.h"
+
+#include "base/frame.h"
 #include "shared/distance.h"
 #include "shared/parallel.h"
 #include "shared/raw_vector.h"
@@ -65,6 +69,23 @@ template <class At>
     return spread(p.x) | spread(p.y) << 1U | spread(p.z) << 2U;
   };
   return rows_by_position(rows, position, task);
+}
+
+/// Calls `visit(row, search.run(point))` for all points, on any thread: along the curve, with a search of its own, made
+/// by `make()`, for some that follow each other. Finishes `task`.
+template <class Make, class Visit>
+void search_along_curve(std::span<const SpacePoint> points, const Frame& frame, TaskContext& task, const Make& make,
+                        const Visit& visit) {
+  constexpr std::size_t kPointsOfSearch = 256;
+  const auto point_of = [&](std::size_t row) { return Point{points[row][0], points[row][1], points[row][2]}; };
+  const RawVector<std::size_t> in_order =
+      rows_along_curve(points.size(), [&](std::size_t row) { return frame.to_frame(point_of(row)); }, task);
+  task.parallel_for(points.size(), kPointsOfSearch, [&](unsigned thread, std::size_t begin, std::size_t end) {
+    auto search = make();
+    for (std::size_t i = begin; i < end; ++i) visit(in_order[i], search.run(point_of(in_order[i])));
+    task.advance(thread, end - begin);
+  });
+  task.finish();
 }
 
 }  // namespace meshhood::inline v0_1

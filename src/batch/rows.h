@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -23,6 +24,13 @@ namespace meshhood::inline v0_1 {
 /// Memory for `count` ids, and as many distances if they are wanted. Throws Error{InvalidOption} if it is not for
 /// these.
 [[nodiscard]] BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances);
+
+/// How much of a limit each thread may use before it adds that to what all have used: threads wait for each other to
+/// change a number that they share. All together are at most a sixteenth of the limit.
+[[nodiscard]] inline std::uint64_t share_at_once(std::uint64_t limit, unsigned threads) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 16;
+  return std::min(kMost, limit / (std::uint64_t{16} * threads));
+}
 
 /// The rows of a batch, checked. A copy: nothing that the caller changes later has an effect.
 class Rows {

@@ -88,12 +88,14 @@ class Stream {
     std::size_t size;
   };
 
-  /// Keeps the rows of a window. It seldom adds their bytes to those of the window, because threads wait for each other
-  /// to change a number that they share.
+  /// Keeps the rows of a window. It seldom adds their bytes to those of the window (see `share_at_once`).
   class WindowRows final : public RowReceiver {
    public:
     WindowRows(Stream& stream, unsigned thread, std::size_t first)
-        : stream_(stream), thread_(thread), first_(first), bytes_at_once_(stream.bytes_at_once()) {}
+        : stream_(stream),
+          thread_(thread),
+          first_(first),
+          bytes_at_once_(share_at_once(stream.batch_.options().buffer_bytes, stream.batch_.task().threads())) {}
     WindowRows(const WindowRows&) = delete;
     WindowRows& operator=(const WindowRows&) = delete;
     ~WindowRows() override { stream_.bytes_ += new_bytes_; }
@@ -148,12 +150,6 @@ class Stream {
           batch_.worker(thread).find(chunk.items, batch_.options().distances, receiver, nullptr);
         });
     return fits();
-  }
-
-  /// How many bytes a thread may keep before it adds them. Those of all threads are at most a sixteenth of the limit.
-  [[nodiscard]] std::size_t bytes_at_once() const {
-    constexpr std::size_t kMost = std::size_t{1} << 16;
-    return std::min(kMost, batch_.options().buffer_bytes / (16 * std::size_t{batch_.task().threads()}));
   }
 
   [[nodiscard]] bool fits() const { return bytes_ <= batch_.options().buffer_bytes || waiting_.size() == 1; }

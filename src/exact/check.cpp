@@ -9,11 +9,12 @@
 
 #include "meshhood/index.h"
 
+#include "exact/build/forest.h"
 #include "exact/build/links.h"
-#include "exact/build/node_links.h"
 #include "exact/build/tree.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
+#include "exact/neighbors.h"
 #include "exact/node_search.h"
 #include "simd/kernels.h"
 
@@ -52,6 +53,7 @@ class Check {
     // The other checks look up vertices by their numbers.
     if (!faults_.none()) return faults_.take();
     check_positions();
+    check_boundaries();
     check_edges();
     check_connected();
     check_forest();
@@ -102,10 +104,7 @@ class Check {
 
   void check_edges() {
     std::vector<std::vector<VertexId>> rows(index_.vertex_count());
-    for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) {
-      add_edges_within(leaf, rows);
-      add_edges_out(leaf, rows);
-    }
+    for_each_edge(index_, [&](std::size_t from, std::size_t to) { rows[index_.id(from)].push_back(index_.id(to)); });
     for (std::size_t v = 0; v < rows.size(); ++v) {
       std::sort(rows[v].begin(), rows[v].end());
       const auto given = graph_.adjacency[v];
@@ -114,29 +113,16 @@ class Check {
     }
   }
 
-  void add_edges_within(std::size_t leaf, std::vector<std::vector<VertexId>>& rows) const {
-    const std::size_t begin = index_.leaf_begin[leaf];
-    for (std::size_t v = begin; v < leaf_end(leaf); ++v) {
-      for (unsigned lane = 0; lane < leaf_end(leaf) - begin; ++lane) {
-        if ((index_.adjacency[v] >> lane & 1U) == 0) continue;
-        rows[index_.id(v)].push_back(index_.id(begin + lane));
+  void check_boundaries() {
+    for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) {
+      for (const Link& link : index_.links_of(leaf)) {
+        LaneMask boundary = 0;
+        for (const CrossEdge& edge : index_.cross_edges_of(link)) boundary |= LaneMask{1} << edge.from;
+        faults_.expect(boundary == link.boundary, [&] {
+          return leaf_name(leaf) + ": the boundary of its link to leaf " + std::to_string(link.leaf) +
+                 " does not match the cross edges";
+        });
       }
-    }
-  }
-
-  void add_edges_out(std::size_t leaf, std::vector<std::vector<VertexId>>& rows) {
-    const std::size_t mine = index_.leaf_begin[leaf];
-    for (const Link& link : index_.links_of(leaf)) {
-      const std::size_t others = index_.leaf_begin[link.leaf];
-      LaneMask boundary = 0;
-      for (const CrossEdge& cross_edge : index_.cross_edges_of(link)) {
-        rows[index_.id(mine + cross_edge.from)].push_back(index_.id(others + cross_edge.to));
-        boundary |= LaneMask{1} << cross_edge.from;
-      }
-      faults_.expect(boundary == link.boundary, [&] {
-        return leaf_name(leaf) + ": the boundary of its link to leaf " + std::to_string(link.leaf) +
-               " does not match the cross edges";
-      });
     }
   }
 

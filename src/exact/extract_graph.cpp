@@ -36,11 +36,14 @@ PositionsData positions_of(const IndexView& index, TaskContext& task) {
       index.positions);
 }
 
-Adjacency adjacency_of(const IndexView& index, TaskContext& task) {
+}  // namespace
+
+Adjacency gather_edges(const IndexView& index, std::span<const VertexId> names, TaskContext& task) {
+  const auto name = [&](std::size_t v) { return names.empty() ? static_cast<VertexId>(v) : names[v]; };
   Adjacency result = gather_rows(index.vertex_count(), [&](auto&& f) {
     for_each_edge(index, [&](std::size_t from, std::size_t to) {
       poll_cancel(task, from);
-      f(index.id(from), index.id(to));
+      f(name(from), name(to));
     });
   });
   for (std::size_t v = 0; v < index.vertex_count(); ++v) {
@@ -51,10 +54,8 @@ Adjacency adjacency_of(const IndexView& index, TaskContext& task) {
   return result;
 }
 
-}  // namespace
-
 GraphData extract_graph(const IndexView& index, TaskContext& task) {
-  return {positions_of(index, task), adjacency_of(index, task)};
+  return {positions_of(index, task), gather_edges(index, index.permutation, task)};
 }
 
 GraphData extract_graph(const Index& index) {

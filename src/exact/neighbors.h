@@ -2,8 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+
+#include "meshhood/adjacency.h"
 
 #include "exact/layout.h"
+#include "shared/parallel.h"
 
 namespace meshhood::inline v0_1 {
 
@@ -37,5 +41,8 @@ void for_each_neighbor(const IndexView& index, std::uint32_t slot, F&& f) {
     }
   }
 }
+
+/// All edges; rows ascend. A vertex is named by its place in index order, or by what `names` has there. Polls `task`.
+[[nodiscard]] Adjacency gather_edges(const IndexView& index, std::span<const VertexId> names, TaskContext& task);
 
 }  // namespace meshhood::inline v0_1

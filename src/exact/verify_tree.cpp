@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "exact/build/node_links.h"
+#include "exact/build/forest.h"
 #include "exact/build/tree.h"
 #include "exact/node_search.h"
 #include "exact/verify.h"

@@ -16,20 +16,6 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-Adjacency make_edges(const IndexView& index) {
-  Adjacency edges = gather_rows(index.vertex_count(), [&](auto&& f) {
-    for_each_edge(index,
-                  [&](std::size_t from, std::size_t to) { f(static_cast<VertexId>(from), static_cast<VertexId>(to)); });
-  });
-  const auto row = [&](std::size_t v) {
-    return edges.neighbors.begin() + static_cast<std::ptrdiff_t>(edges.offsets[v]);
-  };
-  for (std::size_t v = 0; v < index.vertex_count(); ++v) {
-    std::sort(row(v), row(v + 1));
-  }
-  return edges;
-}
-
 /// Calls `f(k, length)` for the edges `k` of a vertex.
 template <class Real, class F>
 void for_each_length(const Adjacency& edges, std::span<const Real> xyz, std::size_t vertex, F&& f) {
@@ -59,7 +45,9 @@ KeptGraph::KeptGraph(WeightedGraph graph) {
 
 const WeightedGraph& KeptGraph::of(const IndexView& index) {
   return graph_.get([&] {
-    return make_weighted_graph(index, edges_ ? edges_ : std::make_shared<const Adjacency>(make_edges(index)));
+    TaskContext task;
+    return make_weighted_graph(index,
+                               edges_ ? edges_ : std::make_shared<const Adjacency>(gather_edges(index, {}, task)));
   });
 }
 

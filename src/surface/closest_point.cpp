@@ -22,8 +22,6 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-constexpr std::size_t kPointsOfTask = 256;
-
 /// 0 where squares of lengths vanish.
 double share_of(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
@@ -154,19 +152,8 @@ void Surface::for_each_closest_point(std::span<const SpacePoint> points, const S
   for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points", i);
   TaskContext task(run.threads, run.progress, points.size());
   const FaceTree& tree = state.tree(task);
-  const auto in_frame = [&](std::size_t i) {
-    return state.index->frame.to_frame({points[i][0], points[i][1], points[i][2]});
-  };
-  const RawVector<std::size_t> in_order = rows_along_curve(points.size(), in_frame, task);
-  task.parallel_for(points.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    ClosestPoint search(*state.index, state.faces(), tree);
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto& [x, y, z] = points[in_order[i]];
-      visit(in_order[i], search.run({x, y, z}));
-    }
-    task.advance(thread, end - begin);
-  });
-  task.finish();
+  search_along_curve(
+      points, state.index->frame, task, [&] { return ClosestPoint(*state.index, state.faces(), tree); }, visit);
 }
 
 }  // namespace meshhood::inline v0_1

@@ -16,7 +16,7 @@
 
 #include "meshhood/error.h"
 
-#include "exact/build/node_links.h"
+#include "exact/build/forest.h"
 #include "exact/build/tree.h"
 #include "exact/layout.h"
 #include "support/families.h"

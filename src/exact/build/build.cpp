@@ -10,9 +10,9 @@
 
 #include "base/adjacency.h"
 #include "base/validate.h"
+#include "exact/build/forest.h"
 #include "exact/build/leaves.h"
 #include "exact/build/links.h"
-#include "exact/build/node_links.h"
 #include "exact/build/tree.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"

@@ -25,11 +25,9 @@ struct LeafPartition {
   Links links;                       // by place of a leaf
 };
 
-/// The steps that `make_leaves` reports: cells, the edges by cell, leaves.
-inline constexpr std::size_t kLeafSteps = 3;
-
 /// Divides the vertices into leaves of 1 to 32 vertices that lie close together and are connected; small components of
-/// the mesh share leaves. Groups the leaves. Vertices within a leaf keep the caller's order.
+/// the mesh share leaves. Groups the leaves. Vertices within a leaf keep the caller's order. Reports three steps:
+/// cells, their edges, leaves.
 ///
 /// positions, edges  valid
 /// frame             the frame of the positions
