@@ -17,6 +17,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "meshhood/error.h"
 #include "meshhood/kernel_target.h"
@@ -116,8 +117,9 @@ bool are_numbers(std::span<const std::string> words) {
   return std::all_of(words.begin(), words.end(), [](const std::string& word) { return io::parse_real<double>(word); });
 }
 
-/// Turns `--point X Y Z` into `--point X,Y,Z`, and `--weld EPS` into `--weld=EPS`. An option of CLI11 with one to three
-/// values would also take the FILE that follows `--point X,Y,Z`, and a flag takes no value after a blank.
+/// Turns `--point X Y Z` into `--point X,Y,Z`, as an option of CLI11 with one to three values would also take the FILE
+/// that follows `--point X,Y,Z`; and `--weld EPS` into `--weld=EPS`, as a flag of CLI11 takes no value after a blank. A
+/// FILE whose name is a number is given as ./7.
 void join_values(std::vector<std::string>& arguments) {
   constexpr std::size_t kAxes = 3;
   std::vector<std::string> joined;
@@ -125,6 +127,10 @@ void join_values(std::vector<std::string>& arguments) {
     const std::string& name = rest.front();
     rest = rest.subspan(1);
     joined.push_back(name);
+    if (name == "--") {
+      joined.insert(joined.end(), rest.begin(), rest.end());
+      break;
+    }
     if (name == "--point" && rest.size() >= kAxes && are_numbers(rest.first(kAxes))) {
       joined.push_back(fmt::format("{}", fmt::join(rest.first(kAxes), ",")));
       rest = rest.subspan(kAxes);

@@ -280,8 +280,8 @@ class Aggregation {
   [[nodiscard]] PacketForm packet_form() const {
     const bool has_weights = query_.kernel != SmoothingKernel::Box;
     if (is_along_edges(query_.metric) && (has_weights || shares_search())) return PacketForm::WithLengths;
-    // Reducers that take nodes get them in one order from any pieces.
-    return query_.kernel == SmoothingKernel::Gaussian ? PacketForm::InOrder : PacketForm::AsFound;
+    // Box reducers get nodes in index order from pieces in any order, so that bits do not depend on the packet.
+    return has_weights ? PacketForm::InOrder : PacketForm::AsFound;
   }
 
   /// `blocks`: how many blocks of channels it reduces.

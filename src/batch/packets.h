@@ -22,8 +22,8 @@ using PacketVisitorFactory = std::function<PacketVisitor(unsigned thread)>;
 /// What the visitors read.
 enum class PacketForm : std::uint8_t {
   InOrder,      // the pieces of a packet in index order
-  AsFound,      // in another order, which saves up to a tenth of the time where it does not matter
-  WithLengths,  // in index order, with lengths by paths and by rings
+  AsFound,      // in any order, which may depend on the packet; faster
+  WithLengths,  // as InOrder; with lengths, by paths and by rings
 };
 
 /// Visits the neighborhoods of all rows of `query` by its metric, each row in one packet, packets in no stated order.
@@ -38,7 +38,7 @@ enum class PacketForm : std::uint8_t {
 /// 8 bytes a row, of at most 2^22 rows at a time, and 16 where these are not in index order; and for each thread a
 /// searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).
 ///
-/// form    with lengths, rings are searched row by row.
+/// form    what the visitors read. For `WithLengths`, rings are searched row by row.
 ///
 /// All arguments are checked before the first packet is computed. An exception from a visitor, the factory or
 /// `run.progress` ends the call; it is passed on once all threads have stopped.

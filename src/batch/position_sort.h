@@ -71,8 +71,8 @@ template <class At>
   return rows_by_position(rows, position, task);
 }
 
-/// Calls `visit(row, search.run(point))` for all points, on any thread: along the curve, with a search of its own, made
-/// by `make()`, for some that follow each other. Finishes `task`.
+/// Calls `visit(row, search.run(point))` for each point, on any thread and in no stated order. `make()` makes a search
+/// for each run of points that follow each other along the curve. Finishes `task`.
 template <class Make, class Visit>
 void search_along_curve(std::span<const SpacePoint> points, const Frame& frame, TaskContext& task, const Make& make,
                         const Visit& visit) {

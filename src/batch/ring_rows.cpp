@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Rows by the number of edges: one breadth-first search for up to 32 queries of a leaf, and the rows that it gives.
 #include <algorithm>
 #include <cassert>
 #include <cstddef>

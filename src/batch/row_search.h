@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// How a metric answers the rows of a batch, and the writer that the metrics share.
 #pragma once
 
 #include <cassert>

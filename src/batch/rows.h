@@ -25,8 +25,8 @@ namespace meshhood::inline v0_1 {
 /// these.
 [[nodiscard]] BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances);
 
-/// How much of a limit each thread may use before it adds that to what all have used: threads wait for each other to
-/// change a number that they share. All together are at most a sixteenth of the limit.
+/// How much of a limit each thread may use before it adds that to the number that all share. It adds seldom, because
+/// threads wait for each other there. All together are at most a sixteenth of the limit.
 [[nodiscard]] inline std::uint64_t share_at_once(std::uint64_t limit, unsigned threads) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 16;
   return std::min(kMost, limit / (std::uint64_t{16} * threads));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The triangles of the faces of a mesh, and the meshlets that they form.
 #pragma once
 
 #include <algorithm>

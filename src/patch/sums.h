@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// The area and the volume of a patch, summed from its triangles and from the arcs of its rim; and the ball that cuts
+// it.
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Compiles the core and some of its tests for AArch64, and runs them in QEMU: the golden files, the kernels, and a sample
-# of queries compared with the oracle. So answers and files have the same bits on processors with NEON.
+# Compiles the core and some of its tests for AArch64, and runs them in QEMU: the golden files, the kernels, whole calls
+# with each target, and a sample of queries compared with the oracle. So answers and files have the same bits on processors with NEON.
 # Usage: aarch64.sh FOLDER HEADERS TESTS CORE KERNELS..., where FOLDER is for what it makes, HEADERS holds the headers of
 # libraries, TESTS is tests/ of the repository, CORE includes all sources but KERNELS
 set -eu
@@ -24,7 +24,7 @@ golden="-DMESHHOOD_GOLDEN_DIR=\"$tests/golden\""
   compile "$core" -O1
   for source in "$@"; do compile "$source" -O2; done
   compile "$tests/golden/golden_test.cpp" -O0
-  compile "$tests/whole/differential_test.cpp" -O0
+  for name in differential same_bits; do compile "$tests/whole/${name}_test.cpp" -O0; done
   for source in "$tests"/simd/*.cpp; do compile "$source" -O0; done
   for source in "$tests"/support/families*.cpp "$tests/support/oracle.cpp"; do compile "$source" -O1; done
   for name in googletest/src/gtest-all.cc googlemock/src/gmock-all.cc googlemock/src/gmock_main.cc; do

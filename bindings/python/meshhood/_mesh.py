@@ -241,8 +241,6 @@ def _is_mesh(V):
 def _parts(mesh):
     """Positions and faces of a mesh of another library or of this package."""
     _refuse_path(mesh, "V")
-    if hasattr(mesh, "V") and hasattr(mesh, "F"):  # Submesh
-        return mesh.V, mesh.F
     if hasattr(mesh, "mesh") and hasattr(mesh, "data"):  # nilearn's SurfaceImage
         mesh = mesh.mesh
     if hasattr(mesh, "parts"):
@@ -263,6 +261,8 @@ def _parts(mesh):
         for kind in ("strips", "lines"):
             _refuse_cells(getattr(mesh, f"n_{kind}", 0), kind, "mesh.triangulate()")
         return mesh.points, _pyvista_faces(mesh)
+    if all(hasattr(mesh, name) for name in ("V", "F", "vertices", "faces")):  # Submesh, whose `faces` are rows
+        return mesh.V, mesh.F
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         return mesh.vertices, mesh.faces
     if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):  # Open3D

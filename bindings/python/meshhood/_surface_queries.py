@@ -255,8 +255,8 @@ class SurfaceQueries(Held):
         The normal is that of the faces of the vertex, weighted by their areas. With other normals, such as that of one of
         the faces, which trimesh takes unless given some, the values of uneven meshes differ.
 
-        Faces with the vertex as a corner do not count. It is inf where nothing else is met, with a warning if that is more
-        than half of several rows, and NaN for a vertex without a normal.
+        Faces with the vertex as a corner do not count. It is inf where nothing else is met, and NaN for a vertex without
+        a normal. A call for several vertices warns if more than half are inf.
 
         >>> across = meshhood.MeshIndex(V, F).thickness()
         >>> bool((abs(across - 2) < 0.02).all())  # of the unit sphere
@@ -267,11 +267,11 @@ class SurfaceQueries(Held):
         found = rows.ask(self._surface(F).thickness, by_sphere=by_sphere)
         if rows.shape == ():
             return float(found[0])
-        open_rows = np.count_nonzero(np.isinf(found))
-        if len(found) > 1 and 2 * open_rows > len(found):
+        open_rows, measured = np.count_nonzero(np.isinf(found)), np.count_nonzero(~np.isnan(found))
+        if len(found) > 1 and 2 * open_rows > measured:
             warnings.warn(
-                f"thickness: inf for {open_rows} of {len(found)} vertices, behind which there is no surface; if the faces are "
-                "clockwise, seen from outside, pass F=F[:, ::-1]",
+                f"thickness: inf for {open_rows} of {measured} vertices, behind which there is no surface; if the faces are "
+                "clockwise, seen from outside, pass F=F[:, ::-1]; an open sheet has no thickness",
                 stacklevel=2,
             )
         return found
@@ -298,8 +298,8 @@ class SurfaceQueries(Held):
         r : only vertices within this connecting radius, path length or number of edges.
         metric : "straight": the nearest by connecting radius, the smallest radius whose neighborhood has the vertex,
             then by distance, then by id, as for `nearest_connected`; the distances are the connecting radii. "path": by
-            the length of the shortest path along edges, "surface": by that of a way across faces, too, "rings": by the
-            number of edges; each then by place in index order.
+            the length of the shortest path along edges; "surface": by that of the shortest way, which may also cross
+            faces; "rings": by the number of edges; each then by place in index order.
         fill : the id where a row has fewer than `k` vertices; the distance there is inf.
         vertices, walls, ignored, unit, max_bytes, workers, progress : see `MeshIndex`. A row whose vertex is a wall is
             empty. The distances have the unit of V.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// One search for up to 32 queries from a leaf: the packet of queries, and how they spread over the leaves of a group.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Shortest paths along edges from a vertex: the queue of paths in buckets, the search, and the order of its result.
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// Which nodes a ball reaches from the query vertex, outward along links in waves and down from these nodes; and what a
+// query knows of each group.
 #pragma once
 
 #include <cstddef>
