@@ -9,18 +9,12 @@
 
 #include "meshhood/index.h"
 
-#include "base/adjacency.h"
 #include "exact/index_access.h"
 #include "exact/neighbors.h"
+#include "exact/weighted_graph.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
-
-/// Called for every vertex or edge; polls seldom enough to cost nothing.
-void poll_cancel(TaskContext& task, std::size_t vertex) {
-  constexpr std::size_t kInterval = 1024;
-  if (vertex % kInterval == 0) task.should_continue(0);
-}
 
 /// The positions in the caller's order.
 PositionsData positions_of(const IndexView& index, TaskContext& task) {
@@ -37,22 +31,6 @@ PositionsData positions_of(const IndexView& index, TaskContext& task) {
 }
 
 }  // namespace
-
-Adjacency gather_edges(const IndexView& index, std::span<const VertexId> names, TaskContext& task) {
-  const auto name = [&](std::size_t v) { return names.empty() ? static_cast<VertexId>(v) : names[v]; };
-  Adjacency result = gather_rows(index.vertex_count(), [&](auto&& f) {
-    for_each_edge(index, [&](std::size_t from, std::size_t to) {
-      poll_cancel(task, from);
-      f(name(from), name(to));
-    });
-  });
-  for (std::size_t v = 0; v < index.vertex_count(); ++v) {
-    poll_cancel(task, v);
-    std::sort(result.neighbors.begin() + static_cast<std::ptrdiff_t>(result.offsets[v]),
-              result.neighbors.begin() + static_cast<std::ptrdiff_t>(result.offsets[v + 1]));
-  }
-  return result;
-}
 
 GraphData extract_graph(const IndexView& index, TaskContext& task) {
   return {positions_of(index, task), gather_edges(index, index.permutation, task)};

@@ -2,9 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
-
-#include "meshhood/adjacency.h"
 
 #include "exact/layout.h"
 #include "shared/parallel.h"
@@ -42,7 +39,10 @@ void for_each_neighbor(const IndexView& index, std::uint32_t slot, F&& f) {
   }
 }
 
-/// All edges; rows ascend. A vertex is named by its place in index order, or by what `names` has there. Polls `task`.
-[[nodiscard]] Adjacency gather_edges(const IndexView& index, std::span<const VertexId> names, TaskContext& task);
+/// Called for every vertex or edge; polls seldom enough to cost nothing.
+inline void poll_cancel(TaskContext& task, std::size_t vertex) {
+  constexpr std::size_t kInterval = 1024;
+  if (vertex % kInterval == 0) task.should_continue(0);
+}
 
 }  // namespace meshhood::inline v0_1

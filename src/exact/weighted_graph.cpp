@@ -39,6 +39,22 @@ WeightedGraph make_weighted_graph(const IndexView& index, std::shared_ptr<const 
 
 }  // namespace
 
+Adjacency gather_edges(const IndexView& index, std::span<const VertexId> names, TaskContext& task) {
+  const auto name = [&](std::size_t v) { return names.empty() ? static_cast<VertexId>(v) : names[v]; };
+  Adjacency result = gather_rows(index.vertex_count(), [&](auto&& f) {
+    for_each_edge(index, [&](std::size_t from, std::size_t to) {
+      poll_cancel(task, from);
+      f(name(from), name(to));
+    });
+  });
+  for (std::size_t v = 0; v < index.vertex_count(); ++v) {
+    poll_cancel(task, v);
+    std::sort(result.neighbors.begin() + static_cast<std::ptrdiff_t>(result.offsets[v]),
+              result.neighbors.begin() + static_cast<std::ptrdiff_t>(result.offsets[v + 1]));
+  }
+  return result;
+}
+
 KeptGraph::KeptGraph(WeightedGraph graph) {
   graph_.get([&] { return std::move(graph); });
 }

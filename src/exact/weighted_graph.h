@@ -10,10 +10,14 @@
 #include "meshhood/vertex_id.h"
 
 #include "shared/kept.h"
+#include "shared/parallel.h"
 
 namespace meshhood::inline v0_1 {
 
 struct IndexView;
+
+/// All edges; rows ascend. A vertex is named by its place in index order, or by what `names` has there. Polls `task`.
+[[nodiscard]] Adjacency gather_edges(const IndexView& index, std::span<const VertexId> names, TaskContext& task);
 
 /// The graph of an index with the length of each edge. Vertices are named by their place in index order, so neighbors
 /// lie near each other in memory. 80 bytes for a vertex with six neighbors.
