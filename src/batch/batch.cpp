@@ -17,7 +17,7 @@ namespace meshhood::inline v0_1 {
 void BatchWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) {
   for_each_answer(chunk, false, [&](std::span<const BatchItem> items) {
     const auto counts = std::span(search_->counts()).first(items.size());
-    if (kept != nullptr && search_->writes_pieces(false)) kept->add(search_->pieces(), counts);
+    if (kept != nullptr && search_->writes_pieces(false)) kept->add(search_->pieces(true), counts);
     return sink(items, counts);
   });
 }
@@ -35,7 +35,7 @@ void BatchWorker::find(std::span<const BatchItem> chunk, bool distances, RowRece
       continue;
     }
     const bool goes_on = answer(i, [&](std::span<const BatchItem> items) {
-      return write(items, writes_pieces ? RowAnswers{search_->pieces(), search_->counts()} : RowAnswers());
+      return write(items, writes_pieces ? RowAnswers{search_->pieces(true), search_->counts()} : RowAnswers());
     });
     if (!goes_on) return;
   }

@@ -130,7 +130,7 @@ class RowSearch {
   [[nodiscard]] virtual QueryWord queries() const = 0;
 
   /// The answers as pieces without overlap, in index order if that is wanted. Not for a search of another order.
-  [[nodiscard]] virtual std::span<const Piece> pieces(bool in_order = true) = 0;
+  [[nodiscard]] virtual std::span<const Piece> pieces(bool in_order) = 0;
 
   /// The lengths of what `pieces` has returned, of rows with distances; null by straight lines.
   [[nodiscard]] virtual PacketLengths* lengths() { return nullptr; }
