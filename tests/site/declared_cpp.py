@@ -74,8 +74,9 @@ def names(node, scope):
     # A constructor that is a template of a class that is one is called Name<T>.
     name = f"{scope}::{of_class if own.startswith(f'{of_class}<') else own}"
     if kind == "NamespaceDecl":
-        if node["name"] != "detail":
-            yield from (found for child in inner for found in names(child, name))
+        if own != "detail":
+            inside = scope if node.get("isInline") else name
+            yield from (found for child in inner for found in names(child, inside))
     elif kind == "ClassTemplateDecl":
         yield from (found for child in inner if child["kind"] == "CXXRecordDecl" for found in names(child, scope))
     elif kind == "CXXRecordDecl" and node.get("completeDefinition") and not node.get("isImplicit"):

@@ -17,6 +17,7 @@ TEXT = re.compile(r"^\s*/// \S")
 CODE = re.compile(r"^\s*/// {5}")
 NUMBER = re.compile(r"#(?=[A-Za-z])")
 VERSION = re.compile(r"^(?:inline namespace v\d+_\d+ MESHHOOD_API \{|\}  // namespace v\d+_\d+)$")
+INLINE = re.compile(r"::inline v\d+_\d+")
 GUARD = re.compile(r"^#if __has_include\(.*\)$")
 
 
@@ -41,6 +42,8 @@ def filtered(lines):
             yield "/// @file"
         if VERSION.match(line):
             continue
+        if line.startswith("namespace"):
+            line = INLINE.sub("", line)
         if GUARD.match(line):
             yield "#if 1"
         elif found:
