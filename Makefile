@@ -48,7 +48,9 @@ packages:
 	@tools/setup packages
 	@tools/packages
 
-demo: build
+demo:
+	@tools/setup build
+	@tools/build release -DMESHHOOD_DEMO=ON
 	@tools/setup demo
 	@tools/demo
 	@echo "== make view shows the same in an interactive page, to turn the mesh and to choose vertex and radius"

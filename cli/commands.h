@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 /// The subcommands, one file each. Each function adds a subcommand with its options; the command runs inside `parse`.
 namespace meshhood::cli {
+
+/// All subcommands of the program, in the order of its help.
+void add_commands(CLI::App& program);
 
 void add_aggregate(CLI::App& program);
 void add_batch(CLI::App& program);

@@ -3,19 +3,26 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "meshhood/batch.h"
+#include "meshhood/paper.h"
+#include "meshhood/reference.h"
+#include "meshhood/search.h"
+
 #include "commands.h"
 #include "input.h"
 #include "measure/difference.h"
 #include "measure/timing.h"
-#include "methods.h"
 #include "options.h"
 #include "output.h"
 #include "painting.h"
@@ -25,7 +32,7 @@ namespace {
 
 struct CompareCommand {
   Reading reading;
-  std::uint64_t vertex = 0;
+  std::optional<std::uint64_t> vertex;
   Radius radius;
   std::string output;
   bool json = false;
@@ -38,15 +45,58 @@ struct Row {
   double microseconds;
 };
 
+AnySearcher make_searcher(std::string_view method, Input& input) {
+  if (method == "bfs") return ReferenceSearcher(input.graph());
+  if (method == "ball") return BallSearcher(input.positions());
+  if (method == "paper") return paper::Searcher(input.paper_index());
+  return Searcher(input.exact_index());
+}
+
+void find(AnySearcher& searcher, VertexId v, double radius, std::vector<VertexId>& vertices) {
+  std::visit([&](auto& one) { one.neighborhood(v, radius, vertices); }, searcher);
+}
+
+/// The ball has the vertices that have become others by welding, too.
+void drop_welded(const Input& input, std::vector<VertexId>& vertices) {
+  std::erase_if(vertices, [&](VertexId w) { return input.welding().kept(w) != w; });
+}
+
+/// Of 200 vertices spread over the mesh, the one at which the largest part of the ball does not belong to the
+/// neighborhood; one at which the paper's answer differs, too, comes first.
+VertexId most_different(Input& input, double radius) {
+  constexpr std::size_t kCandidates = 200;
+  AnySearcher ball = make_searcher("ball", input);
+  AnySearcher paper = make_searcher("paper", input);
+  AnySearcher exact = make_searcher("exact", input);
+  std::vector<VertexId> vertices;
+  const auto count = [&](AnySearcher& searcher, VertexId v) {
+    find(searcher, v, radius, vertices);
+    drop_welded(input, vertices);
+    return static_cast<double>(vertices.size());
+  };
+  std::pair<bool, double> most{false, -1};
+  VertexId found = 0;
+  const std::size_t step = std::max<std::size_t>(1, input.vertex_count() / kCandidates);
+  for (std::size_t i = 0; i < input.vertex_count(); i += step) {
+    const VertexId v = input.welding().kept(static_cast<VertexId>(i));
+    const double size = count(exact, v);
+    const std::pair difference{count(paper, v) > size, 1 - size / count(ball, v)};
+    if (difference > most) {
+      most = difference;
+      found = v;
+    }
+  }
+  return found;
+}
+
 std::vector<Row> answer(Input& input, VertexId v, double radius) {
   std::vector<Row> rows;
   measure::Comparison comparison(input.vertex_count());
   for (const char* const method : {"bfs", "ball", "paper", "exact"}) {
-    AnySearcher searcher = method_of({.method = method}, input).make_searcher();
+    AnySearcher searcher = make_searcher(method, input);
     Row row{method, {}, {}, 0};
-    const auto ask = [&](auto& one) { one.neighborhood(v, radius, row.vertices); };
-    row.microseconds = 1e6 * measure::median_seconds([&] { std::visit(ask, searcher); });
-    std::erase_if(row.vertices, [&](VertexId w) { return input.welding().kept(w) != w; });  // the ball has them all
+    row.microseconds = 1e6 * measure::median_seconds([&] { find(searcher, v, radius, row.vertices); });
+    drop_welded(input, row.vertices);
     if (!rows.empty()) row.difference = comparison.compare(rows.front().vertices, row.vertices);
     rows.push_back(std::move(row));
   }
@@ -65,8 +115,9 @@ Json to_json(VertexId v, double radius, const std::vector<Row>& rows) {
   return {{"vertex", v}, {"radius", radius}, {"methods", methods}};
 }
 
-std::string to_text(const std::vector<Row>& rows) {
-  std::string text = "method     count     extra   missing  microseconds\n";
+std::string to_text(VertexId v, const std::vector<Row>& rows) {
+  std::string text = fmt::format("vertex {}\n", v);
+  text += "method     count     extra   missing  microseconds\n";
   for (const Row& row : rows) {
     text += fmt::format("{:<6} {:>9} {:>9} {:>9} {:>13.2f}\n", row.method, row.vertices.size(), row.difference.extra,
                         row.difference.missing, row.microseconds);
@@ -88,11 +139,12 @@ void compare(const CompareCommand& options) {
   check_outputs();
   Input input(options.reading);
   input.need_edges("compare");
-  const VertexId v = resolve_vertex(options.vertex, input);
+  input.need_positions("compare");
   const double radius = resolve(options.radius, input);
+  const VertexId v = options.vertex ? resolve_vertex(*options.vertex, input) : most_different(input, radius);
   const std::vector<Row> rows = answer(input, v, radius);
   if (!options.output.empty()) paint(options.output, input, v, rows);
-  print_result(options.json, to_json(v, radius, rows), to_text(rows));
+  print_result(options.json, to_json(v, radius, rows), to_text(v, rows));
 }
 
 }  // namespace
@@ -102,7 +154,8 @@ void add_compare(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "compare", "Compare the methods on one query: size, difference from breadth-first search, time");
   add_file(*command, options->reading);
-  add_number(*command, "-v,--vertex", "query vertex, by its number in the file from 0", options->vertex)->required();
+  add_number(*command, "-v,--vertex", "query vertex, by its number in the file from 0; without it, one at which the methods differ is searched for",
+             options->vertex);
   add_radius(*command, options->radius);
   add_output(
       *command, ".ply",

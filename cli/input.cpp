@@ -20,7 +20,6 @@
 
 #include "meshhood/error.h"
 #include "meshhood/masks.h"
-#include "meshhood/surface.h"
 
 #include "output.h"
 #include "parts/manifest.h"
@@ -219,9 +218,8 @@ std::span<const std::uint8_t> Input::unplaced() const {
   return mesh_ ? std::span<const std::uint8_t>(mesh_->walls) : std::span<const std::uint8_t>();
 }
 
-void Input::search_along_surface() {
-  need_faces("--metric surface");
-  is_along_surface_ = true;
+void Input::change_index(std::function<Index(const Index& index, unsigned threads)> change) {
+  change_ = std::move(change);
 }
 
 const Index& Input::exact_index(unsigned threads) {
@@ -233,9 +231,9 @@ const Index& Input::exact_index(unsigned threads) {
     masked_ = meshhood::masked(*exact_, {.walls = masks_.walls, .ignored = masks_.ignored}, {.threads = threads});
   }
   const Index& index = has_masks ? *masked_ : *exact_;
-  if (!is_along_surface_) return index;
-  if (!along_surface_) along_surface_ = surface_paths(Surface(index, surface()), {.threads = threads});
-  return *along_surface_;
+  if (!change_) return index;
+  if (!changed_) changed_ = change_(index, threads);
+  return *changed_;
 }
 
 const paper::Index& Input::paper_index() {

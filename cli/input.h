@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -97,8 +98,8 @@ class Input {
   /// vertices by their places, connected or not.
   void ignore_welded();
 
-  /// From now on the paths of the index are those along the surface (see `surface_paths`). Throws as `need_faces`.
-  void search_along_surface();
+  /// From now on `exact_index` is what `change` makes of it. Before the first use of the index.
+  void change_index(std::function<Index(const Index& index, unsigned threads)> change);
 
   /// With the masks. The file must have edges.
   [[nodiscard]] const Index& exact_index(unsigned threads = kAllProcessors);
@@ -115,8 +116,8 @@ class Input {
   std::optional<Index> exact_;
   OwnedMasks masks_;
   std::optional<Index> masked_;
-  bool is_along_surface_ = false;
-  std::optional<Index> along_surface_;
+  std::function<Index(const Index& index, unsigned threads)> change_;
+  std::optional<Index> changed_;
   std::optional<GraphData> graph_;  // of the exact index in the file
   std::optional<paper::Index> paper_;
   std::optional<PositionsData> positions_;  // of the paper's index in the file

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "meshhood/error.h"
+#include "meshhood/surface.h"
 
 #include "options.h"
 
@@ -26,7 +27,12 @@ void add_metric(CLI::App& command, std::string& metric) {
 }
 
 Metric choose_metric(const std::string& name, Input& input) {
-  if (name == "surface") input.search_along_surface();
+  if (name == "surface") {
+    input.need_faces("--metric surface");
+    input.change_index([&input](const Index& index, unsigned threads) {
+      return surface_paths(Surface(index, input.surface()), {.threads = threads});
+    });
+  }
   return value_of(kMetrics, name);
 }
 

@@ -14,7 +14,7 @@
 /// How a search finds vertices and measures their distances, by names.
 namespace meshhood::cli {
 
-/// Paths along the surface are those of another index (see `Input::search_along_surface`).
+/// Paths along the surface are those of another index (see `choose_metric`).
 inline constexpr Names<Metric, 5> kMetrics{{{"straight", Metric::Straight},
                                             {"path", Metric::Path},
                                             {"surface", Metric::Path},

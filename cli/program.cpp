@@ -83,25 +83,7 @@ void add_subcommands(CLI::App& program) {
   program.group("Subcommands");                          // and this; versions of CLI11 differ
   program.footer(kFooter);
   program.set_version_flag("--version", fmt::format("meshhood {}, kernels for {}", kVersion, kernel_target()));
-  add_info(program);
-  add_build(program);
-  add_check(program);
-  add_query(program);
-  add_connect(program);
-  add_region(program);
-  add_closest(program);
-  add_batch(program);
-  add_aggregate(program);
-  add_curvature(program);
-  add_features(program);
-  add_invariants(program);
-  add_unconnected(program);
-  add_gaps(program);
-  add_partition(program);
-  add_compare(program);
-  add_generate(program);
-  add_view(program);
-  add_manual(program);
+  add_commands(program);
 }
 
 /// CLI11 takes the next argument as the value of `--radius=`, which a shell makes of an unset variable.

@@ -74,9 +74,9 @@ function(meshhood_compile_together target)
 endfunction()
 
 # In a unity build of the core, each part is a unit of its own, so that a linker takes from the archive only those that a
-# program uses. What every program uses is one part: the index, its construction, and searches around a vertex. The Python
-# module has them all: there the others are two units, which takes less time to compile. What rarely runs is one of them,
-# and compiled with -O2.
+# program uses. What every program uses is one part: the index, its construction, and searches around a vertex. What
+# rarely runs is another, and compiled with -O2. The Python module has them all: there the rest is one unit, which takes
+# less time to compile.
 function(meshhood_separate_parts target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
@@ -98,10 +98,8 @@ exact/(check|extract_graph|file|link_points|masked|quality|refit|reorder|verify[
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${part})
     endif()
   endforeach()
-  if(MESHHOOD_BUILD_PYTHON)
-    set_source_files_properties(${PROJECT_BINARY_DIR}/CMakeFiles/${target}.dir/Unity/unity_others_cxx.cxx PROPERTIES
-      COMPILE_OPTIONS $<$<CONFIG:Release>:-O2>)
-  endif()
+  set_source_files_properties(${PROJECT_BINARY_DIR}/CMakeFiles/${target}.dir/Unity/unity_others_cxx.cxx PROPERTIES
+    COMPILE_OPTIONS $<$<CONFIG:Release>:-O2>)
 endfunction()
 
 # In a unity build of the core, each source of kernels is a unit of its own.

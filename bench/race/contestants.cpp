@@ -54,8 +54,8 @@ double seconds_of(BuildIndex&& build_index) {
 
 }  // namespace
 
-measure::Contestant Contestants::method(const std::string& name) {
-  if (name == "bfs") return measure::contestant(name, SearchMethod::breadth_first(graph()));
+Contestant Contestants::method(const std::string& name) {
+  if (name == "bfs") return contestant(name, SearchMethod::breadth_first(graph()));
   if (name == "bfs-reordered") return bfs_reordered();
   if (name == "ball") return ball();
   if (name == "ids") return ids_method();
@@ -81,15 +81,15 @@ const Index& Contestants::another_exact() {
   return *exacts_.back();
 }
 
-measure::Contestant Contestants::ball() const {
-  measure::Contestant ball = measure::contestant("ball", SearchMethod::ball_scan(mesh_.positions));
+Contestant Contestants::ball() const {
+  Contestant ball = contestant("ball", SearchMethod::ball_scan(mesh_.positions));
   ball.visits_all_vertices = true;
   return ball;
 }
 
-measure::Contestant Contestants::ids_method() { return measure::contestant("ids", another_exact()); }
+Contestant Contestants::ids_method() { return contestant("ids", another_exact()); }
 
-measure::Contestant Contestants::before_method(const std::string& name) {
+Contestant Contestants::before_method(const std::string& name) {
 #if defined(MESHHOOD_BEFORE)
   std::vector<float> floats;
   std::vector<double> doubles;
@@ -120,7 +120,7 @@ measure::Contestant Contestants::before_method(const std::string& name) {
 #endif
 }
 
-measure::Contestant Contestants::bfs_reordered() {
+Contestant Contestants::bfs_reordered() {
   if (!reordered_) reordered_ = std::make_unique<Reordered>(graph(), order());
   auto searcher = std::make_shared<ReferenceSearcher>(reordered_->view());
   return {.name = "bfs-reordered",
@@ -132,7 +132,7 @@ measure::Contestant Contestants::bfs_reordered() {
 }
 
 template <class Query>
-measure::Contestant Contestants::unlisted(const std::string& name, Query query) {
+Contestant Contestants::unlisted(const std::string& name, Query query) {
   auto searcher = std::make_shared<Searcher>(another_exact());
   return {.name = name,
           .neighborhood = [searcher, query](VertexId v, double radius,
@@ -140,18 +140,18 @@ measure::Contestant Contestants::unlisted(const std::string& name, Query query) 
           .lists_vertices = false};
 }
 
-measure::Contestant Contestants::count_method() {
+Contestant Contestants::count_method() {
   return unlisted("count", [](Searcher& searcher, VertexId v, double radius) { return searcher.count(v, radius); });
 }
 
-measure::Contestant Contestants::ranges_method() {
+Contestant Contestants::ranges_method() {
   return unlisted("ranges", [](Searcher& searcher, VertexId v, double radius) { return searcher.ranges(v, radius); });
 }
 
-measure::Contestant Contestants::paper(const std::string& name) {
+Contestant Contestants::paper(const std::string& name) {
   const PaperOptions options = paper_options(name);
   papers_.push_back(std::make_unique<paper::Index>(paper::build(graph(), options.build)));
-  return measure::contestant(name, {*papers_.back(), options.query});
+  return contestant(name, {*papers_.back(), options.query});
 }
 
 }  // namespace meshhood::bench

@@ -8,7 +8,7 @@
 
 #include "meshhood/meshhood.h"
 
-#include "measure/radius_table.h"
+#include "radius_table.h"
 #include "reordered.h"
 
 namespace meshhood::bench {
@@ -39,7 +39,7 @@ class Contestants {
   [[nodiscard]] std::span<const VertexId> order() const { return order_.permutation(); }
 
   /// Throws Error{InvalidOption} if there is no method `name`.
-  [[nodiscard]] measure::Contestant method(const std::string& name);
+  [[nodiscard]] Contestant method(const std::string& name);
 
   /// Builds both indexes alternately, `times` times.
   [[nodiscard]] std::vector<Build> time_builds(int times) const;
@@ -48,14 +48,14 @@ class Contestants {
   [[nodiscard]] const Index& another_exact();
   /// The exact index with an answer other than ids: `query(searcher, v, radius)`.
   template <class Query>
-  [[nodiscard]] measure::Contestant unlisted(const std::string& name, Query query);
-  [[nodiscard]] measure::Contestant ball() const;
-  [[nodiscard]] measure::Contestant bfs_reordered();
-  [[nodiscard]] measure::Contestant before_method(const std::string& name);
-  [[nodiscard]] measure::Contestant ids_method();
-  [[nodiscard]] measure::Contestant count_method();
-  [[nodiscard]] measure::Contestant ranges_method();
-  [[nodiscard]] measure::Contestant paper(const std::string& name);
+  [[nodiscard]] Contestant unlisted(const std::string& name, Query query);
+  [[nodiscard]] Contestant ball() const;
+  [[nodiscard]] Contestant bfs_reordered();
+  [[nodiscard]] Contestant before_method(const std::string& name);
+  [[nodiscard]] Contestant ids_method();
+  [[nodiscard]] Contestant count_method();
+  [[nodiscard]] Contestant ranges_method();
+  [[nodiscard]] Contestant paper(const std::string& name);
 
   MeshView mesh_;
   Adjacency adjacency_;

@@ -11,7 +11,7 @@
 #include "meshhood/meshhood.h"
 
 #include "contestants.h"
-#include "measure/radius_table.h"
+#include "radius_table.h"
 #include "measure/timing.h"
 #include "mesh_argument.h"
 #include "program.h"
@@ -25,13 +25,13 @@ struct Options {
   std::string mesh;
   std::vector<std::string> methods;
   std::string order = "cold";
-  measure::Plan plan{.radii = {2, 3, 5, 10, 20, 40, 65, 90}, .queries = 200};
+  Plan plan{.radii = {2, 3, 5, 10, 20, 40, 65, 90}, .queries = 200};
   int builds = 0;
 };
 
 Json to_json(const Build& build) { return {{"name", build.name}, {"seconds", build.seconds}, {"bytes", build.bytes}}; }
 
-Json to_json(const measure::Measurement& m, const measure::Contestant& method) {
+Json to_json(const Measurement& m, const Contestant& method) {
   Json row{{"radius_edges", m.radius_edges},
            {"method", m.method},
            {"microseconds", m.microseconds},
@@ -53,14 +53,14 @@ std::size_t bytes_of(const AdjacencyView& adjacency) {
 
 Json race(const MeshView& mesh, Options& options) {
   Contestants contestants(mesh);
-  std::vector<measure::Contestant> methods;
+  std::vector<Contestant> methods;
   methods.reserve(options.methods.size());
   for (const std::string& name : options.methods) methods.push_back(contestants.method(name));
   const double unit = mean_edge_length(contestants.graph());
   Json rows = Json::array();
   if (!methods.empty()) {
-    options.plan.order = options.order == "warm" ? measure::Order::Warm : measure::Order::Cold;
-    const auto table = measure::measure_radii(methods, options.plan, unit, contestants.order(),
+    options.plan.order = options.order == "warm" ? Order::Warm : Order::Cold;
+    const auto table = measure_radii(methods, options.plan, unit, contestants.order(),
                                               [](std::size_t /*done*/, std::size_t /*total*/) {});
     for (std::size_t i = 0; i < table.size(); ++i) rows.push_back(to_json(table[i], methods[i % methods.size()]));
   }

@@ -361,7 +361,7 @@ def compare(run, wrong):
     v, r = question.starts[0], question.radii[0]
     text = run.text()
     rows = json.loads(text)["methods"] if question.json else [
-        dict(zip(("method", "count", "extra", "missing"), line.split())) for line in text.splitlines()[1:]]
+        dict(zip(("method", "count", "extra", "missing"), line.split())) for line in text.splitlines()[2:]]
     counts = {row["method"]: int(row["count"]) for row in rows}
     exact = len(question.neighborhood(v, r))
     expect(wrong, "exact", (counts["exact"], counts["bfs"]), (exact, exact))

@@ -11,7 +11,7 @@
 #include "meshhood/batch.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood::measure {
+namespace meshhood::bench {
 
 /// A search to be timed.
 struct Contestant {
@@ -62,4 +62,4 @@ struct Plan {
     std::span<const Contestant> contestants, const Plan& plan, double unit, std::span<const VertexId> permutation,
     const std::function<void(std::size_t done, std::size_t total)>& report);
 
-}  // namespace meshhood::measure
+}  // namespace meshhood::bench

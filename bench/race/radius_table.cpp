@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "measure/radius_table.h"
+#include "radius_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "measure/difference.h"
 #include "measure/timing.h"
 
-namespace meshhood::measure {
+namespace meshhood::bench {
 namespace {
 
 constexpr std::size_t kBlocks = 50;
@@ -157,4 +157,4 @@ std::vector<Measurement> measure_radii(std::span<const Contestant> contestants, 
   return table;
 }
 
-}  // namespace meshhood::measure
+}  // namespace meshhood::bench
