@@ -154,8 +154,10 @@ void add_compare(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "compare", "Compare the methods on one query: size, difference from breadth-first search, time");
   add_file(*command, options->reading);
-  add_number(*command, "-v,--vertex", "query vertex, by its number in the file from 0; without it, one at which the methods differ is searched for",
-             options->vertex);
+  add_number(
+      *command, "-v,--vertex",
+      "query vertex, by its number in the file from 0; without it, one at which the methods differ is searched for",
+      options->vertex);
   add_radius(*command, options->radius);
   add_output(
       *command, ".ply",

@@ -11,10 +11,10 @@
 #include "meshhood/meshhood.h"
 
 #include "contestants.h"
-#include "radius_table.h"
 #include "measure/timing.h"
 #include "mesh_argument.h"
 #include "program.h"
+#include "radius_table.h"
 
 namespace meshhood::bench {
 namespace {
@@ -61,7 +61,7 @@ Json race(const MeshView& mesh, Options& options) {
   if (!methods.empty()) {
     options.plan.order = options.order == "warm" ? Order::Warm : Order::Cold;
     const auto table = measure_radii(methods, options.plan, unit, contestants.order(),
-                                              [](std::size_t /*done*/, std::size_t /*total*/) {});
+                                     [](std::size_t /*done*/, std::size_t /*total*/) {});
     for (std::size_t i = 0; i < table.size(); ++i) rows.push_back(to_json(table[i], methods[i % methods.size()]));
   }
   Json builds = Json::array();

@@ -97,9 +97,9 @@ class RadiusRun {
     if (contestant.visits_all_vertices) {
       block = block.first(std::clamp<std::size_t>(kVerticesPerBlock / vertices_, 1, block.size()));
     }
-    const double start = processor_time();
+    const double start = measure::processor_time();
     for (const VertexId v : block) contestant.neighborhood(v, radius_, answer_);
-    tallies_[i].microseconds.push_back(1e6 * (processor_time() - start) / static_cast<double>(block.size()));
+    tallies_[i].microseconds.push_back(1e6 * (measure::processor_time() - start) / static_cast<double>(block.size()));
   }
 
   void compare(VertexId v) {
@@ -107,7 +107,7 @@ class RadiusRun {
       if (!contestants_[i].lists_vertices) continue;
       Vertices& answer = i == 0 ? exact_ : answer_;
       contestants_[i].neighborhood(v, radius_, answer);
-      const Difference difference = comparison_.compare(exact_, answer);
+      const measure::Difference difference = comparison_.compare(exact_, answer);
       tallies_[i].count += static_cast<double>(answer.size());
       tallies_[i].extra += static_cast<double>(difference.extra);
       tallies_[i].missing += static_cast<double>(difference.missing);
@@ -117,7 +117,7 @@ class RadiusRun {
   std::span<const Contestant> contestants_;
   double radius_;
   std::size_t vertices_;
-  Comparison comparison_;
+  measure::Comparison comparison_;
   std::vector<Tally> tallies_;
   std::size_t first_ = 0;
   Vertices exact_;
