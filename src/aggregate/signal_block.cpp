@@ -20,9 +20,12 @@ int exponent_of(const Column& column) {
   return largest == 0 ? 0 : kLargestExponent - std::ilogb(largest);
 }
 
+/// By two powers of two, as one may be too large for a number. Exact but for values that underflow.
 void multiply(Column& column, int exponent) {
   if (exponent == 0) return;
-  for (double& value : column) value = std::ldexp(value, exponent);
+  const double first = std::ldexp(1.0, exponent / 2);
+  const double second = std::ldexp(1.0, exponent - exponent / 2);
+  for (double& value : column) value = value * first * second;
 }
 
 /// Makes values that are too large for sums of squares infinite.

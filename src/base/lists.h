@@ -51,17 +51,18 @@ template <class T, class Offset, class ForEach>
   return result;
 }
 
-/// Calls `append(row, values)` for each of `count` rows, on several threads; it appends the values of the row. Throws
-/// Error{Cancelled}.
+/// Calls `append(row, values)` for each of `count` rows, on several threads; it appends the values of the row. Copies
+/// of it are called, so that it can own memory. Throws Error{Cancelled}.
 template <class T, class Append>
-Lists<T> collect_rows(std::size_t count, TaskContext& task, Append&& append) {
+Lists<T> collect_rows(std::size_t count, TaskContext& task, const Append& append) {
   constexpr std::size_t kRowsPerTask = 64;
   Lists<T> result{std::vector<std::uint32_t>(count + 1), {}};
   std::vector<std::vector<T>> pieces((count + kRowsPerTask - 1) / kRowsPerTask);
   task.parallel_for(count, kRowsPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
     std::vector<T>& piece = pieces[begin / kRowsPerTask];
+    Append append_here = append;
     for (std::size_t row = begin; row < end; ++row) {
-      append(row, piece);
+      append_here(row, piece);
       result.offsets[row + 1] = static_cast<std::uint32_t>(piece.size());
     }
   });

@@ -22,6 +22,7 @@
 #include "curvature/packet_moments.h"
 #include "patch/packet_patches.h"
 #include "shared/distance.h"
+#include "shared/parallel.h"
 #include "shared/text.h"
 #include "surface/surface.h"
 
@@ -121,7 +122,8 @@ class FeatureExtraction {
     const bool has_faces = surface.face_count() > 0 || surface.vertex_count() == 0;
     if (needs(Source::Patches)) {
       check_patches(has_faces);
-      patches_ = &SurfaceAccess::state(surface).patches();
+      TaskContext task(threads);
+      patches_ = &SurfaceAccess::state(surface).patches(task);
     }
     if (needs(Source::Moments)) {
       if (options.areas.empty() && !has_faces) {

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -16,35 +18,48 @@
 
 #include "base/vector.h"
 #include "exact/neighbors.h"
+#include "shared/parallel.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
 
-struct GivenTriangle {
-  Triangle triangle;
-  std::uint32_t number;
-  std::uint32_t part;
+/// A triangle in the order of meshlets: its number in index order, and this bit in the last one of its meshlet.
+using GivenTriangle = std::uint32_t;
+constexpr GivenTriangle kLast = GivenTriangle{1} << 31U;
+
+/// The triangles of the faces whose corners that come first in index order are in one leaf; they follow each other.
+struct TriangleRun {
+  LeafId leaf;
+  std::uint32_t begin;
 };
 
-/// Finds the parts of a few triangles that are joined by corners.
+/// The parts of a few triangles that are joined by corners.
 class LeafParts {
  public:
-  /// Sorts the triangles by their parts, each named by its first triangle, then by their numbers.
-  void sort(std::span<GivenTriangle> triangles) {
-    parents_.resize(triangles.size());
+  LeafParts(const std::vector<Triangle>& all, std::vector<std::uint32_t> numbers)
+      : numbers_(std::move(numbers)), parents_(numbers_.size()) {
     std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
-    at_places_.clear();
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-      for (const std::uint32_t place : triangles[i].triangle.corners) at_places_.emplace_back(place, i);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> at_places;  // place and triangle
+    at_places.reserve(3 * numbers_.size());
+    for (std::uint32_t i = 0; i < numbers_.size(); ++i) {
+      for (const std::uint32_t place : all[numbers_[i]].corners) at_places.emplace_back(place, i);
     }
-    std::sort(at_places_.begin(), at_places_.end());
-    for (std::size_t i = 1; i < at_places_.size(); ++i) {
-      if (at_places_[i].first == at_places_[i - 1].first) unite(at_places_[i].second, at_places_[i - 1].second);
+    std::sort(at_places.begin(), at_places.end());
+    for (std::size_t i = 1; i < at_places.size(); ++i) {
+      if (at_places[i].first == at_places[i - 1].first) unite(at_places[i].second, at_places[i - 1].second);
     }
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) triangles[i].part = root(i);
-    std::sort(triangles.begin(), triangles.end(), [](const GivenTriangle& a, const GivenTriangle& b) {
-      return std::tie(a.part, a.number) < std::tie(b.part, b.number);
-    });
+  }
+
+  /// Sorted by their parts, each named by its first triangle, then by their numbers.
+  void append(std::vector<GivenTriangle>& out) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> by_parts;
+    by_parts.reserve(numbers_.size());
+    for (std::uint32_t i = 0; i < numbers_.size(); ++i) by_parts.emplace_back(root(i), numbers_[i]);
+    std::sort(by_parts.begin(), by_parts.end());
+    for (std::size_t i = 0; i < by_parts.size(); ++i) {
+      const bool is_last = i + 1 == by_parts.size() || by_parts[i + 1].first != by_parts[i].first;
+      out.push_back(by_parts[i].second | (is_last ? kLast : 0));
+    }
   }
 
  private:
@@ -59,8 +74,8 @@ class LeafParts {
     parents_[std::max(i, j)] = std::min(i, j);
   }
 
+  std::vector<std::uint32_t> numbers_;
   std::vector<std::uint32_t> parents_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> at_places_;  // place and triangle
 };
 
 }  // namespace
@@ -70,11 +85,11 @@ std::size_t Triangles::bytes() const {
   return bytes_of(corners, face, flags, first_of_meshlet, of_block, loose) + fans.bytes();
 }
 
-Triangles::Triangles(const IndexView& index, const StoredFaces& faces) {
-  make_meshlets(index, triangles_in_index_order(index, faces));
+Triangles::Triangles(const IndexView& index, const StoredFaces& faces, TaskContext& task) {
+  make_meshlets(index, triangles_in_index_order(index, faces, task), task);
   if (size() == 0) raise(ErrorCode::InvalidMesh, "every face of the mesh has a wall, expected one without");
   make_fans(index.vertex_count());
-  find_borders(index);
+  find_borders(index, task);
 }
 
 Point Triangles::normal_of(const IndexView& index, std::span<const TriangleId> some) const {
@@ -86,45 +101,66 @@ Point Triangles::normal_of(const IndexView& index, std::span<const TriangleId> s
   return sum;
 }
 
+namespace {
+
+/// The end of the face that begins at a triangle.
+std::size_t end_of_face(const std::vector<Triangle>& all, std::size_t begin) {
+  std::size_t end = begin;
+  while (end < all.size() && all[end].face == all[begin].face) ++end;
+  return end;
+}
+
 /// Triangles in index order are in the order of the leaves already.
-void Triangles::make_meshlets(const IndexView& index, const std::vector<Triangle>& all) {
+std::vector<TriangleRun> runs_of_leaves(const IndexView& index, const std::vector<Triangle>& all) {
+  std::vector<TriangleRun> runs;
+  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    end = end_of_face(all, begin);
+    std::uint32_t first = all[begin].corners[0];
+    for (std::size_t i = begin; i < end; ++i) first = std::min(first, std::ranges::min(all[i].corners));
+    const LeafId leaf = leaf_of(index.slot_at(first));
+    if (runs.empty() || runs.back().leaf != leaf) runs.push_back({leaf, static_cast<std::uint32_t>(begin)});
+  }
+  runs.push_back({0, static_cast<std::uint32_t>(all.size())});
+  return runs;
+}
+
+/// The numbers of the triangles from `begin` to `end` whose faces have no walls.
+std::vector<std::uint32_t> without_walls(const IndexView& index, const std::vector<Triangle>& all, std::size_t begin,
+                                         std::size_t end) {
+  std::vector<std::uint32_t> numbers;
+  for (std::size_t next = 0; begin < end; begin = next) {
+    next = end_of_face(all, begin);
+    bool has_wall = false;
+    for (std::size_t i = begin; i < next; ++i) {
+      for (const std::uint32_t place : all[i].corners) has_wall = has_wall || index.is_wall_at(place);
+    }
+    for (std::size_t i = begin; !has_wall && i < next; ++i) numbers.push_back(static_cast<std::uint32_t>(i));
+  }
+  return numbers;
+}
+
+}  // namespace
+
+void Triangles::make_meshlets(const IndexView& index, const std::vector<Triangle>& all, TaskContext& task) {
   if (all.size() > std::numeric_limits<std::uint32_t>::max() / 3) {
     raise(ErrorCode::TooLarge, std::to_string(all.size()) + " triangles, expected at most 2^32 / 3");
   }
-  corners.reserve(all.size());
-  face.reserve(all.size());
-  flags.reserve(all.size());
-  LeafParts parts;
-  std::vector<GivenTriangle> given;  // of one leaf
-  LeafId leaf = 0;
-  first_of_meshlet.push_back(0);
-  const auto end_leaf = [&] {
-    parts.sort(given);
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      corners.push_back(given[i].triangle.corners);
-      face.push_back(given[i].triangle.face);
-      flags.push_back(static_cast<std::uint8_t>(given[i].triangle.diagonals << 3U));
-      const bool is_last = i + 1 == given.size() || given[i + 1].part != given[i].part;
-      if (is_last) first_of_meshlet.push_back(static_cast<TriangleId>(size()));
-    }
-    given.clear();
+  const std::vector<TriangleRun> runs = runs_of_leaves(index, all);
+  const auto append = [&](std::size_t run, std::vector<GivenTriangle>& out) {
+    LeafParts(all, without_walls(index, all, runs[run].begin, runs[run + 1].begin)).append(out);
   };
-  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-    std::uint32_t first = all[begin].corners[0];
-    bool has_wall = false;
-    for (end = begin; end < all.size() && all[end].face == all[begin].face; ++end) {
-      for (const std::uint32_t place : all[end].corners) {
-        first = std::min(first, place);
-        has_wall = has_wall || index.is_wall_at(place);
-      }
-    }
-    if (const LeafId next = leaf_of(index.slot_at(first)); next != leaf) {
-      end_leaf();
-      leaf = next;
-    }
-    for (std::size_t i = begin; !has_wall && i < end; ++i) given.push_back({all[i], static_cast<std::uint32_t>(i), 0});
+  const Lists<GivenTriangle> in_order = collect_rows<GivenTriangle>(runs.size() - 1, task, append);
+  corners.reserve(in_order.elements.size());
+  face.reserve(in_order.elements.size());
+  flags.reserve(in_order.elements.size());
+  first_of_meshlet.push_back(0);
+  for (const GivenTriangle given : in_order.elements) {
+    const Triangle& triangle = all[given & ~kLast];
+    corners.push_back(triangle.corners);
+    face.push_back(triangle.face);
+    flags.push_back(static_cast<std::uint8_t>(triangle.diagonals << 3U));
+    if ((given & kLast) != 0) first_of_meshlet.push_back(static_cast<TriangleId>(size()));
   }
-  end_leaf();
   MeshletId meshlet = 0;
   for (TriangleId t = 0; t < size(); t += kBlock) {
     while (first_of_meshlet[meshlet + std::size_t{1}] <= t) ++meshlet;
@@ -158,16 +194,17 @@ void later_neighbors(const IndexView& index, std::uint32_t place, std::vector<st
 }  // namespace
 
 /// The sides whose first end is a place, sorted so that the same ones follow each other.
-void Triangles::find_borders(const IndexView& index) {
+void Triangles::find_borders(const IndexView& index, TaskContext& task) {
   struct Given {
     Side side;
     TriangleId triangle;
     std::uint32_t number;  // of the side there
   };
-  std::vector<Given> sides;
-  std::vector<std::uint32_t> ends;       // of sides that are no diagonals
-  std::vector<std::uint32_t> neighbors;  // the ends of edges
-  for (std::uint32_t first = 0; first < index.vertex_count(); ++first) {
+  std::atomic<bool> all_of_index{true};
+  const auto append = [&, sides = std::vector<Given>(), ends = std::vector<std::uint32_t>(),
+                       neighbors = std::vector<std::uint32_t>()](std::size_t place,
+                                                                 std::vector<LooseEdge>& out) mutable {
+    const auto first = static_cast<std::uint32_t>(place);
     sides.clear();
     for (const TriangleId t : fans[first]) {
       for (std::uint32_t i = 0; i < 3; ++i) {
@@ -184,20 +221,23 @@ void Triangles::find_borders(const IndexView& index) {
       }
       if (sides[begin].side.last == first) balance = 0;  // a corner that is listed twice is no side
       for (std::size_t i = begin; i < end && balance != 0; ++i) {
-        flags[sides[i].triangle] |= static_cast<std::uint8_t>(1U << sides[i].number);
+        // Another thread may mark another side of the triangle.
+        std::atomic_ref(flags[sides[i].triangle]).fetch_or(static_cast<std::uint8_t>(1U << sides[i].number));
       }
     }
-    ends.clear();
+    ends.clear();  // of sides that are no diagonals
     for (const auto& [side, triangle, number] : sides) {
       if (side.owner == Side::kShared && side.last != first) ends.push_back(side.last);
     }
-    later_neighbors(index, first, neighbors);
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    are_of_index = are_of_index && std::ranges::includes(neighbors, ends);
+    later_neighbors(index, first, neighbors);
+    if (!std::ranges::includes(neighbors, ends)) all_of_index = false;
     for (const std::uint32_t last : neighbors) {
-      if (!std::ranges::binary_search(ends, last)) loose.push_back({first, last});
+      if (!std::ranges::binary_search(ends, last)) out.push_back({first, last});
     }
-  }
+  };
+  loose = collect_rows<LooseEdge>(index.vertex_count(), task, append).elements;
+  are_of_index = all_of_index;
 }
 
 namespace {
@@ -234,23 +274,22 @@ Index without_ignored(const Index& given) {
 
 }  // namespace
 
-Meshlets::Meshlets(const IndexView& index, const Triangles& triangles) {
-  const std::size_t count = triangles.first_of_meshlet.size() - 1;
-  meshlets.reserve(count);
-  std::vector<std::uint32_t> places;
-  for (MeshletId meshlet = 0; meshlet < count; ++meshlet) {
-    meshlets.push_back(make_meshlet(index, triangles, meshlet));
+Meshlets::Meshlets(const IndexView& index, const Triangles& triangles, TaskContext& task)
+    : meshlets(triangles.first_of_meshlet.size() - 1) {
+  const auto append = [&, places = std::vector<std::uint32_t>()](std::size_t i,
+                                                                 std::vector<std::uint32_t>& out) mutable {
+    const auto meshlet = static_cast<MeshletId>(i);
+    meshlets[i] = make_meshlet(index, triangles, meshlet);
     places.clear();
     for (const TriangleId t : triangles.of_meshlet(meshlet)) {
       places.insert(places.end(), triangles.corners[t].begin(), triangles.corners[t].end());
     }
     std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
-    corners.add(places);
-  }
-  corners.elements.shrink_to_fit();
+    std::unique_copy(places.begin(), places.end(), std::back_inserter(out));
+  };
+  corners = collect_rows<std::uint32_t>(size(), task, append);
   of_leaf = gather_lists<MeshletId, std::uint32_t>(index.leaf_count(), [&](auto&& f) {
-    for (auto meshlet = static_cast<MeshletId>(count); meshlet-- > 0;) {
+    for (auto meshlet = static_cast<MeshletId>(size()); meshlet-- > 0;) {
       std::optional<LeafId> last;
       for (const std::uint32_t place : corners[meshlet]) {  // those of a leaf follow each other
         const LeafId leaf = leaf_of(index.slot_at(place));
@@ -259,17 +298,17 @@ Meshlets::Meshlets(const IndexView& index, const Triangles& triangles) {
       }
     }
   });
-  boxes.build(count, [&](std::size_t i) {
+  boxes.build(size(), [&](std::size_t i) {
     const BoundingBox& box = meshlets[i].box;
     return BoundingBox{index.frame.to_frame(box.low), index.frame.to_frame(box.high)};
   });
 }
 
-PatchState::PatchState(const Index& given, const StoredFaces& all)
+PatchState::PatchState(const Index& given, const StoredFaces& all, TaskContext& task)
     : searched(without_ignored(given)),
       index(&IndexAccess::view(searched)),
       faces(&all),
-      triangles(*index, all),
-      meshlets(*index, triangles) {}
+      triangles(*index, all, task),
+      meshlets(*index, triangles, task) {}
 
 }  // namespace meshhood::inline v0_1

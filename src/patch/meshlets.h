@@ -48,8 +48,9 @@ struct Triangles {
   };
   std::vector<LooseEdge> loose;  // ascending
 
-  /// Throws Error{InvalidMesh} if no face without a wall has a triangle, and Error{TooLarge} beyond 2^32 / 3 triangles.
-  Triangles(const IndexView& index, const StoredFaces& faces);
+  /// Throws Error{InvalidMesh} if no face without a wall has a triangle, Error{TooLarge} beyond 2^32 / 3 triangles, and
+  /// Error{Cancelled}.
+  Triangles(const IndexView& index, const StoredFaces& faces, TaskContext& task);
 
   [[nodiscard]] std::size_t size() const { return corners.size(); }
   [[nodiscard]] std::size_t bytes() const;
@@ -108,9 +109,9 @@ struct Triangles {
     return {first, last, is_diagonal(t, static_cast<unsigned>(i)) ? face[t] : Side::kShared};
   }
 
-  void make_meshlets(const IndexView& index, const std::vector<Triangle>& all);
+  void make_meshlets(const IndexView& index, const std::vector<Triangle>& all, TaskContext& task);
   void make_fans(std::size_t places);
-  void find_borders(const IndexView& index);
+  void find_borders(const IndexView& index, TaskContext& task);
 };
 
 /// Sums over the triangles of a meshlet. Lengths are in the frame, points in the unit of the mesh.
@@ -132,7 +133,7 @@ struct Meshlets {
   Lists<MeshletId> of_leaf;      // those with a corner in it, ascending
   BoxTree boxes;                 // of the meshlets
 
-  Meshlets(const IndexView& index, const Triangles& triangles);
+  Meshlets(const IndexView& index, const Triangles& triangles, TaskContext& task);
 
   [[nodiscard]] std::size_t size() const { return meshlets.size(); }
   [[nodiscard]] std::size_t bytes() const {
@@ -142,8 +143,8 @@ struct Meshlets {
 
 /// What all searches of the patches of a surface share. The walls of the index are left out.
 struct PatchState {
-  /// Borrows the faces.
-  PatchState(const Index& given, const StoredFaces& all);
+  /// Borrows the faces. Throws as `Triangles`.
+  PatchState(const Index& given, const StoredFaces& all, TaskContext& task);
 
   Index searched;  // answers with ignored vertices, too, which are on the surface as others are
   const IndexView* index;

@@ -17,12 +17,18 @@
 #include "patch/meshlets.h"
 #include "patch/packet_patches.h"
 #include "patch/search.h"
+#include "shared/parallel.h"
 #include "shared/text.h"
 #include "surface/face_triangles.h"
 #include "surface/surface.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
+
+const PatchState& patches_alone(const SurfaceState& surface) {
+  TaskContext alone;
+  return surface.patches(alone);
+}
 
 /// Runs the search around a vertex.
 void run_at(const PatchState& state, PatchSearch& search, VertexId v, double radius, bool measures) {
@@ -35,7 +41,7 @@ void run_at(const PatchState& state, PatchSearch& search, VertexId v, double rad
 
 struct PatchSearcher::State {
   explicit State(const Surface& given)
-      : owner(SurfaceAccess::share(given)), surface(&owner->patches()), search(*surface) {}
+      : owner(SurfaceAccess::share(given)), surface(&patches_alone(*owner)), search(*surface) {}
 
   std::shared_ptr<const SurfaceState> owner;
   const PatchState* surface;
@@ -149,7 +155,8 @@ class PacketVisit {
 /// Calls `visit` with the patch of each row, on any thread.
 void for_each_patch(const Surface& surface, const BatchQuery& query, PatchParts parts, const Run& run,
                     const RowPatchVisitor& visit) {
-  const PatchState& state = SurfaceAccess::state(surface).patches();
+  TaskContext task(run.threads);
+  const PatchState& state = SurfaceAccess::state(surface).patches(task);
   if (query.metric != Metric::Straight) {
     raise(ErrorCode::InvalidOption, "a patch by another metric, expected the straight one");
   }

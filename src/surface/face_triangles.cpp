@@ -6,11 +6,14 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "base/lists.h"
 #include "base/vector.h"
+#include "shared/parallel.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
@@ -38,7 +41,8 @@ void Triangulator::run(std::uint32_t face, std::span<const VertexId> corners, Tr
   }
 }
 
-std::vector<Triangle> triangles_in_index_order(const IndexView& index, const StoredFaces& faces) {
+std::vector<Triangle> triangles_in_index_order(const IndexView& index, const StoredFaces& faces, TaskContext& task) {
+  constexpr std::size_t kFacesOfTask = 1024;
   std::size_t count = 0;
   for (std::size_t face = 0; face < faces.size(); ++face) count += triangle_count(faces[face].size());
   check_triangle_count(count);
@@ -47,13 +51,21 @@ std::vector<Triangle> triangles_in_index_order(const IndexView& index, const Sto
       if (faces[face].size() >= 3) f(first_place(index, faces[face]), static_cast<std::uint32_t>(face));
     }
   });
-  std::vector<Triangle> triangles(count);
-  Triangulator triangulator(index);
-  Triangle* next = triangles.data();
-  for (const std::uint32_t face : by_first_place.elements) {
-    triangulator.run(face, faces[face], next);
-    next += triangle_count(faces[face].size());
+  const std::span<const std::uint32_t> in_order = by_first_place.elements;
+  std::vector<std::size_t> first_of_task;
+  for (std::size_t i = 0, next = 0; i < in_order.size(); ++i) {
+    if (i % kFacesOfTask == 0) first_of_task.push_back(next);
+    next += triangle_count(faces[in_order[i]].size());
   }
+  std::vector<Triangle> triangles(count);
+  task.parallel_for(in_order.size(), kFacesOfTask, [&](unsigned, std::size_t begin, std::size_t end) {
+    Triangulator triangulator(index);
+    Triangle* next = triangles.data() + first_of_task[begin / kFacesOfTask];
+    for (const std::uint32_t face : in_order.subspan(begin, end - begin)) {
+      triangulator.run(face, faces[face], next);
+      next += triangle_count(faces[face].size());
+    }
+  });
   return triangles;
 }
 

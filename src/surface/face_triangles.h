@@ -18,6 +18,8 @@
 
 namespace meshhood::inline v0_1 {
 
+class TaskContext;
+
 /// A point of a triangle, and its distance from another point.
 struct TrianglePoint {
   std::array<double, 3> barycentric;
@@ -94,8 +96,9 @@ inline void check_triangle_count(std::size_t triangles) {
 }
 
 /// Those of all faces, at least one, in the order of the first corner of their face in index order, then of their
-/// faces.
-[[nodiscard]] std::vector<Triangle> triangles_in_index_order(const IndexView& index, const StoredFaces& faces);
+/// faces. Throws Error{Cancelled}.
+[[nodiscard]] std::vector<Triangle> triangles_in_index_order(const IndexView& index, const StoredFaces& faces,
+                                                             TaskContext& task);
 
 /// The positions of the corners of a triangle.
 [[nodiscard]] std::array<Point, 3> corners_of(const IndexView& index, const std::array<std::uint32_t, 3>& places);

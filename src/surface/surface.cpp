@@ -119,8 +119,8 @@ const Normals& Surface::State::normals(TaskContext& task) const {
   });
 }
 
-const PatchState& Surface::State::patches() const {
-  return made_patches.get([&] { return PatchState(searched, faces()); });
+const PatchState& Surface::State::patches(TaskContext& task) const {
+  return made_patches.get([&] { return PatchState(searched, faces(), task); });
 }
 
 // Of the positions in index order, for the sums and the bits of `vertex_areas`.

@@ -78,7 +78,7 @@ struct Surface::State {
   [[nodiscard]] const NormalCones& cones(TaskContext& task) const;
   [[nodiscard]] const Normals& normals(TaskContext& task) const;
   [[nodiscard]] const std::vector<double>& areas() const;
-  [[nodiscard]] const PatchState& patches() const;
+  [[nodiscard]] const PatchState& patches(TaskContext& task) const;
 
   /// Throws Error{InvalidOption} unless `other` is a refit of the index.
   void check_refit(const Index& other) const;

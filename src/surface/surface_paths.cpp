@@ -73,10 +73,10 @@ double unfolded_length(const Point& a, const Point& b, const Point& c, const Poi
 /// The edges of the index and the lines over the triangles of a surface.
 class SurfaceGraph {
  public:
-  explicit SurfaceGraph(const SurfaceState& surface)
+  SurfaceGraph(const SurfaceState& surface, TaskContext& task)
       : index_(*surface.index),
         faces_(surface.faces()),
-        triangles_(triangles_in_index_order(index_, faces_)),
+        triangles_(triangles_in_index_order(index_, faces_, task)),
         edges_(&edges_of(surface)) {}
 
   [[nodiscard]] WeightedGraph make() const {
@@ -184,7 +184,7 @@ Index surface_paths(const Surface& surface, const Run& run) {
   view->owner = std::make_shared<const IndexView>(*view);
   view->is_derived = true;
   view->geometry = nullptr;
-  auto graph = std::make_shared<KeptGraph>(SurfaceGraph(state).make());
+  auto graph = std::make_shared<KeptGraph>(SurfaceGraph(state, task).make());
   task.finish();
   return IndexAccess::make(std::move(view), std::move(graph));
 }

@@ -25,6 +25,7 @@
 #include "support/random.h"
 #include "support/scale.h"
 #include "support/test_triangles.h"
+#include "shared/parallel.h"
 #include "surface/surface.h"
 
 namespace meshhood::test {
@@ -43,7 +44,8 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
     std::vector<double> radii(index.vertex_count(), radius);
     for (std::size_t v = 0; v < radii.size(); v += 7) radii[v] = radius / 2;
     const Surface surface(index, faces);
-    const PatchState& state = SurfaceAccess::state(surface).patches();
+    TaskContext task(3);
+    const PatchState& state = SurfaceAccess::state(surface).patches(task);
     PacketPatches packets(state);
     PatchSearch search(state);
     const auto visit = [&](const PacketAnswer& answer) {
@@ -152,7 +154,8 @@ TEST(PacketPatches, FollowSidesThatDipIntoTheBall) {
     const TestMesh mesh = make_needles(count);
     const Index index = build(mesh.view());
     const Surface surface(index, mesh.view().faces);
-    const PatchState& state = SurfaceAccess::state(surface).patches();
+    TaskContext alone;
+    const PatchState& state = SurfaceAccess::state(surface).patches(alone);
     PacketPatches packets(state);
     const std::vector<VertexId> first{0};
     QueryWord found = 0;
