@@ -20,12 +20,12 @@
 
 #include "batch/packets.h"
 #include "patch/search.h"
+#include "shared/parallel.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/random.h"
 #include "support/scale.h"
 #include "support/test_triangles.h"
-#include "shared/parallel.h"
 #include "surface/surface.h"
 
 namespace meshhood::test {
