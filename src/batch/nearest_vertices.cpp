@@ -74,7 +74,7 @@ NearestVertex nearest(const Index& index, const SpacePoint& point) {
 }
 
 std::vector<NearestVertex> nearest(const Index& index, std::span<const SpacePoint> points, const Run& run) {
-  for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points", i);
+  check_points(points, "points");
   TaskContext task(run.threads, run.progress, points.size());
   const IndexView& view = IndexAccess::view(index);
   std::vector<NearestVertex> found = make_values<NearestVertex>(points.size());

@@ -149,7 +149,7 @@ std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> po
 void Surface::for_each_closest_point(std::span<const SpacePoint> points, const SurfacePointVisitor& visit,
                                      const Run& run) const {
   const State& state = SurfaceAccess::state(*this);
-  for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points", i);
+  check_points(points, "points");
   TaskContext task(run.threads, run.progress, points.size());
   const FaceTree& tree = state.tree(task);
   search_along_curve(

@@ -71,6 +71,12 @@ std::array<double, 3> weights_on_side(const std::array<Point, 3>& corners, const
   return weights;
 }
 
+/// Not of some that are as long as numbers can be.
+bool is_direction(const SpacePoint& d) {
+  const double sum = std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]);
+  return 0 < sum && sum < kInfinity;
+}
+
 void check_direction(const SpacePoint& d, std::string_view name, std::optional<std::size_t> row = {}) {
   for (std::size_t axis = 0; axis < d.size(); ++axis) {
     if (std::isfinite(d[axis])) continue;
@@ -187,9 +193,9 @@ void Surface::for_each_first_hit(std::span<const SpacePoint> origins, std::span<
     raise(ErrorCode::InvalidOption, std::to_string(directions.size()) + " directions, expected one for each of " +
                                         std::to_string(origins.size()) + " origins");
   }
-  for (std::size_t i = 0; i < origins.size(); ++i) {
-    check_point(origins[i], "origins", i);
-    check_direction(directions[i], "directions", i);
+  check_points(origins, "origins");
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    if (!is_direction(directions[i])) check_direction(directions[i], "directions", i);
   }
   TaskContext task(run.threads, run.progress, origins.size());
   const FaceTree& tree = state.tree(task);

@@ -22,6 +22,9 @@ namespace meshhood::inline v0_1 {
 /// Error{InvalidOption}: the coordinate that is not finite or too large. `name`, `row`: of the argument.
 void check_point(const SpacePoint& p, std::string_view name, std::optional<std::size_t> row = {});
 
+/// The same for each row of an argument.
+void check_points(std::span<const SpacePoint> points, std::string_view name);
+
 /// Error{VertexOutOfRange}: `name` and the vertex.
 void check_vertex(VertexId v, std::size_t vertices, std::string_view name);
 
