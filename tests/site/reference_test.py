@@ -23,7 +23,7 @@ from declared_cpp import declared_names
 DESCRIPTORS = (property, classmethod, staticmethod)
 PART = re.compile(r"(\d+)")
 OPERATORS = {"ix": "operator[]", "cl": "operator()", "eq": "operator==", "ne": "operator!=", "lt": "operator<",
-             "cv": "operator double"}
+             "cvd": "operator double", "cv8VertexId": "operator unsigned int"}
 
 
 class Entries(HTMLParser):
@@ -60,8 +60,7 @@ def cpp_name(identifier):
         rest = rest[end:]
     if rest[:2] == "C4":  # a constructor
         parts.append(parts[-1])
-    elif rest[:2] in OPERATORS:
-        parts.append(OPERATORS[rest[:2]])
+    parts += [name for operator, name in OPERATORS.items() if rest.startswith(operator)]
     return "::".join(parts)
 
 
