@@ -26,6 +26,7 @@
 #include "options.h"
 #include "output.h"
 #include "painting.h"
+#include "task.h"
 
 namespace meshhood::cli {
 namespace {
@@ -45,7 +46,7 @@ struct Row {
   double microseconds;
 };
 
-AnySearcher make_searcher(std::string_view method, Input& input) {
+AnySearcher searcher_of(std::string_view method, Input& input) {
   if (method == "bfs") return ReferenceSearcher(input.graph());
   if (method == "ball") return BallSearcher(input.positions());
   if (method == "paper") return paper::Searcher(input.paper_index());
@@ -61,13 +62,13 @@ void drop_welded(const Input& input, std::vector<VertexId>& vertices) {
   std::erase_if(vertices, [&](VertexId w) { return input.welding().kept(w) != w; });
 }
 
-/// Of 200 vertices spread over the mesh, the one at which the largest part of the ball does not belong to the
+/// Of some 200 vertices spread over the mesh, the one at which the largest part of the ball does not belong to the
 /// neighborhood; one at which the paper's answer differs, too, comes first.
 VertexId most_different(Input& input, double radius) {
   constexpr std::size_t kCandidates = 200;
-  AnySearcher ball = make_searcher("ball", input);
-  AnySearcher paper = make_searcher("paper", input);
-  AnySearcher exact = make_searcher("exact", input);
+  AnySearcher ball = searcher_of("ball", input);
+  AnySearcher paper = searcher_of("paper", input);
+  AnySearcher exact = searcher_of("exact", input);
   std::vector<VertexId> vertices;
   const auto count = [&](AnySearcher& searcher, VertexId v) {
     find(searcher, v, radius, vertices);
@@ -78,6 +79,7 @@ VertexId most_different(Input& input, double radius) {
   VertexId found = 0;
   const std::size_t step = std::max<std::size_t>(1, input.vertex_count() / kCandidates);
   for (std::size_t i = 0; i < input.vertex_count(); i += step) {
+    Task::check_cancelled();
     const VertexId v = input.welding().kept(static_cast<VertexId>(i));
     const double size = count(exact, v);
     const std::pair difference{count(paper, v) > size, 1 - size / count(ball, v)};
@@ -93,7 +95,7 @@ std::vector<Row> answer(Input& input, VertexId v, double radius) {
   std::vector<Row> rows;
   measure::Comparison comparison(input.vertex_count());
   for (const char* const method : {"bfs", "ball", "paper", "exact"}) {
-    AnySearcher searcher = make_searcher(method, input);
+    AnySearcher searcher = searcher_of(method, input);
     Row row{method, {}, {}, 0};
     row.microseconds = 1e6 * measure::median_seconds([&] { find(searcher, v, radius, row.vertices); });
     drop_welded(input, row.vertices);
