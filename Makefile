@@ -38,7 +38,7 @@ test:
 
 test-all:
 	@tools/setup test-all
-	@tools/test release asan tsan:shared/helper_threads tsan:exact/threads
+	@tools/test release asan tsan:shared/helper_threads tsan:exact/threads tsan:patch/packet_patches
 
 test-platforms:
 	@tools/setup platforms

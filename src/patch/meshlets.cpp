@@ -200,6 +200,7 @@ void Triangles::find_borders(const IndexView& index, TaskContext& task) {
     TriangleId triangle;
     std::uint32_t number;  // of the side there
   };
+  std::vector<std::uint8_t> borders(size());  // the bits of `flags`
   std::atomic<bool> all_of_index{true};
   const auto append = [&, sides = std::vector<Given>(), ends = std::vector<std::uint32_t>(),
                        neighbors = std::vector<std::uint32_t>()](std::size_t place,
@@ -221,8 +222,8 @@ void Triangles::find_borders(const IndexView& index, TaskContext& task) {
       }
       if (sides[begin].side.last == first) balance = 0;  // a corner that is listed twice is no side
       for (std::size_t i = begin; i < end && balance != 0; ++i) {
-        // Another thread may mark another side of the triangle.
-        std::atomic_ref(flags[sides[i].triangle]).fetch_or(static_cast<std::uint8_t>(1U << sides[i].number));
+        // Another thread may mark another side of the triangle, or read its diagonals.
+        std::atomic_ref(borders[sides[i].triangle]).fetch_or(static_cast<std::uint8_t>(1U << sides[i].number));
       }
     }
     ends.clear();  // of sides that are no diagonals
@@ -238,6 +239,7 @@ void Triangles::find_borders(const IndexView& index, TaskContext& task) {
   };
   loose = collect_rows<LooseEdge>(index.vertex_count(), task, append).elements;
   are_of_index = all_of_index;
+  for (TriangleId t = 0; t < size(); ++t) flags[t] |= borders[t];
 }
 
 namespace {
