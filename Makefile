@@ -50,7 +50,7 @@ packages:
 
 demo:
 	@tools/setup build
-	@tools/build release -DMESHHOOD_DEMO=ON
+	@tools/build demo-program
 	@tools/setup demo
 	@tools/demo
 	@echo "== make view shows the same in an interactive page, to turn the mesh and to choose vertex and radius"
