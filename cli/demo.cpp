@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The commands that tools/demo runs. The program that `make demo` builds has no others, since all take twice as long to
-// compile.
+// The commands that tools/demo runs. The program that `make demo` builds has no others, because a program with all
+// commands takes twice as long to compile.
 #include "commands.h"
 
 namespace meshhood::cli {

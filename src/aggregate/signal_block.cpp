@@ -20,7 +20,8 @@ int exponent_of(const Column& column) {
   return largest == 0 ? 0 : kLargestExponent - std::ilogb(largest);
 }
 
-/// By two powers of two, as one may be too large for a number. Exact but for values that underflow.
+/// Multiplies by 2^exponent, in two steps, because 2^exponent may be too large for a number. Exact, unless a product
+/// underflows.
 void multiply(Column& column, int exponent) {
   if (exponent == 0) return;
   const double first = std::ldexp(1.0, exponent / 2);

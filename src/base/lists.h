@@ -51,8 +51,8 @@ template <class T, class Offset, class ForEach>
   return result;
 }
 
-/// Calls `append(row, values)` for each of `count` rows, on several threads; it appends the values of the row. Copies
-/// of it are called, so that it can own memory. Throws Error{Cancelled}.
+/// Calls `append(row, values)` for each of `count` rows, on several threads; it appends the values of the row. Each
+/// task has its own copy of `append`, which can own memory. Throws Error{Cancelled}.
 template <class T, class Append>
 Lists<T> collect_rows(std::size_t count, TaskContext& task, const Append& append) {
   constexpr std::size_t kRowsPerTask = 64;

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Compiles the core and some of its tests for AArch64, and runs them in QEMU: the golden files, the kernels, whole calls
-# with each target, and a sample of queries compared with the oracle. So answers and files have the same bits on processors with NEON.
+# with each target, and a sample of queries compared with the oracle. So answers and files have the same bits on
+# processors with NEON.
 # Usage: aarch64.sh FOLDER HEADERS TESTS CORE KERNELS..., where FOLDER is for what it makes, HEADERS holds the headers of
 # libraries, TESTS is tests/ of the repository, CORE includes all sources but KERNELS
 set -eu
