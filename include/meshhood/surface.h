@@ -257,7 +257,8 @@ enum class ThicknessMethod : std::uint8_t {
 /// mesh; NaN for a vertex without a normal.
 ///
 /// Masks have no effect. A row depends on the surface, its vertex and the method alone, bit for bit. O(log #V) a row on
-/// most surfaces; for a ball, as many searches for a closest point as it has steps, mostly 2 to 6. 16 bytes a row.
+/// most surfaces; for a ball, O(#F) where the whole surface is nearly a ball, all faces of which it touches. 16 bytes a
+/// row.
 /// Throws Error{VertexOutOfRange, Cancelled}, naming the row, Error{InvalidOption} after a refit in place, and
 /// Error{InvalidMesh} if no face has three corners.
 [[nodiscard]] std::vector<double> thickness(const Surface& surface, const BatchVertices& vertices = {},

@@ -57,14 +57,13 @@ class BoxTree {
   template <class Shape>
   class Walk;
   template <class Reach>
+  class Ball;
+  template <class Reach>
   class Line;
 
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  template <class Reach>
-  class Ball;
-
   /// That of all boxes of a group.
   [[nodiscard]] BoundingBox box_around(std::size_t level, std::size_t number) const;
 
@@ -201,10 +200,11 @@ void BoxTree::Walk<Shape>::open(std::size_t level, std::size_t number, Fetch& fe
   size_ = size;
 }
 
-/// Measures squared distances from a point.
+/// Measures squared distances from a point, in the frame.
 template <class Reach>
 class BoxTree::Ball {
  public:
+  /// `reach` must outlive it.
   Ball(const Point& center, Reach& reach)
       : kernels_(&kernels(best_isa())),
         center_(center),

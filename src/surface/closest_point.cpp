@@ -22,36 +22,6 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// 0 where squares of lengths vanish.
-double share_of(double part, double whole) { return whole > 0 ? part / whole : 0; }
-
-/// The point of a triangle nearest to the origin, by the regions of Ericson, "Real-Time Collision Detection" (2005),
-/// sec. 5.1.5. For slivers it may be another point of the triangle, or not a number.
-Point roughly_nearest(const std::array<Point, 3>& corners) {
-  const auto& [a, b, c] = corners;
-  const Point ab = b - a;
-  const Point ac = c - a;
-  const double d1 = -dot(ab, a);
-  const double d2 = -dot(ac, a);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const double d3 = -dot(ab, b);
-  const double d4 = -dot(ac, b);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + share_of(d1, d1 - d3) * ab;
-  const double d5 = -dot(ab, c);
-  const double d6 = -dot(ac, c);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + share_of(d2, d2 - d6) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + share_of(d4 - d3, (d4 - d3) + (d5 - d6)) * (c - b);
-  // Rounding may bring several of them below 0.
-  if (!(va >= 0 && vb >= 0 && vc >= 0)) return a;
-  const double share = share_of(1, va + vb + vc);
-  return a + (vb * share) * ab + (vc * share) * ac;
-}
-
 /// A triangle is first compared roughly, which bounds its distance from both sides. Only those that no other one
 /// excludes are measured exactly, at the end.
 class ClosestPoint {
@@ -83,21 +53,12 @@ class ClosestPoint {
     double least;  // of its squared distances, in the frame; may be not a number
   };
 
-  /// No point of a triangle is nearer than its corners are along any direction; that to its nearest point tells the
-  /// most.
   void compare(std::size_t i) {
-    std::array<Point, 3> from_q;
-    for (std::size_t k = 0; k < 3; ++k) {
-      from_q[k] = index_->in_frame(triangles_[i].corners[k]) - in_frame_;
-    }
-    const Point nearest = roughly_nearest(from_q);
-    const double along = std::min({dot(nearest, from_q[0]), dot(nearest, from_q[1]), dot(nearest, from_q[2])});
-    const double square = dot(nearest, nearest);
-    const double least = along > 0 ? along * along / square : 0;
-    if (is_far(least)) return;
-    limit_to(std::sqrt(square));
+    const RoughDistance rough = compare_roughly(corners_in_frame(*index_, triangles_[i].corners), in_frame_);
+    if (is_far(rough.least)) return;
+    limit_to(std::sqrt(rough.square));
     if (size_ == candidates_.size()) measure();
-    candidates_[size_++] = {i, least};
+    candidates_[size_++] = {i, rough.least};
   }
 
   [[nodiscard]] bool is_far(double least) const { return least > reach_ * reach_; }

@@ -173,6 +173,36 @@ class Candidates {
   bool has_one_ = false;
 };
 
+/// 0 where squares of lengths vanish.
+double share_of(double part, double whole) { return whole > 0 ? part / whole : 0; }
+
+/// The point of a triangle nearest to the origin, by the regions of Ericson, "Real-Time Collision Detection" (2005),
+/// sec. 5.1.5. For slivers it may be another point of the triangle, or not a number.
+Point roughly_nearest(const std::array<Point, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Point ab = b - a;
+  const Point ac = c - a;
+  const double d1 = -dot(ab, a);
+  const double d2 = -dot(ac, a);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const double d3 = -dot(ab, b);
+  const double d4 = -dot(ac, b);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + share_of(d1, d1 - d3) * ab;
+  const double d5 = -dot(ab, c);
+  const double d6 = -dot(ac, c);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + share_of(d2, d2 - d6) * ac;
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + share_of(d4 - d3, (d4 - d3) + (d5 - d6)) * (c - b);
+  // Rounding may bring several of them below 0.
+  if (!(va >= 0 && vb >= 0 && vc >= 0)) return a;
+  const double share = share_of(1, va + vb + vc);
+  return a + (vb * share) * ab + (vc * share) * ac;
+}
+
 }  // namespace
 
 double share_of_side(const Point& a, const Point& b) {
@@ -186,6 +216,14 @@ double share_of_side(const Point& a, const Point& b) {
 std::size_t longest(const std::array<Point, 3>& sides) {
   const auto by_length = [](const Point& a, const Point& b) { return dot(a, a) < dot(b, b); };
   return static_cast<std::size_t>(std::max_element(sides.begin(), sides.end(), by_length) - sides.begin());
+}
+
+RoughDistance compare_roughly(const std::array<Point, 3>& corners, const Point& q) {
+  const std::array<Point, 3> from_q{corners[0] - q, corners[1] - q, corners[2] - q};
+  const Point nearest = roughly_nearest(from_q);
+  const double along = std::min({dot(nearest, from_q[0]), dot(nearest, from_q[1]), dot(nearest, from_q[2])});
+  const double square = dot(nearest, nearest);
+  return {square, along > 0 ? along * along / square : 0};
 }
 
 TrianglePoint nearest_in_triangle(const Point& q, const std::array<Point, 3>& corners, double scale) {

@@ -43,6 +43,15 @@ struct TrianglePoint {
 /// a corner have the same distance there, bit for bit, whatever the order of their corners.
 [[nodiscard]] TrianglePoint nearest_in_triangle(const Point& q, const std::array<Point, 3>& corners, double scale);
 
+/// What is quickly found of the distance between a point and a triangle.
+struct RoughDistance {
+  double square;  // of the distance of some point of the triangle, mostly the nearest
+  double least;   // of the squares of all distances; may be not a number
+};
+
+/// No point of a triangle is nearer than its corners are along any direction; that to its nearest point tells the most.
+[[nodiscard]] RoughDistance compare_roughly(const std::array<Point, 3>& corners, const Point& q);
+
 /// Boxes farther than this from a point have no triangle nearer than `distance`; both in the frame. The distance of a
 /// triangle is off by a few units in the last place of itself and of the sides, which are at most 4 there, and squares
 /// of distances may vanish.
@@ -102,6 +111,12 @@ inline void check_triangle_count(std::size_t triangles) {
 
 /// The positions of the corners of a triangle.
 [[nodiscard]] std::array<Point, 3> corners_of(const IndexView& index, const std::array<std::uint32_t, 3>& places);
+
+/// The same in the frame.
+[[nodiscard]] inline std::array<Point, 3> corners_in_frame(const IndexView& index,
+                                                           const std::array<std::uint32_t, 3>& places) {
+  return {index.in_frame(places[0]), index.in_frame(places[1]), index.in_frame(places[2])};
+}
 
 /// A point of a triangle of a face, with these corners, as callers see it.
 [[nodiscard]] SurfacePoint surface_point(const IndexView& index, const StoredFaces& faces, std::size_t face,

@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 #include "meshhood/surface.h"
 
@@ -24,6 +27,54 @@ constexpr std::size_t kVerticesOfTask = 256;
 // The first ball reaches as far as the frame.
 constexpr double kFirstRadius = 4;
 
+/// A ball that touches a vertex from inside, and shrinks while a search goes through boxes. It stays inside of what it
+/// was, so a box that it once did not meet is left out for good.
+class TouchingBall {
+ public:
+  TouchingBall(const IndexView& index, const Point& vertex, const Point& inward, double radius)
+      : index_(&index), vertex_(vertex), inward_(inward), radius_(radius), reach_(reach()), boxes_(center(), reach_) {}
+  TouchingBall(const TouchingBall&) = delete;
+  TouchingBall& operator=(const TouchingBall&) = delete;
+
+  [[nodiscard]] double radius() const { return radius_; }
+
+  void limit_to(double radius) {
+    if (!(radius < radius_)) return;
+    radius_ = radius;
+    reach_ = reach();
+    boxes_ = BoxTree::Ball<Reach>(center(), reach_);
+  }
+
+  /// False if no point of the triangle is in the ball.
+  [[nodiscard]] bool may_contain(const std::array<std::uint32_t, 3>& corners) const {
+    return !(compare_roughly(corners_in_frame(*index_, corners), center()).least > reach_.distance * reach_.distance);
+  }
+
+  unsigned compare(const BoxGroup& group, BoxGroup::Row& squares) const { return boxes_.compare(group, squares); }
+
+  /// Distances of boxes from centers of larger balls tell nothing.
+  [[nodiscard]] static float limit() { return std::numeric_limits<float>::infinity(); }
+
+  void update() {}
+
+ private:
+  struct Reach {
+    double distance;
+    double operator()() const { return distance; }
+  };
+
+  [[nodiscard]] Point center() const { return index_->frame.to_frame(vertex_ + radius_ * inward_); }
+
+  [[nodiscard]] Reach reach() const { return {reach_of(radius_ * index_->frame.scale, index_->frame.scale)}; }
+
+  const IndexView* index_;
+  Point vertex_;
+  Point inward_;
+  double radius_;
+  Reach reach_;                 // in the frame
+  BoxTree::Ball<Reach> boxes_;  // within that reach of the center
+};
+
 /// What is opposite to a vertex.
 class OppositeSide {
  public:
@@ -41,20 +92,19 @@ class OppositeSide {
 
   [[nodiscard]] double by_sphere(const NormalCones& cones) const {
     if (!has_normal()) return kNan;
-    const double scale = index_->frame.scale;
     const double way = way_to_first([&](std::size_t i) { return opposes(i); });
-    double radius = std::min(way / 2, kFirstRadius / scale);
-    bool is_met = way < kInfinity;
-    for (;;) {
-      const TrianglePoint nearest = nearest_to(vertex_ + radius * inward_, radius, cones);
-      const Point offset = scale * (nearest.point - vertex_);
-      const double along = dot(inward_, offset);
-      const bool is_inside = nearest.distance < radius && along > 0;
-      const double smaller = is_inside ? dot(offset, offset) / (2 * along) / scale : radius;
-      if (!(smaller > 0 && smaller < radius)) return is_met ? 2 * radius : kInfinity;
-      radius = smaller;
-      is_met = true;
+    const double first = std::min(way / 2, kFirstRadius / index_->frame.scale);
+    TouchingBall ball(*index_, vertex_, inward_, first);
+    BoxTree::Walk walk(tree_->boxes(), ball);
+    const auto shrink = [&](std::size_t i) {
+      if (touches(i) || !ball.may_contain(corners(i)) || !opposes(i)) return;
+      ball.limit_to(largest_beside(i, first));
+    };
+    const auto enters = [&](std::size_t level, std::size_t group) { return cones.may_oppose(level, group, normal_); };
+    while (walk.advance(shrink, [](std::size_t) {}, enters)) {
     }
+    const bool is_met = way < kInfinity || ball.radius() < first;
+    return is_met ? 2 * ball.radius() : kInfinity;
   }
 
  private:
@@ -77,21 +127,24 @@ class OppositeSide {
     return find_first_hit(*index_, *tree_, vertex_, inward_, counts).at.distance;
   }
 
-  /// The point of an opposite face nearest to the center of a ball; one that is not nearer than `radius` if there is
-  /// none in the ball.
-  [[nodiscard]] TrianglePoint nearest_to(const Point& center, double radius, const NormalCones& cones) const {
+  [[nodiscard]] const std::array<std::uint32_t, 3>& corners(std::size_t i) const {
+    return tree_->triangles()[i].corners;
+  }
+
+  /// The radius of the largest ball beside a triangle, which shrinks from `radius` until the nearest point of the
+  /// triangle is not in it. So it depends on no other triangle.
+  [[nodiscard]] double largest_beside(std::size_t i, double radius) const {
     const double scale = index_->frame.scale;
-    TriangleHit nearest;
-    tree_->boxes().search(
-        index_->frame.to_frame(center), [&] { return reach_of(std::min(radius, nearest.at.distance) * scale, scale); },
-        [&](std::size_t i) {
-          if (touches(i) || !opposes(i)) return;
-          const std::array<Point, 3> corners = corners_of(*index_, tree_->triangles()[i].corners);
-          const TriangleHit found{i, nearest_in_triangle(center, corners, scale)};
-          if (precedes(found, nearest, tree_->triangles())) nearest = found;
-        },
-        [&](std::size_t level, std::size_t group) { return cones.may_oppose(level, group, normal_); });
-    return nearest.at;
+    const std::array<Point, 3> positions = corners_of(*index_, corners(i));
+    for (;;) {
+      const TrianglePoint nearest = nearest_in_triangle(vertex_ + radius * inward_, positions, scale);
+      const Point offset = scale * (nearest.point - vertex_);
+      const double along = dot(inward_, offset);
+      const bool is_inside = nearest.distance < radius && along > 0;
+      const double smaller = is_inside ? dot(offset, offset) / (2 * along) / scale : radius;
+      if (!(smaller > 0 && smaller < radius)) return radius;
+      radius = smaller;
+    }
   }
 
   const IndexView* index_;
