@@ -110,10 +110,10 @@ class Surface {
   /// made. O(1). Throws Error{InvalidOption} if the index is of another mesh.
   [[nodiscard]] Surface on(const Index& index) const;
 
-  /// Follows a refit of its index: answers are then those of a new surface. With `changed`, boxes and normals are
-  /// renewed for the faces of these vertices alone, unless a vertex has left the frame of the index; they are copied if
-  /// another surface shares them (see `on`). All else is made again when it is needed. No thread may use the surface
-  /// meanwhile.
+  /// Follows a refit of its index: answers are then those of a new surface. With `changed`, boxes, normals and what
+  /// patches of triangles need are renewed for the faces of these vertices alone, unless a vertex has left the frame of
+  /// the index. If another surface shares them (see `on`), boxes and normals are copied. All else is made again when it
+  /// is needed. No thread may use the surface meanwhile.
   ///
   /// index    refitted in place, or a refitted copy.
   /// changed  ids of the vertices that have moved since, at least.

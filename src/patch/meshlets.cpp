@@ -266,6 +266,10 @@ Meshlet make_meshlet(const IndexView& index, const Triangles& triangles, Meshlet
   return sums;
 }
 
+BoundingBox box_in_frame(const IndexView& index, const Meshlet& meshlet) {
+  return {index.frame.to_frame(meshlet.box.low), index.frame.to_frame(meshlet.box.high)};
+}
+
 /// The same index, whose answers have the ignored vertices, too.
 Index without_ignored(const Index& given) {
   if (IndexAccess::view(given).ignored.empty()) return IndexAccess::alias(given);
@@ -300,10 +304,18 @@ Meshlets::Meshlets(const IndexView& index, const Triangles& triangles, TaskConte
       }
     }
   });
-  boxes.build(size(), [&](std::size_t i) {
-    const BoundingBox& box = meshlets[i].box;
-    return BoundingBox{index.frame.to_frame(box.low), index.frame.to_frame(box.high)};
-  });
+  boxes.build(size(), [&](std::size_t i) { return box_in_frame(index, meshlets[i]); });
+}
+
+void Meshlets::renew(const IndexView& index, const Triangles& triangles, std::span<const VertexId> changed) {
+  std::vector<std::size_t> moved;
+  for (const VertexId v : changed) {
+    for (const TriangleId t : triangles.fans[index.place(v)]) moved.push_back(triangles.meshlet_of(t));
+  }
+  std::sort(moved.begin(), moved.end());
+  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+  for (const std::size_t i : moved) meshlets[i] = make_meshlet(index, triangles, static_cast<MeshletId>(i));
+  boxes.renew(std::move(moved), [&](std::size_t i) { return box_in_frame(index, meshlets[i]); });
 }
 
 PatchState::PatchState(const Index& given, const StoredFaces& all, TaskContext& task)
@@ -312,5 +324,11 @@ PatchState::PatchState(const Index& given, const StoredFaces& all, TaskContext& 
       faces(&all),
       triangles(*index, all, task),
       meshlets(*index, triangles, task) {}
+
+void PatchState::renew(const Index& refitted, std::span<const VertexId> changed) {
+  searched = without_ignored(refitted);
+  index = &IndexAccess::view(searched);
+  meshlets.renew(*index, triangles, changed);
+}
 
 }  // namespace meshhood::inline v0_1

@@ -135,6 +135,9 @@ struct Meshlets {
 
   Meshlets(const IndexView& index, const Triangles& triangles, TaskContext& task);
 
+  /// After the vertices `changed` have moved, within the same frame.
+  void renew(const IndexView& index, const Triangles& triangles, std::span<const VertexId> changed);
+
   [[nodiscard]] std::size_t size() const { return meshlets.size(); }
   [[nodiscard]] std::size_t bytes() const {
     return meshlets.size() * sizeof(Meshlet) + corners.bytes() + of_leaf.bytes() + boxes.bytes();
@@ -145,6 +148,9 @@ struct Meshlets {
 struct PatchState {
   /// Borrows the faces. Throws as `Triangles`.
   PatchState(const Index& given, const StoredFaces& all, TaskContext& task);
+
+  /// Follows a refit, in the same frame, in which the vertices `changed` have moved. All faces have three corners.
+  void renew(const Index& refitted, std::span<const VertexId> changed);
 
   Index searched;  // answers with ignored vertices, too, which are on the surface as others are
   const IndexView* index;

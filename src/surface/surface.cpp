@@ -120,7 +120,11 @@ const Normals& Surface::State::normals(TaskContext& task) const {
 }
 
 const PatchState& Surface::State::patches(TaskContext& task) const {
-  return made_patches.get([&] { return PatchState(searched, faces(), task); });
+  return kept_patches().get([&] { return PatchState(searched, faces(), task); });
+}
+
+Kept<PatchState>& Surface::State::kept_patches() const {
+  return index->walls.empty() ? geometry->patches : walled_patches;
 }
 
 // Of the positions in index order, for the sums and the bits of `vertex_areas`.
@@ -155,6 +159,14 @@ void Surface::State::renew(SurfaceGeometry& made, std::span<const VertexId> chan
   sort_out(around);
   if (FaceTree* const tree = made.tree.made()) tree->renew(*index, faces(), moved);
   if (Normals* const normals = made.normals.made()) renew_normals(*index, faces(), lists(), around, *normals);
+  // Polygons may have other triangles.
+  PatchState* const patches = made.patches.made();
+  if (patches == nullptr) return;
+  if (index->walls.empty() && faces().offsets.empty()) {
+    patches->renew(searched, changed);
+  } else {
+    made.patches.drop();
+  }
 }
 
 Surface::Surface(const Index& index, const FacesView& faces)
@@ -192,11 +204,10 @@ void Surface::refit_in_place(const Index& index) {
 void Surface::refit_in_place(const Index& index, const IndicesView& changed) {
   const std::vector<VertexId> moved = read_changed(changed, vertex_count());
   std::shared_ptr<SurfaceGeometry> made = state_->geometry;
-  const bool is_shared = made.use_count() > 2;  // with another surface
   const bool is_in_frame = same(state_->frame, IndexAccess::view(index).frame);
   refit_in_place(index);
   if (!is_in_frame) return;
-  if (is_shared) made = made->copy();
+  if (made.use_count() > 1) made = made->copy();  // for another surface, or a searcher that was made before
   // If memory runs out meanwhile, all is made again.
   state_->renew(*made, moved);
   made->areas.drop();
@@ -214,7 +225,7 @@ std::size_t Surface::bytes() const {
   if (const FaceTree* const tree = state_->geometry->tree.made()) bytes += tree->bytes();
   if (const NormalCones* const cones = state_->geometry->cones.made()) bytes += cones->bytes();
   if (state_->geometry->normals.made() != nullptr) bytes += 3 * sizeof(double) * vertex_count();
-  if (const PatchState* const patches = state_->made_patches.made()) bytes += patches->bytes();
+  if (const PatchState* const patches = state_->kept_patches().made()) bytes += patches->bytes();
   if (state_->geometry->areas.made() != nullptr) bytes += sizeof(double) * vertex_count();
   return bytes;
 }

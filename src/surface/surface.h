@@ -54,8 +54,9 @@ struct SurfaceGeometry {
   Kept<FaceTree> tree;
   Kept<NormalCones> cones;  // of the tree
   Kept<std::vector<double>> areas;
+  Kept<PatchState> patches;  // without walls
 
-  /// Of what a refit renews.
+  /// Of what a refit renews, but patches.
   [[nodiscard]] std::shared_ptr<SurfaceGeometry> copy() const;
 };
 
@@ -66,8 +67,8 @@ struct Surface::State {
   Frame frame;       // of the geometry
   std::shared_ptr<SurfaceFaces> topology;
   std::shared_ptr<SurfaceGeometry> geometry;
-  mutable Kept<PatchState> made_patches;  // of this index, with its walls
-  bool has_own_normals = false;           // which do not follow from faces
+  mutable Kept<PatchState> walled_patches;  // of this index
+  bool has_own_normals = false;             // which do not follow from faces
 
   State(const Index& given, FaceArrays faces);
   State(const Index& given, const State& other);
@@ -79,6 +80,7 @@ struct Surface::State {
   [[nodiscard]] const Normals& normals(TaskContext& task) const;
   [[nodiscard]] const std::vector<double>& areas() const;
   [[nodiscard]] const PatchState& patches(TaskContext& task) const;
+  [[nodiscard]] Kept<PatchState>& kept_patches() const;
 
   /// Throws Error{InvalidOption} unless `other` is a refit of the index.
   void check_refit(const Index& other) const;

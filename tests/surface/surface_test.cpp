@@ -13,6 +13,7 @@
 #include "meshhood/curvature.h"
 #include "meshhood/index.h"
 #include "meshhood/masks.h"
+#include "meshhood/patch.h"
 #include "meshhood/refit.h"
 #include "meshhood/search.h"
 
@@ -36,6 +37,10 @@ std::vector<double> answers(const Surface& surface, std::span<const SpacePoint> 
   for (const double way : across) all.push_back(std::isnan(way) ? -1 : way);
   const auto areas = surface.vertex_areas();
   all.insert(all.end(), areas.begin(), areas.end());
+  const Invariants patches = invariants(surface, {.radius = 2.0});
+  all.insert(all.end(), patches.area.begin(), patches.area.end());
+  for (const double volume : patches.volume) all.push_back(std::isnan(volume) ? -1 : volume);
+  for (const SurfacePoint& gap : gaps(surface, {.radius = 2.0})) all.push_back(gap.distance);
   const std::vector<VertexId> ids{0, 1, 2};
   for (const std::size_t face : surface.faces(ids, Corners::Any)) all.push_back(static_cast<double>(face));
   return all;
@@ -104,6 +109,17 @@ TEST_F(OneSurface, OfOtherMasksKeepsItsOwnGeometry) {
   surface.refit_in_place(moved, changed);
   EXPECT_EQ(answers(surface, points), answers(Surface(moved, mesh.view()), points));
   EXPECT_EQ(answers(walled, points), before);
+}
+
+TEST_F(OneSurface, LeavesSearchersOfTheIndexBefore) {
+  PatchSearcher searcher(surface);
+  const PatchMeasure before = searcher.measure(17, 1.5);
+  mesh.positions[3 * 17 + 2] += 1;
+  const std::vector<VertexId> changed{17};
+  const Index moved = refit(index, mesh.positions_view(), changed);
+  surface.refit_in_place(moved, changed);
+  EXPECT_NE(PatchSearcher(surface).measure(17, 1.5).area, before.area);
+  EXPECT_EQ(searcher.measure(17, 1.5).area, before.area);
 }
 
 TEST_F(OneSurface, HasTheAreasOfTheVertices) {
