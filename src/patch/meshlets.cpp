@@ -193,44 +193,48 @@ void later_neighbors(const IndexView& index, std::uint32_t place, std::vector<st
 
 }  // namespace
 
-/// The sides whose first end is a place, sorted so that the same ones follow each other.
+void Triangles::gather_sides(std::uint32_t first, std::vector<GivenSide>& sides) const {
+  sides.clear();
+  for (const TriangleId t : fans[first]) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      if (const Side side = side_of(t, i); side.first == first) sides.push_back({side, t, i});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const GivenSide& a, const GivenSide& b) {
+    return std::tie(a.side.last, a.side.owner) < std::tie(b.side.last, b.side.owner);
+  });
+}
+
+bool Triangles::are_balanced(std::span<const GivenSide> same) const {
+  const auto& [first, last, owner] = same.front().side;
+  if (first == last) return true;  // a corner that is listed twice is no side
+  std::int64_t balance = 0;
+  for (const GivenSide& given : same) balance += corners[given.triangle][given.number] == first ? 1 : -1;
+  return balance == 0;
+}
+
 void Triangles::find_borders(const IndexView& index, TaskContext& task) {
-  struct Given {
-    Side side;
-    TriangleId triangle;
-    std::uint32_t number;  // of the side there
-  };
   std::vector<std::uint8_t> borders(size());  // the bits of `flags`
   std::atomic<bool> all_of_index{true};
-  const auto append = [&, sides = std::vector<Given>(), ends = std::vector<std::uint32_t>(),
+  const auto append = [&, sides = std::vector<GivenSide>(), ends = std::vector<std::uint32_t>(),
                        neighbors = std::vector<std::uint32_t>()](std::size_t place,
                                                                  std::vector<LooseEdge>& out) mutable {
     const auto first = static_cast<std::uint32_t>(place);
-    sides.clear();
-    for (const TriangleId t : fans[first]) {
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        if (const Side side = side_of(t, i); side.first == first) sides.push_back({side, t, i});
-      }
-    }
-    std::sort(sides.begin(), sides.end(), [](const Given& a, const Given& b) {
-      return std::tie(a.side.last, a.side.owner) < std::tie(b.side.last, b.side.owner);
-    });
-    for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-      std::int64_t balance = 0;
-      for (end = begin; end < sides.size() && sides[end].side == sides[begin].side; ++end) {
-        balance += corners[sides[end].triangle][sides[end].number] == first ? 1 : -1;
-      }
-      if (sides[begin].side.last == first) balance = 0;  // a corner that is listed twice is no side
-      for (std::size_t i = begin; i < end && balance != 0; ++i) {
-        // Another thread may mark another side of the triangle, or read its diagonals.
-        std::atomic_ref(borders[sides[i].triangle]).fetch_or(static_cast<std::uint8_t>(1U << sides[i].number));
-      }
-    }
+    gather_sides(first, sides);
     ends.clear();  // of sides that are no diagonals
-    for (const auto& [side, triangle, number] : sides) {
-      if (side.owner == Side::kShared && side.last != first) ends.push_back(side.last);
+    const auto is_other = [](const GivenSide& a, const GivenSide& b) { return a.side != b.side; };
+    for (auto begin = sides.begin(), end = begin; begin != sides.end(); begin = end) {
+      end = std::adjacent_find(begin, sides.end(), is_other);
+      if (end != sides.end()) ++end;
+      const std::span<const GivenSide> same(begin, end);
+      if (!are_balanced(same)) {
+        for (const auto& [side, triangle, number] : same) {
+          // Another thread may mark another side of the triangle.
+          std::atomic_ref(borders[triangle]).fetch_or(static_cast<std::uint8_t>(1U << number));
+        }
+      }
+      if (begin->side.owner == Side::kShared && begin->side.last != first) ends.push_back(begin->side.last);
     }
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     later_neighbors(index, first, neighbors);
     if (!std::ranges::includes(neighbors, ends)) all_of_index = false;
     for (const std::uint32_t last : neighbors) {

@@ -104,6 +104,12 @@ struct Triangles {
     bool operator==(const Side&) const = default;
   };
 
+  struct GivenSide {
+    Side side;
+    TriangleId triangle;
+    std::uint32_t number;  // of the side there
+  };
+
   [[nodiscard]] Side side_of(TriangleId t, std::size_t i) const {
     const auto [first, last] = std::minmax(corners[t][i], corners[t][(i + 1) % 3]);
     return {first, last, is_diagonal(t, static_cast<unsigned>(i)) ? face[t] : Side::kShared};
@@ -112,6 +118,12 @@ struct Triangles {
   void make_meshlets(const IndexView& index, const std::vector<Triangle>& all, TaskContext& task);
   void make_fans(std::size_t places);
   void find_borders(const IndexView& index, TaskContext& task);
+
+  /// Those whose first end is a place, sorted so that the same ones follow each other.
+  void gather_sides(std::uint32_t first, std::vector<GivenSide>& sides) const;
+
+  /// Whether the triangles at one side are as many in one direction as in the other.
+  [[nodiscard]] bool are_balanced(std::span<const GivenSide> same) const;
 };
 
 /// Sums over the triangles of a meshlet. Lengths are in the frame, points in the unit of the mesh.
