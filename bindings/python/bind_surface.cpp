@@ -125,6 +125,14 @@ Output<double> measure_thickness(const Surface& surface, const Call& call, bool 
   return owned<double>(without_lock([&] { return thickness(surface, call.query().vertices, method, run); }));
 }
 
+Output<double> measure_thickness_of_points(const Surface& surface, const Input& faces, const Points& points,
+                                           bool by_sphere, unsigned threads, nb::handle progress) {
+  const Run run{.threads = threads, .progress = progress_to(progress)};
+  const ThicknessMethod method = by_sphere ? ThicknessMethod::Sphere : ThicknessMethod::Ray;
+  const IndicesView numbers = indices_of(faces, "face");
+  return owned<double>(without_lock([&] { return thickness(surface, numbers, points_of(points), method, run); }));
+}
+
 Output<std::int64_t> faces(const Surface& surface, const Ids& ids, bool all) {
   return owned<std::int64_t>(surface.faces(ids_of(ids), corners_of(all)));
 }
@@ -239,6 +247,8 @@ nb::class_<Surface> bind_surface(nb::module_& module) {
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("first_hits", &first_hits, nb::arg(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("thickness", &measure_thickness, nb::arg(), nb::arg("by_sphere"))
+      .def("thickness_of_points", &measure_thickness_of_points, nb::arg(), nb::arg(), nb::arg("by_sphere"),
+           nb::arg("threads"), nb::arg("progress").none())
       .def("faces", &faces)
       .def("submesh", &submesh)
       .def("rim", &rim);

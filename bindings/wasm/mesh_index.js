@@ -41,7 +41,7 @@ const PATCH = { face: null, faces: null, walls: null, unit: 'mesh' };
 const CLIP = { ...PATCH, tolerance: 1e-3 };
 const FEATURES = { ...SCALED_ROWS, kinds: 'crease', filter: true };
 const ON_FACES = { faces: null };
-const THICKNESS = { vertices: null, method: 'ray', ...ON_FACES };
+const THICKNESS = { vertices: null, points: null, face: null, method: 'ray', ...ON_FACES };
 
 function chooseMethod({ method, metric }) {
   const place = choose(METHODS, method, 'method');
@@ -469,11 +469,21 @@ export class MeshIndex extends Owner {
   }
 
   thickness(options = {}) {
-    const { vertices, method, faces } = withDefaults(options, THICKNESS);
+    const { vertices, points, face, method, faces } = withDefaults(options, THICKNESS);
     const place = choose(THICKNESSES, method, 'method');
     expectVertices(vertices, 'vertices');
+    expectVertices(face, 'face');
+    if ((points === null) !== (face === null) || (points !== null && vertices !== null)) {
+      throw new MeshhoodError('InvalidOption', 'points: expected points and the face of each, or vertices');
+    }
     useFaces(this.instance, faces);
-    this.instance.with([vertices], (ids) => this.instance.call('thickness', ids, vertices?.length ?? 0, place));
+    if (points === null) {
+      this.instance.with([vertices], (ids) => this.instance.call('thickness', ids, vertices?.length ?? 0, place));
+    } else {
+      const spots = toReals(points, 'points');
+      this.instance.with([face, spots], (ids, list) =>
+        this.instance.call('thickness_of_points', ids, face.length, list, spots.length, place));
+    }
     return this.instance.takeAnswer().reals;
   }
 

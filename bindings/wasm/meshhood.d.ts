@@ -687,10 +687,17 @@ export class MeshIndex {
    * whose normal turns from that of the vertex by more than 53 degrees. Faces are oriented counterclockwise, seen from
    * outside. Infinity where nothing else is met, NaN for a vertex without a normal.
    *
-   * @param options `faces` as for `closestPoint`
+   * @param options `faces` as for `closestPoint`. In place of vertices, `points`, #rows by 3, and `face`, the face of each:
+   * then the point of the face nearest to each of them counts, with the normal of the face
    * @throws MeshhoodError VertexOutOfRange, InvalidMesh, InvalidOption
    */
-  thickness(options: { faces: Faces; vertices?: Uint32Array | null; method?: 'ray' | 'sphere' }): Float64Array;
+  thickness(options: {
+    faces: Faces;
+    vertices?: Uint32Array | null;
+    points?: Float64Array | null;
+    face?: Uint32Array | null;
+    method?: 'ray' | 'sphere';
+  }): Float64Array;
 
   /** Gives the memory back. All later calls throw an Error. */
   dispose(): void;

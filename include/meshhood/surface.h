@@ -264,5 +264,17 @@ enum class ThicknessMethod : std::uint8_t {
 [[nodiscard]] std::vector<double> thickness(const Surface& surface, const BatchVertices& vertices = {},
                                             ThicknessMethod method = ThicknessMethod::Ray, const Run& run = {});
 
+/// The same at points of faces, against the normals of these; of a polygon, that of its vector area. A face does not
+/// count for its own points, nor does what a ray meets nearer than 2^-40 of the extent of the mesh. NaN for a face
+/// without an area.
+///
+/// faces   #rows numbers.
+/// points  #rows. The point of the face nearest to each of them counts.
+/// Throws as above, and Error{InvalidOption}, naming the row, for a face that the mesh does not have, or a coordinate
+/// that is not finite or beyond 2^500; and if the numbers of rows differ. 16 bytes a row.
+[[nodiscard]] std::vector<double> thickness(const Surface& surface, const IndicesView& faces,
+                                            std::span<const SpacePoint> points,
+                                            ThicknessMethod method = ThicknessMethod::Ray, const Run& run = {});
+
 }  // namespace v0_1
 }  // namespace meshhood

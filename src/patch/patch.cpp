@@ -67,10 +67,7 @@ struct PatchSearcher::State {
     constexpr double kRounding = 0x1p-48;
     const IndexView& index = *surface->index;
     const Triangles& all = surface->triangles;
-    if (face >= surface->faces->size()) {
-      raise(ErrorCode::InvalidOption, "face " + std::to_string(face) + ", expected one of the mesh, which has " +
-                                          std::to_string(surface->faces->size()));
-    }
+    if (face >= surface->faces->size()) raise_no_such_face(face, surface->faces->size());
     starts.clear();
     double least = kInfinity;
     double reach = radius;

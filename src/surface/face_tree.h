@@ -27,6 +27,12 @@ class FaceTree {
 
   [[nodiscard]] const BoxTree& boxes() const { return boxes_; }
   [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
+
+  /// Those of a face that has so many corners.
+  [[nodiscard]] std::span<const Triangle> triangles_of(std::size_t face, std::size_t corners) const {
+    return triangles().subspan(first_[face], triangle_count(corners));
+  }
+
   [[nodiscard]] std::size_t bytes() const {
     return triangles_.size() * sizeof(Triangle) + first_.size() * sizeof(std::uint32_t) + boxes_.bytes();
   }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -204,6 +205,11 @@ Point roughly_nearest(const std::array<Point, 3>& corners) {
 }
 
 }  // namespace
+
+void raise_no_such_face(std::size_t face, std::size_t faces, const std::string& where) {
+  raise(ErrorCode::InvalidOption,
+        where + "face " + std::to_string(face) + ", expected one of the mesh, which has " + std::to_string(faces));
+}
 
 double share_of_side(const Point& a, const Point& b) {
   const Point side = b - a;

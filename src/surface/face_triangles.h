@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -98,6 +99,9 @@ class Triangulator {
   std::vector<Point> points_;
   Triangulation triangles_;
 };
+
+/// Throws Error{InvalidOption}: `where`, then the face.
+[[noreturn]] void raise_no_such_face(std::size_t face, std::size_t faces, const std::string& where = {});
 
 /// Throws Error{InvalidMesh} if no face has a triangle.
 inline void check_triangle_count(std::size_t triangles) {

@@ -6,13 +6,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "meshhood/error.h"
 #include "meshhood/surface.h"
 
 #include "base/vector.h"
 #include "batch/position_sort.h"
 #include "batch/rows.h"
+#include "exact/query/arguments.h"
 #include "shared/parallel.h"
 #include "surface/face_tree.h"
 #include "surface/face_triangles.h"
@@ -22,10 +26,13 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-constexpr std::size_t kVerticesOfTask = 256;
+constexpr std::size_t kRowsOfTask = 256;
 
 // The first ball reaches as far as the frame.
 constexpr double kFirstRadius = 4;
+
+// In the frame. Faces beside that of a point are as near as rounding makes them.
+constexpr double kSamePlace = 0x1p-40;
 
 /// A ball that touches a vertex from inside, and shrinks while a search goes through boxes. It stays inside of what it
 /// was, so a box that it once did not meet is left out for good.
@@ -75,16 +82,22 @@ class TouchingBall {
   BoxTree::Ball<Reach> boxes_;  // within that reach of the center
 };
 
-/// What is opposite to a vertex.
+constexpr std::uint32_t kAbsent = std::numeric_limits<std::uint32_t>::max();
+
+/// Where a wall is measured.
+struct Spot {
+  Point at;
+  Point normal;                   // a unit vector; NaN without one
+  std::uint32_t place = kAbsent;  // of the vertex that it is
+  std::uint32_t face = kAbsent;   // whose point it is
+  double same = 0;                // what is not farther is at the same place
+};
+
+/// What is opposite to a spot.
 class OppositeSide {
  public:
-  OppositeSide(const OrientedIndex& oriented, const FaceTree& tree, std::size_t place)
-      : index_(oriented.index),
-        tree_(&tree),
-        place_(static_cast<std::uint32_t>(place)),
-        vertex_(oriented.position(place)),
-        normal_(oriented.normal(place)),
-        inward_(-1.0 * normal_) {}
+  OppositeSide(const IndexView& index, const FaceTree& tree, const Spot& spot)
+      : index_(&index), tree_(&tree), spot_(spot), inward_(-1.0 * spot.normal) {}
 
   [[nodiscard]] double by_ray() const {
     return has_normal() ? way_to_first([](std::size_t) { return true; }) : kNan;
@@ -94,13 +107,15 @@ class OppositeSide {
     if (!has_normal()) return kNan;
     const double way = way_to_first([&](std::size_t i) { return opposes(i); });
     const double first = std::min(way / 2, kFirstRadius / index_->frame.scale);
-    TouchingBall ball(*index_, vertex_, inward_, first);
+    TouchingBall ball(*index_, spot_.at, inward_, first);
     BoxTree::Walk walk(tree_->boxes(), ball);
     const auto shrink = [&](std::size_t i) {
       if (touches(i) || !ball.may_contain(corners(i)) || !opposes(i)) return;
       ball.limit_to(largest_beside(i, first));
     };
-    const auto enters = [&](std::size_t level, std::size_t group) { return cones.may_oppose(level, group, normal_); };
+    const auto enters = [&](std::size_t level, std::size_t group) {
+      return cones.may_oppose(level, group, spot_.normal);
+    };
     while (walk.advance(shrink, [](std::size_t) {}, enters)) {
     }
     const bool is_met = way < kInfinity || ball.radius() < first;
@@ -111,20 +126,21 @@ class OppositeSide {
   [[nodiscard]] bool has_normal() const { return !std::isnan(inward_.x); }
 
   [[nodiscard]] bool touches(std::size_t i) const {
-    return std::ranges::count(tree_->triangles()[i].corners, place_) != 0;
+    const Triangle& triangle = tree_->triangles()[i];
+    return triangle.face == spot_.face || std::ranges::count(triangle.corners, spot_.place) != 0;
   }
 
   [[nodiscard]] bool opposes(std::size_t i) const {
-    return is_opposite(doubled_area(*index_, tree_->triangles()[i]), normal_);
+    return is_opposite(doubled_area(*index_, tree_->triangles()[i]), spot_.normal);
   }
 
   /// Along the ray, to the first of the faces for which `is_counted(i)`.
   template <class IsCounted>
   [[nodiscard]] double way_to_first(IsCounted&& is_counted) const {
     const auto counts = [&](std::size_t i, const TrianglePoint& at) {
-      return at.distance > 0 && !touches(i) && is_counted(i);
+      return at.distance > spot_.same && !touches(i) && is_counted(i);
     };
-    return find_first_hit(*index_, *tree_, vertex_, inward_, counts).at.distance;
+    return find_first_hit(*index_, *tree_, spot_.at, inward_, counts).at.distance;
   }
 
   [[nodiscard]] const std::array<std::uint32_t, 3>& corners(std::size_t i) const {
@@ -137,8 +153,8 @@ class OppositeSide {
     const double scale = index_->frame.scale;
     const std::array<Point, 3> positions = corners_of(*index_, corners(i));
     for (;;) {
-      const TrianglePoint nearest = nearest_in_triangle(vertex_ + radius * inward_, positions, scale);
-      const Point offset = scale * (nearest.point - vertex_);
+      const TrianglePoint nearest = nearest_in_triangle(spot_.at + radius * inward_, positions, scale);
+      const Point offset = scale * (nearest.point - spot_.at);
       const double along = dot(inward_, offset);
       const bool is_inside = nearest.distance < radius && along > 0;
       const double smaller = is_inside ? dot(offset, offset) / (2 * along) / scale : radius;
@@ -149,11 +165,47 @@ class OppositeSide {
 
   const IndexView* index_;
   const FaceTree* tree_;
-  std::uint32_t place_;
-  Point vertex_;
-  Point normal_;
+  Spot spot_;
   Point inward_;
 };
+
+/// The point of a face nearest to `q`, and the normal of the face.
+Spot spot_on_face(const SurfaceState& state, const FaceTree& tree, std::size_t face, const Point& q) {
+  const IndexView& index = *state.index;
+  const double scale = index.frame.scale;
+  const std::span<const VertexId> corners = state.faces()[face];
+  Spot spot{q, {kNan, kNan, kNan}, kAbsent, static_cast<std::uint32_t>(face), kSamePlace / scale};
+  Point area{0, 0, 0};
+  double least = kInfinity;
+  for (const Triangle& triangle : tree.triangles_of(face, corners.size())) {
+    const TrianglePoint found = nearest_in_triangle(q, corners_of(index, triangle.corners), scale);
+    if (found.distance < least) spot.at = found.point;
+    least = std::min(least, found.distance);
+    area = area + doubled_area(index, triangle);
+  }
+  if (const double size = length(area); size > 0) spot.normal = (1 / size) * area;
+  return spot;
+}
+
+/// Measures at `spot_of(row)`. `slot_of(row)` leads rows that are near each other to each other.
+template <class SlotOf, class SpotOf>
+std::vector<double> measure_rows(const SurfaceState& state, std::size_t rows, ThicknessMethod method, TaskContext& task,
+                                 SlotOf&& slot_of, SpotOf&& spot_of) {
+  const FaceTree& tree = state.tree(task);
+  const NormalCones* const cones = method == ThicknessMethod::Sphere ? &state.cones(task) : nullptr;
+  const RawVector<std::size_t> in_order = rows_by_position(rows, slot_of, task);
+  std::vector<double> result(rows);
+  task.parallel_for(rows, kRowsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
+      const std::size_t row = in_order[i];
+      const OppositeSide side(*state.index, tree, spot_of(row));
+      result[row] = cones == nullptr ? side.by_ray() : side.by_sphere(*cones);
+      task.advance(thread, 1);
+    }
+  });
+  task.finish();
+  return result;
+}
 
 }  // namespace
 
@@ -162,22 +214,36 @@ std::vector<double> thickness(const Surface& surface, const BatchVertices& verti
   const SurfaceState& state = SurfaceAccess::state(surface);
   const Rows rows({.vertices = vertices, .radius = 0}, state.index->vertex_count());
   TaskContext task(run.threads, run.progress, rows.size());
+  const Normals& normals = state.normals(task);
+  return measure_rows(
+      state, rows.size(), method, task, [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; },
+      [&](std::size_t row) {
+        const std::uint32_t place = state.index->place(rows.vertex(row));
+        return Spot{state.index->position(place), {normals.x[place], normals.y[place], normals.z[place]}, place};
+      });
+}
+
+std::vector<double> thickness(const Surface& surface, const IndicesView& faces, std::span<const SpacePoint> points,
+                              ThicknessMethod method, const Run& run) {
+  const SurfaceState& state = SurfaceAccess::state(surface);
+  if (points.size() != faces.size()) {
+    raise(ErrorCode::InvalidOption, std::to_string(points.size()) + " points, expected one for each of " +
+                                        std::to_string(faces.size()) + " faces");
+  }
+  for (std::size_t row = 0; row < faces.size(); ++row) {
+    if (faces[row] >= surface.face_count()) raise_no_such_face(faces[row], surface.face_count(), named("faces", row));
+  }
+  check_points(points, "points");
+  TaskContext task(run.threads, run.progress, points.size());
+  const auto slot_of = [&](std::size_t row) {
+    const std::span<const VertexId> corners = state.faces()[faces[row]];
+    return corners.empty() ? 0 : state.index->slot[corners[0]];
+  };
   const FaceTree& tree = state.tree(task);
-  const NormalCones* const cones = method == ThicknessMethod::Sphere ? &state.cones(task) : nullptr;
-  const OrientedIndex oriented = SurfaceAccess::oriented(surface, task);
-  const RawVector<std::size_t> in_order =
-      rows_by_position(rows.size(), [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; }, task);
-  std::vector<double> result(rows.size());
-  task.parallel_for(rows.size(), kVerticesOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
-      const std::size_t row = in_order[i];
-      const OppositeSide side(oriented, tree, state.index->place(rows.vertex(row)));
-      result[row] = cones == nullptr ? side.by_ray() : side.by_sphere(*cones);
-      task.advance(thread, 1);
-    }
+  return measure_rows(state, points.size(), method, task, slot_of, [&](std::size_t row) {
+    const auto& [x, y, z] = points[row];
+    return spot_on_face(state, tree, faces[row], {x, y, z});
   });
-  task.finish();
-  return result;
 }
 
 }  // namespace meshhood::inline v0_1

@@ -165,3 +165,7 @@ def test_thickness_is_that_of_trimesh_with_normals_weighted_by_area():
     differ = np.mean(np.abs(theirs[1] / ours - 1) > 0.1)
     print(f"{100 * differ:.0f} % of the vertices differ by more than a tenth along the normal of one face")
     assert differ > 0.3
+    hits = meshhood.MeshIndex(mesh).closest_point(mesh.triangles_center)
+    of_faces = meshhood.MeshIndex(mesh).thickness(points=hits.point, face=hits.face)
+    theirs = trimesh.proximity.thickness(mesh, hits.point, method="ray", normals=mesh.face_normals[hits.face])
+    np.testing.assert_allclose(of_faces, theirs, rtol=1e-9)

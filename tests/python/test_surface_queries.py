@@ -80,22 +80,50 @@ def test_first_hit_of_polygons_has_nan_where_nothing_is_met():
     assert np.isnan(barycentric[1]).all() and np.isnan(point[1]).all()
 
 
-def test_thickness_of_a_box_by_both_methods():
+def plate():
+    """Two sheets of 8 by 8 squares, 0.5 apart, that face away from each other."""
     V = np.array([[x, y, z] for z in (0, 0.5) for y in range(9) for x in range(9)], float)
     F = []
     for y in range(8):
         for x in range(8):
             a, b, c, d = 9 * y + x, 9 * y + x + 1, 9 * y + x + 10, 9 * y + x + 9
             F += [[a, c, b], [a, d, c], [a + 81, b + 81, c + 81], [a + 81, c + 81, d + 81]]
-    index = meshhood.MeshIndex(V, np.array(F))
+    return V, np.array(F)
+
+
+def test_thickness_of_a_plate_by_both_methods():
+    V, F = plate()
+    index = meshhood.MeshIndex(V, F)
     inner = np.flatnonzero(((V[:, :2] > 0.5) & (V[:, :2] < 7.5)).all(axis=1))
     for method in ("ray", "sphere"):
         np.testing.assert_array_equal(index.thickness(inner, method=method), 0.5)
         assert index.thickness(int(inner[0]), method=method) == 0.5
-    with pytest.warns(UserWarning, match=r"inf for \d+ of 162 vertices.*F=F\[:, ::-1\]"):
-        assert index.thickness(F=np.array(F)[:, ::-1]).shape == (len(V),)
+    with pytest.warns(UserWarning, match=r"inf for \d+ of 162 rows.*F=F\[:, ::-1\]"):
+        assert index.thickness(F=F[:, ::-1]).shape == (len(V),)
     with pytest.raises(ValueError, match="method"):
         index.thickness(method="cone")
+
+
+def test_thickness_at_points_of_faces():
+    V, F = plate()
+    index = meshhood.MeshIndex(V, F)
+    centers = V[F].mean(axis=1)
+    hits = index.closest_point(centers[((centers[:, :2] > 0.5) & (centers[:, :2] < 7.5)).all(axis=1)])
+    for method in ("ray", "sphere"):
+        across = index.thickness(points=hits.point, face=hits.face, method=method)
+        np.testing.assert_allclose(across, 0.5, rtol=1e-15)
+        assert index.thickness(points=hits.point[7], face=int(hits.face[7]), method=method) == across[7]
+        assert index.thickness(points=[], face=[], method=method).shape == (0,)
+    for words, named in (
+        ({"points": hits.point}, "points: expected points and the face of each"),
+        ({"face": 3}, "points: expected points and the face of each"),
+        ({"points": hits.point, "face": hits.face, "vertices": 7}, "points: expected points and the face"),
+        ({"points": hits.point[:2], "face": [0]}, "face: expected one for each of 2 points, not 1"),
+        ({"points": hits.point[:2], "face": [0, len(F)]}, f"face: row 1: face {len(F)}"),
+        ({"points": [[0, 0, np.nan]], "face": [0]}, "points: row 0: coordinate 2 is nan"),
+    ):
+        with pytest.raises(ValueError, match=named):
+            index.thickness(**words)
 
 
 def test_closest_point_takes_other_faces_and_keeps_what_it_made():

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -56,7 +59,7 @@ Long way_to(const LongPoint& p, const LongPoint& d, const LongTriangle& t) {
   return is_inside && way > 0 ? way : std::numeric_limits<Long>::infinity();
 }
 
-/// All triangles of a mesh, and what is opposite to a vertex by a scan of them.
+/// All triangles of a mesh, and what is opposite to a vertex or to a point of a face by a scan of them.
 class Scan {
  public:
   explicit Scan(const TestMesh& mesh) : mesh_(&mesh), normals_(mesh.size()) {
@@ -67,23 +70,42 @@ class Scan {
     for (LongPoint& n : normals_) n = (1 / std::sqrt(dot_of(n, n))) * n;
   }
 
-  [[nodiscard]] double by_ray(std::uint32_t v) const {
+  struct Spot {
+    LongPoint at;
+    LongPoint normal;
+    std::function<bool(std::size_t)> has_face;  // which then does not count
+  };
+
+  [[nodiscard]] Spot vertex(std::uint32_t v) const {
+    return {at(v), normals_[v], [this, v](std::size_t f) { return std::ranges::count(mesh_->face(f), v) != 0; }};
+  }
+
+  [[nodiscard]] Spot point(std::size_t face, const SpacePoint& p) const {
+    const LongPoint area = area_of(triangles_[face]);
+    return {
+        {p[0], p[1], p[2]}, (1 / std::sqrt(dot_of(area, area))) * area, [face](std::size_t f) { return f == face; }};
+  }
+
+  [[nodiscard]] double by_ray(const Spot& spot) const {
     Long least = std::numeric_limits<Long>::infinity();
     for (std::size_t f = 0; f < triangles_.size(); ++f) {
-      if (!touches(f, v)) least = std::min(least, way_to(at(v), Long{-1} * normals_[v], triangles_[f]));
+      if (!spot.has_face(f)) least = std::min(least, way_to(spot.at, Long{-1} * spot.normal, triangles_[f]));
     }
     return static_cast<double>(least);
   }
 
   /// The least over all faces of the largest ball that each allows, by bisection.
-  [[nodiscard]] double by_sphere(std::uint32_t v) const {
+  [[nodiscard]] double by_sphere(const Spot& spot) const {
     Long least = 8;
     for (std::size_t f = 0; f < triangles_.size(); ++f) {
+      const auto allows = [&](Long radius) {
+        return distance_of(spot.at - radius * spot.normal, triangles_[f]) >= radius;
+      };
       const LongPoint area = area_of(triangles_[f]);
-      const bool is_opposite = dot_of(area, normals_[v]) < 0.6L * std::sqrt(dot_of(area, area));
-      if (touches(f, v) || !is_opposite || allows(v, f, least)) continue;
+      const bool is_opposite = dot_of(area, spot.normal) < 0.6L * std::sqrt(dot_of(area, area));
+      if (spot.has_face(f) || !is_opposite || allows(least)) continue;
       Long low = 0;
-      for (int step = 0; step < 70; ++step) (allows(v, f, (low + least) / 2) ? low : least) = (low + least) / 2;
+      for (int step = 0; step < 70; ++step) (allows((low + least) / 2) ? low : least) = (low + least) / 2;
     }
     return static_cast<double>(2 * least);
   }
@@ -91,12 +113,6 @@ class Scan {
  private:
   [[nodiscard]] LongPoint at(std::uint32_t v) const {
     return {mesh_->positions[3 * v], mesh_->positions[3 * v + 1], mesh_->positions[3 * v + 2]};
-  }
-  [[nodiscard]] bool touches(std::size_t f, std::uint32_t v) const {
-    return std::ranges::count(mesh_->face(f), v) != 0;
-  }
-  [[nodiscard]] bool allows(std::uint32_t v, std::size_t f, Long radius) const {
-    return distance_of(at(v) - radius * normals_[v], triangles_[f]) >= radius;
   }
 
   const TestMesh* mesh_;
@@ -223,9 +239,74 @@ TEST(Thickness, IsThatOfAScanOfAllFaces) {
   const std::vector<double> by_ray = measure(mesh, ThicknessMethod::Ray);
   const std::vector<double> by_sphere = measure(mesh, ThicknessMethod::Sphere);
   for (std::uint32_t v = 0; v < mesh.size(); ++v) {
-    const double ray = scan.by_ray(v);
+    const double ray = scan.by_ray(scan.vertex(v));
     ASSERT_TRUE(by_ray[v] == ray || std::abs(by_ray[v] - ray) < 1e-13) << v << ": " << by_ray[v] << ", " << ray;
-    ASSERT_NEAR(by_sphere[v], scan.by_sphere(v), 1e-12) << v;
+    ASSERT_NEAR(by_sphere[v], scan.by_sphere(scan.vertex(v)), 1e-12) << v;
+  }
+}
+
+/// A point of a triangle with these weights of the corners.
+SpacePoint point_of(const TestMesh& mesh, std::size_t face, const std::array<double, 3>& weights) {
+  SpacePoint p{};
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    for (std::size_t i = 0; i < 3; ++i) p[i] += weights[corner] * mesh.positions[3 * mesh.face(face)[corner] + i];
+  }
+  return p;
+}
+
+TEST(Thickness, OfPointsIsThatOfAScanOfAllFaces) {
+  Random random(5);
+  TestMesh mesh = ball(14, 17);
+  for (double& x : mesh.positions) x *= 1 + 0.04 * random.uniform(-1, 1);
+  mesh.finish(false);
+  const Index index = build(mesh.view());
+  const Surface surface(index, mesh.view().faces);
+  const Scan scan(mesh);
+  std::vector<std::size_t> faces;
+  std::vector<SpacePoint> points;
+  for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+    const double a = random.uniform(0.1, 0.6);
+    const double b = random.uniform(0.1, 0.3);
+    faces.push_back(face);
+    points.push_back(point_of(mesh, face, {a, b, 1 - a - b}));
+  }
+  const std::vector<double> by_ray = thickness(surface, faces, points);
+  const std::vector<double> by_sphere = thickness(surface, faces, points, ThicknessMethod::Sphere, {.threads = 3});
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Scan::Spot spot = scan.point(faces[i], points[i]);
+    ASSERT_NEAR(by_ray[i], scan.by_ray(spot), 1e-12) << i;
+    ASSERT_NEAR(by_sphere[i], scan.by_sphere(spot), 1e-12) << i;
+  }
+}
+
+TEST(Thickness, OfPointsOfAPlateIsThatOfThePlateAtCornersAndSidesToo) {
+  constexpr double kThick = 0.3;
+  Random random(6);
+  TestMesh mesh;
+  add_sheet(mesh, random, {-2, -2, kThick}, {4, 0, 0}, {0, 4, 0}, 17);
+  const std::size_t upper = mesh.face_count();
+  add_sheet(mesh, random, {-2, -2, 0}, {0, 4, 0}, {4, 0, 0}, 5);
+  const auto needle = mesh.add_vertex(0, 0, 9);
+  mesh.add_face({needle, needle, 0});
+  mesh.finish(false);
+  const Index index = build(mesh.view());
+  const Surface surface(index, mesh.view().faces);
+  const Scan scan(mesh);
+  std::vector<std::size_t> faces;
+  std::vector<SpacePoint> points;
+  for (std::size_t face = 0; face < upper; ++face) {
+    for (const auto& weights : {std::array{1.0, 0.0, 0.0}, {0.3, 0.7, 0.0}, {0.0, 0.1, 0.9}, {0.2, 0.3, 0.5}}) {
+      const SpacePoint p = point_of(mesh, face, weights);
+      const bool is_turned = scan.point(face, p).normal[2] < 0;  // by the moves of vertices
+      if (is_turned || std::max(std::abs(p[0]), std::abs(p[1])) > 1.8) continue;
+      faces.push_back(face);
+      points.push_back({p[0], p[1], p[2] + 0.01});  // the nearest point of the face counts
+    }
+  }
+  for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
+    for (const double found : thickness(surface, faces, points, method)) ASSERT_NEAR(found, kThick, 2e-15);
+    const std::vector<std::size_t> last{mesh.face_count() - 1};
+    EXPECT_TRUE(std::isnan(thickness(surface, last, std::vector<SpacePoint>(1), method)[0])) << "without an area";
   }
 }
 
@@ -260,6 +341,15 @@ TEST(Thickness, RefusesWrongVerticesAndMeshesWithoutFaces) {
   const std::vector<VertexId> wrong{0, 1000};
   expect_refused(ErrorCode::VertexOutOfRange,
                  "row 1: ", [&] { static_cast<void>(thickness(Surface(index, mesh.view().faces), wrong)); });
+  const Surface surface(index, mesh.view().faces);
+  const std::vector<std::size_t> faces{0, mesh.face_count()};
+  const std::vector<SpacePoint> points{{0, 0, 1}, {0, 0, kInfinity}};
+  const auto refuse = [&](const std::string& with, std::span<const std::size_t> some, std::span<const SpacePoint> at) {
+    expect_refused(ErrorCode::InvalidOption, with.c_str(), [&] { static_cast<void>(thickness(surface, some, at)); });
+  };
+  refuse("faces: row 1: face " + std::to_string(mesh.face_count()), faces, points);
+  refuse("points: row 1: coordinate 2 is inf", std::vector<std::size_t>{0, 0}, points);
+  refuse("2 points, expected one for each of 1 faces", std::vector<std::size_t>{0}, points);
   expect_refused(ErrorCode::InvalidMesh, "face", [&] { static_cast<void>(thickness(Surface(index, FacesView{}))); });
 }
 

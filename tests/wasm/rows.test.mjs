@@ -352,6 +352,14 @@ test('the thickness of a folded sheet is that between its halves', () => {
     assert.equal(all[inner], 2);
     const some = Uint32Array.of(3 * side + 1, inner);
     assert.deepEqual(folded.thickness({ faces: sheet, vertices: some, method }), Float64Array.of(all[some[0]], 2));
+    const { face, point } = folded.closestPoint([5.25, 6.5, 0], { faces: sheet });
+    const spots = { faces: sheet, points: Float64Array.from(point), face: Uint32Array.of(face), method };
+    assert.deepEqual(folded.thickness(spots), Float64Array.of(2));
+    assert.throws(() => folded.thickness({ ...spots, vertices: some }), { code: 'InvalidOption', message: /^points: expected/ });
+    assert.throws(() => folded.thickness({ ...spots, face: null }), { code: 'InvalidOption', message: /^points: expected/ });
+    assert.throws(() => folded.thickness({ ...spots, face: Uint32Array.of(9999) }), {
+      code: 'InvalidOption', message: /^faces: row 0: face 9999/,
+    });
   }
   assert.throws(() => folded.thickness(), { code: 'InvalidOption', message: /^faces: expected/ });
   assert.throws(() => folded.thickness({ faces: sheet, method: 'ball' }), { code: 'InvalidOption', message: /^method: 'ball'/ });

@@ -170,6 +170,11 @@ TEST_F(AllocationInEachCall, OfTheSurface) {
       {"thickness by rays", [&] { return thickness(surface, some, ThicknessMethod::Ray, run); }},
       {"thickness by spheres",
        [&] { return thickness(Surface(index, mesh.view()), some, ThicknessMethod::Sphere, run); }},
+      {"thickness of points",
+       [&] {
+         const std::vector<std::size_t> faces(points.size(), 3);
+         return thickness(Surface(index, mesh.view()), faces, points, ThicknessMethod::Sphere, run);
+       }},
       {"a refit in place",
        [&] {
          Index moving = build(mesh.view(), run);

@@ -132,6 +132,11 @@ std::map<std::string, Ask> everything(const Index& index, const TestMesh& mesh,
     all["Surface: thickness by method " + std::to_string(static_cast<int>(method))] = [=] {
       return Answer(thickness(*surface, {}, method));
     };
+    all["Surface: thickness of points by method " + std::to_string(static_cast<int>(method))] = [=] {
+      const std::vector<std::size_t> owners{2};
+      const std::vector<SpacePoint> points{{3.2, 4.1, 7}};
+      return Answer(thickness(*surface, owners, points, method));
+    };
   }
   all["Surface: invariants"] = [=] { return numbers(invariants(*surface, {.radius = kRadius}).area); };
   const auto along = kept(surface_paths(*surface));

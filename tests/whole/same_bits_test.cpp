@@ -265,6 +265,20 @@ std::vector<Call> surface_calls(const Scene& scene, double radius) {
                        return thickness(scene.surface, rows, method, {.threads = threads});
                      },
                      1, true});
+    calls.push_back({"thickness of points by method " + std::to_string(static_cast<int>(method)),
+                     [&scene, method](const auto& rows, unsigned threads) {
+                       std::vector<SpacePoint> points;
+                       for (const VertexId v : rows) {
+                         const double* const at = &scene.mesh.positions[3 * v];
+                         points.push_back({at[0] + scene.edge / 3, at[1] - scene.edge / 5, at[2]});
+                       }
+                       std::vector<std::size_t> faces;
+                       for (const SurfacePoint& found : scene.surface.closest_points(points)) {
+                         faces.push_back(found.face);
+                       }
+                       return thickness(scene.surface, faces, points, method, {.threads = threads});
+                     },
+                     1, true});
   }
   return calls;
 }

@@ -238,14 +238,19 @@ class SurfaceQueries(Held):
         self,
         vertices: AnyVertices = None,
         *,
+        points: Optional[ArrayLike] = None,
+        face: Optional[ArrayLike] = None,
         method: Literal["ray", "sphere"] = "ray",
         F: Any = None,
         workers: int = -1,
         progress: Progress = None,
     ) -> Union[float, Reals]:
-        """The thickness of the wall at each vertex, in the unit of V: (#rows,) float64, or a float for a single vertex.
+        """The thickness of the wall at each vertex, or at points of faces, in the unit of V: (#rows,) float64, or a float
+        for a single vertex or point.
 
         vertices, workers, progress : see `MeshIndex`.
+        points, face : in place of vertices, 3 numbers and the face, or (n, 3) and (n,), as `closest_point` has them. The
+            point of the face nearest to each of them counts, with the normal of the face.
         method : "ray", the way against the normal of the vertex to the surface; or "sphere", the diameter of the
             largest ball that touches the surface there from inside and has no point of an opposite face in it, one
             whose normal turns from that of the vertex by more than 53 degrees (by a shrinking ball; Ma, Bae, Choi
@@ -255,26 +260,44 @@ class SurfaceQueries(Held):
         The normal is that of the faces of the vertex, weighted by their areas. With other normals, such as that of one of
         the faces, which trimesh takes unless given some, the values of uneven meshes differ.
 
-        Faces with the vertex as a corner do not count. It is inf where nothing else is met, and NaN for a vertex without
-        a normal. A call for several vertices warns if more than half are inf.
+        Faces with the vertex as a corner do not count, nor does the face of a point, and what a ray meets nearer to it
+        than 2^-40 of the extent of the mesh. It is inf where nothing else is met, and NaN for a vertex without a normal,
+        or a face without an area. A call for several rows warns if more than half are inf.
 
         >>> across = meshhood.MeshIndex(V, F).thickness()
         >>> bool((abs(across - 2) < 0.02).all())  # of the unit sphere
         True
         """
-        rows = read_rows(self, vertices, 0.0, None, "straight", None, None, "mesh", workers, progress)
         by_sphere = _convert.choice(method, "method", ("ray", "sphere")) == "sphere"
-        found = rows.ask(self._surface(F).thickness, by_sphere=by_sphere)
-        if rows.shape == ():
+        if points is None and face is None:
+            rows = read_rows(self, vertices, 0.0, None, "straight", None, None, "mesh", workers, progress)
+            found, is_one = rows.ask(self._surface(F).thickness, by_sphere=by_sphere), rows.shape == ()
+        elif points is None or face is None or vertices is not None:
+            raise ValueError("points: expected points and the face of each, or vertices")
+        else:
+            found, is_one = self._thickness_of_points(points, face, by_sphere, F, workers, progress), np.ndim(face) == 0
+        if is_one:
             return float(found[0])
         open_rows, measured = np.count_nonzero(np.isinf(found)), np.count_nonzero(~np.isnan(found))
         if len(found) > 1 and 2 * open_rows > measured:
             warnings.warn(
-                f"thickness: inf for {open_rows} of {measured} vertices, behind which there is no surface; if the faces are "
+                f"thickness: inf for {open_rows} of {measured} rows, behind which there is no surface; if the faces are "
                 "clockwise, seen from outside, pass F=F[:, ::-1]; an open sheet has no thickness",
                 stacklevel=2,
             )
         return found
+
+    def _thickness_of_points(
+        self, points: Any, face: Any, by_sphere: bool, F: Any, workers: int, progress: Progress
+    ) -> Reals:
+        spots, surface = _convert.points(points, "points"), self._surface(F)
+        faces = _convert.faces([face] if np.ndim(face) == 0 else face, surface.face_count, "face")
+        if len(faces) != len(spots):
+            raise ValueError(f"face: expected one for each of {len(spots)} points, not {len(faces)}")
+        with reporter(progress, "thickness", "points", len(spots)) as report:
+            return surface.thickness_of_points(
+                faces, spots, by_sphere=by_sphere, threads=_convert.threads(workers), progress=report
+            )
 
     def k_nearest(
         self,

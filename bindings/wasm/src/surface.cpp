@@ -54,6 +54,15 @@ extern "C" {
   answer.reals = meshhood::thickness(workspace.surface(), view_vertices(vertices, vertex_count), method);
 }
 
+/// Three coordinates for each face.
+[[clang::export_name("thickness_of_points")]] void thickness_of_points(const VertexId* faces, std::size_t face_count,
+                                                                       const SpacePoint* points,
+                                                                       std::size_t coordinates,
+                                                                       ThicknessMethod method) {
+  const std::span numbers(faces, face_count);
+  answer.reals = meshhood::thickness(workspace.surface(), numbers, {points, coordinates / 3}, method);
+}
+
 }  // extern "C"
 
 }  // namespace meshhood::wasm
