@@ -271,6 +271,7 @@ class Session {
     aggregate_ids(*place.index, vertices, radius, answer, run.threads);
     fit_rows(place, vertices, radius, run.threads);
     find_patches(place, vertices, radius, run.threads);
+    follow_refit(place, {.vertices = vertices, .radius = radius}, run.threads);
   }
 
   /// Aggregates the ids of the vertices, as doubles, whose sums are exact.
@@ -322,8 +323,7 @@ class Session {
   /// have all faces at their neighborhoods, unless edges that are no sides of triangles join these.
   static void find_patches(const Exact& place, const std::vector<VertexId>& vertices, double radius, unsigned threads) {
     const test::TestMesh& mesh = place.subject->mesh;
-    std::size_t polygons = 0;
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) polygons += static_cast<std::size_t>(mesh.face(f).size() > 2);
+    const std::size_t polygons = count_polygons(mesh);
     if (polygons == 0) return;
     const Surface surface(*place.index, mesh.view().faces);
     const BatchQuery query{.vertices = vertices, .radius = radius};
@@ -343,6 +343,52 @@ class Session {
       const std::vector<std::size_t> faces = searcher.patch(v, radius);
       if (polygons == mesh.face_count()) expect_faces(mesh, place.subject->oracle.exact(v, radius), faces);
       if (row == 0) clip_patch(searcher, v, radius, faces);
+    }
+  }
+
+  static std::size_t count_polygons(const test::TestMesh& mesh) {
+    std::size_t polygons = 0;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) polygons += static_cast<std::size_t>(mesh.face(f).size() > 2);
+    return polygons;
+  }
+
+  /// Invariants, gaps, and walls at vertices and at the first corners of faces.
+  static std::vector<double> surface_numbers(const Surface& surface, const BatchQuery& query, unsigned threads) {
+    Invariants found = invariants(surface, query, {.threads = threads});
+    std::vector<double> all = std::move(found.area);
+    all.insert(all.end(), found.volume.begin(), found.volume.end());
+    for (const SurfacePoint& gap : gaps(surface, query, {.threads = threads})) all.push_back(gap.distance);
+    std::vector<std::size_t> faces(surface.face_count());
+    std::iota(faces.begin(), faces.end(), std::size_t{0});
+    const std::vector<SpacePoint> points(faces.size());  // the nearest points of the faces count
+    for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
+      for (const std::vector<double>& walls : {thickness(surface, query.vertices, method, {.threads = threads}),
+                                               thickness(surface, faces, points, method, {.threads = threads})}) {
+        if (std::ranges::any_of(walls, [](double wall) { return wall < 0; })) fail("a wall is negative");
+        all.insert(all.end(), walls.begin(), walls.end());
+      }
+    }
+    return all;
+  }
+
+  /// A surface that follows a refit is one that is made anew.
+  void follow_refit(const Exact& place, const BatchQuery& query, unsigned threads) {
+    if (count_polygons(place.subject->mesh) == 0) return;
+    Surface surface(*place.index, place.subject->mesh.view().faces);
+    const std::vector<double> before = surface_numbers(surface, query, threads);
+    if (!same_bits(before, surface_numbers(surface, query, 1))) fail("the surface depends on the threads");
+    test::TestMesh mesh = place.subject->mesh;
+    std::vector<VertexId> changed;
+    for (std::size_t i = below(4); i > 0; --i) {
+      changed.push_back(static_cast<VertexId>(below(mesh.size())));
+      std::copy_n(&mesh.positions[3 * below(mesh.size())], 3, &mesh.positions[3 * std::size_t{changed.back()}]);
+    }
+    mesh.finish(mesh.single_precision);
+    const Index moved = refit(*place.index, mesh.positions_view(), changed);
+    surface.refit_in_place(moved, changed);
+    const Surface anew(moved, mesh.view().faces);
+    if (!same_bits(surface_numbers(surface, query, threads), surface_numbers(anew, query, threads))) {
+      fail("a surface does not follow a refit");
     }
   }
 

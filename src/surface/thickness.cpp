@@ -214,12 +214,12 @@ std::vector<double> thickness(const Surface& surface, const BatchVertices& verti
   const SurfaceState& state = SurfaceAccess::state(surface);
   const Rows rows({.vertices = vertices, .radius = 0}, state.index->vertex_count());
   TaskContext task(run.threads, run.progress, rows.size());
-  const Normals& normals = state.normals(task);
+  const OrientedIndex oriented = SurfaceAccess::oriented(surface, task);
   return measure_rows(
       state, rows.size(), method, task, [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; },
       [&](std::size_t row) {
         const std::uint32_t place = state.index->place(rows.vertex(row));
-        return Spot{state.index->position(place), {normals.x[place], normals.y[place], normals.z[place]}, place};
+        return Spot{oriented.position(place), oriented.normal(place), place};
       });
 }
 

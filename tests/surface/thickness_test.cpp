@@ -32,6 +32,12 @@ using LongTriangle = std::array<LongPoint, 3>;
 
 LongPoint area_of(const LongTriangle& t) { return cross_of(t[1] - t[0], t[2] - t[0]); }
 
+/// 0 of a vector of length 0.
+LongPoint unit_of(const LongPoint& v) {
+  const Long size = std::sqrt(dot_of(v, v));
+  return (size > 0 ? 1 / size : 0) * v;
+}
+
 Long distance_of(const LongPoint& q, const LongTriangle& t) {
   const LongPoint area = area_of(t);
   const Long size = std::sqrt(dot_of(area, area));
@@ -67,7 +73,7 @@ class Scan {
       triangles_.push_back({at(mesh.face(f)[0]), at(mesh.face(f)[1]), at(mesh.face(f)[2])});
       for (const std::uint32_t v : mesh.face(f)) normals_[v] = normals_[v] + area_of(triangles_.back());
     }
-    for (LongPoint& n : normals_) n = (1 / std::sqrt(dot_of(n, n))) * n;
+    for (LongPoint& n : normals_) n = unit_of(n);
   }
 
   struct Spot {
