@@ -2,7 +2,9 @@
 // meshhood batch: the neighborhoods of all vertices, or of a list, in CSR form.
 #include "meshhood/batch.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -10,6 +12,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <random>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,23 +28,73 @@
 #include "input.h"
 #include "io/npz_writer.h"
 #include "methods.h"
-#include "names.h"
 #include "options.h"
 #include "output.h"
 #include "row_query.h"
 #include "row_table.h"
-#include "size_limit.h"
 #include "system.h"
+#include "table_file.h"
 #include "task.h"
-#include "vertex_order.h"
 
 namespace meshhood::cli {
 namespace {
 
-enum class RowOrder { Index, Vertex, List };
+/// An estimate from random rows.
+struct BatchEstimate {
+  AnswerSize mean;
+  AnswerSize lower;  ///< three standard errors below the mean
+};
 
-constexpr Names<RowOrder, 3> kRowOrders{
-    {{"index", RowOrder::Index}, {"vertex", RowOrder::Vertex}, {"list", RowOrder::List}}};
+/// The sizes of rows, one after the other.
+struct Sample {
+  double rows = 0;
+  double sum = 0;
+  double squares = 0;
+
+  void add(double size) {
+    rows += 1;
+    sum += size;
+    squares += size * size;
+  }
+
+  [[nodiscard]] double mean() const { return sum / rows; }
+  [[nodiscard]] double standard_error() const {
+    return std::sqrt(std::max(0.0, squares / rows - mean() * mean()) / rows);
+  }
+};
+
+/// Takes about half a second. Empty for few rows, which are counted as fast.
+std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQuery& query) {
+  constexpr std::size_t kSamples = 256;
+  constexpr std::size_t kSamplesPerStep = 4;
+  // Vertices, about half a second. Counted rather than timed, so that every machine draws the same sample.
+  constexpr double kMostWork = 0x1p26;
+  const std::size_t rows = query.vertices.count(method.vertex_count());
+  if (rows <= kSamples) return std::nullopt;
+  std::mt19937_64 random(1);
+  std::vector<VertexId> vertices(kSamplesPerStep);
+  std::vector<double> radii(kSamplesPerStep);
+  const BatchRadius radius = query.radius.list() ? BatchRadius(radii) : query.radius;
+  Sample sample;
+  // A call of a scan, or of a search that copies the positions, also takes a time that grows with the mesh.
+  const auto work_of_call = static_cast<double>(method.vertex_count());
+  for (double work = 0; sample.rows < kSamples && work < kMostWork;
+       work = sample.sum + work_of_call * sample.rows / kSamplesPerStep) {
+    for (std::size_t i = 0; i < kSamplesPerStep; ++i) {
+      const std::size_t row = random() % rows;
+      vertices[i] = query.vertices[row];
+      if (query.radius.list()) radii[i] = (*query.radius.list())[row];
+    }
+    for (const std::uint64_t size : counts(method, {.vertices = vertices, .radius = radius, .metric = query.metric})) {
+      sample.add(static_cast<double>(size));
+    }
+  }
+  const auto of_all_rows = [rows](double size) {
+    return AnswerSize{rows, static_cast<std::uint64_t>(static_cast<double>(rows) * size)};
+  };
+  return BatchEstimate{of_all_rows(sample.mean()),
+                       of_all_rows(std::max(0.0, sample.mean() - 3 * sample.standard_error()))};
+}
 
 struct BatchCommand {
   Reading reading;
@@ -58,22 +111,22 @@ struct BatchCommand {
 
 /// Arrays of rows come in index order, which is the fastest. Sizes are found as fast in vertex order, where the number
 /// of a row is that of its vertex, and text is read by people.
-RowOrder row_order(const BatchCommand& options) {
+std::string row_order(const BatchCommand& options) {
   const bool is_exact = options.search.method == "exact";
   if (options.order == "index" && !is_exact) raise(ErrorCode::InvalidOption, "--order index: expected --method exact");
-  if (!options.rows.vertices.empty()) return RowOrder::List;
-  if (!options.order.empty()) return value_of(kRowOrders, options.order);
-  return is_exact && !options.count && !options.output.is_csv() ? RowOrder::Index : RowOrder::Vertex;
+  if (!options.rows.vertices.empty()) return "list";
+  if (!options.order.empty()) return options.order;
+  return is_exact && !options.count && !options.output.is_csv() ? "index" : "vertex";
 }
 
 /// Whether the file says of which vertex a row is.
-bool has_vertices(RowOrder order) { return order != RowOrder::Vertex; }
+bool has_vertices(std::string_view order) { return order != "vertex"; }
 
 /// Rows in vertex order or in that of a list are a sparse matrix that `scipy.sparse.load_npz` reads: `format`, `shape`,
 /// `indptr`, `indices`, `data`; `vertices` has the list. Rows in index order are not stored as a matrix, because SciPy
 /// would ignore `vertices` and take row `i` for that of vertex `i`. They are `vertices`, `indptr`, `indices`,
 /// `distances`, and SciPy refuses them.
-bool is_matrix(RowOrder order) { return order != RowOrder::Index; }
+bool is_matrix(std::string_view order) { return order != "index"; }
 
 /// SciPy uses 32-bit indices where they suffice, and would convert others. `count`: of the stored values.
 bool fits_32_bits(std::uint64_t count, std::uint64_t columns) {
@@ -89,7 +142,7 @@ bool sorts_rows(const BatchCommand& options) {
 
 /// The approximate size of the file: the members without the zip headers. The ones of a matrix without distances
 /// are compressed: 258 of them take 13 bits.
-double file_bytes(const BatchCommand& options, const BatchSize& total, std::size_t columns) {
+double file_bytes(const BatchCommand& options, const AnswerSize& total, std::size_t columns) {
   const auto rows = static_cast<double>(total.rows);
   const auto count = static_cast<double>(total.count);
   const double vertices = has_vertices(row_order(options)) ? 8 * rows : 0;
@@ -105,12 +158,13 @@ std::size_t number_of_passes(const BatchCommand& options) {
 }
 
 /// Text is refused while it is written.
-void check_size(const BatchCommand& options, const BatchSize& size, std::size_t columns, std::string_view about = "") {
+void check_answer(const BatchCommand& options, const AnswerSize& size, std::size_t columns,
+                  std::string_view about = "") {
   if (options.output.is_csv()) return;
-  SizeLimit(options.output.name, options.max_bytes).check(size, file_bytes(options, size, columns), about);
+  check_size(options.output.name, options.max_bytes, size, file_bytes(options, size, columns), about);
 }
 
-BatchSize size_of(std::span<const std::uint64_t> sizes, std::size_t scales) {
+AnswerSize size_of(std::span<const std::uint64_t> sizes, std::size_t scales) {
   return {sizes.size() / scales, std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
 }
 
@@ -119,20 +173,20 @@ BatchVertices listed_rows(const BatchCommand& options, const BatchQuery& query) 
   return has_vertices(row_order(options)) ? query.vertices : BatchVertices();
 }
 
-BatchSize write_counts(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options) {
+AnswerSize write_counts(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options) {
   std::vector<std::uint64_t> sizes = [&] {
     Task task("computing", {"rows", 1});
     return counts(method, query, {.threads = options.rows.threads, .progress = task.progress()});
   }();
   const std::size_t scales = options.rows.scale_count();
-  const BatchSize total = size_of(sizes, scales);
+  const AnswerSize total = size_of(sizes, scales);
   RowTable table{.rows = total.rows,
                  .scales = scales,
                  .scale_names = options.rows.radii.values,
                  .columns = {{"count", std::move(sizes), scales}}};
   table.add_properties({"count"});
   table.max_bytes = options.max_bytes;
-  check_size(options, total, method.vertex_count());
+  check_answer(options, total, method.vertex_count());
   write_rows(options.output, std::move(table), listed_rows(options, query), query.radius);
   return total;
 }
@@ -146,11 +200,11 @@ class Writer {
          Task& task)
       : method_(method), query_(query), options_(options), order_(row_order(options)), sorter_(sorter), task_(task) {}
 
-  BatchSize write() {
+  AnswerSize write() {
     if (options_.output.is_csv()) return write_pairs();
     const std::vector<std::uint64_t> sizes = counts(method_, query_, next_run());
-    const BatchSize total = size_of(sizes, 1);
-    check_size(options_, total, method_.vertex_count());
+    const AnswerSize total = size_of(sizes, 1);
+    check_answer(options_, total, method_.vertex_count());
     write_arrays(sizes, total);
     return total;
   }
@@ -159,9 +213,9 @@ class Writer {
   [[nodiscard]] BatchVertices listed() const { return listed_rows(options_, query_); }
 
   /// A line for each vertex of each row.
-  BatchSize write_pairs() {
+  AnswerSize write_pairs() {
     CsvWriter csv(options_.output.name, pair_names(options_.distances), options_.max_bytes);
-    BatchSize total;
+    AnswerSize total;
     for_each_row(options_.distances || sorter_.needs_distances(),
                  [&](std::span<const VertexId> ids, std::span<const double> distances) {
                    const VertexId v = listed()[total.rows++];
@@ -178,7 +232,7 @@ class Writer {
     return total;
   }
 
-  void write_arrays(std::span<const std::uint64_t> sizes, const BatchSize& total) {
+  void write_arrays(std::span<const std::uint64_t> sizes, const AnswerSize& total) {
     io::NpzWriter npz(path_of(options_.output.name));
     write_vertices(npz, listed());
     const std::uint64_t columns = method_.vertex_count();
@@ -205,7 +259,7 @@ class Writer {
   }
 
   template <class Integer>
-  void write_pattern(io::NpzWriter& npz, std::span<const std::uint64_t> sizes, const BatchSize& total) {
+  void write_pattern(io::NpzWriter& npz, std::span<const std::uint64_t> sizes, const AnswerSize& total) {
     std::vector<Integer> offsets(sizes.size() + 1);
     std::transform_inclusive_scan(sizes.begin(), sizes.end(), offsets.begin() + 1, std::plus<>(),
                                   [](std::uint64_t size) { return static_cast<Integer>(size); });
@@ -223,7 +277,7 @@ class Writer {
   template <class Write>
   void for_each_row(bool with_distances, Write&& write) {
     const BatchOptions pass{
-        .distances = with_distances, .sorted = options_.sort == "id", .in_index_order = order_ == RowOrder::Index};
+        .distances = with_distances, .sorted = options_.sort == "id", .in_index_order = order_ == "index"};
     std::vector<VertexId> ids;
     std::vector<double> distances;
     const auto sort_and_write = [&](const BatchRow& row) {
@@ -244,7 +298,7 @@ class Writer {
   const SearchMethod& method_;
   const BatchQuery& query_;
   const BatchCommand& options_;
-  RowOrder order_;
+  std::string order_;
   VertexSorter& sorter_;
   Task& task_;
   std::size_t passes_begun_ = 0;
@@ -256,12 +310,12 @@ std::string task_name(const BatchCommand& options, const std::optional<BatchEsti
                      bytes_text(file_bytes(options, estimate->mean, columns)));
 }
 
-BatchSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options,
-                VertexSorter& sorter) {
+AnswerSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options,
+                 VertexSorter& sorter) {
   if (options.count) return write_counts(method, query, options);
   const std::optional<BatchEstimate> expected = options.output.is_csv() ? std::nullopt : estimate(method, query);
   const std::size_t columns = method.vertex_count();
-  if (expected) check_size(options, expected->lower, columns, "at least ");
+  if (expected) check_answer(options, expected->lower, columns, "at least ");
   Task task(task_name(options, expected, columns),
             {"rows", static_cast<double>(number_of_passes(options))});  // outlives the temporary file
   return Writer(method, query, options, sorter, task).write();
@@ -294,7 +348,7 @@ void check_options(const BatchCommand& options) {
 void batch(const BatchCommand& options) {
   check_options(options);
   check_outputs();
-  const RowOrder order = row_order(options);
+  const std::string order = row_order(options);
   const unsigned threads = options.rows.threads;
   Input input(options.reading, threads);
   const RowQuery rows(options.rows, input);
@@ -305,7 +359,7 @@ void batch(const BatchCommand& options) {
   VertexSorter sorter(options.sort, input);
   std::vector<VertexId> in_index_order;
   std::vector<double> radii_in_index_order;
-  if (order == RowOrder::Index) {
+  if (order == "index") {
     in_index_order = all_in_index_order(input.exact_index(threads), input.welding());
     query.vertices = in_index_order;
     if (query.radius.list()) {
@@ -313,16 +367,16 @@ void batch(const BatchCommand& options) {
       query.radius = radii_in_index_order;
     }
   }
-  const BatchSize total = write(method, query, options, sorter);
+  const AnswerSize total = write(method, query, options, sorter);
   print_result(options.json,
                {{"output", options.output.name},
                 {"method", options.search.method},
                 {"metric", options.search.metric},
-                {"order", name_of(kRowOrders, order)},
+                {"order", order},
                 {"rows", total.rows},
                 {"count", total.count}},
                fmt::format("{}: {} rows{}, {} vertices in them\n", printable_name(options.output.name), total.rows,
-                           order == RowOrder::Index ? " in index order" : "", total.count));
+                           order == "index" ? " in index order" : "", total.count));
 }
 
 }  // namespace

@@ -21,7 +21,6 @@
 #include "meshhood/error.h"
 
 #include "commands.h"
-#include "names.h"
 #include "options.h"
 #include "row_table.h"
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -9,9 +12,9 @@
 #include "meshhood/paper.h"
 
 #include "input.h"
-#include "names.h"
+#include "options.h"
 
-/// How a search finds vertices and measures their distances, by names.
+/// How a search finds vertices, measures their distances and orders them, by names.
 namespace meshhood::cli {
 
 /// Paths along the surface are those of another index (see `choose_metric`).
@@ -51,5 +54,34 @@ void check_method(const MethodOptions& options, bool has_masks, const std::strin
 /// paper; `threads` build the index. Throws Error{InvalidOption} if the method needs edges and the input has none.
 [[nodiscard]] SearchMethod method_of(const MethodOptions& options, Input& input,
                                      const paper::QueryOptions& settings = {}, unsigned threads = kAllProcessors);
+
+/// --sort: the order of the vertices of an answer.
+void add_sort(CLI::App& command, std::string& sort);
+
+/// Throws Error{InvalidOption} if `method` has no index order.
+void check_sort(const std::string& sort, const std::string& method);
+
+/// Puts answers into an order. Of equal distances, the smaller id comes first.
+class VertexSorter {
+ public:
+  /// `sort` as typed. The input must have edges if it is "index".
+  VertexSorter(const std::string& sort, Input& input);
+
+  [[nodiscard]] bool needs_distances() const { return by_distance_; }
+
+  /// Sorts `ids`, and with them `distances`, which may be empty unless they are needed.
+  void sort(std::span<VertexId> ids, std::span<double> distances);
+
+ private:
+  struct Item {
+    double key;
+    VertexId id;
+    double distance;
+  };
+
+  bool by_distance_;
+  std::vector<std::uint32_t> places_;  // of each vertex, if it is the index order
+  std::vector<Item> items_;            // of one call
+};
 
 }  // namespace meshhood::cli

@@ -218,7 +218,12 @@ CLI::Option* add_choices(CLI::App& command, const std::string& name, const std::
 }
 
 std::array<CLI::Option*, 2> add_reading(CLI::App& command, Reading& reading) {
-  CLI::Option* weld = add_weld(command, reading.weld);
+  CLI::Option* const weld =
+      command
+          .add_flag("--weld", reading.weld,
+                    "of a mesh: join vertices at equal positions, or at most EPS apart; they keep their numbers, and "
+                    "results name the first of them")
+          ->option_text("[=EPS]");
   return {weld, add_choice(command, "--precision",
                            "of the positions of a mesh; without it, what the file declares, or for text that declares "
                            "nothing, float if that keeps what is written, else double",

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -18,6 +20,27 @@
 /// The options that several commands share. Each `add_` function stores the value in its last argument, which must
 /// outlive the command.
 namespace meshhood::cli {
+
+/// The values of an enumeration and their names on the command line.
+template <class T, std::size_t Size>
+using Names = std::array<std::pair<std::string_view, T>, Size>;
+
+/// The names, in their order.
+template <class T, std::size_t Size>
+[[nodiscard]] std::vector<std::string> names_of(const Names<T, Size>& names) {
+  std::vector<std::string> result;
+  for (const auto& [name, value] : names) result.emplace_back(name);
+  return result;
+}
+
+/// The value of a name, which is one of `names`.
+template <class T, std::size_t Size>
+[[nodiscard]] T value_of(const Names<T, Size>& names, std::string_view name) {
+  for (const auto& [known, value] : names) {
+    if (known == name) return value;
+  }
+  return names.front().second;
+}
 
 /// The name of a file that is read more than once, or of a folder: `-` is refused. An empty name is refused, too, which
 /// is what a shell makes of an unset variable.

@@ -25,7 +25,6 @@
 #include "painting.h"
 #include "start.h"
 #include "table_file.h"
-#include "vertex_order.h"
 
 namespace meshhood::cli {
 namespace {

@@ -184,6 +184,16 @@ void run(const TableCommand& options, const QuantityName& name, Quantity& quanti
   print_result(options.json, document, text);
 }
 
+/// Of a function.
+class PlainQuantity : public Quantity {
+ public:
+  explicit PlainQuantity(RowTable (*function)(const RowTask&)) : function_(function) {}
+  RowTable compute(const RowTask& task) override { return function_(task); }
+
+ private:
+  RowTable (*function_)(const RowTask&);
+};
+
 }  // namespace
 
 std::vector<Column> columns_of(const std::vector<SurfacePoint>& points, const std::string& vertices,
@@ -252,6 +262,10 @@ void RowTable::add_properties(std::initializer_list<std::string_view> names) {
       add_property_of_scale(name, name, scale, 0, std::max<std::size_t>(1, channels));
     }
   }
+}
+
+void add_quantity(CLI::App& program, const QuantityName& name, RowTable (*compute)(const RowTask&)) {
+  add_quantity(program, name, std::make_shared<PlainQuantity>(compute));
 }
 
 void add_quantity(CLI::App& program, const QuantityName& name, const std::shared_ptr<Quantity>& quantity) {

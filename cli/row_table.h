@@ -147,4 +147,7 @@ struct QuantityName {
 /// Adds the command `name`.
 void add_quantity(CLI::App& program, const QuantityName& name, const std::shared_ptr<Quantity>& quantity);
 
+/// The same for a quantity that has no options of its own.
+void add_quantity(CLI::App& program, const QuantityName& name, RowTable (*compute)(const RowTask&));
+
 }  // namespace meshhood::cli
