@@ -15,8 +15,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "meshhood/error.h"
-
 #include "commands.h"
 #include "options.h"
 #include "row_table.h"
@@ -78,7 +76,7 @@ class AggregateQuantity : public Quantity {
     const auto has_kernels = [](const std::string& name) { return name == "mean" || name == "sum"; };
     if ((fwhm_ || kernel_ != "box") && !std::ranges::all_of(reduce_, has_kernels)) {
       const std::string option = fwhm_ ? "--fwhm" : "--kernel " + kernel_;
-      raise(ErrorCode::InvalidOption, option + ": expected --reduce mean or sum");
+      wrong_option("{}: expected --reduce mean or sum", option);
     }
   }
 

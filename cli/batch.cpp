@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -22,15 +21,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "meshhood/error.h"
-
 #include "commands.h"
 #include "input.h"
 #include "io/npz_writer.h"
 #include "methods.h"
 #include "options.h"
 #include "output.h"
-#include "row_query.h"
 #include "row_table.h"
 #include "system.h"
 #include "table_file.h"
@@ -113,7 +109,7 @@ struct BatchCommand {
 /// of a row is that of its vertex, and text is read by people.
 std::string row_order(const BatchCommand& options) {
   const bool is_exact = options.search.method == "exact";
-  if (options.order == "index" && !is_exact) raise(ErrorCode::InvalidOption, "--order index: expected --method exact");
+  if (options.order == "index" && !is_exact) wrong_option("--order index: expected --method exact");
   if (!options.rows.vertices.empty()) return "list";
   if (!options.order.empty()) return options.order;
   return is_exact && !options.count && !options.output.is_csv() ? "index" : "vertex";
@@ -334,14 +330,13 @@ std::vector<VertexId> all_in_index_order(const Index& index, const Welding& weld
 
 void check_options(const BatchCommand& options) {
   need_radii(options.rows);
-  if (options.output.name.empty()) raise(ErrorCode::InvalidOption, "expected --output or --csv");
+  if (options.output.name.empty()) wrong_option("expected --output or --csv");
   check_weld(options.reading.weld, options.search.method);
   check_method(options.search, !options.rows.masks.empty(), options.rows.radii.unit);
   check_sort(options.sort, options.search.method);
   const std::size_t radii = options.rows.scale_count();
   if (radii > 1 && !options.count) {
-    raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one{}", radii,
-                                                options.distances ? " with --distances" : ", or --count"));
+    wrong_option("--radius: {} radii, expected one{}", radii, options.distances ? " with --distances" : ", or --count");
   }
 }
 
@@ -382,30 +377,28 @@ void batch(const BatchCommand& options) {
 }  // namespace
 
 void add_batch(CLI::App& program) {
-  auto options = std::make_shared<BatchCommand>();
-  CLI::App* command =
-      program.add_subcommand("batch", "Write the neighborhoods of all vertices, or of a list, in CSR form");
-  add_file(*command, options->reading);
-  add_rows(*command, options->rows);
+  const auto [command, options] =
+      add_command(program, "batch", "Write the neighborhoods of all vertices, or of a list, in CSR form", batch);
+  add_file(command, options.reading);
+  add_rows(command, options.rows);
   add_choice(
-      *command, "--order",
+      command, "--order",
       "order of all rows; index: the fastest, with the array vertices; vertex: a matrix for scipy.sparse.load_npz "
       "(default: index; with --count, a table or another method: vertex)",
-      {"index", "vertex"}, options->order)
+      {"index", "vertex"}, options.order)
       ->excludes("--vertices");
-  add_method(*command, options->search);
-  add_sort(*command, options->sort);
-  CLI::Option* count = command->add_flag("--count", options->count,
-                                         "write only the number of vertices of each row, for one radius or several");
+  add_method(command, options.search);
+  add_sort(command, options.sort);
+  CLI::Option* count = command.add_flag("--count", options.count,
+                                        "write only the number of vertices of each row, for one radius or several");
   command
-      ->add_flag("--distances", options->distances,
-                 "also write distances in the metric of the radius: the array distances, or the values of the matrix")
+      .add_flag("--distances", options.distances,
+                "also write distances in the metric of the radius: the array distances, or the values of the matrix")
       ->excludes(count);
-  add_max_bytes(*command, options->max_bytes);
-  add_table_output(*command, ".npz", "file to write: arrays, or a table with a line for each vertex of each row",
-                   options->output);
-  add_json(*command, options->json);
-  command->callback([options] { batch(*options); });
+  add_max_bytes(command, options.max_bytes);
+  add_table_output(command, ".npz", "file to write: arrays, or a table with a line for each vertex of each row",
+                   options.output);
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // meshhood check: verifies an index file, alone or against a mesh.
-#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -70,16 +69,14 @@ Json to_json(const CheckCommand& options, const IndexHeader& header) {
 }
 
 std::string to_text(const CheckCommand& options, const IndexHeader& header) {
-  Rows rows(10);
-  rows.add("index",
-           fmt::format("{} ({}, format {}, {} vertices, {})", printable_name(options.index), kind_name(header.kind),
-                       header.format, header.vertices, bytes_text(static_cast<double>(header.bytes))));
-  rows.add("checksums", "correct");
-  rows.add("structure", "correct");
+  const auto row = [](std::string_view name, const std::string& value) { return row_text(10, name, value); };
+  const std::string index =
+      fmt::format("{} ({}, format {}, {} vertices, {})", printable_name(options.index), kind_name(header.kind),
+                  header.format, header.vertices, bytes_text(static_cast<double>(header.bytes)));
   const std::string mesh =
       options.mesh.file.empty() ? "not compared; use --mesh" : "the same as " + printable_name(options.mesh.file);
-  rows.add("mesh", fmt::format("{} ({})", to_text(header.mesh), mesh));
-  return rows.text();
+  return row("index", index) + row("checksums", "correct") + row("structure", "correct") +
+         row("mesh", fmt::format("{} ({})", to_text(header.mesh), mesh));
 }
 
 void check(const CheckCommand& options) {
@@ -96,14 +93,13 @@ void check(const CheckCommand& options) {
 }  // namespace
 
 void add_check(CLI::App& program) {
-  auto options = std::make_shared<CheckCommand>();
-  CLI::App* command = program.add_subcommand("check", "Verify an index file, alone or against the mesh");
-  add_file_option(*command, "INDEX", "index file (made by meshhood build)", options->index)->required()->type_name("");
+  const auto [command, options] =
+      add_command(program, "check", "Verify an index file, alone or against the mesh", check);
+  add_file_option(command, "INDEX", "index file (made by meshhood build)", options.index)->required()->type_name("");
   CLI::Option* mesh =
-      add_file_option(*command, "--mesh", "also verify that the index was built from this mesh", options->mesh.file);
-  for (CLI::Option* option : add_reading(*command, options->mesh)) option->needs(mesh);
-  add_json(*command, options->json);
-  command->callback([options] { check(*options); });
+      add_file_option(command, "--mesh", "also verify that the index was built from this mesh", options.mesh.file);
+  for (CLI::Option* option : add_reading(command, options.mesh)) option->needs(mesh);
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

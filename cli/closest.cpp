@@ -2,7 +2,6 @@
 // meshhood closest: the points of the surface nearest to points in space.
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -12,7 +11,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "meshhood/error.h"
 #include "meshhood/surface.h"
 
 #include "commands.h"
@@ -72,7 +70,7 @@ std::string to_text(const std::vector<SurfacePoint>& found) {
 
 void closest(const ClosestCommand& options) {
   if (options.point.empty() == options.points.empty()) {
-    raise(ErrorCode::InvalidOption, "expected either --point or --points");
+    wrong_option("expected either --point or --points");
   }
   check_outputs();
   Input input(options.reading, options.threads);
@@ -90,20 +88,18 @@ void closest(const ClosestCommand& options) {
 }  // namespace
 
 void add_closest(CLI::App& program) {
-  auto options = std::make_shared<ClosestCommand>();
-  CLI::App* command =
-      program.add_subcommand("closest", "Print the face, point and distance of the surface nearest to points in space");
-  add_surface(*command, options->reading);
-  add_point(*command, "a point in space; also X Y Z", options->point);
-  add_file_option(*command, "--points", "many points: text with X Y Z on each line, or an array of NumPy (.npy)",
-                  options->points);
-  add_threads(*command, options->threads);
-  add_table_output(*command, ".npz",
+  const auto [command, options] = add_command(
+      program, "closest", "Print the face, point and distance of the surface nearest to points in space", closest);
+  add_surface(command, options.reading);
+  add_point(command, "a point in space; also X Y Z", options.point);
+  add_file_option(command, "--points", "many points: text with X Y Z on each line, or an array of NumPy (.npy)",
+                  options.points);
+  add_threads(command, options.threads);
+  add_table_output(command, ".npz",
                    "arrays or a table to write instead: face, distance, point, and the vertices of its triangle with "
                    "its barycentric coordinates",
-                   options->output);
-  add_json(*command, options->json);
-  command->callback([options] { closest(*options); });
+                   options.output);
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

@@ -2,7 +2,6 @@
 // meshhood compare: all methods on one query.
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,9 +22,9 @@
 #include "input.h"
 #include "measure/difference.h"
 #include "measure/timing.h"
+#include "mesh_file.h"
 #include "options.h"
 #include "output.h"
-#include "painting.h"
 #include "task.h"
 
 namespace meshhood::cli {
@@ -129,12 +128,11 @@ std::string to_text(VertexId v, const std::vector<Row>& rows) {
 
 /// Exact answers on top, as in the paper's Figure 4. `rows`: bfs, ball, paper, exact.
 void paint(const std::string& file, Input& input, VertexId v, const std::vector<Row>& rows) {
-  Painting painting(input.vertex_count());
-  painting.paint(rows[1].vertices, kBallColor);
-  painting.paint(rows[2].vertices, kPaperColor);
-  painting.paint(rows[0].vertices, kExactColor);
-  painting.paint(std::span(&v, 1), kQueryColor);
-  painting.write(file, input);
+  write_painting(file, input,
+                 {{rows[1].vertices, kBallColor},
+                  {rows[2].vertices, kPaperColor},
+                  {rows[0].vertices, kExactColor},
+                  {std::span(&v, 1), kQueryColor}});
 }
 
 void compare(const CompareCommand& options) {
@@ -152,21 +150,20 @@ void compare(const CompareCommand& options) {
 }  // namespace
 
 void add_compare(CLI::App& program) {
-  auto options = std::make_shared<CompareCommand>();
-  CLI::App* command = program.add_subcommand(
-      "compare", "Compare the methods on one query: size, difference from breadth-first search, time");
-  add_file(*command, options->reading);
+  const auto [command, options] =
+      add_command(program, "compare",
+                  "Compare the methods on one query: size, difference from breadth-first search, time", compare);
+  add_file(command, options.reading);
   add_number(
-      *command, "-v,--vertex",
+      command, "-v,--vertex",
       "query vertex, by its number in the file from 0; without it, one at which the methods differ is searched for",
-      options->vertex);
-  add_radius(*command, options->radius);
+      options.vertex);
+  add_radius(command, options.radius);
   add_output(
-      *command, ".ply",
+      command, ".ply",
       "also write the mesh in color: the query vertex orange, exact green, only in paper yellow, only in ball blue",
-      options->output);
-  add_json(*command, options->json);
-  command->callback([options] { compare(*options); });
+      options.output);
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

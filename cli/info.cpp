@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,8 +25,6 @@
 
 namespace meshhood::cli {
 namespace {
-
-constexpr std::size_t kWidth = 19;  // of the names in the text
 
 struct InfoCommand {
   Reading reading;
@@ -171,6 +168,12 @@ Statistics statistics(const MeshView& mesh, const AdjacencyView& adjacency) {
   return result;
 }
 
+/// A line of the text.
+template <class Value>
+std::string row(std::string_view name, const Value& value) {
+  return row_text(19, name, value);
+}
+
 Json to_json(const std::vector<LevelSummary>& levels) {
   Json list = Json::array();
   for (const LevelSummary& level : levels) {
@@ -208,11 +211,11 @@ Json json_of(const paper::Index& index) {
 std::string text_of(const Index& index) {
   const IndexBytes bytes = index.bytes();
   std::string text = fmt::format("exact index: {}\n", bytes_text(static_cast<double>(bytes.total())));
-  const auto row = [&](std::string_view part, std::size_t size) { text += fmt::format("{:<11}  {:9}\n", part, size); };
-  row("positions", bytes.positions);
-  row("permutation", bytes.permutation);
-  row("graph", bytes.graph);
-  row("tree", bytes.tree);
+  const auto add = [&](std::string_view part, std::size_t size) { text += fmt::format("{:<11}  {:9}\n", part, size); };
+  add("positions", bytes.positions);
+  add("permutation", bytes.permutation);
+  add("graph", bytes.graph);
+  add("tree", bytes.tree);
   return text + to_text(index.levels());
 }
 
@@ -275,22 +278,22 @@ std::string to_text(const std::optional<Box>& bounds) {
 }
 
 std::string to_text(Input& input, const Statistics& s) {
-  Rows rows(kWidth);
-  rows.add("mesh", fmt::format("{} ({})", printable_name(input.name()), format_name(input.mesh()->format)));
-  rows.add("vertices", s.vertices);
-  rows.add("faces", s.faces);
-  rows.add("corners per face", to_text(s.polygon_degrees));
-  rows.add("edges", s.edges);
-  rows.add("components", s.components);
-  rows.add("isolated vertices", s.isolated_vertices - input.welding().count());
-  rows.add("boundary edges", s.boundary_edges);
-  rows.add("non-manifold edges", s.nonmanifold_edges);
-  rows.add("mean edge length", fmt::format("{:.4g}", s.average_edge));
-  rows.add("repeated corners", s.repeated_corners);
-  rows.add("repeated positions", s.repeated_positions);
-  if (input.welding().count() > 0) rows.add("welded vertices", input.welding().count());
-  rows.add("bounding box", to_text(s.bounds));
-  return rows.text();
+  std::string text;
+  text += row("mesh", fmt::format("{} ({})", printable_name(input.name()), format_name(input.mesh()->format)));
+  text += row("vertices", s.vertices);
+  text += row("faces", s.faces);
+  text += row("corners per face", to_text(s.polygon_degrees));
+  text += row("edges", s.edges);
+  text += row("components", s.components);
+  text += row("isolated vertices", s.isolated_vertices - input.welding().count());
+  text += row("boundary edges", s.boundary_edges);
+  text += row("non-manifold edges", s.nonmanifold_edges);
+  text += row("mean edge length", fmt::format("{:.4g}", s.average_edge));
+  text += row("repeated corners", s.repeated_corners);
+  text += row("repeated positions", s.repeated_positions);
+  if (input.welding().count() > 0) text += row("welded vertices", input.welding().count());
+  text += row("bounding box", to_text(s.bounds));
+  return text;
 }
 
 Json to_json(Input& input) {
@@ -307,14 +310,13 @@ Json to_json(Input& input) {
 
 std::string to_text(Input& input) {
   const IndexHeader& header = input.header();
-  Rows rows(kWidth);
-  rows.add("index",
-           fmt::format("{} ({}, format {})", printable_name(input.name()), kind_name(header.kind), header.format));
-  rows.add("vertices", header.vertices);
-  rows.add("coordinates", precision_name(header));
-  rows.add("mesh", to_text(header.mesh));
-  return rows.text() + '\n' +
-         (header.kind == IndexKind::Paper ? text_of(input.paper_index()) : text_of(input.exact_index()));
+  std::string text;
+  text += row("index",
+              fmt::format("{} ({}, format {})", printable_name(input.name()), kind_name(header.kind), header.format));
+  text += row("vertices", header.vertices);
+  text += row("coordinates", precision_name(header));
+  text += row("mesh", to_text(header.mesh));
+  return text + '\n' + (header.kind == IndexKind::Paper ? text_of(input.paper_index()) : text_of(input.exact_index()));
 }
 
 std::size_t components_if_welded(const io::Mesh& mesh, double eps) {
@@ -369,13 +371,12 @@ void info(const InfoCommand& options) {
 }  // namespace
 
 void add_info(CLI::App& program) {
-  auto options = std::make_shared<InfoCommand>();
-  CLI::App* command = program.add_subcommand(
-      "info", "Print the size, components, boundary and defects of a mesh, or the size and levels of an index");
-  add_file(*command, options->reading);
-  command->add_flag("--index", options->index, "for a mesh: also build both indexes and print their sizes and levels");
-  add_json(*command, options->json);
-  command->callback([options] { info(*options); });
+  const auto [command, options] = add_command(
+      program, "info", "Print the size, components, boundary and defects of a mesh, or the size and levels of an index",
+      info);
+  add_file(command, options.reading);
+  command.add_flag("--index", options.index, "for a mesh: also build both indexes and print their sizes and levels");
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

@@ -42,18 +42,10 @@ void refuse_parts(const std::string& file) {
   std::error_code none;
   const std::filesystem::path folder = path_of(file);
   if (!std::filesystem::is_regular_file(folder / parts::kManifestFile, none)) return;
-  raise(
-      ErrorCode::InvalidOption,
-      fmt::format("{}: is a folder of parts; name the index of one, such as {}, whose vertices.npy has the numbers of "
-                  "its vertices, or use meshhood.open_parts of the Python package for all",
-                  printable_name(file), printable_name((folder / "part-00000" / "index.mhi").generic_string())));
-}
-
-std::string task_of(const std::string& file) { return "reading " + file; }
-
-io::Precision precision_of(const Reading& reading) {
-  if (reading.precision.empty()) return io::Precision::FromFile;
-  return reading.precision == "float" ? io::Precision::Float : io::Precision::Double;
+  wrong_option(
+      "{}: is a folder of parts; name the index of one, such as {}, whose vertices.npy has the numbers of "
+      "its vertices, or use meshhood.open_parts of the Python package for all",
+      printable_name(file), printable_name((folder / "part-00000" / "index.mhi").generic_string()));
 }
 
 OtherReader other_reader;
@@ -72,7 +64,12 @@ template <class Content>
 Content read_with(Content (*read)(const std::filesystem::path&, const io::ReadOptions&), const Reading& reading,
                   io::ReadOptions options) {
   const std::string& file = reading.file;
-  options.precision = precision_of(reading);
+  refuse_parts(file);
+  Task task("reading " + file, kMegabytes);
+  options.progress = task.progress();
+  if (!reading.precision.empty()) {
+    options.precision = reading.precision == "float" ? io::Precision::Float : io::Precision::Double;
+  }
   try {
     return read(path_of(file), options);
   } catch (const Error& refusal) {
@@ -88,8 +85,7 @@ void refuse_to_read_otherwise(const Reading& reading) {
   for (const auto& [value, option, advice] : {std::array<std::string_view, 3>{reading.weld, "--weld", "weld the mesh"},
                                               {reading.precision, "--precision", "choose it"}}) {
     if (value.empty()) continue;
-    raise(ErrorCode::InvalidOption,
-          fmt::format("{}: {} is an index; {} when the index is built", option, printable_name(reading.file), advice));
+    wrong_option("{}: {} is an index; {} when the index is built", option, printable_name(reading.file), advice);
   }
 }
 
@@ -119,7 +115,7 @@ PositionsData positions_of(const paper::Index& index) {
 double eps_of(const std::string& weld) {
   if (weld == "true") return 0;  // what CLI11 stores for a flag without a value
   if (const auto number = io::parse_real<double>(weld)) return *number;
-  raise(ErrorCode::InvalidOption, fmt::format("--weld={}, expected a finite number >= 0", io::quote(weld)));
+  wrong_option("--weld={}, expected a finite number >= 0", io::quote(weld));
 }
 
 std::string rounding_eps(double mean_edge) { return fmt::format("{:.1g}", mean_edge / 1000); }
@@ -162,8 +158,8 @@ Welding::Welding(io::Mesh& mesh, const std::string& weld, const std::string& fil
 
 void check_weld(const std::string& weld, const std::string& method) {
   if (weld.empty() || method != "ball") return;
-  raise(ErrorCode::InvalidOption,
-        "--weld: expected another --method than ball, which knows no faces, so that welding has no effect on it");
+  wrong_option(
+      "--weld: expected another --method than ball, which knows no faces, so that welding has no effect on it");
 }
 
 void read_others_by(OtherReader reader) { other_reader = std::move(reader); }
@@ -171,11 +167,7 @@ void read_others_by(OtherReader reader) { other_reader = std::move(reader); }
 bool reads_others() { return other_reader != nullptr; }
 
 Input::Input(const Reading& reading, unsigned threads) : name_(reading.file) {
-  refuse_parts(name_);
-  auto content = [&] {
-    Task task(task_of(name_), kMegabytes);
-    return read_with(io::read_mesh_or_index, reading, {.threads = threads, .progress = task.progress()});
-  }();
+  auto content = read_with(io::read_mesh_or_index, reading, {.threads = threads});
   if (auto* mesh = std::get_if<io::Mesh>(&content)) {
     mesh_ = std::move(*mesh);
     print_warnings(*mesh_, name_);
@@ -203,18 +195,18 @@ std::size_t Input::vertex_count() const {
 
 void Input::need_edges(const std::string& purpose) const {
   if (mesh_ || exact_) return;
-  raise(ErrorCode::InvalidOption,
-        fmt::format("{}: {} needs the edges of the mesh, which an index of the paper does not "
-                    "contain; name the mesh or an exact index",
-                    printable_name(name_), purpose));
+  wrong_option(
+      "{}: {} needs the edges of the mesh, which an index of the paper does not "
+      "contain; name the mesh or an exact index",
+      printable_name(name_), purpose);
 }
 
 void Input::need_faces(const std::string& purpose) const {
   if (mesh_ || (exact_ && exact_->faces())) return;
-  raise(ErrorCode::InvalidOption,
-        fmt::format("{}: {} needs the faces of the mesh, which this index does not contain; name the mesh, or an index "
-                    "that was built with --faces",
-                    printable_name(name_), purpose));
+  wrong_option(
+      "{}: {} needs the faces of the mesh, which this index does not contain; name the mesh, or an index "
+      "that was built with --faces",
+      printable_name(name_), purpose);
 }
 
 PositionsView Input::positions() {
@@ -255,10 +247,10 @@ void Input::set_masks(OwnedMasks masks) {
 
 void Input::need_positions(const std::string& method) const {
   if (!mesh_ || mesh_->walls.empty()) return;
-  raise(ErrorCode::InvalidOption,
-        fmt::format("{}: has vertices without a position, which are walls: {} does not pass them by; expected --method "
-                    "exact",
-                    printable_name(name_), method));
+  wrong_option(
+      "{}: has vertices without a position, which are walls: {} does not pass them by; expected --method "
+      "exact",
+      printable_name(name_), method);
 }
 
 void Input::ignore_welded() {
@@ -297,19 +289,14 @@ const paper::Index& Input::paper_index() {
 }
 
 io::Mesh read_mesh(const Reading& reading, unsigned threads, std::uint64_t max_bytes) {
-  refuse_parts(reading.file);
-  io::Mesh mesh = [&] {
-    Task task(task_of(reading.file), kMegabytes);
-    return read_with<io::Mesh>(io::read_mesh, reading,
-                               {.threads = threads, .max_bytes = max_bytes, .progress = task.progress()});
-  }();
+  io::Mesh mesh = read_with<io::Mesh>(io::read_mesh, reading, {.threads = threads, .max_bytes = max_bytes});
   print_warnings(mesh, reading.file);
   return mesh;
 }
 
 io::LoadedIndex load_index(const std::string& file) {
   refuse_parts(file);
-  Task task(task_of(file), kMegabytes);
+  Task task("reading " + file, kMegabytes);
   return io::load_any(path_of(file), {.progress = task.progress()});
 }
 

@@ -6,8 +6,9 @@
 #include <string>
 #include <tuple>
 
-#include "meshhood/error.h"
 #include "meshhood/surface.h"
+
+#include "output.h"
 
 namespace meshhood::cli {
 
@@ -44,13 +45,13 @@ Searcher make_searcher(const std::string& metric, Input& input) {
 
 void check_metric(const std::string& name, const std::string& unit) {
   if (name == "rings" && unit != "mesh") {
-    raise(ErrorCode::InvalidOption, "--metric rings: expected --unit mesh, because the radius is a number of edges");
+    wrong_option("--metric rings: expected --unit mesh, because the radius is a number of edges");
   }
 }
 
 void check_method(const MethodOptions& options, bool has_masks, const std::string& unit) {
   if (options.method != "exact" && (!options.is_straight() || has_masks)) {
-    raise(ErrorCode::InvalidOption, "--metric, --walls and --ignored require --method exact");
+    wrong_option("--metric, --walls and --ignored require --method exact");
   }
   check_metric(options.metric, unit);
 }
@@ -75,7 +76,7 @@ void add_sort(CLI::App& command, std::string& sort) {
 
 void check_sort(const std::string& sort, const std::string& method) {
   if (sort != "index" || method == "exact") return;
-  raise(ErrorCode::InvalidOption, "--sort index: expected --method exact");
+  wrong_option("--sort index: expected --method exact");
 }
 
 VertexSorter::VertexSorter(const std::string& sort, Input& input) : by_distance_(sort == "distance") {

@@ -47,8 +47,7 @@ double edge_unit(Input& input) {
   input.need_edges("--unit edge");
   const double mean = mean_edge_length(input.graph());
   if (mean > 0) return mean;
-  raise(ErrorCode::InvalidOption,
-        "--unit edge: the mean edge length of " + printable_name(input.name()) + " is 0, expected a length > 0");
+  wrong_option("--unit edge: the mean edge length of {} is 0, expected a length > 0", printable_name(input.name()));
 }
 
 /// The number of characters to insert, delete, replace or swap to turn `a` into `b`.
@@ -351,13 +350,12 @@ void check_outputs() {
     const auto& [option, output] = outputs[i];
     for (const auto& [other, file] : named_files().inputs) {
       if (!is_same_file(file, output)) continue;
-      raise(ErrorCode::InvalidOption, fmt::format("{} {} would overwrite {}, {}; name another file", option,
-                                                  printable_name(output), other, printable_name(file)));
+      wrong_option("{} {} would overwrite {}, {}; name another file", option, printable_name(output), other,
+                   printable_name(file));
     }
     for (const auto& [other, file] : std::span(outputs).first(i)) {
       if (!is_same_file(file, output)) continue;
-      raise(ErrorCode::InvalidOption,
-            fmt::format("{} and {} name the same file, {}; name two", other, option, printable_name(output)));
+      wrong_option("{} and {} name the same file, {}; name two", other, option, printable_name(output));
     }
     check_place(output);
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,23 @@
 /// The options that several commands share. Each `add_` function stores the value in its last argument, which must
 /// outlive the command.
 namespace meshhood::cli {
+
+/// A command and its options, which live as long.
+template <class Options>
+struct Command {
+  CLI::App& app;
+  Options& options;
+};
+
+/// Adds a command, which calls `run(options)` when the arguments are parsed.
+template <class Options>
+Command<Options> add_command(CLI::App& program, const std::string& name, const std::string& description,
+                             void (*run)(const Options&)) {
+  auto options = std::make_shared<Options>();
+  CLI::App* const command = program.add_subcommand(name, description);
+  command->callback([options, run] { run(*options); });
+  return {*command, *options};
+}
 
 /// The values of an enumeration and their names on the command line.
 template <class T, std::size_t Size>

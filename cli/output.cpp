@@ -72,8 +72,4 @@ std::string rounded_text(double number) {
   return text;
 }
 
-void Rows::add(std::string_view name, std::string_view value) {
-  text_ += fmt::format("{:<{}} {}\n", name, width_, value);
-}
-
 }  // namespace meshhood::cli

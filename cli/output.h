@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "meshhood/error.h"
 
 #include "io/messages.h"
 
@@ -34,6 +37,12 @@ void print_json(const Json& document);
 /// Prints the result of a command: `document` in a `--json` run, otherwise `text`.
 void print_result(bool json, const Json& document, std::string_view text);
 
+/// Throws Error{InvalidOption}. The text names what is at fault, its value and what was expected.
+template <class... Parts>
+[[noreturn]] void wrong_option(fmt::format_string<Parts...> text, Parts&&... parts) {
+  raise(ErrorCode::InvalidOption, fmt::format(text, std::forward<Parts>(parts)...));
+}
+
 /// Closes standard output: some file systems report errors only then. Throws as `print_text`.
 void close_output();
 
@@ -49,20 +58,10 @@ void print_error(std::string_view severity, std::string_view text);
 /// "42,000", with three significant digits.
 [[nodiscard]] std::string rounded_text(double number);
 
-/// A text table of names and values.
-class Rows {
- public:
-  /// `width` is that of the names.
-  explicit Rows(std::size_t width) : width_(width) {}
-
-  void add(std::string_view name, std::string_view value);
-  void add(std::string_view name, std::uint64_t value) { add(name, std::to_string(value)); }
-
-  [[nodiscard]] const std::string& text() const { return text_; }
-
- private:
-  std::size_t width_;
-  std::string text_;
-};
+/// A line of a table: a name in a column of `width`, and a value.
+template <class Value>
+[[nodiscard]] std::string row_text(std::size_t width, std::string_view name, const Value& value) {
+  return fmt::format("{:<{}} {}\n", name, width, value);
+}
 
 }  // namespace meshhood::cli

@@ -117,41 +117,39 @@ void partition_mesh(const PartitionCommand& options) {
 }  // namespace
 
 void add_partition(CLI::App& program) {
-  auto options = std::make_shared<PartitionCommand>();
-  CLI::App* command =
-      program.add_subcommand("partition", "Cut a mesh of any size into parts, each of which answers queries alone");
+  const auto [command, options] = add_command(
+      program, "partition", "Cut a mesh of any size into parts, each of which answers queries alone", partition_mesh);
   command
-      ->add_option("MESH", options->mesh.file,
-                   "binary PLY, or positions as .npy with --faces: read in chunks; other formats: read into memory")
+      .add_option("MESH", options.mesh.file,
+                  "binary PLY, or positions as .npy with --faces: read in chunks; other formats: read into memory")
       ->check(stored_name("MESH"))
       ->required()
       ->type_name("");
   CLI::Option* faces =
-      command->add_option("--faces", options->faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
+      command.add_option("--faces", options.faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
           ->check(stored_name("--faces"))
           ->type_name("FILE");
-  for (CLI::Option* option : add_reading(*command, options->mesh)) option->excludes(faces);
-  CLI::Option* parts = add_number(*command, "--parts", "number of parts", options->parts);
-  add_number(*command, "--vertices-per-part",
+  for (CLI::Option* option : add_reading(command, options.mesh)) option->excludes(faces);
+  CLI::Option* parts = add_number(command, "--parts", "number of parts", options.parts);
+  add_number(command, "--vertices-per-part",
              "approximate number of vertices of a part without its halo; sets the number of parts",
-             options->vertices_per_part)
+             options.vertices_per_part)
       ->excludes(parts);
-  command->add_option("--halo", options->halo, "the largest radius that the parts answer")
+  command.add_option("--halo", options.halo, "the largest radius that the parts answer")
       ->type_name("NUMBER")
       ->required();
-  add_unit(*command, "halo", options->unit);
-  command->add_option("--memory", options->memory, "most bytes of memory, for example 500MB or 4GiB (default: 1GiB)")
+  add_unit(command, "halo", options.unit);
+  command.add_option("--memory", options.memory, "most bytes of memory, for example 500MB or 4GiB (default: 1GiB)")
       ->transform(CLI::AsSizeValue(true))
       ->type_name("SIZE")
       ->default_val("1GiB");
-  add_threads(*command, options->threads);
-  command->add_flag("--no-resume", options->no_resume, "remove the parts that an earlier run has finished");
-  command->add_option("-o,--output", options->output, "folder to write; created if it does not exist")
+  add_threads(command, options.threads);
+  command.add_flag("--no-resume", options.no_resume, "remove the parts that an earlier run has finished");
+  command.add_option("-o,--output", options.output, "folder to write; created if it does not exist")
       ->check(stored_name("--output"))
       ->type_name("FOLDER")
       ->required();
-  add_json(*command, options->json);
-  command->callback([options] { partition_mesh(*options); });
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

@@ -157,7 +157,7 @@ void refuse_empty_values(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
     if (argument == "--") return;
     if (!argument.starts_with("--") || argument.find('=') != argument.size() - 1) continue;
-    raise(ErrorCode::InvalidOption, fmt::format("{}: the value is empty", argument.substr(0, argument.size() - 1)));
+    wrong_option("{}: the value is empty", argument.substr(0, argument.size() - 1));
   }
 }
 
@@ -230,7 +230,7 @@ void run(CLI::App& program, std::vector<std::string> arguments) {
     join_values(arguments);
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
     program.parse(std::move(arguments));
-    if (program.get_subcommands().empty()) raise(ErrorCode::InvalidOption, "a command is missing; see --help");
+    if (program.get_subcommands().empty()) wrong_option("a command is missing; see --help");
   } catch (const CLI::Success& request) {
     const std::string unknown = program.get_subcommands().empty() ? unknown_argument(program) : "";
     if (!unknown.empty()) raise(ErrorCode::InvalidOption, unknown);

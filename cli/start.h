@@ -30,9 +30,6 @@ struct StartOptions {
   std::vector<std::uint64_t> seeds;
   MaskFiles masks;
 
-  /// --point. Throws Error{InvalidOption}.
-  [[nodiscard]] SpacePoint center() const { return parse_point(point); }
-
   /// Whether there may be several answers.
   [[nodiscard]] bool is_list() const;
 

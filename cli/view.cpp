@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -80,8 +79,7 @@ std::vector<float> as_floats(const std::vector<double>& values) {
   result.reserve(values.size());
   for (const double value : values) {
     if (std::isfinite(value) && std::abs(value) > kMost) {
-      raise(ErrorCode::InvalidOption, fmt::format("values: vertex {}: {}, but a page holds numbers of at most {:.3g}",
-                                                  result.size(), value, kMost));
+      wrong_option("values: vertex {}: {}, but a page holds numbers of at most {:.3g}", result.size(), value, kMost);
     }
     result.push_back(static_cast<float>(value));
   }
@@ -220,18 +218,16 @@ void view(const ViewCommand& options) {
 }  // namespace
 
 void add_view(CLI::App& program) {
-  auto options = std::make_shared<ViewCommand>();
-  CLI::App* command =
-      program.add_subcommand("view", "Write a page that shows the mesh and its neighborhoods in a browser");
-  add_file(*command, options->reading);
-  add_number(*command, "-v,--vertex", "vertex to show at first, by its number in the file from 0", options->vertex);
-  add_radius(*command, options->radius)->required(false);
-  add_file_option(*command, "--ids", "show these vertices, one on each line, as printed by query", options->answer);
-  add_file_option(*command, "--values",
-                  "color the vertices by these numbers: one per line, or an array of NumPy (.npy)", options->values);
-  add_output(*command, ".html", "the page; by default the name of FILE, in this folder", options->output);
-  command->add_flag("--open", options->open, "also open the page in the browser");
-  command->callback([options] { view(*options); });
+  const auto [command, options] =
+      add_command(program, "view", "Write a page that shows the mesh and its neighborhoods in a browser", view);
+  add_file(command, options.reading);
+  add_number(command, "-v,--vertex", "vertex to show at first, by its number in the file from 0", options.vertex);
+  add_radius(command, options.radius)->required(false);
+  add_file_option(command, "--ids", "show these vertices, one on each line, as printed by query", options.answer);
+  add_file_option(command, "--values", "color the vertices by these numbers: one per line, or an array of NumPy (.npy)",
+                  options.values);
+  add_output(command, ".html", "the page; by default the name of FILE, in this folder", options.output);
+  command.add_flag("--open", options.open, "also open the page in the browser");
 }
 
 }  // namespace meshhood::cli
