@@ -95,9 +95,8 @@ std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQue
 struct BatchCommand {
   Reading reading;
   RowOptions rows;
-  std::string order;  ///< as typed; empty for the default
+  std::string order;  ///< as typed, empty for the default; from `with_order` on index, vertex or list
   MethodOptions search;
-  std::string sort = "id";
   bool count = false;
   bool distances = false;
   bool json = false;
@@ -107,22 +106,23 @@ struct BatchCommand {
 
 /// Arrays of rows come in index order, which is the fastest. Sizes are found as fast in vertex order, where the number
 /// of a row is that of its vertex, and text is read by people.
-std::string row_order(const BatchCommand& options) {
+BatchCommand with_order(BatchCommand options) {
   const bool is_exact = options.search.method == "exact";
   if (options.order == "index" && !is_exact) wrong_option("--order index: expected --method exact");
-  if (!options.rows.vertices.empty()) return "list";
-  if (!options.order.empty()) return options.order;
-  return is_exact && !options.count && !options.output.is_csv() ? "index" : "vertex";
+  const bool is_fastest_by_index = is_exact && !options.count && !options.output.is_csv();
+  if (options.order.empty()) options.order = is_fastest_by_index ? "index" : "vertex";
+  if (!options.rows.vertices.empty()) options.order = "list";
+  return options;
 }
 
 /// Whether the file says of which vertex a row is.
-bool has_vertices(std::string_view order) { return order != "vertex"; }
+bool has_vertices(const BatchCommand& options) { return options.order != "vertex"; }
 
 /// Rows in vertex order or in that of a list are a sparse matrix that `scipy.sparse.load_npz` reads: `format`, `shape`,
 /// `indptr`, `indices`, `data`; `vertices` has the list. Rows in index order are not stored as a matrix, because SciPy
 /// would ignore `vertices` and take row `i` for that of vertex `i`. They are `vertices`, `indptr`, `indices`,
 /// `distances`, and SciPy refuses them.
-bool is_matrix(std::string_view order) { return order != "index"; }
+bool is_matrix(const BatchCommand& options) { return options.order != "index"; }
 
 /// SciPy uses 32-bit indices where they suffice, and would convert others. `count`: of the stored values.
 bool fits_32_bits(std::uint64_t count, std::uint64_t columns) {
@@ -133,7 +133,7 @@ bool fits_32_bits(std::uint64_t count, std::uint64_t columns) {
 /// Rows as the methods write them are in the order of the ids, or of the index except along the edges.
 bool sorts_rows(const BatchCommand& options) {
   const bool is_path = value_of(kMetrics, options.search.metric) == Metric::Path;
-  return options.sort == "distance" || (options.sort == "index" && is_path);
+  return options.search.sort == "distance" || (options.search.sort == "index" && is_path);
 }
 
 /// The approximate size of the file: the members without the zip headers. The ones of a matrix without distances
@@ -141,7 +141,7 @@ bool sorts_rows(const BatchCommand& options) {
 double file_bytes(const BatchCommand& options, const AnswerSize& total, std::size_t columns) {
   const auto rows = static_cast<double>(total.rows);
   const auto count = static_cast<double>(total.count);
-  const double vertices = has_vertices(row_order(options)) ? 8 * rows : 0;
+  const double vertices = has_vertices(options) ? 8 * rows : 0;
   const double radii = options.rows.row_radii.empty() ? 0 : 8 * rows;
   if (options.count) return vertices + radii + 8 * rows * static_cast<double>(options.rows.scale_count());
   const double index_bytes = fits_32_bits(total.count, columns) ? 4 : 8;
@@ -166,7 +166,7 @@ AnswerSize size_of(std::span<const std::uint64_t> sizes, std::size_t scales) {
 
 /// Those that the file names.
 BatchVertices listed_rows(const BatchCommand& options, const BatchQuery& query) {
-  return has_vertices(row_order(options)) ? query.vertices : BatchVertices();
+  return has_vertices(options) ? query.vertices : BatchVertices();
 }
 
 AnswerSize write_counts(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options) {
@@ -194,7 +194,7 @@ class Writer {
  public:
   Writer(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, VertexSorter& sorter,
          Task& task)
-      : method_(method), query_(query), options_(options), order_(row_order(options)), sorter_(sorter), task_(task) {}
+      : method_(method), query_(query), options_(options), sorter_(sorter), task_(task) {}
 
   AnswerSize write() {
     if (options_.output.is_csv()) return write_pairs();
@@ -232,7 +232,7 @@ class Writer {
     io::NpzWriter npz(path_of(options_.output.name));
     write_vertices(npz, listed());
     const std::uint64_t columns = method_.vertex_count();
-    if (is_matrix(order_)) {
+    if (is_matrix(options_)) {
       const std::array<std::int64_t, 2> shape{static_cast<std::int64_t>(total.rows),
                                               static_cast<std::int64_t>(columns)};
       npz.add_text("format", "csr");
@@ -244,10 +244,10 @@ class Writer {
       write_pattern<std::int64_t>(npz, sizes, total);
     }
     if (options_.distances) {
-      npz.begin<double>(is_matrix(order_) ? "data" : "distances", total.count);
+      npz.begin<double>(is_matrix(options_) ? "data" : "distances", total.count);
       for_each_row(
           true, [&](std::span<const VertexId> /*ids*/, std::span<const double> distances) { npz.append(distances); });
-    } else if (is_matrix(order_)) {
+    } else if (is_matrix(options_)) {
       npz.add_ones("data", total.count);
     }
     Task::check_cancelled();
@@ -272,8 +272,9 @@ class Writer {
   /// Calls `write(ids, distances)` for each row, sorted as the options say.
   template <class Write>
   void for_each_row(bool with_distances, Write&& write) {
-    const BatchOptions pass{
-        .distances = with_distances, .sorted = options_.sort == "id", .in_index_order = order_ == "index"};
+    const BatchOptions pass{.distances = with_distances,
+                            .sorted = options_.search.sort == "id",
+                            .in_index_order = options_.order == "index"};
     std::vector<VertexId> ids;
     std::vector<double> distances;
     const auto sort_and_write = [&](const BatchRow& row) {
@@ -294,7 +295,6 @@ class Writer {
   const SearchMethod& method_;
   const BatchQuery& query_;
   const BatchCommand& options_;
-  std::string order_;
   VertexSorter& sorter_;
   Task& task_;
   std::size_t passes_begun_ = 0;
@@ -331,19 +331,17 @@ std::vector<VertexId> all_in_index_order(const Index& index, const Welding& weld
 void check_options(const BatchCommand& options) {
   need_radii(options.rows);
   if (options.output.name.empty()) wrong_option("expected --output or --csv");
-  check_weld(options.reading.weld, options.search.method);
-  check_method(options.search, !options.rows.masks.empty(), options.rows.radii.unit);
-  check_sort(options.sort, options.search.method);
+  check_method(options.search, options.reading, !options.rows.masks.empty(), options.rows.radii.unit);
   const std::size_t radii = options.rows.scale_count();
   if (radii > 1 && !options.count) {
     wrong_option("--radius: {} radii, expected one{}", radii, options.distances ? " with --distances" : ", or --count");
   }
 }
 
-void batch(const BatchCommand& options) {
-  check_options(options);
+void batch(const BatchCommand& typed) {
+  check_options(typed);
   check_outputs();
-  const std::string order = row_order(options);
+  const BatchCommand options = with_order(typed);
   const unsigned threads = options.rows.threads;
   Input input(options.reading, threads);
   const RowQuery rows(options.rows, input);
@@ -351,10 +349,10 @@ void batch(const BatchCommand& options) {
   query.metric = choose_metric(options.search.metric, input);
   if (query.metric == Metric::Space) input.ignore_welded();
   const SearchMethod method = method_of(options.search, input, {}, threads);
-  VertexSorter sorter(options.sort, input);
+  VertexSorter sorter(options.search.sort, input);
   std::vector<VertexId> in_index_order;
   std::vector<double> radii_in_index_order;
-  if (order == "index") {
+  if (options.order == "index") {
     in_index_order = all_in_index_order(input.exact_index(threads), input.welding());
     query.vertices = in_index_order;
     if (query.radius.list()) {
@@ -367,11 +365,11 @@ void batch(const BatchCommand& options) {
                {{"output", options.output.name},
                 {"method", options.search.method},
                 {"metric", options.search.metric},
-                {"order", order},
+                {"order", options.order},
                 {"rows", total.rows},
                 {"count", total.count}},
                fmt::format("{}: {} rows{}, {} vertices in them\n", printable_name(options.output.name), total.rows,
-                           order == "index" ? " in index order" : "", total.count));
+                           options.order == "index" ? " in index order" : "", total.count));
 }
 
 }  // namespace
@@ -388,7 +386,6 @@ void add_batch(CLI::App& program) {
       {"index", "vertex"}, options.order)
       ->excludes("--vertices");
   add_method(command, options.search);
-  add_sort(command, options.sort);
   CLI::Option* count = command.add_flag("--count", options.count,
                                         "write only the number of vertices of each row, for one radius or several");
   command

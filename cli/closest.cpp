@@ -48,24 +48,18 @@ RowTable table_of(const std::vector<SurfacePoint>& found) {
   return table;
 }
 
-Json to_json(const std::vector<SurfacePoint>& found) {
+void print(bool json, const std::vector<SurfacePoint>& found) {
   Json documents = Json::array();
+  std::string text;
   for (const SurfacePoint& one : found) {
     documents.push_back({{"face", one.face},
                          {"vertices", one.vertices},
                          {"barycentric", one.barycentric},
                          {"point", one.point},
                          {"distance", one.distance}});
-  }
-  return documents;
-}
-
-std::string to_text(const std::vector<SurfacePoint>& found) {
-  std::string text;
-  for (const SurfacePoint& one : found) {
     text += fmt::format("{} {} {}\n", one.face, fmt::join(one.point, " "), one.distance);
   }
-  return text;
+  print_result(json, documents, text);
 }
 
 void closest(const ClosestCommand& options) {
@@ -79,7 +73,7 @@ void closest(const ClosestCommand& options) {
       options.points.empty() ? std::vector{parse_point(options.point)} : read_points(options.points);
   const std::vector<SurfacePoint> found = compute(options, points, input);
   const std::string& output = options.output.name;
-  if (output.empty()) return print_result(options.json, to_json(found), to_text(found));
+  if (output.empty()) return print(options.json, found);
   write_table(options.output, table_of(found));
   print_result(options.json, {{"output", output}, {"points", found.size()}},
                fmt::format("{}: {} points\n", printable_name(output), found.size()));

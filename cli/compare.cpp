@@ -104,26 +104,19 @@ std::vector<Row> answer(Input& input, VertexId v, double radius) {
   return rows;
 }
 
-Json to_json(VertexId v, double radius, const std::vector<Row>& rows) {
+void print(bool json, VertexId v, double radius, const std::vector<Row>& rows) {
   Json methods = Json::array();
-  for (const Row& row : rows) {
-    methods.push_back({{"method", row.method},
-                       {"count", row.vertices.size()},
-                       {"extra", row.difference.extra},
-                       {"missing", row.difference.missing},
-                       {"microseconds", row.microseconds}});
+  std::string text = fmt::format("vertex {}\nmethod     count     extra   missing  microseconds\n", v);
+  for (const auto& [method, vertices, difference, microseconds] : rows) {
+    methods.push_back({{"method", method},
+                       {"count", vertices.size()},
+                       {"extra", difference.extra},
+                       {"missing", difference.missing},
+                       {"microseconds", microseconds}});
+    text += fmt::format("{:<6} {:>9} {:>9} {:>9} {:>13.2f}\n", method, vertices.size(), difference.extra,
+                        difference.missing, microseconds);
   }
-  return {{"vertex", v}, {"radius", radius}, {"methods", methods}};
-}
-
-std::string to_text(VertexId v, const std::vector<Row>& rows) {
-  std::string text = fmt::format("vertex {}\n", v);
-  text += "method     count     extra   missing  microseconds\n";
-  for (const Row& row : rows) {
-    text += fmt::format("{:<6} {:>9} {:>9} {:>9} {:>13.2f}\n", row.method, row.vertices.size(), row.difference.extra,
-                        row.difference.missing, row.microseconds);
-  }
-  return text;
+  print_result(json, {{"vertex", v}, {"radius", radius}, {"methods", methods}}, text);
 }
 
 /// Exact answers on top, as in the paper's Figure 4. `rows`: bfs, ball, paper, exact.
@@ -144,7 +137,7 @@ void compare(const CompareCommand& options) {
   const VertexId v = options.vertex ? resolve_vertex(*options.vertex, input) : most_different(input, radius);
   const std::vector<Row> rows = answer(input, v, radius);
   if (!options.output.empty()) paint(options.output, input, v, rows);
-  print_result(options.json, to_json(v, radius, rows), to_text(v, rows));
+  print(options.json, v, radius, rows);
 }
 
 }  // namespace

@@ -54,17 +54,6 @@ Connections connections_of(const ConnectCommand& options, Input& input) {
   return found;
 }
 
-std::string to_text(const Connections& found) {
-  std::string text;
-  for (std::size_t i = 0; i < found.vertices.size(); ++i) {
-    text += fmt::format("{} {}\n", found.vertices[i], found.radii[i]);
-  }
-  return text;
-}
-
-/// JSON has no infinity: such a radius is null.
-Json to_json(const Connections& found) { return {{"vertices", found.vertices}, {"radii", found.radii}}; }
-
 void connect(const ConnectCommand& options) {
   if (options.targets.empty() == !options.nearest) {
     wrong_option("expected either --to or --nearest");
@@ -76,7 +65,12 @@ void connect(const ConnectCommand& options) {
   Input input(options.reading);
   input.need_edges("connect");
   const Connections found = connections_of(options, input);
-  print_result(options.json, to_json(found), to_text(found));
+  std::string text;
+  for (std::size_t i = 0; i < found.vertices.size(); ++i) {
+    text += fmt::format("{} {}\n", found.vertices[i], found.radii[i]);
+  }
+  // JSON has no infinity: such a radius is null.
+  print_result(options.json, {{"vertices", found.vertices}, {"radii", found.radii}}, text);
 }
 
 }  // namespace
@@ -88,11 +82,9 @@ void add_connect(CLI::App& program) {
   add_start(command, "the vertex of the neighborhood, by its number in the file from 0", options.start);
   add_numbers(command, "--to", "vertices to connect; prints each with its radius, or inf if no radius connects it",
               options.targets);
-  command
-      .add_option("--nearest", options.nearest,
-                  "instead of --to: the number of vertices to print, in the order of the radii that connect them")
-      ->transform(whole_number())
-      ->type_name("NUMBER");
+  add_number(command, "--nearest",
+             "instead of --to: the number of vertices to print, in the order of the radii that connect them",
+             options.nearest);
   add_metric(command, options.metric);
   add_json(command, options.json);
 }

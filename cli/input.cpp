@@ -30,7 +30,6 @@
 #include "parts/manifest.h"
 #include "program.h"
 #include "system.h"
-#include "task.h"
 
 namespace meshhood::cli {
 namespace {
@@ -154,12 +153,6 @@ Welding::Welding(io::Mesh& mesh, const std::string& weld, const std::string& fil
   for (std::size_t v = 0; v < kept_.size(); ++v) count_ += kept_[v] == v ? 0 : 1;
   print_error("note: ",
               fmt::format("{}: {} of {} vertices welded; all keep their numbers", file, count_, kept_.size()));
-}
-
-void check_weld(const std::string& weld, const std::string& method) {
-  if (weld.empty() || method != "ball") return;
-  wrong_option(
-      "--weld: expected another --method than ball, which knows no faces, so that welding has no effect on it");
 }
 
 void read_others_by(OtherReader reader) { other_reader = std::move(reader); }
@@ -301,22 +294,5 @@ io::LoadedIndex load_index(const std::string& file) {
 }
 
 std::string_view kind_name(IndexKind kind) { return kind == IndexKind::Exact ? "exact" : "paper"; }
-
-template <class Mesh>
-Index build_exact_index(const Mesh& mesh, unsigned threads) {
-  Task task("building the index");
-  return build(mesh, {.threads = threads, .progress = task.progress()});
-}
-
-template <class Mesh>
-paper::Index build_paper_index(const Mesh& mesh) {
-  Task task("building the index of the paper");
-  return paper::build(mesh, {}, {.progress = task.progress()});
-}
-
-template Index build_exact_index(const MeshView& mesh, unsigned threads);
-template Index build_exact_index(const GraphView& graph, unsigned threads);
-template paper::Index build_paper_index(const MeshView& mesh);
-template paper::Index build_paper_index(const GraphView& graph);
 
 }  // namespace meshhood::cli

@@ -19,6 +19,7 @@
 
 #include "io/mesh_io.h"
 #include "io/readers.h"
+#include "task.h"
 
 namespace meshhood::cli {
 
@@ -67,9 +68,6 @@ class Welding {
   std::vector<VertexId> kept_;
   std::size_t count_ = 0;
 };
-
-/// Throws Error{InvalidOption} if both are given: `method` is "ball", which knows no faces.
-void check_weld(const std::string& weld, const std::string& method);
 
 /// Whether `read_others_by` has set a reader of other formats.
 [[nodiscard]] bool reads_others();
@@ -179,8 +177,14 @@ class Input {
 
 /// Builds an index of a `MeshView` or a `GraphView`, with progress.
 template <class Mesh>
-[[nodiscard]] Index build_exact_index(const Mesh& mesh, unsigned threads);
+[[nodiscard]] Index build_exact_index(const Mesh& mesh, unsigned threads) {
+  Task task("building the index");
+  return build(mesh, {.threads = threads, .progress = task.progress()});
+}
 template <class Mesh>
-[[nodiscard]] paper::Index build_paper_index(const Mesh& mesh);
+[[nodiscard]] paper::Index build_paper_index(const Mesh& mesh) {
+  Task task("building the index of the paper");
+  return paper::build(mesh, {}, {.progress = task.progress()});
+}
 
 }  // namespace meshhood::cli

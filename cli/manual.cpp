@@ -287,10 +287,9 @@ void add_manual(CLI::App& program) {
   auto kind = std::make_shared<std::string>();
   CLI::App* command = program.add_subcommand(
       "manual", "Print the manual page, or the completions for a shell; make install installs all");
-  command->add_option("KIND", *kind, "man: the manual page; bash, zsh, fish: the completions for this shell")
-      ->required()
-      ->check(one_of(names_of(kManuals)))
-      ->type_name(fmt::format("{}", fmt::join(names_of(kManuals), "|")));
+  add_choice(*command, "KIND", "man: the manual page; bash, zsh, fish: the completions for this shell",
+             names_of(kManuals), *kind)
+      ->required();
   command->callback([kind, &program] { print_text(value_of(kManuals, *kind)(program)); });
 }
 

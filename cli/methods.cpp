@@ -18,6 +18,9 @@ void add_method(CLI::App& command, MethodOptions& options) {
              "all vertices in the ball",
              {"exact", "bfs", "paper", "ball"}, options.method);
   add_metric(command, options.metric);
+  add_choice(command, "--sort",
+             "order of the vertices of an answer: id, index (that of the index, the fastest) or distance, then id",
+             {"id", "index", "distance"}, options.sort);
 }
 
 void add_metric(CLI::App& command, std::string& metric) {
@@ -49,11 +52,16 @@ void check_metric(const std::string& name, const std::string& unit) {
   }
 }
 
-void check_method(const MethodOptions& options, bool has_masks, const std::string& unit) {
+void check_method(const MethodOptions& options, const Reading& reading, bool has_masks, const std::string& unit) {
   if (options.method != "exact" && (!options.is_straight() || has_masks)) {
     wrong_option("--metric, --walls and --ignored require --method exact");
   }
   check_metric(options.metric, unit);
+  if (options.sort == "index" && options.method != "exact") wrong_option("--sort index: expected --method exact");
+  if (options.method == "ball" && !reading.weld.empty()) {
+    wrong_option(
+        "--weld: expected another --method than ball, which knows no faces, so that welding has no effect on it");
+  }
 }
 
 SearchMethod method_of(const MethodOptions& options, Input& input, const paper::QueryOptions& settings,
@@ -66,17 +74,6 @@ SearchMethod method_of(const MethodOptions& options, Input& input, const paper::
   if (name == "ball") return SearchMethod::ball_scan(input.positions());
   if (name == "paper") return {input.paper_index(), settings};
   return input.exact_index(threads);
-}
-
-void add_sort(CLI::App& command, std::string& sort) {
-  add_choice(command, "--sort",
-             "order of the vertices of an answer: id, index (that of the index, the fastest) or distance, then id",
-             {"id", "index", "distance"}, sort);
-}
-
-void check_sort(const std::string& sort, const std::string& method) {
-  if (sort != "index" || method == "exact") return;
-  wrong_option("--sort index: expected --method exact");
 }
 
 VertexSorter::VertexSorter(const std::string& sort, Input& input) : by_distance_(sort == "distance") {

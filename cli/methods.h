@@ -27,11 +27,12 @@ inline constexpr Names<Metric, 5> kMetrics{{{"straight", Metric::Straight},
 struct MethodOptions {
   std::string method = "exact";
   std::string metric = "straight";
+  std::string sort = "id";  ///< the order of the vertices of an answer
 
   [[nodiscard]] bool is_straight() const { return metric == "straight"; }
 };
 
-/// --method and --metric.
+/// --method, --metric and --sort.
 void add_method(CLI::App& command, MethodOptions& options);
 
 /// --metric alone, of a command that always searches by the index.
@@ -47,19 +48,13 @@ void add_metric(CLI::App& command, std::string& metric);
 /// Throws Error{InvalidOption} if the metric has no radii of this unit.
 void check_metric(const std::string& name, const std::string& unit);
 
-/// Throws Error{InvalidOption} if the options contradict each other, masks, or the unit of the radius.
-void check_method(const MethodOptions& options, bool has_masks, const std::string& unit);
+/// Throws Error{InvalidOption} if the options contradict each other, masks, --weld, or the unit of the radius.
+void check_method(const MethodOptions& options, const Reading& reading, bool has_masks, const std::string& unit);
 
 /// Of the straight metric: a query of the exact index has its own. Borrows `input`. `settings` are those of the method
 /// paper; `threads` build the index. Throws Error{InvalidOption} if the method needs edges and the input has none.
 [[nodiscard]] SearchMethod method_of(const MethodOptions& options, Input& input,
                                      const paper::QueryOptions& settings = {}, unsigned threads = kAllProcessors);
-
-/// --sort: the order of the vertices of an answer.
-void add_sort(CLI::App& command, std::string& sort);
-
-/// Throws Error{InvalidOption} if `method` has no index order.
-void check_sort(const std::string& sort, const std::string& method);
 
 /// Puts answers into an order. Of equal distances, the smaller id comes first.
 class VertexSorter {

@@ -115,6 +115,15 @@ CLI::Validator output_name(const std::string& option, const std::string& extensi
   return {check, ""};
 }
 
+/// Accepts one of `values`, and suggests one for a typo.
+CLI::Validator one_of(std::vector<std::string> values) {
+  const auto check = [values = std::move(values)](const std::string& word) -> std::string {
+    if (std::find(values.begin(), values.end(), word) != values.end()) return {};
+    return fmt::format("'{}' is not one of {}{}", word, fmt::join(values, ", "), suggestion(word, values));
+  };
+  return {check, ""};
+}
+
 bool is_same_file(const std::string& a, const std::string& b) {
   namespace fs = std::filesystem;
   std::error_code missing;
@@ -167,14 +176,6 @@ CLI::Validator whole_number(std::uint64_t most) {
     }
     text = std::to_string(number);
     return {};
-  };
-  return {check, ""};
-}
-
-CLI::Validator one_of(std::vector<std::string> values) {
-  const auto check = [values = std::move(values)](const std::string& word) -> std::string {
-    if (std::find(values.begin(), values.end(), word) != values.end()) return {};
-    return fmt::format("'{}' is not one of {}{}", word, fmt::join(values, ", "), suggestion(word, values));
   };
   return {check, ""};
 }
@@ -276,8 +277,9 @@ CLI::Option* add_radius(CLI::App& command, Radius& radius) {
 
 CLI::Option* add_radii(CLI::App& command, Radii& radii) {
   const auto store = [&radii](const std::vector<std::string>& lists) {
+    // The last comma keeps an empty part at the end, which is then refused: a shell makes it of an unset variable.
     for (const std::string& list : lists) {
-      for (std::string& value : split_list(list)) radii.values.push_back(std::move(value));
+      for (std::string& value : CLI::detail::split(list + ',', ',')) radii.values.push_back(std::move(value));
     }
   };
   CLI::Option* const option =
@@ -296,18 +298,6 @@ void add_unit(CLI::App& command, const std::string& length, std::string& unit) {
   add_choice(command, "--unit",
              fmt::format("unit of the {}; mesh: that of the positions; edge: the mean edge length of the mesh", length),
              {"mesh", "edge"}, unit);
-}
-
-std::vector<std::string> split_list(std::string_view text) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == ',') {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
 }
 
 double parse_radius(std::string_view name, const std::string& text) {

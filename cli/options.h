@@ -67,9 +67,6 @@ template <class T, std::size_t Size>
 /// Accepts decimal digits only, for a number up to `most`: CLI11 reads 010 as 8, and 2^64 as 2^64 - 1.
 [[nodiscard]] CLI::Validator whole_number(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
-/// Accepts one of `values`, and suggests one for a typo.
-[[nodiscard]] CLI::Validator one_of(std::vector<std::string> values);
-
 /// An option whose value is a whole number up to `most`.
 template <class Value>
 CLI::Option* add_number(CLI::App& command, const std::string& name, const std::string& description, Value& value,
@@ -143,10 +140,6 @@ CLI::Option* add_radii(CLI::App& command, Radii& radii);
 
 /// --unit. `length` is what has the unit: "radius".
 void add_unit(CLI::App& command, const std::string& length, std::string& unit);
-
-/// The parts of `text` between its commas. Unlike CLI11, keeps empty parts, which are then refused: a shell makes them
-/// of an unset variable.
-[[nodiscard]] std::vector<std::string> split_list(std::string_view text);
 
 /// In the unit of the positions. Throws Error{InvalidRadius, InvalidOption}.
 [[nodiscard]] double resolve(const Radius& radius, Input& input);

@@ -68,50 +68,32 @@ parts::PartitionResult run(const PartitionCommand& options) {
                    {.threads = options.threads, .progress = task.progress()});
 }
 
-/// Figures of all parts.
-struct Totals {
-  std::uint64_t vertices = 0;  ///< with the halos
-  std::uint64_t largest = 0;   ///< of a part
-  std::uint64_t bytes = 0;
-};
-
-Totals totals_of(const parts::Manifest& manifest) {
-  Totals totals;
-  for (const parts::Part& part : manifest.parts) {
-    totals.vertices += part.vertices;
-    totals.largest = std::max(totals.largest, part.vertices);
-    for (const parts::PartFile& file : part.files) totals.bytes += file.bytes;
-  }
-  return totals;
-}
-
-Json to_json(const std::string& output, const parts::PartitionResult& result) {
-  const parts::Plan& plan = result.manifest.plan;
-  const Totals totals = totals_of(result.manifest);
-  return {{"output", output},
-          {"vertices", plan.vertices},
-          {"faces", plan.faces},
-          {"parts", plan.parts},
-          {"kept", result.kept},
-          {"halo", plan.halo},
-          {"mean_edge_length", plan.mean_edge_length},
-          {"vertices_with_halo", totals.vertices},
-          {"largest_part", totals.largest},
-          {"bytes", totals.bytes}};
-}
-
-std::string to_text(const std::string& output, const parts::PartitionResult& result) {
-  const parts::Plan& plan = result.manifest.plan;
-  const Totals totals = totals_of(result.manifest);
-  return fmt::format("{}: {} vertices in {} part{} ({} kept), {} with the halos of {:.6g}, {}\n",
-                     printable_name(output), plan.vertices, plan.parts, plan.parts == 1 ? "" : "s", result.kept,
-                     totals.vertices, plan.halo, bytes_text(static_cast<double>(totals.bytes)));
-}
-
 void partition_mesh(const PartitionCommand& options) {
   const parts::PartitionResult result = run(options);
   for (const std::string& warning : result.warnings) print_error("warning: ", warning);
-  print_result(options.json, to_json(options.output, result), to_text(options.output, result));
+  const parts::Plan& plan = result.manifest.plan;
+  std::uint64_t vertices = 0;  // with the halos
+  std::uint64_t largest = 0;   // of a part
+  std::uint64_t bytes = 0;
+  for (const parts::Part& part : result.manifest.parts) {
+    vertices += part.vertices;
+    largest = std::max(largest, part.vertices);
+    for (const parts::PartFile& file : part.files) bytes += file.bytes;
+  }
+  print_result(options.json,
+               {{"output", options.output},
+                {"vertices", plan.vertices},
+                {"faces", plan.faces},
+                {"parts", plan.parts},
+                {"kept", result.kept},
+                {"halo", plan.halo},
+                {"mean_edge_length", plan.mean_edge_length},
+                {"vertices_with_halo", vertices},
+                {"largest_part", largest},
+                {"bytes", bytes}},
+               fmt::format("{}: {} vertices in {} part{} ({} kept), {} with the halos of {:.6g}, {}\n",
+                           printable_name(options.output), plan.vertices, plan.parts, plan.parts == 1 ? "" : "s",
+                           result.kept, vertices, plan.halo, bytes_text(static_cast<double>(bytes))));
 }
 
 }  // namespace

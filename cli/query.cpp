@@ -33,7 +33,6 @@ struct QueryCommand {
   Radii radii;
   StartOptions start;
   MethodOptions search;
-  std::string sort = "id";
   std::optional<std::string> factor;
   bool count = false;
   bool distances = false;
@@ -200,7 +199,7 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<con
   paper::QueryOptions settings;
   if (options.factor) settings.radius_ratio = parse_radius("--factor", *options.factor);
   AnySearcher chosen = method_of(options.search, input, settings).make_searcher();
-  VertexSorter sorter(options.sort, input);
+  VertexSorter sorter(options.search.sort, input);
   std::vector<Answer> answers;
   for (const QueryStart& start : starts) {
     const VertexId v = *start.vertex();
@@ -229,7 +228,7 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<con
 std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<const QueryStart> starts,
                                       std::span<const double> radii, Input& input) {
   input.need_edges("this query");
-  VertexSorter sorter(options.sort, input);
+  VertexSorter sorter(options.search.sort, input);
   std::vector<Answer> answers;
   RegionSearch search(options.search.metric, input);
   for (const QueryStart& start : starts) {
@@ -265,14 +264,12 @@ void check_options(const QueryCommand& options) {
   if (options.factor && method != "paper") wrong_option("--factor requires --method paper");
   const bool has_point = !options.start.point.empty();
   if (has_point && method != "exact") wrong_option("--point requires --method exact");
-  check_method(options.search, !options.start.masks.empty(), options.radii.unit);
+  check_method(options.search, options.reading, !options.start.masks.empty(), options.radii.unit);
   const std::size_t radii = options.radii.values.size();
   if (radii > 1 && method != "exact") {
     wrong_option("--radius: {} radii, expected one with --method {}", radii, method);
   }
-  check_sort(options.sort, method);
   check_start_options(options.start, true, options.search.metric);
-  check_weld(options.reading.weld, method);
 }
 
 void query_command(const QueryCommand& options) {
@@ -306,7 +303,6 @@ void add_query(CLI::App& program) {
       "input, one in each line; then each line of the answer begins with the query vertex",
       options.start);
   add_method(command, options.search);
-  add_sort(command, options.sort);
   command
       .add_option("--factor", options.factor,
                   "f of the paper's query, the ratio of the radius to that of the clusters: greater is more exact "
