@@ -60,7 +60,9 @@ void check_alone(const CheckCommand& options, const IndexHeader& header, const I
 void check_alone(const CheckCommand& /*options*/, const IndexHeader& /*header*/, const paper::Index& /*index*/) {}
 
 void print(const CheckCommand& options, const IndexHeader& header) {
-  const auto row = [](std::string_view name, const std::string& value) { return row_text(10, name, value); };
+  const auto row = [](std::string_view name, const std::string& value) {
+    return fmt::format("{:<10} {}\n", name, value);
+  };
   const std::string& mesh = options.mesh.file;
   const Json document{{"index", options.index},
                       {"format", header.format},

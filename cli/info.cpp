@@ -168,14 +168,25 @@ Statistics statistics(const MeshView& mesh, const AdjacencyView& adjacency) {
   return result;
 }
 
-/// A line of the text.
-template <class Value>
-std::string row(std::string_view name, const Value& value) {
-  return row_text(19, name, value);
-}
+/// What is printed, as JSON and as text.
+struct Report {
+  Json document;
+  std::string text;
 
-Json to_json(const std::vector<LevelSummary>& levels) {
+  void add_line(std::string_view name, std::string_view value) { text += fmt::format("{:<19} {}\n", name, value); }
+
+  void add(const char* key, std::string_view name, const Json& value, std::string_view shown) {
+    document[key] = value;
+    add_line(name, shown);
+  }
+  void add(const char* key, std::string_view name, std::uint64_t value) {
+    add(key, name, value, std::to_string(value));
+  }
+};
+
+void add_levels(Report& report, const std::vector<LevelSummary>& levels) {
   Json list = Json::array();
+  report.text += "level  clusters  mean vertices  mean radius  mean siblings     bytes\n";
   for (const LevelSummary& level : levels) {
     list.push_back({{"level", level.level},
                     {"clusters", level.clusters},
@@ -183,45 +194,32 @@ Json to_json(const std::vector<LevelSummary>& levels) {
                     {"mean_radius", level.mean_radius},
                     {"mean_siblings", level.mean_siblings},
                     {"bytes", level.bytes}});
+    report.text += fmt::format("{:5}  {:8}  {:13.2f}  {:11.4g}  {:13.2f}  {:8}\n", level.level, level.clusters,
+                               level.mean_vertices, level.mean_radius, level.mean_siblings, level.bytes);
   }
-  return list;
+  report.document["levels"] = std::move(list);
 }
 
-std::string to_text(const std::vector<LevelSummary>& levels) {
-  std::string text = "level  clusters  mean vertices  mean radius  mean siblings     bytes\n";
-  for (const LevelSummary& level : levels) {
-    text += fmt::format("{:5}  {:8}  {:13.2f}  {:11.4g}  {:13.2f}  {:8}\n", level.level, level.clusters,
-                        level.mean_vertices, level.mean_radius, level.mean_siblings, level.bytes);
+Report report_of(const Index& index) {
+  const IndexBytes bytes = index.bytes();
+  Report report{{{"bytes", bytes.total()}},
+                fmt::format("exact index: {}\n", bytes_text(static_cast<double>(bytes.total())))};
+  for (const auto& [part, size] : {std::pair{"positions", bytes.positions},
+                                   {"permutation", bytes.permutation},
+                                   {"graph", bytes.graph},
+                                   {"tree", bytes.tree}}) {
+    report.document[part] = size;
+    report.text += fmt::format("{:<11}  {:9}\n", part, size);
   }
-  return text;
+  add_levels(report, index.levels());
+  return report;
 }
 
-std::string_view precision_name(const IndexHeader& header) { return header.is_double ? "double" : "float"; }
-
-Json json_of(const Index& index) {
-  const IndexBytes bytes = index.bytes();
-  return {{"bytes", bytes.total()}, {"positions", bytes.positions}, {"permutation", bytes.permutation},
-          {"graph", bytes.graph},   {"tree", bytes.tree},           {"levels", to_json(index.levels())}};
-}
-
-Json json_of(const paper::Index& index) {
-  return {{"bytes", index.bytes().total()}, {"levels", to_json(index.levels())}};
-}
-
-std::string text_of(const Index& index) {
-  const IndexBytes bytes = index.bytes();
-  std::string text = fmt::format("exact index: {}\n", bytes_text(static_cast<double>(bytes.total())));
-  const auto add = [&](std::string_view part, std::size_t size) { text += fmt::format("{:<11}  {:9}\n", part, size); };
-  add("positions", bytes.positions);
-  add("permutation", bytes.permutation);
-  add("graph", bytes.graph);
-  add("tree", bytes.tree);
-  return text + to_text(index.levels());
-}
-
-std::string text_of(const paper::Index& index) {
-  return fmt::format("index of the paper: {}\n", bytes_text(static_cast<double>(index.bytes().total()))) +
-         to_text(index.levels());
+Report report_of(const paper::Index& index) {
+  const std::size_t bytes = index.bytes().total();
+  Report report{{{"bytes", bytes}}, fmt::format("index of the paper: {}\n", bytes_text(static_cast<double>(bytes)))};
+  add_levels(report, index.levels());
+  return report;
 }
 
 std::string_view format_name(io::Format format) {
@@ -237,34 +235,6 @@ std::string_view format_name(io::Format format) {
   return "other";
 }
 
-Json to_json(const io::Warning& warning) {
-  return {{"what", warning.what}, {"count", warning.count}, {"first_place", warning.first_place}};
-}
-
-Json to_json(Input& input, const Statistics& s) {
-  const io::Mesh& mesh = *input.mesh();
-  Json degrees = Json::object();
-  for (const auto& [corners, faces] : s.polygon_degrees) degrees[std::to_string(corners)] = faces;
-  Json warnings = Json::array();
-  for (const io::Warning& warning : mesh.warnings) warnings.push_back(to_json(warning));
-  return {{"mesh", input.name()},
-          {"format", format_name(mesh.format)},
-          {"vertices", s.vertices},
-          {"faces", s.faces},
-          {"polygon_degrees", degrees},
-          {"edges", s.edges},
-          {"components", s.components},
-          {"isolated_vertices", s.isolated_vertices - input.welding().count()},
-          {"boundary_edges", s.boundary_edges},
-          {"nonmanifold_edges", s.nonmanifold_edges},
-          {"average_edge", s.average_edge},
-          {"repeated_corners", s.repeated_corners},
-          {"repeated_positions", s.repeated_positions},
-          {"welded_vertices", input.welding().count()},
-          {"bounding_box", s.bounds ? Json{{"min", s.bounds->min}, {"max", s.bounds->max}} : Json()},
-          {"warnings", warnings}};
-}
-
 std::string to_text(const std::map<std::size_t, std::size_t>& polygon_degrees) {
   std::vector<std::string> parts;
   parts.reserve(polygon_degrees.size());
@@ -277,46 +247,45 @@ std::string to_text(const std::optional<Box>& bounds) {
   return fmt::format("{:g} to {:g}", fmt::join(bounds->min, " "), fmt::join(bounds->max, " "));
 }
 
-std::string to_text(Input& input, const Statistics& s) {
-  std::string text;
-  text += row("mesh", fmt::format("{} ({})", printable_name(input.name()), format_name(input.mesh()->format)));
-  text += row("vertices", s.vertices);
-  text += row("faces", s.faces);
-  text += row("corners per face", to_text(s.polygon_degrees));
-  text += row("edges", s.edges);
-  text += row("components", s.components);
-  text += row("isolated vertices", s.isolated_vertices - input.welding().count());
-  text += row("boundary edges", s.boundary_edges);
-  text += row("non-manifold edges", s.nonmanifold_edges);
-  text += row("mean edge length", fmt::format("{:.4g}", s.average_edge));
-  text += row("repeated corners", s.repeated_corners);
-  text += row("repeated positions", s.repeated_positions);
-  if (input.welding().count() > 0) text += row("welded vertices", input.welding().count());
-  text += row("bounding box", to_text(s.bounds));
-  return text;
+Report report_of(const Input& input, const Statistics& s) {
+  const io::Mesh& mesh = *input.mesh();
+  const std::size_t welded = input.welding().count();
+  Json degrees = Json::object();
+  for (const auto& [corners, faces] : s.polygon_degrees) degrees[std::to_string(corners)] = faces;
+  Json warnings = Json::array();
+  for (const auto& [what, count, first_place] : mesh.warnings) {
+    warnings.push_back({{"what", what}, {"count", count}, {"first_place", first_place}});
+  }
+  Report report{{{"mesh", input.name()}, {"format", format_name(mesh.format)}}, ""};
+  report.add_line("mesh", fmt::format("{} ({})", printable_name(input.name()), format_name(mesh.format)));
+  report.add("vertices", "vertices", s.vertices);
+  report.add("faces", "faces", s.faces);
+  report.add("polygon_degrees", "corners per face", degrees, to_text(s.polygon_degrees));
+  report.add("edges", "edges", s.edges);
+  report.add("components", "components", s.components);
+  report.add("isolated_vertices", "isolated vertices", s.isolated_vertices - welded);
+  report.add("boundary_edges", "boundary edges", s.boundary_edges);
+  report.add("nonmanifold_edges", "non-manifold edges", s.nonmanifold_edges);
+  report.add("average_edge", "mean edge length", s.average_edge, fmt::format("{:.4g}", s.average_edge));
+  report.add("repeated_corners", "repeated corners", s.repeated_corners);
+  report.add("repeated_positions", "repeated positions", s.repeated_positions);
+  report.document["welded_vertices"] = welded;
+  if (welded > 0) report.add_line("welded vertices", std::to_string(welded));
+  report.add("bounding_box", "bounding box", s.bounds ? Json{{"min", s.bounds->min}, {"max", s.bounds->max}} : Json(),
+             to_text(s.bounds));
+  report.document["warnings"] = std::move(warnings);
+  return report;
 }
 
-Json to_json(Input& input) {
-  const IndexHeader& header = input.header();
-  Json document{{"index", input.name()},
-                {"format", header.format},
-                {"kind", kind_name(header.kind)},
-                {"vertices", header.vertices},
-                {"precision", precision_name(header)},
-                {"fingerprint", to_text(header.mesh)}};
-  document.update(header.kind == IndexKind::Paper ? json_of(input.paper_index()) : json_of(input.exact_index()));
-  return document;
-}
-
-std::string to_text(Input& input) {
-  const IndexHeader& header = input.header();
-  std::string text;
-  text += row("index",
-              fmt::format("{} ({}, format {})", printable_name(input.name()), kind_name(header.kind), header.format));
-  text += row("vertices", header.vertices);
-  text += row("coordinates", precision_name(header));
-  text += row("mesh", to_text(header.mesh));
-  return text + '\n' + (header.kind == IndexKind::Paper ? text_of(input.paper_index()) : text_of(input.exact_index()));
+Report report_of(const std::string& name, const IndexHeader& header) {
+  const std::string_view precision = header.is_double ? "double" : "float";
+  const std::string_view kind = kind_name(header.kind);
+  Report report{{{"index", name}, {"format", header.format}, {"kind", kind}}, ""};
+  report.add_line("index", fmt::format("{} ({}, format {})", printable_name(name), kind, header.format));
+  report.add("vertices", "vertices", header.vertices);
+  report.add("precision", "coordinates", precision, precision);
+  report.add("fingerprint", "mesh", to_text(header.mesh), to_text(header.mesh));
+  return report;
 }
 
 std::size_t components_if_welded(const io::Mesh& mesh, double eps) {
@@ -353,19 +322,25 @@ void info_of_mesh(const InfoCommand& options, Input& input) {
   summary.repeated_positions -=
       std::min(summary.repeated_positions, static_cast<std::size_t>(std::ranges::count(walls, 1)));
   note_split_components(input, summary);
-  Json document = to_json(input, summary);
-  std::string text = to_text(input, summary);
+  Report report = report_of(input, summary);
   if (options.index) {
-    document["index"] = {{"exact", json_of(input.exact_index())}, {"paper", json_of(input.paper_index())}};
-    text += '\n' + text_of(input.exact_index()) + '\n' + text_of(input.paper_index());
+    const Report exact = report_of(input.exact_index());
+    const Report paper = report_of(input.paper_index());
+    report.document["index"] = {{"exact", exact.document}, {"paper", paper.document}};
+    report.text += '\n' + exact.text + '\n' + paper.text;
   }
-  print_result(options.json, document, text);
+  print_result(options.json, report.document, report.text);
 }
 
 void info(const InfoCommand& options) {
   Input input(options.reading);
   if (input.mesh() != nullptr) return info_of_mesh(options, input);
-  print_result(options.json, to_json(input), to_text(input));
+  const IndexHeader& header = input.header();
+  Report report = report_of(input.name(), header);
+  const Report index =
+      header.kind == IndexKind::Paper ? report_of(input.paper_index()) : report_of(input.exact_index());
+  report.document.update(index.document);
+  print_result(options.json, report.document, report.text + '\n' + index.text);
 }
 
 }  // namespace

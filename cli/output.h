@@ -58,10 +58,4 @@ void print_error(std::string_view severity, std::string_view text);
 /// "42,000", with three significant digits.
 [[nodiscard]] std::string rounded_text(double number);
 
-/// A line of a table: a name in a column of `width`, and a value.
-template <class Value>
-[[nodiscard]] std::string row_text(std::size_t width, std::string_view name, const Value& value) {
-  return fmt::format("{:<{}} {}\n", name, width, value);
-}
-
 }  // namespace meshhood::cli

@@ -42,13 +42,6 @@ struct QueryCommand {
   [[nodiscard]] bool is_painted() const { return !output.name.empty() && !output.is_csv(); }
 };
 
-struct Answer {
-  std::optional<VertexId> vertex;        ///< none for --point
-  std::vector<std::size_t> counts = {};  ///< for each radius
-  std::vector<VertexId> vertices = {};   ///< ring by ring; empty if they are neither printed nor painted
-  std::vector<double> distances = {};    ///< of `vertices`, if requested
-};
-
 /// How many of `component` are welded with vertices of other components. `first`: by vertex, the one that it becomes.
 std::ptrdiff_t count_shared(const std::vector<VertexId>& component, const std::vector<VertexId>& first,
                             const Input& input) {
@@ -232,14 +225,14 @@ std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<con
   std::vector<Answer> answers;
   RegionSearch search(options.search.metric, input);
   for (const QueryStart& start : starts) {
-    StartAnswer found = search.regions(start, radii);
+    Answer found = search.regions(start, radii);
     std::size_t begin = 0;
     for (const std::size_t end : found.counts) {
       sorter.sort(std::span(found.vertices).subspan(begin, end - begin),
                   std::span(found.distances).subspan(begin, end - begin));
       begin = end;
     }
-    answers.push_back({start.vertex(), std::move(found.counts), std::move(found.vertices), std::move(found.distances)});
+    answers.push_back(std::move(found));
   }
   if (options.start.is_plain() && options.search.is_straight()) {
     Searcher searcher(input.exact_index());

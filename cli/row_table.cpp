@@ -61,14 +61,6 @@ struct TableCommand {
   bool json = false;
 };
 
-/// Calls `f(key, name)` for each requested file.
-template <class F>
-void for_each(const ValueFiles& files, F&& f) {
-  if (!files.table.name.empty()) f("output", files.table.name);
-  if (!files.ply.empty()) f("ply", files.ply);
-  if (!files.vtk.empty()) f("vtk", files.vtk);
-}
-
 /// --output, --csv, --ply and --vtk. A mesh has values of all vertices, so the last two exclude --vertices.
 void add_files(CLI::App& command, ValueFiles& files, const std::string& shown) {
   add_table_output(command, ".npz", "arrays or a table to write", files.table);
@@ -198,10 +190,12 @@ void run(const TableCommand& options) {
   RowTable table = options.quantity->compute({input, rows, options.rows, options.files});
   Json document;
   std::string names;
-  for_each(options.files, [&](const char* key, const std::string& file) {
-    document[key] = file;
-    names += (names.empty() ? "" : ", ") + printable_name(file);
-  });
+  const auto& [output, ply, vtk] = options.files;
+  for (const auto& [key, file] : {std::pair{"output", &output.name}, {"ply", &ply}, {"vtk", &vtk}}) {
+    if (file->empty()) continue;
+    document[key] = *file;
+    names += (names.empty() ? "" : ", ") + printable_name(*file);
+  }
   document["rows"] = table.rows;
   if (options.rows.row_radii.empty()) document["radii"] = table.radii;
   document.update(table.summary);

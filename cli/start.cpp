@@ -105,8 +105,8 @@ std::vector<QueryStart> starts_of(const StartOptions& options, const std::string
 RegionSearch::RegionSearch(const std::string& metric, Input& input)
     : positions_(input.positions()), searcher_(make_searcher(metric, input)), distance_of_(input.vertex_count()) {}
 
-StartAnswer RegionSearch::regions(const QueryStart& start, std::span<const double> radii) {
-  StartAnswer answer;
+Answer RegionSearch::regions(const QueryStart& start, std::span<const double> radii) {
+  Answer answer{.vertex = start.vertex()};
   searcher_.neighborhood(start.view(), radii.back(), answer.vertices, answer.distances);
   if (!searcher_.has_seed(start.view(), radii.back())) note_far_point(positions_, start.view(), radii.back());
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) distance_of_[answer.vertices[i]] = answer.distances[i];
