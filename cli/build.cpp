@@ -17,7 +17,6 @@
 #include "commands.h"
 #include "input.h"
 #include "io/index_io.h"
-#include "io/messages.h"
 #include "options.h"
 #include "output.h"
 #include "system.h"
@@ -85,7 +84,7 @@ Adjacency cut_graph(const MeshView& mesh, const std::string& file, const Welding
   try {
     return cut_edges(whole.view(), edges);
   } catch (const Error& error) {
-    raise(error.code(), fmt::format("{}: {}", io::printable_name(file), error.what()));
+    raise(error.code(), fmt::format("{}: {}", printable_name(file), error.what()));
   }
 }
 

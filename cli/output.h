@@ -22,13 +22,11 @@ using Json = nlohmann::ordered_json;
 
 using io::printable_name;
 
-/// Thrown if the reader of standard output has closed it, as `head` does: the program then ends quietly.
-struct OutputClosed {};
-
 /// From now on, `print_text` writes to standard error.
 void keep_standard_output_for_file();
 
-/// Writes `text` to standard output and flushes. Throws Error{IoFailure}, OutputClosed.
+/// Writes `text` to standard output and flushes. Throws Error{IoFailure}; of EPIPE and `io::kStandardOutput` if its
+/// reader has closed it, as `head` does: the program then ends quietly.
 void print_text(std::string_view text);
 
 /// Prints the JSON document of a `--json` run. Bytes that are not UTF-8 become U+FFFD.
@@ -50,12 +48,7 @@ void close_output();
 /// "warning: " or "note: ".
 void print_error(std::string_view severity, std::string_view text);
 
-// Numbers as people read them. JSON has them in full.
-
-/// "1.76 GB", with a unit of powers of 1000.
+/// "1.76 GB", with a unit of powers of 1000. JSON has numbers in full.
 [[nodiscard]] std::string bytes_text(double bytes, int digits = 3);
-
-/// "42,000", with three significant digits.
-[[nodiscard]] std::string rounded_text(double number);
 
 }  // namespace meshhood::cli

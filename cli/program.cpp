@@ -250,8 +250,6 @@ ExitCode run_or_report(std::vector<std::string> arguments) {
     add_subcommands(program);
     run(program, std::move(arguments));
     return ExitCode::Ok;
-  } catch (const OutputClosed&) {
-    return ExitCode::Ok;
   } catch (const Error& error) {
     if (error.path() == io::kStandardOutput && error.error_number() == EPIPE) return ExitCode::Ok;
     return fail(exit_code(error.code()), error.what());

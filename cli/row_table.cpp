@@ -15,7 +15,6 @@
 
 #include "meshhood/error.h"
 
-#include "io/messages.h"
 #include "mesh_file.h"
 #include "methods.h"
 #include "system.h"
@@ -45,7 +44,7 @@ std::vector<double> radii_of(const RowOptions& options, std::size_t rows, Input&
   for (std::size_t row = 0; row < rows; ++row) {
     if (!(radii[row] >= 0)) {
       raise(ErrorCode::InvalidRadius, fmt::format("{}: row {}: radius {}, expected a number >= 0",
-                                                  io::printable_name(options.row_radii), row, radii[row]));
+                                                  printable_name(options.row_radii), row, radii[row]));
     }
     radii[row] *= unit;
   }

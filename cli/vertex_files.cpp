@@ -160,7 +160,7 @@ std::vector<std::uint8_t> read_mask(const std::string& file, const Input& input)
     wrong_option(
         "{}: {} numbers 0 or 1, expected the vertices of the mask, one in each "
         "line",
-        io::printable_name(file), list.size());
+        printable_name(file), list.size());
   }
   for (const VertexId v : list) mask[input.welding().kept(v)] = 1;
   return mask;
@@ -197,7 +197,7 @@ std::vector<SpacePoint> read_points(const std::string& file) {
   constexpr std::size_t kAxes = 3;
   const Channels read = read_channels(file, std::nullopt);
   if (read.channels != kAxes && !read.numbers.empty()) {
-    wrong_option("{}: {} numbers for each point, expected {}", io::printable_name(file), read.channels, kAxes);
+    wrong_option("{}: {} numbers for each point, expected {}", printable_name(file), read.channels, kAxes);
   }
   std::vector<SpacePoint> points(read.numbers.size() / kAxes);
   for (std::size_t i = 0; i < read.numbers.size(); ++i) points[i / kAxes][i % kAxes] = read.numbers[i];
@@ -207,7 +207,7 @@ std::vector<SpacePoint> read_points(const std::string& file) {
 std::vector<double> read_channel(const std::string& file, std::size_t vertices, std::string_view values) {
   Channels read = read_channels(file, vertices);
   if (read.channels == 1) return std::move(read.numbers);
-  wrong_option("{}: {} {} for each vertex, expected one", io::printable_name(file), read.channels, values);
+  wrong_option("{}: {} {} for each vertex, expected one", printable_name(file), read.channels, values);
 }
 
 void add_masks(CLI::App& command, MaskFiles& files) {

@@ -67,13 +67,9 @@ std::string base64(std::span<const char> bytes) {
   return text;
 }
 
-/// Little-endian, as this machine is (an index can be loaded on no other).
-std::string encode(const std::vector<float>& values) {
-  return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
-}
-
-/// A page stores float. Values that are not finite get no color; others must not become infinite.
-std::vector<float> as_floats(const std::vector<double>& values) {
+/// In base 64, as float, and little-endian, as this machine is (an index can be loaded on no other). Values that are
+/// not finite get no color; others must not become infinite.
+std::string encode(const std::vector<double>& values) {
   constexpr double kMost = std::numeric_limits<float>::max();
   std::vector<float> result;
   result.reserve(values.size());
@@ -83,7 +79,7 @@ std::vector<float> as_floats(const std::vector<double>& values) {
     }
     result.push_back(static_cast<float>(value));
   }
-  return result;
+  return base64({reinterpret_cast<const char*>(result.data()), result.size() * sizeof(float)});
 }
 
 /// The initial state of the page.
@@ -108,7 +104,7 @@ Json settings_of(const ViewCommand& options, Input& input) {
   if (!options.values.empty()) {
     const std::vector<double> values = read_channel(options.values, input.vertex_count(), "values");
     const std::string title = path_of(options.values).stem().string();
-    settings["scalar"] = {{"title", title}, {"values", encode(as_floats(values))}};
+    settings["scalar"] = {{"title", title}, {"values", encode(values)}};
   }
   return settings;
 }
@@ -172,10 +168,9 @@ fs::path find_page() {
         "viewer.html");
 }
 
-/// Writes a copy of the page that holds `mesh`, or `ply` unless it is empty, the content of the same mesh as PLY.
-void write_page(const fs::path& output, const fs::path& mesh, const std::string& ply, const Json& settings) {
-  check_mesh_of_page(mesh);
-  const fs::path page = find_page();
+/// Writes a copy of `page` that holds `mesh`, or `ply` unless it is empty, the content of the same mesh as PLY.
+void write_page(const fs::path& page, const fs::path& output, const fs::path& mesh, const std::string& ply,
+                const Json& settings) {
   const std::string text = read_text(page);
   std::error_code none;
   if (fs::equivalent(page, output, none)) io::raise_io(output, 0, "is the page that is copied, expected another file");
@@ -204,10 +199,10 @@ void view(const ViewCommand& options) {
   if (options.output.empty()) name_output("--output", output);
   check_outputs();
   check_mesh_of_page(path_of(options.reading.file));
-  static_cast<void>(find_page());  // before the work begins
+  const fs::path page = find_page();  // before the work begins
   Input input(options.reading);
   input.need_edges("view");
-  write_page(path_of(output), path_of(options.reading.file), input.other_as_ply(), settings_of(options, input));
+  write_page(page, path_of(output), path_of(options.reading.file), input.other_as_ply(), settings_of(options, input));
   print_text(output + "\n");
   if (!options.open) return;
   if (const auto program = open_in_browser(fs::absolute(path_of(output))); !program.empty()) {
