@@ -109,6 +109,24 @@ PositionsData positions_of(const paper::Index& index) {
   });
 }
 
+/// As `kept_vertices` of a mesh, whose walls are kept: they are where they are because they have no position.
+std::vector<VertexId> kept_of_mesh(const io::Mesh& mesh, double eps) {
+  if (mesh.walls.empty()) return kept_vertices(mesh.view().positions, eps);
+  std::vector<VertexId> kept(mesh.walls.size());
+  std::iota(kept.begin(), kept.end(), VertexId{0});
+  std::vector<VertexId> others;
+  std::copy_if(kept.begin(), kept.end(), std::back_inserter(others), [&](VertexId v) { return mesh.walls[v] == 0; });
+  std::visit(
+      [&]<class Real>(const std::vector<Real>& all) {
+        std::vector<Real> xyz;
+        for (const std::size_t v : others) xyz.insert(xyz.end(), &all[3 * v], &all[3 * v] + 3);
+        const std::vector<VertexId> kept_others = kept_vertices(xyz, eps);
+        for (std::size_t i = 0; i < others.size(); ++i) kept[others[i]] = others[kept_others[i]];
+      },
+      mesh.positions);
+  return kept;
+}
+
 }  // namespace
 
 double eps_of(const std::string& weld) {
@@ -129,26 +147,9 @@ std::vector<VertexId> kept_vertices(const PositionsView& positions, double eps) 
   return kept;
 }
 
-std::vector<VertexId> kept_vertices(const io::Mesh& mesh, double eps) {
-  if (mesh.walls.empty()) return kept_vertices(mesh.view().positions, eps);
-  std::vector<VertexId> kept(mesh.walls.size());
-  std::iota(kept.begin(), kept.end(), VertexId{0});
-  std::vector<VertexId> others;
-  std::copy_if(kept.begin(), kept.end(), std::back_inserter(others), [&](VertexId v) { return mesh.walls[v] == 0; });
-  std::visit(
-      [&]<class Real>(const std::vector<Real>& all) {
-        std::vector<Real> xyz;
-        for (const std::size_t v : others) xyz.insert(xyz.end(), &all[3 * v], &all[3 * v] + 3);
-        const std::vector<VertexId> kept_others = kept_vertices(xyz, eps);
-        for (std::size_t i = 0; i < others.size(); ++i) kept[others[i]] = others[kept_others[i]];
-      },
-      mesh.positions);
-  return kept;
-}
-
 Welding::Welding(io::Mesh& mesh, const std::string& weld, const std::string& file) {
   if (weld.empty()) return;
-  kept_ = kept_vertices(mesh, eps_of(weld));
+  kept_ = kept_of_mesh(mesh, eps_of(weld));
   for (std::uint32_t& corner : mesh.corners) corner = kept_[corner];
   for (std::size_t v = 0; v < kept_.size(); ++v) count_ += kept_[v] == v ? 0 : 1;
   print_error("note: ",

@@ -43,9 +43,6 @@ struct Reading {
 /// For each vertex the one that it becomes, itself if it is kept. Throws as `io::welded_ids`.
 [[nodiscard]] std::vector<VertexId> kept_vertices(const PositionsView& positions, double eps);
 
-/// The same of a mesh, whose walls are kept: they are where they are because they have no position.
-[[nodiscard]] std::vector<VertexId> kept_vertices(const io::Mesh& mesh, double eps);
-
 /// Which vertices of a mesh have become others.
 class Welding {
  public:
