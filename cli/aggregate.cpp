@@ -15,13 +15,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "meshhood/error.h"
-
 #include "commands.h"
-#include "names.h"
 #include "options.h"
 #include "row_table.h"
-#include "size_limit.h"
 #include "vertex_files.h"
 
 namespace meshhood::cli {
@@ -80,7 +76,7 @@ class AggregateQuantity : public Quantity {
     const auto has_kernels = [](const std::string& name) { return name == "mean" || name == "sum"; };
     if ((fwhm_ || kernel_ != "box") && !std::ranges::all_of(reduce_, has_kernels)) {
       const std::string option = fwhm_ ? "--fwhm" : "--kernel " + kernel_;
-      raise(ErrorCode::InvalidOption, option + ": expected --reduce mean or sum");
+      wrong_option("{}: expected --reduce mean or sum", option);
     }
   }
 
@@ -125,8 +121,7 @@ class AggregateQuantity : public Quantity {
     const Index& index = task.input.exact_index(task.options.threads);
     const std::size_t numbers = aggregate_size(index, signal, query);
     const double least_bytes = task.files.table.is_csv() ? 2 : 8;  // of a number: a digit and a comma
-    SizeLimit(task.files.first(), max_bytes_)
-        .check({task.rows.size(), numbers}, least_bytes * static_cast<double>(numbers));
+    check_size(task.files.first(), max_bytes_, {task.rows.size(), numbers}, least_bytes * static_cast<double>(numbers));
     return task.while_shown("computing", task.options.scale_count(),
                             [&](const Run& run) { return aggregate(index, signal, query, run); });
   }

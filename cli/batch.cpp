@@ -2,14 +2,16 @@
 // meshhood batch: the neighborhoods of all vertices, or of a list, in CSR form.
 #include "meshhood/batch.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <optional>
+#include <random>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,36 +21,82 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "meshhood/error.h"
-
 #include "commands.h"
 #include "input.h"
 #include "io/npz_writer.h"
 #include "methods.h"
-#include "names.h"
 #include "options.h"
 #include "output.h"
-#include "row_query.h"
 #include "row_table.h"
-#include "size_limit.h"
 #include "system.h"
+#include "table_file.h"
 #include "task.h"
-#include "vertex_order.h"
 
 namespace meshhood::cli {
 namespace {
 
-enum class RowOrder { Index, Vertex, List };
+/// An estimate from random rows.
+struct BatchEstimate {
+  AnswerSize mean;
+  AnswerSize lower;  ///< three standard errors below the mean
+};
 
-constexpr Names<RowOrder, 3> kRowOrders{
-    {{"index", RowOrder::Index}, {"vertex", RowOrder::Vertex}, {"list", RowOrder::List}}};
+/// The sizes of rows, one after the other.
+struct Sample {
+  double rows = 0;
+  double sum = 0;
+  double squares = 0;
+
+  void add(double size) {
+    rows += 1;
+    sum += size;
+    squares += size * size;
+  }
+
+  [[nodiscard]] double mean() const { return sum / rows; }
+  [[nodiscard]] double standard_error() const {
+    return std::sqrt(std::max(0.0, squares / rows - mean() * mean()) / rows);
+  }
+};
+
+/// Takes about half a second. Empty for few rows, which are counted as fast.
+std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQuery& query) {
+  constexpr std::size_t kSamples = 256;
+  constexpr std::size_t kSamplesPerStep = 4;
+  // Vertices, about half a second. Counted rather than timed, so that every machine draws the same sample.
+  constexpr double kMostWork = 0x1p26;
+  const std::size_t rows = query.vertices.count(method.vertex_count());
+  if (rows <= kSamples) return std::nullopt;
+  std::mt19937_64 random(1);
+  std::vector<VertexId> vertices(kSamplesPerStep);
+  std::vector<double> radii(kSamplesPerStep);
+  const BatchRadius radius = query.radius.list() ? BatchRadius(radii) : query.radius;
+  Sample sample;
+  // A call of a scan, or of a search that copies the positions, also takes a time that grows with the mesh.
+  const auto work_of_call = static_cast<double>(method.vertex_count());
+  for (double work = 0; sample.rows < kSamples && work < kMostWork;
+       work = sample.sum + work_of_call * sample.rows / kSamplesPerStep) {
+    for (std::size_t i = 0; i < kSamplesPerStep; ++i) {
+      const std::size_t row = random() % rows;
+      vertices[i] = query.vertices[row];
+      if (query.radius.list()) radii[i] = (*query.radius.list())[row];
+    }
+    for (const std::uint64_t size : counts(method, {.vertices = vertices, .radius = radius, .metric = query.metric})) {
+      sample.add(static_cast<double>(size));
+    }
+  }
+  const auto of_all_rows = [rows](double size) {
+    return AnswerSize{rows, static_cast<std::uint64_t>(static_cast<double>(rows) * size)};
+  };
+  return BatchEstimate{of_all_rows(sample.mean()),
+                       of_all_rows(std::max(0.0, sample.mean() - 3 * sample.standard_error()))};
+}
 
 struct BatchCommand {
   Reading reading;
   RowOptions rows;
-  std::string order;  ///< as typed; empty for the default
+  std::string order;  ///< as typed, empty for the default; from `with_order` on index, vertex or list
   MethodOptions search;
-  std::string sort = "id";
   bool count = false;
   bool distances = false;
   bool json = false;
@@ -58,22 +106,23 @@ struct BatchCommand {
 
 /// Arrays of rows come in index order, which is the fastest. Sizes are found as fast in vertex order, where the number
 /// of a row is that of its vertex, and text is read by people.
-RowOrder row_order(const BatchCommand& options) {
+BatchCommand with_order(BatchCommand options) {
   const bool is_exact = options.search.method == "exact";
-  if (options.order == "index" && !is_exact) raise(ErrorCode::InvalidOption, "--order index: expected --method exact");
-  if (!options.rows.vertices.empty()) return RowOrder::List;
-  if (!options.order.empty()) return value_of(kRowOrders, options.order);
-  return is_exact && !options.count && !options.output.is_csv() ? RowOrder::Index : RowOrder::Vertex;
+  if (options.order == "index" && !is_exact) wrong_option("--order index: expected --method exact");
+  const bool is_fastest_by_index = is_exact && !options.count && !options.output.is_csv();
+  if (options.order.empty()) options.order = is_fastest_by_index ? "index" : "vertex";
+  if (!options.rows.vertices.empty()) options.order = "list";
+  return options;
 }
 
 /// Whether the file says of which vertex a row is.
-bool has_vertices(RowOrder order) { return order != RowOrder::Vertex; }
+bool has_vertices(const BatchCommand& options) { return options.order != "vertex"; }
 
 /// Rows in vertex order or in that of a list are a sparse matrix that `scipy.sparse.load_npz` reads: `format`, `shape`,
 /// `indptr`, `indices`, `data`; `vertices` has the list. Rows in index order are not stored as a matrix, because SciPy
 /// would ignore `vertices` and take row `i` for that of vertex `i`. They are `vertices`, `indptr`, `indices`,
 /// `distances`, and SciPy refuses them.
-bool is_matrix(RowOrder order) { return order != RowOrder::Index; }
+bool is_matrix(const BatchCommand& options) { return options.order != "index"; }
 
 /// SciPy uses 32-bit indices where they suffice, and would convert others. `count`: of the stored values.
 bool fits_32_bits(std::uint64_t count, std::uint64_t columns) {
@@ -84,15 +133,15 @@ bool fits_32_bits(std::uint64_t count, std::uint64_t columns) {
 /// Rows as the methods write them are in the order of the ids, or of the index except along the edges.
 bool sorts_rows(const BatchCommand& options) {
   const bool is_path = value_of(kMetrics, options.search.metric) == Metric::Path;
-  return options.sort == "distance" || (options.sort == "index" && is_path);
+  return options.search.sort == "distance" || (options.search.sort == "index" && is_path);
 }
 
 /// The approximate size of the file: the members without the zip headers. The ones of a matrix without distances
 /// are compressed: 258 of them take 13 bits.
-double file_bytes(const BatchCommand& options, const BatchSize& total, std::size_t columns) {
+double file_bytes(const BatchCommand& options, const AnswerSize& total, std::size_t columns) {
   const auto rows = static_cast<double>(total.rows);
   const auto count = static_cast<double>(total.count);
-  const double vertices = has_vertices(row_order(options)) ? 8 * rows : 0;
+  const double vertices = has_vertices(options) ? 8 * rows : 0;
   const double radii = options.rows.row_radii.empty() ? 0 : 8 * rows;
   if (options.count) return vertices + radii + 8 * rows * static_cast<double>(options.rows.scale_count());
   const double index_bytes = fits_32_bits(total.count, columns) ? 4 : 8;
@@ -105,34 +154,35 @@ std::size_t number_of_passes(const BatchCommand& options) {
 }
 
 /// Text is refused while it is written.
-void check_size(const BatchCommand& options, const BatchSize& size, std::size_t columns, std::string_view about = "") {
+void check_answer(const BatchCommand& options, const AnswerSize& size, std::size_t columns,
+                  std::string_view about = "") {
   if (options.output.is_csv()) return;
-  SizeLimit(options.output.name, options.max_bytes).check(size, file_bytes(options, size, columns), about);
+  check_size(options.output.name, options.max_bytes, size, file_bytes(options, size, columns), about);
 }
 
-BatchSize size_of(std::span<const std::uint64_t> sizes, std::size_t scales) {
+AnswerSize size_of(std::span<const std::uint64_t> sizes, std::size_t scales) {
   return {sizes.size() / scales, std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
 }
 
 /// Those that the file names.
 BatchVertices listed_rows(const BatchCommand& options, const BatchQuery& query) {
-  return has_vertices(row_order(options)) ? query.vertices : BatchVertices();
+  return has_vertices(options) ? query.vertices : BatchVertices();
 }
 
-BatchSize write_counts(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options) {
+AnswerSize write_counts(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options) {
   std::vector<std::uint64_t> sizes = [&] {
     Task task("computing", {"rows", 1});
     return counts(method, query, {.threads = options.rows.threads, .progress = task.progress()});
   }();
   const std::size_t scales = options.rows.scale_count();
-  const BatchSize total = size_of(sizes, scales);
+  const AnswerSize total = size_of(sizes, scales);
   RowTable table{.rows = total.rows,
                  .scales = scales,
                  .scale_names = options.rows.radii.values,
                  .columns = {{"count", std::move(sizes), scales}}};
   table.add_properties({"count"});
   table.max_bytes = options.max_bytes;
-  check_size(options, total, method.vertex_count());
+  check_answer(options, total, method.vertex_count());
   write_rows(options.output, std::move(table), listed_rows(options, query), query.radius);
   return total;
 }
@@ -144,13 +194,13 @@ class Writer {
  public:
   Writer(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, VertexSorter& sorter,
          Task& task)
-      : method_(method), query_(query), options_(options), order_(row_order(options)), sorter_(sorter), task_(task) {}
+      : method_(method), query_(query), options_(options), sorter_(sorter), task_(task) {}
 
-  BatchSize write() {
+  AnswerSize write() {
     if (options_.output.is_csv()) return write_pairs();
     const std::vector<std::uint64_t> sizes = counts(method_, query_, next_run());
-    const BatchSize total = size_of(sizes, 1);
-    check_size(options_, total, method_.vertex_count());
+    const AnswerSize total = size_of(sizes, 1);
+    check_answer(options_, total, method_.vertex_count());
     write_arrays(sizes, total);
     return total;
   }
@@ -159,9 +209,9 @@ class Writer {
   [[nodiscard]] BatchVertices listed() const { return listed_rows(options_, query_); }
 
   /// A line for each vertex of each row.
-  BatchSize write_pairs() {
+  AnswerSize write_pairs() {
     CsvWriter csv(options_.output.name, pair_names(options_.distances), options_.max_bytes);
-    BatchSize total;
+    AnswerSize total;
     for_each_row(options_.distances || sorter_.needs_distances(),
                  [&](std::span<const VertexId> ids, std::span<const double> distances) {
                    const VertexId v = listed()[total.rows++];
@@ -178,11 +228,11 @@ class Writer {
     return total;
   }
 
-  void write_arrays(std::span<const std::uint64_t> sizes, const BatchSize& total) {
+  void write_arrays(std::span<const std::uint64_t> sizes, const AnswerSize& total) {
     io::NpzWriter npz(path_of(options_.output.name));
     write_vertices(npz, listed());
     const std::uint64_t columns = method_.vertex_count();
-    if (is_matrix(order_)) {
+    if (is_matrix(options_)) {
       const std::array<std::int64_t, 2> shape{static_cast<std::int64_t>(total.rows),
                                               static_cast<std::int64_t>(columns)};
       npz.add_text("format", "csr");
@@ -194,10 +244,10 @@ class Writer {
       write_pattern<std::int64_t>(npz, sizes, total);
     }
     if (options_.distances) {
-      npz.begin<double>(is_matrix(order_) ? "data" : "distances", total.count);
+      npz.begin<double>(is_matrix(options_) ? "data" : "distances", total.count);
       for_each_row(
           true, [&](std::span<const VertexId> /*ids*/, std::span<const double> distances) { npz.append(distances); });
-    } else if (is_matrix(order_)) {
+    } else if (is_matrix(options_)) {
       npz.add_ones("data", total.count);
     }
     Task::check_cancelled();
@@ -205,7 +255,7 @@ class Writer {
   }
 
   template <class Integer>
-  void write_pattern(io::NpzWriter& npz, std::span<const std::uint64_t> sizes, const BatchSize& total) {
+  void write_pattern(io::NpzWriter& npz, std::span<const std::uint64_t> sizes, const AnswerSize& total) {
     std::vector<Integer> offsets(sizes.size() + 1);
     std::transform_inclusive_scan(sizes.begin(), sizes.end(), offsets.begin() + 1, std::plus<>(),
                                   [](std::uint64_t size) { return static_cast<Integer>(size); });
@@ -222,8 +272,9 @@ class Writer {
   /// Calls `write(ids, distances)` for each row, sorted as the options say.
   template <class Write>
   void for_each_row(bool with_distances, Write&& write) {
-    const BatchOptions pass{
-        .distances = with_distances, .sorted = options_.sort == "id", .in_index_order = order_ == RowOrder::Index};
+    const BatchOptions pass{.distances = with_distances,
+                            .sorted = options_.search.sort == "id",
+                            .in_index_order = options_.order == "index"};
     std::vector<VertexId> ids;
     std::vector<double> distances;
     const auto sort_and_write = [&](const BatchRow& row) {
@@ -244,7 +295,6 @@ class Writer {
   const SearchMethod& method_;
   const BatchQuery& query_;
   const BatchCommand& options_;
-  RowOrder order_;
   VertexSorter& sorter_;
   Task& task_;
   std::size_t passes_begun_ = 0;
@@ -256,12 +306,12 @@ std::string task_name(const BatchCommand& options, const std::optional<BatchEsti
                      bytes_text(file_bytes(options, estimate->mean, columns)));
 }
 
-BatchSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options,
-                VertexSorter& sorter) {
+AnswerSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options,
+                 VertexSorter& sorter) {
   if (options.count) return write_counts(method, query, options);
   const std::optional<BatchEstimate> expected = options.output.is_csv() ? std::nullopt : estimate(method, query);
   const std::size_t columns = method.vertex_count();
-  if (expected) check_size(options, expected->lower, columns, "at least ");
+  if (expected) check_answer(options, expected->lower, columns, "at least ");
   Task task(task_name(options, expected, columns),
             {"rows", static_cast<double>(number_of_passes(options))});  // outlives the temporary file
   return Writer(method, query, options, sorter, task).write();
@@ -280,21 +330,18 @@ std::vector<VertexId> all_in_index_order(const Index& index, const Welding& weld
 
 void check_options(const BatchCommand& options) {
   need_radii(options.rows);
-  if (options.output.name.empty()) raise(ErrorCode::InvalidOption, "expected --output or --csv");
-  check_weld(options.reading.weld, options.search.method);
-  check_method(options.search, !options.rows.masks.empty(), options.rows.radii.unit);
-  check_sort(options.sort, options.search.method);
+  if (options.output.name.empty()) wrong_option("expected --output or --csv");
+  check_method(options.search, options.reading, !options.rows.masks.empty(), options.rows.radii.unit);
   const std::size_t radii = options.rows.scale_count();
   if (radii > 1 && !options.count) {
-    raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one{}", radii,
-                                                options.distances ? " with --distances" : ", or --count"));
+    wrong_option("--radius: {} radii, expected one{}", radii, options.distances ? " with --distances" : ", or --count");
   }
 }
 
-void batch(const BatchCommand& options) {
-  check_options(options);
+void batch(const BatchCommand& typed) {
+  check_options(typed);
   check_outputs();
-  const RowOrder order = row_order(options);
+  const BatchCommand options = with_order(typed);
   const unsigned threads = options.rows.threads;
   Input input(options.reading, threads);
   const RowQuery rows(options.rows, input);
@@ -302,10 +349,10 @@ void batch(const BatchCommand& options) {
   query.metric = choose_metric(options.search.metric, input);
   if (query.metric == Metric::Space) input.ignore_welded();
   const SearchMethod method = method_of(options.search, input, {}, threads);
-  VertexSorter sorter(options.sort, input);
+  VertexSorter sorter(options.search.sort, input);
   std::vector<VertexId> in_index_order;
   std::vector<double> radii_in_index_order;
-  if (order == RowOrder::Index) {
+  if (options.order == "index") {
     in_index_order = all_in_index_order(input.exact_index(threads), input.welding());
     query.vertices = in_index_order;
     if (query.radius.list()) {
@@ -313,45 +360,42 @@ void batch(const BatchCommand& options) {
       query.radius = radii_in_index_order;
     }
   }
-  const BatchSize total = write(method, query, options, sorter);
+  const AnswerSize total = write(method, query, options, sorter);
   print_result(options.json,
                {{"output", options.output.name},
                 {"method", options.search.method},
                 {"metric", options.search.metric},
-                {"order", name_of(kRowOrders, order)},
+                {"order", options.order},
                 {"rows", total.rows},
                 {"count", total.count}},
                fmt::format("{}: {} rows{}, {} vertices in them\n", printable_name(options.output.name), total.rows,
-                           order == RowOrder::Index ? " in index order" : "", total.count));
+                           options.order == "index" ? " in index order" : "", total.count));
 }
 
 }  // namespace
 
 void add_batch(CLI::App& program) {
-  auto options = std::make_shared<BatchCommand>();
-  CLI::App* command =
-      program.add_subcommand("batch", "Write the neighborhoods of all vertices, or of a list, in CSR form");
-  add_file(*command, options->reading);
-  add_rows(*command, options->rows);
+  const auto [command, options] =
+      add_command(program, "batch", "Write the neighborhoods of all vertices, or of a list, in CSR form", batch);
+  add_file(command, options.reading);
+  add_rows(command, options.rows);
   add_choice(
-      *command, "--order",
+      command, "--order",
       "order of all rows; index: the fastest, with the array vertices; vertex: a matrix for scipy.sparse.load_npz "
       "(default: index; with --count, a table or another method: vertex)",
-      {"index", "vertex"}, options->order)
+      {"index", "vertex"}, options.order)
       ->excludes("--vertices");
-  add_method(*command, options->search);
-  add_sort(*command, options->sort);
-  CLI::Option* count = command->add_flag("--count", options->count,
-                                         "write only the number of vertices of each row, for one radius or several");
+  add_method(command, options.search);
+  CLI::Option* count = command.add_flag("--count", options.count,
+                                        "write only the number of vertices of each row, for one radius or several");
   command
-      ->add_flag("--distances", options->distances,
-                 "also write distances in the metric of the radius: the array distances, or the values of the matrix")
+      .add_flag("--distances", options.distances,
+                "also write distances in the metric of the radius: the array distances, or the values of the matrix")
       ->excludes(count);
-  add_max_bytes(*command, options->max_bytes);
-  add_table_output(*command, ".npz", "file to write: arrays, or a table with a line for each vertex of each row",
-                   options->output);
-  add_json(*command, options->json);
-  command->callback([options] { batch(*options); });
+  add_max_bytes(command, options.max_bytes);
+  add_table_output(command, ".npz", "file to write: arrays, or a table with a line for each vertex of each row",
+                   options.output);
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,7 +17,6 @@
 #include "commands.h"
 #include "input.h"
 #include "io/index_io.h"
-#include "io/messages.h"
 #include "options.h"
 #include "output.h"
 #include "system.h"
@@ -38,6 +36,8 @@ struct BuildCommand {
   std::string output;
 };
 
+using BuiltIndex = std::variant<Index, paper::Index>;
+
 struct Summary {
   std::size_t vertices;
   std::size_t clusters;  ///< on the lowest level
@@ -45,51 +45,36 @@ struct Summary {
   double seconds;        ///< of the build
 };
 
-void save(const std::string& file, const Index& index, const std::optional<FacesView>& faces) {
-  Task task("writing " + file);
-  io::save(path_of(file), index, {.faces = faces}, {.progress = task.progress()});
+/// Of a `MeshView` or a `GraphView`.
+template <class Mesh>
+BuiltIndex build_index(const BuildCommand& options, const Mesh& mesh) {
+  if (options.index == "paper") return build_paper_index(mesh);
+  return build_exact_index(mesh, options.threads);
 }
 
-void save(const std::string& file, const paper::Index& index, const std::optional<FacesView>& /*faces*/) {
+void save(const std::string& file, const BuiltIndex& built, const SaveOptions& settings) {
   Task task("writing " + file);
-  io::save(path_of(file), index, {.progress = task.progress()});
+  const Run run{.progress = task.progress()};
+  if (const auto* index = std::get_if<Index>(&built)) return io::save(path_of(file), *index, settings, run);
+  io::save(path_of(file), std::get<paper::Index>(built), run);
 }
 
-template <class Build>
-Summary build_and_save(const std::string& file, const std::optional<FacesView>& faces, Build&& build) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto index = build();
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  save(file, index, faces);
+Summary summary_of(const std::string& file, const BuiltIndex& built, double seconds) {
   std::error_code not_regular;
   const std::uintmax_t bytes = std::filesystem::file_size(path_of(file), not_regular);
-  const std::vector<LevelSummary> levels = index.levels();
-  return {.vertices = index.vertex_count(),
-          .clusters = levels.empty() ? 0 : levels.front().clusters,
-          .bytes = not_regular ? 0 : bytes,
-          .seconds = elapsed.count()};
+  return std::visit(
+      [&](const auto& index) {
+        const std::vector<LevelSummary> levels = index.levels();
+        return Summary{.vertices = index.vertex_count(),
+                       .clusters = levels.empty() ? 0 : levels.front().clusters,
+                       .bytes = not_regular ? 0 : bytes,
+                       .seconds = seconds};
+      },
+      built);
 }
 
 /// The name of the clusters on the lowest level.
 std::string_view clusters_name(const BuildCommand& options) { return options.index == "paper" ? "clusters" : "leaves"; }
-
-Json to_json(const BuildCommand& options, const Summary& summary) {
-  return {{"output", options.output},     {"index", options.index},
-          {"vertices", summary.vertices}, {clusters_name(options), summary.clusters},
-          {"bytes", summary.bytes},       {"seconds", summary.seconds}};
-}
-
-std::string to_text(const BuildCommand& options, const Summary& summary) {
-  return fmt::format("{}: {} vertices, {} {}, {}, built in {:.3f} s\n", printable_name(options.output),
-                     summary.vertices, summary.clusters, clusters_name(options),
-                     bytes_text(static_cast<double>(summary.bytes)), summary.seconds);
-}
-
-template <class Mesh>
-Summary build_and_save(const BuildCommand& options, const Mesh& mesh, const std::optional<FacesView>& faces) {
-  if (options.index == "paper") return build_and_save(options.output, faces, [&] { return build_paper_index(mesh); });
-  return build_and_save(options.output, faces, [&] { return build_exact_index(mesh, options.threads); });
-}
 
 /// The graph of the mesh without the edges that `file` lists.
 Adjacency cut_graph(const MeshView& mesh, const std::string& file, const Welding& welding) {
@@ -99,45 +84,52 @@ Adjacency cut_graph(const MeshView& mesh, const std::string& file, const Welding
   try {
     return cut_edges(whole.view(), edges);
   } catch (const Error& error) {
-    raise(error.code(), fmt::format("{}: {}", io::printable_name(file), error.what()));
+    raise(error.code(), fmt::format("{}: {}", printable_name(file), error.what()));
   }
 }
 
 void build(const BuildCommand& options) {
   if (options.faces && options.index == "paper") {
-    raise(ErrorCode::InvalidOption, "--faces: the index of the paper is saved without faces; expected --index exact");
+    wrong_option("--faces: the index of the paper is saved without faces; expected --index exact");
   }
   check_outputs();
   io::Mesh mesh = read_mesh(options.mesh, options.threads);
   io::refuse_walls(mesh, printable_name(options.mesh.file));
   const Welding welding(mesh, options.mesh.weld, options.mesh.file);
-  const std::optional<FacesView> faces = options.faces ? std::optional(mesh.view().faces) : std::nullopt;
-  Summary summary{};
-  if (options.cut.empty()) {
-    summary = build_and_save(options, mesh.view(), faces);
-  } else {
-    const Adjacency rest = cut_graph(mesh.view(), options.cut, welding);
-    summary = build_and_save(options, GraphView{mesh.view().positions, rest.view()}, faces);
-  }
-  print_result(options.json, to_json(options, summary), to_text(options, summary));
+  const std::optional<Adjacency> rest =
+      options.cut.empty() ? std::nullopt : std::optional(cut_graph(mesh.view(), options.cut, welding));
+  const auto start = std::chrono::steady_clock::now();
+  const BuiltIndex index =
+      rest ? build_index(options, GraphView{mesh.view().positions, rest->view()}) : build_index(options, mesh.view());
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  save(options.output, index, {.faces = options.faces ? std::optional(mesh.view().faces) : std::nullopt});
+  const Summary summary = summary_of(options.output, index, elapsed.count());
+  print_result(options.json,
+               {{"output", options.output},
+                {"index", options.index},
+                {"vertices", summary.vertices},
+                {clusters_name(options), summary.clusters},
+                {"bytes", summary.bytes},
+                {"seconds", summary.seconds}},
+               fmt::format("{}: {} vertices, {} {}, {}, built in {:.3f} s\n", printable_name(options.output),
+                           summary.vertices, summary.clusters, clusters_name(options),
+                           bytes_text(static_cast<double>(summary.bytes)), summary.seconds));
 }
 
 }  // namespace
 
 void add_build(CLI::App& program) {
-  auto options = std::make_shared<BuildCommand>();
-  CLI::App* command = program.add_subcommand("build", "Build the index of a mesh and save it");
-  add_mesh(*command, options->mesh);
-  add_choice(*command, "--index", "exact: for exact answers; paper: the index of the paper", {"exact", "paper"},
-             options->index);
-  add_file_option(*command, "--cut", "a list of edges that no search crosses: on each line the two vertices of one",
-                  options->cut);
-  command->add_flag("--faces", options->faces,
-                    "save the faces with the index, for the commands that need them, such as curvature");
-  add_threads(*command, options->threads);
-  add_output(*command, ".mhi", "index file to write", options->output)->required();
-  add_json(*command, options->json);
-  command->callback([options] { build(*options); });
+  const auto [command, options] = add_command(program, "build", "Build the index of a mesh and save it", build);
+  add_mesh(command, options.mesh);
+  add_choice(command, "--index", "exact: for exact answers; paper: the index of the paper", {"exact", "paper"},
+             options.index);
+  add_file_option(command, "--cut", "a list of edges that no search crosses: on each line the two vertices of one",
+                  options.cut);
+  command.add_flag("--faces", options.faces,
+                   "save the faces with the index, for the commands that need them, such as curvature");
+  add_threads(command, options.threads);
+  add_output(command, ".mhi", "index file to write", options.output)->required();
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // meshhood check: verifies an index file, alone or against a mesh.
-#include <memory>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -59,27 +59,25 @@ void check_alone(const CheckCommand& options, const IndexHeader& header, const I
 /// Loading has verified everything that can be verified.
 void check_alone(const CheckCommand& /*options*/, const IndexHeader& /*header*/, const paper::Index& /*index*/) {}
 
-Json to_json(const CheckCommand& options, const IndexHeader& header) {
-  return {{"index", options.index},
-          {"format", header.format},
-          {"kind", kind_name(header.kind)},
-          {"vertices", header.vertices},
-          {"bytes", header.bytes},
-          {"fingerprint", to_text(header.mesh)},
-          {"mesh", options.mesh.file.empty() ? Json() : Json(options.mesh.file)}};
-}
-
-std::string to_text(const CheckCommand& options, const IndexHeader& header) {
-  Rows rows(10);
-  rows.add("index",
-           fmt::format("{} ({}, format {}, {} vertices, {})", printable_name(options.index), kind_name(header.kind),
-                       header.format, header.vertices, bytes_text(static_cast<double>(header.bytes))));
-  rows.add("checksums", "correct");
-  rows.add("structure", "correct");
-  const std::string mesh =
-      options.mesh.file.empty() ? "not compared; use --mesh" : "the same as " + printable_name(options.mesh.file);
-  rows.add("mesh", fmt::format("{} ({})", to_text(header.mesh), mesh));
-  return rows.text();
+void print(const CheckCommand& options, const IndexHeader& header) {
+  const auto row = [](std::string_view name, const std::string& value) {
+    return fmt::format("{:<10} {}\n", name, value);
+  };
+  const std::string& mesh = options.mesh.file;
+  const Json document{{"index", options.index},
+                      {"format", header.format},
+                      {"kind", kind_name(header.kind)},
+                      {"vertices", header.vertices},
+                      {"bytes", header.bytes},
+                      {"fingerprint", to_text(header.mesh)},
+                      {"mesh", mesh.empty() ? Json() : Json(mesh)}};
+  const std::string index =
+      fmt::format("{} ({}, format {}, {} vertices, {})", printable_name(options.index), kind_name(header.kind),
+                  header.format, header.vertices, bytes_text(static_cast<double>(header.bytes)));
+  const std::string compared = mesh.empty() ? "not compared; use --mesh" : "the same as " + printable_name(mesh);
+  print_result(options.json, document,
+               row("index", index) + row("checksums", "correct") + row("structure", "correct") +
+                   row("mesh", fmt::format("{} ({})", to_text(header.mesh), compared)));
 }
 
 void check(const CheckCommand& options) {
@@ -90,20 +88,19 @@ void check(const CheckCommand& options) {
                                   : check_against_mesh(options, loaded.header, index);
       },
       loaded.index);
-  print_result(options.json, to_json(options, loaded.header), to_text(options, loaded.header));
+  print(options, loaded.header);
 }
 
 }  // namespace
 
 void add_check(CLI::App& program) {
-  auto options = std::make_shared<CheckCommand>();
-  CLI::App* command = program.add_subcommand("check", "Verify an index file, alone or against the mesh");
-  add_file_option(*command, "INDEX", "index file (made by meshhood build)", options->index)->required()->type_name("");
+  const auto [command, options] =
+      add_command(program, "check", "Verify an index file, alone or against the mesh", check);
+  add_file_option(command, "INDEX", "index file (made by meshhood build)", options.index)->required()->type_name("");
   CLI::Option* mesh =
-      add_file_option(*command, "--mesh", "also verify that the index was built from this mesh", options->mesh.file);
-  for (CLI::Option* option : add_reading(*command, options->mesh)) option->needs(mesh);
-  add_json(*command, options->json);
-  command->callback([options] { check(*options); });
+      add_file_option(command, "--mesh", "also verify that the index was built from this mesh", options.mesh.file);
+  for (CLI::Option* option : add_reading(command, options.mesh)) option->needs(mesh);
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

@@ -2,7 +2,6 @@
 // meshhood closest: the points of the surface nearest to points in space.
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -12,7 +11,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "meshhood/error.h"
 #include "meshhood/surface.h"
 
 #include "commands.h"
@@ -50,29 +48,23 @@ RowTable table_of(const std::vector<SurfacePoint>& found) {
   return table;
 }
 
-Json to_json(const std::vector<SurfacePoint>& found) {
+void print(bool json, const std::vector<SurfacePoint>& found) {
   Json documents = Json::array();
+  std::string text;
   for (const SurfacePoint& one : found) {
     documents.push_back({{"face", one.face},
                          {"vertices", one.vertices},
                          {"barycentric", one.barycentric},
                          {"point", one.point},
                          {"distance", one.distance}});
-  }
-  return documents;
-}
-
-std::string to_text(const std::vector<SurfacePoint>& found) {
-  std::string text;
-  for (const SurfacePoint& one : found) {
     text += fmt::format("{} {} {}\n", one.face, fmt::join(one.point, " "), one.distance);
   }
-  return text;
+  print_result(json, documents, text);
 }
 
 void closest(const ClosestCommand& options) {
   if (options.point.empty() == options.points.empty()) {
-    raise(ErrorCode::InvalidOption, "expected either --point or --points");
+    wrong_option("expected either --point or --points");
   }
   check_outputs();
   Input input(options.reading, options.threads);
@@ -81,7 +73,7 @@ void closest(const ClosestCommand& options) {
       options.points.empty() ? std::vector{parse_point(options.point)} : read_points(options.points);
   const std::vector<SurfacePoint> found = compute(options, points, input);
   const std::string& output = options.output.name;
-  if (output.empty()) return print_result(options.json, to_json(found), to_text(found));
+  if (output.empty()) return print(options.json, found);
   write_table(options.output, table_of(found));
   print_result(options.json, {{"output", output}, {"points", found.size()}},
                fmt::format("{}: {} points\n", printable_name(output), found.size()));
@@ -90,20 +82,18 @@ void closest(const ClosestCommand& options) {
 }  // namespace
 
 void add_closest(CLI::App& program) {
-  auto options = std::make_shared<ClosestCommand>();
-  CLI::App* command =
-      program.add_subcommand("closest", "Print the face, point and distance of the surface nearest to points in space");
-  add_surface(*command, options->reading);
-  add_point(*command, "a point in space; also X Y Z", options->point);
-  add_file_option(*command, "--points", "many points: text with X Y Z on each line, or an array of NumPy (.npy)",
-                  options->points);
-  add_threads(*command, options->threads);
-  add_table_output(*command, ".npz",
+  const auto [command, options] = add_command(
+      program, "closest", "Print the face, point and distance of the surface nearest to points in space", closest);
+  add_surface(command, options.reading);
+  add_point(command, "a point in space; also X Y Z", options.point);
+  add_file_option(command, "--points", "many points: text with X Y Z on each line, or an array of NumPy (.npy)",
+                  options.points);
+  add_threads(command, options.threads);
+  add_table_output(command, ".npz",
                    "arrays or a table to write instead: face, distance, point, and the vertices of its triangle with "
                    "its barycentric coordinates",
-                   options->output);
-  add_json(*command, options->json);
-  command->callback([options] { closest(*options); });
+                   options.output);
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

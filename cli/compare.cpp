@@ -2,7 +2,6 @@
 // meshhood compare: all methods on one query.
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,9 +22,9 @@
 #include "input.h"
 #include "measure/difference.h"
 #include "measure/timing.h"
+#include "mesh_file.h"
 #include "options.h"
 #include "output.h"
-#include "painting.h"
 #include "task.h"
 
 namespace meshhood::cli {
@@ -105,36 +104,28 @@ std::vector<Row> answer(Input& input, VertexId v, double radius) {
   return rows;
 }
 
-Json to_json(VertexId v, double radius, const std::vector<Row>& rows) {
+void print(bool json, VertexId v, double radius, const std::vector<Row>& rows) {
   Json methods = Json::array();
-  for (const Row& row : rows) {
-    methods.push_back({{"method", row.method},
-                       {"count", row.vertices.size()},
-                       {"extra", row.difference.extra},
-                       {"missing", row.difference.missing},
-                       {"microseconds", row.microseconds}});
+  std::string text = fmt::format("vertex {}\nmethod     count     extra   missing  microseconds\n", v);
+  for (const auto& [method, vertices, difference, microseconds] : rows) {
+    methods.push_back({{"method", method},
+                       {"count", vertices.size()},
+                       {"extra", difference.extra},
+                       {"missing", difference.missing},
+                       {"microseconds", microseconds}});
+    text += fmt::format("{:<6} {:>9} {:>9} {:>9} {:>13.2f}\n", method, vertices.size(), difference.extra,
+                        difference.missing, microseconds);
   }
-  return {{"vertex", v}, {"radius", radius}, {"methods", methods}};
-}
-
-std::string to_text(VertexId v, const std::vector<Row>& rows) {
-  std::string text = fmt::format("vertex {}\n", v);
-  text += "method     count     extra   missing  microseconds\n";
-  for (const Row& row : rows) {
-    text += fmt::format("{:<6} {:>9} {:>9} {:>9} {:>13.2f}\n", row.method, row.vertices.size(), row.difference.extra,
-                        row.difference.missing, row.microseconds);
-  }
-  return text;
+  print_result(json, {{"vertex", v}, {"radius", radius}, {"methods", methods}}, text);
 }
 
 /// Exact answers on top, as in the paper's Figure 4. `rows`: bfs, ball, paper, exact.
 void paint(const std::string& file, Input& input, VertexId v, const std::vector<Row>& rows) {
-  Painting painting(input.vertex_count());
-  painting.paint(rows[1].vertices, kBallColor);
-  painting.paint(rows[2].vertices, kPaperColor);
-  painting.paint(rows[0].vertices, kExactColor);
-  painting.paint(std::span(&v, 1), kQueryColor);
-  painting.write(file, input);
+  write_painting(file, input,
+                 {{rows[1].vertices, kBallColor},
+                  {rows[2].vertices, kPaperColor},
+                  {rows[0].vertices, kExactColor},
+                  {std::span(&v, 1), kQueryColor}});
 }
 
 void compare(const CompareCommand& options) {
@@ -146,27 +137,26 @@ void compare(const CompareCommand& options) {
   const VertexId v = options.vertex ? resolve_vertex(*options.vertex, input) : most_different(input, radius);
   const std::vector<Row> rows = answer(input, v, radius);
   if (!options.output.empty()) paint(options.output, input, v, rows);
-  print_result(options.json, to_json(v, radius, rows), to_text(v, rows));
+  print(options.json, v, radius, rows);
 }
 
 }  // namespace
 
 void add_compare(CLI::App& program) {
-  auto options = std::make_shared<CompareCommand>();
-  CLI::App* command = program.add_subcommand(
-      "compare", "Compare the methods on one query: size, difference from breadth-first search, time");
-  add_file(*command, options->reading);
+  const auto [command, options] =
+      add_command(program, "compare",
+                  "Compare the methods on one query: size, difference from breadth-first search, time", compare);
+  add_file(command, options.reading);
   add_number(
-      *command, "-v,--vertex",
+      command, "-v,--vertex",
       "query vertex, by its number in the file from 0; without it, one at which the methods differ is searched for",
-      options->vertex);
-  add_radius(*command, options->radius);
+      options.vertex);
+  add_radius(command, options.radius);
   add_output(
-      *command, ".ply",
+      command, ".ply",
       "also write the mesh in color: the query vertex orange, exact green, only in paper yellow, only in ball blue",
-      options->output);
-  add_json(*command, options->json);
-  command->callback([options] { compare(*options); });
+      options.output);
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

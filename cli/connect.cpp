@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +10,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "meshhood/error.h"
 #include "meshhood/search.h"
 
 #include "commands.h"
@@ -56,49 +54,39 @@ Connections connections_of(const ConnectCommand& options, Input& input) {
   return found;
 }
 
-std::string to_text(const Connections& found) {
-  std::string text;
-  for (std::size_t i = 0; i < found.vertices.size(); ++i) {
-    text += fmt::format("{} {}\n", found.vertices[i], found.radii[i]);
-  }
-  return text;
-}
-
-/// JSON has no infinity: such a radius is null.
-Json to_json(const Connections& found) { return {{"vertices", found.vertices}, {"radii", found.radii}}; }
-
 void connect(const ConnectCommand& options) {
   if (options.targets.empty() == !options.nearest) {
-    raise(ErrorCode::InvalidOption, "expected either --to or --nearest");
+    wrong_option("expected either --to or --nearest");
   }
   if (options.nearest && options.metric == "space") {
-    raise(ErrorCode::InvalidOption, "--nearest: expected another --metric than space, in which nothing is connected");
+    wrong_option("--nearest: expected another --metric than space, in which nothing is connected");
   }
   check_start_options(options.start, false, options.metric);
   Input input(options.reading);
   input.need_edges("connect");
   const Connections found = connections_of(options, input);
-  print_result(options.json, to_json(found), to_text(found));
+  std::string text;
+  for (std::size_t i = 0; i < found.vertices.size(); ++i) {
+    text += fmt::format("{} {}\n", found.vertices[i], found.radii[i]);
+  }
+  // JSON has no infinity: such a radius is null.
+  print_result(options.json, {{"vertices", found.vertices}, {"radii", found.radii}}, text);
 }
 
 }  // namespace
 
 void add_connect(CLI::App& program) {
-  auto options = std::make_shared<ConnectCommand>();
-  CLI::App* command =
-      program.add_subcommand("connect", "Print the smallest radii at which vertices belong to a neighborhood");
-  add_file(*command, options->reading);
-  add_start(*command, "the vertex of the neighborhood, by its number in the file from 0", options->start);
-  add_numbers(*command, "--to", "vertices to connect; prints each with its radius, or inf if no radius connects it",
-              options->targets);
-  command
-      ->add_option("--nearest", options->nearest,
-                   "instead of --to: the number of vertices to print, in the order of the radii that connect them")
-      ->transform(whole_number())
-      ->type_name("NUMBER");
-  add_metric(*command, options->metric);
-  add_json(*command, options->json);
-  command->callback([options] { connect(*options); });
+  const auto [command, options] =
+      add_command(program, "connect", "Print the smallest radii at which vertices belong to a neighborhood", connect);
+  add_file(command, options.reading);
+  add_start(command, "the vertex of the neighborhood, by its number in the file from 0", options.start);
+  add_numbers(command, "--to", "vertices to connect; prints each with its radius, or inf if no radius connects it",
+              options.targets);
+  add_number(command, "--nearest",
+             "instead of --to: the number of vertices to print, in the order of the radii that connect them",
+             options.nearest);
+  add_metric(command, options.metric);
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

@@ -18,10 +18,8 @@
 #include <fmt/format.h>
 
 #include "meshhood/aggregate.h"
-#include "meshhood/error.h"
 
 #include "commands.h"
-#include "names.h"
 #include "options.h"
 #include "row_table.h"
 
@@ -90,7 +88,7 @@ class FeaturesQuantity : public Quantity {
 
   void check(const RowOptions& rows) const override {
     if (rows.has_radii() == largest_.empty()) return;
-    raise(ErrorCode::InvalidOption, "expected either --radius, --radii or --largest");
+    wrong_option("expected either --radius, --radii or --largest");
   }
 
   RowTable compute(const RowTask& task) override {
@@ -131,7 +129,7 @@ class FeaturesQuantity : public Quantity {
     const Radii& typed = task.options.radii;
     if (!task.options.row_radii.empty()) return {1};
     if (largest_.empty()) return task.rows.radii();
-    if (count_ == 0) raise(ErrorCode::InvalidOption, "--count is 0, expected 1 to 1000");
+    if (count_ == 0) wrong_option("--count is 0, expected 1 to 1000");
     const auto in_mesh = [&](const std::string& radius) { return resolve(Radius{radius, typed.unit}, task.input); };
     if (smallest_.empty()) return equal_steps(in_mesh(largest_), count_);
     return geometric_radii(in_mesh(smallest_), in_mesh(largest_), count_);

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // meshhood info: properties of a mesh or an index.
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
-#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -19,12 +22,9 @@
 #include "io/weld.h"
 #include "options.h"
 #include "output.h"
-#include "statistics.h"
 
 namespace meshhood::cli {
 namespace {
-
-constexpr std::size_t kWidth = 19;  // of the names in the text
 
 struct InfoCommand {
   Reading reading;
@@ -32,8 +32,161 @@ struct InfoCommand {
   bool json = false;
 };
 
-Json to_json(const std::vector<LevelSummary>& levels) {
+struct Box {
+  std::array<double, 3> min;
+  std::array<double, 3> max;
+};
+
+/// Properties of a mesh. Edges connect vertices, not positions.
+struct Statistics {
+  std::size_t vertices = 0;
+  std::size_t faces = 0;
+  std::map<std::size_t, std::size_t> polygon_degrees;  ///< number of corners -> number of faces
+  std::size_t edges = 0;                               ///< distinct
+  std::size_t components = 0;                          ///< connected by edges; without isolated vertices
+  std::size_t isolated_vertices = 0;                   ///< in no face
+  std::size_t boundary_edges = 0;                      ///< in one face
+  std::size_t nonmanifold_edges = 0;                   ///< in more than two faces
+  double average_edge = 0;                             ///< mean length of the distinct edges; 0 if there are none
+  std::size_t repeated_corners = 0;                    ///< corners whose vertex occurs earlier in the same face
+  std::size_t repeated_positions = 0;                  ///< #V minus the number of distinct positions
+  std::optional<Box> bounds;                           ///< empty for a mesh without vertices
+};
+
+std::map<std::size_t, std::size_t> polygon_degrees(const FacesView& faces) {
+  std::map<std::size_t, std::size_t> degrees;
+  faces.for_each([&](std::size_t, std::span<const VertexId> corners) { ++degrees[corners.size()]; });
+  return degrees;
+}
+
+std::size_t repeated_corners(const FacesView& faces) {
+  std::size_t repeated = 0;
+  std::vector<VertexId> sorted;
+  faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
+    sorted.assign(corners.begin(), corners.end());
+    std::sort(sorted.begin(), sorted.end());
+    repeated += static_cast<std::size_t>(sorted.end() - std::unique(sorted.begin(), sorted.end()));
+  });
+  return repeated;
+}
+
+/// The edges of all faces as sorted pairs, sorted: an edge occurs once for each of its faces.
+std::vector<std::pair<VertexId, VertexId>> sides(const FacesView& faces) {
+  std::vector<std::pair<VertexId, VertexId>> all;
+  all.reserve(faces.corners().size());
+  faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const VertexId a = corners[i];
+      const VertexId b = corners[i + 1 < corners.size() ? i + 1 : 0];
+      if (a != b) all.emplace_back(std::min(a, b), std::max(a, b));
+    }
+  });
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+void count_edges(const FacesView& faces, Statistics& result) {
+  const auto all = sides(faces);
+  for (auto edge = all.begin(); edge != all.end();) {
+    const auto next = std::find_if(edge, all.end(), [&](const auto& other) { return other != *edge; });
+    ++result.edges;
+    result.boundary_edges += next - edge == 1 ? 1 : 0;
+    result.nonmanifold_edges += next - edge > 2 ? 1 : 0;
+    edge = next;
+  }
+}
+
+/// For each vertex: whether it is in no face.
+std::vector<char> mark_isolated(const MeshView& mesh) {
+  std::vector<char> done(mesh.positions.size(), 1);
+  mesh.faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
+    for (const VertexId v : corners) done[v] = 0;
+  });
+  return done;
+}
+
+void mark_component(const AdjacencyView& adjacency, std::size_t start, std::vector<char>& done,
+                    std::vector<VertexId>& stack) {
+  stack.assign(1, static_cast<VertexId>(start));
+  done[start] = 1;
+  while (!stack.empty()) {
+    const VertexId v = stack.back();
+    stack.pop_back();
+    for (const VertexId w : adjacency[v]) {
+      if (done[w] == 0) stack.push_back(w);
+      done[w] = 1;
+    }
+  }
+}
+
+std::size_t repeated_positions(const PositionsView& positions) {
+  const std::vector<VertexId> ids = io::welded_ids(positions);
+  return ids.empty() ? 0 : ids.size() - 1 - *std::max_element(ids.begin(), ids.end());
+}
+
+std::optional<Box> bounds(const PositionsView& positions) {
+  if (positions.size() == 0) return std::nullopt;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Box box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  positions.visit([&](const auto& xyz) {
+    for (std::size_t i = 0; i < 3 * xyz.size(); ++i) {
+      const auto value = static_cast<double>(xyz(i / 3, i % 3));
+      box.min[i % 3] = std::min(box.min[i % 3], value);
+      box.max[i % 3] = std::max(box.max[i % 3], value);
+    }
+  });
+  return box;
+}
+
+/// The number of components, as above. `adjacency`: that of `mesh`. O(#V + #corners).
+std::size_t count_components(const MeshView& mesh, const AdjacencyView& adjacency) {
+  std::vector<char> done = mark_isolated(mesh);
+  std::vector<VertexId> stack;
+  std::size_t components = 0;
+  for (std::size_t v = 0; v < done.size(); ++v) {
+    if (done[v] != 0) continue;
+    mark_component(adjacency, v, done, stack);
+    ++components;
+  }
+  return components;
+}
+
+/// `adjacency`: that of `mesh`. O(#V log #V + #corners log #corners).
+Statistics statistics(const MeshView& mesh, const AdjacencyView& adjacency) {
+  Statistics result;
+  result.vertices = mesh.positions.size();
+  result.faces = mesh.faces.size();
+  result.polygon_degrees = polygon_degrees(mesh.faces);
+  count_edges(mesh.faces, result);
+  const std::vector<char> isolated = mark_isolated(mesh);
+  result.isolated_vertices = static_cast<std::size_t>(std::count(isolated.begin(), isolated.end(), 1));
+  result.components = count_components(mesh, adjacency);
+  result.average_edge = mean_edge_length({mesh.positions, adjacency});
+  result.repeated_corners = repeated_corners(mesh.faces);
+  result.repeated_positions = repeated_positions(mesh.positions);
+  result.bounds = bounds(mesh.positions);
+  return result;
+}
+
+/// What is printed, as JSON and as text.
+struct Report {
+  Json document;
+  std::string text;
+
+  void add_line(std::string_view name, std::string_view value) { text += fmt::format("{:<19} {}\n", name, value); }
+
+  void add(const char* key, std::string_view name, const Json& value, std::string_view shown) {
+    document[key] = value;
+    add_line(name, shown);
+  }
+  void add(const char* key, std::string_view name, std::uint64_t value) {
+    add(key, name, value, std::to_string(value));
+  }
+};
+
+void add_levels(Report& report, const std::vector<LevelSummary>& levels) {
   Json list = Json::array();
+  report.text += "level  clusters  mean vertices  mean radius  mean siblings     bytes\n";
   for (const LevelSummary& level : levels) {
     list.push_back({{"level", level.level},
                     {"clusters", level.clusters},
@@ -41,45 +194,32 @@ Json to_json(const std::vector<LevelSummary>& levels) {
                     {"mean_radius", level.mean_radius},
                     {"mean_siblings", level.mean_siblings},
                     {"bytes", level.bytes}});
+    report.text += fmt::format("{:5}  {:8}  {:13.2f}  {:11.4g}  {:13.2f}  {:8}\n", level.level, level.clusters,
+                               level.mean_vertices, level.mean_radius, level.mean_siblings, level.bytes);
   }
-  return list;
+  report.document["levels"] = std::move(list);
 }
 
-std::string to_text(const std::vector<LevelSummary>& levels) {
-  std::string text = "level  clusters  mean vertices  mean radius  mean siblings     bytes\n";
-  for (const LevelSummary& level : levels) {
-    text += fmt::format("{:5}  {:8}  {:13.2f}  {:11.4g}  {:13.2f}  {:8}\n", level.level, level.clusters,
-                        level.mean_vertices, level.mean_radius, level.mean_siblings, level.bytes);
+Report report_of(const Index& index) {
+  const IndexBytes bytes = index.bytes();
+  Report report{{{"bytes", bytes.total()}},
+                fmt::format("exact index: {}\n", bytes_text(static_cast<double>(bytes.total())))};
+  for (const auto& [part, size] : {std::pair{"positions", bytes.positions},
+                                   {"permutation", bytes.permutation},
+                                   {"graph", bytes.graph},
+                                   {"tree", bytes.tree}}) {
+    report.document[part] = size;
+    report.text += fmt::format("{:<11}  {:9}\n", part, size);
   }
-  return text;
+  add_levels(report, index.levels());
+  return report;
 }
 
-std::string_view precision_name(const IndexHeader& header) { return header.is_double ? "double" : "float"; }
-
-Json json_of(const Index& index) {
-  const IndexBytes bytes = index.bytes();
-  return {{"bytes", bytes.total()}, {"positions", bytes.positions}, {"permutation", bytes.permutation},
-          {"graph", bytes.graph},   {"tree", bytes.tree},           {"levels", to_json(index.levels())}};
-}
-
-Json json_of(const paper::Index& index) {
-  return {{"bytes", index.bytes().total()}, {"levels", to_json(index.levels())}};
-}
-
-std::string text_of(const Index& index) {
-  const IndexBytes bytes = index.bytes();
-  std::string text = fmt::format("exact index: {}\n", bytes_text(static_cast<double>(bytes.total())));
-  const auto row = [&](std::string_view part, std::size_t size) { text += fmt::format("{:<11}  {:9}\n", part, size); };
-  row("positions", bytes.positions);
-  row("permutation", bytes.permutation);
-  row("graph", bytes.graph);
-  row("tree", bytes.tree);
-  return text + to_text(index.levels());
-}
-
-std::string text_of(const paper::Index& index) {
-  return fmt::format("index of the paper: {}\n", bytes_text(static_cast<double>(index.bytes().total()))) +
-         to_text(index.levels());
+Report report_of(const paper::Index& index) {
+  const std::size_t bytes = index.bytes().total();
+  Report report{{{"bytes", bytes}}, fmt::format("index of the paper: {}\n", bytes_text(static_cast<double>(bytes)))};
+  add_levels(report, index.levels());
+  return report;
 }
 
 std::string_view format_name(io::Format format) {
@@ -95,34 +235,6 @@ std::string_view format_name(io::Format format) {
   return "other";
 }
 
-Json to_json(const io::Warning& warning) {
-  return {{"what", warning.what}, {"count", warning.count}, {"first_place", warning.first_place}};
-}
-
-Json to_json(Input& input, const Statistics& s) {
-  const io::Mesh& mesh = *input.mesh();
-  Json degrees = Json::object();
-  for (const auto& [corners, faces] : s.polygon_degrees) degrees[std::to_string(corners)] = faces;
-  Json warnings = Json::array();
-  for (const io::Warning& warning : mesh.warnings) warnings.push_back(to_json(warning));
-  return {{"mesh", input.name()},
-          {"format", format_name(mesh.format)},
-          {"vertices", s.vertices},
-          {"faces", s.faces},
-          {"polygon_degrees", degrees},
-          {"edges", s.edges},
-          {"components", s.components},
-          {"isolated_vertices", s.isolated_vertices - input.welding().count()},
-          {"boundary_edges", s.boundary_edges},
-          {"nonmanifold_edges", s.nonmanifold_edges},
-          {"average_edge", s.average_edge},
-          {"repeated_corners", s.repeated_corners},
-          {"repeated_positions", s.repeated_positions},
-          {"welded_vertices", input.welding().count()},
-          {"bounding_box", s.bounds ? Json{{"min", s.bounds->min}, {"max", s.bounds->max}} : Json()},
-          {"warnings", warnings}};
-}
-
 std::string to_text(const std::map<std::size_t, std::size_t>& polygon_degrees) {
   std::vector<std::string> parts;
   parts.reserve(polygon_degrees.size());
@@ -135,47 +247,45 @@ std::string to_text(const std::optional<Box>& bounds) {
   return fmt::format("{:g} to {:g}", fmt::join(bounds->min, " "), fmt::join(bounds->max, " "));
 }
 
-std::string to_text(Input& input, const Statistics& s) {
-  Rows rows(kWidth);
-  rows.add("mesh", fmt::format("{} ({})", printable_name(input.name()), format_name(input.mesh()->format)));
-  rows.add("vertices", s.vertices);
-  rows.add("faces", s.faces);
-  rows.add("corners per face", to_text(s.polygon_degrees));
-  rows.add("edges", s.edges);
-  rows.add("components", s.components);
-  rows.add("isolated vertices", s.isolated_vertices - input.welding().count());
-  rows.add("boundary edges", s.boundary_edges);
-  rows.add("non-manifold edges", s.nonmanifold_edges);
-  rows.add("mean edge length", fmt::format("{:.4g}", s.average_edge));
-  rows.add("repeated corners", s.repeated_corners);
-  rows.add("repeated positions", s.repeated_positions);
-  if (input.welding().count() > 0) rows.add("welded vertices", input.welding().count());
-  rows.add("bounding box", to_text(s.bounds));
-  return rows.text();
+Report report_of(const Input& input, const Statistics& s) {
+  const io::Mesh& mesh = *input.mesh();
+  const std::size_t welded = input.welding().count();
+  Json degrees = Json::object();
+  for (const auto& [corners, faces] : s.polygon_degrees) degrees[std::to_string(corners)] = faces;
+  Json warnings = Json::array();
+  for (const auto& [what, count, first_place] : mesh.warnings) {
+    warnings.push_back({{"what", what}, {"count", count}, {"first_place", first_place}});
+  }
+  Report report{{{"mesh", input.name()}, {"format", format_name(mesh.format)}}, ""};
+  report.add_line("mesh", fmt::format("{} ({})", printable_name(input.name()), format_name(mesh.format)));
+  report.add("vertices", "vertices", s.vertices);
+  report.add("faces", "faces", s.faces);
+  report.add("polygon_degrees", "corners per face", degrees, to_text(s.polygon_degrees));
+  report.add("edges", "edges", s.edges);
+  report.add("components", "components", s.components);
+  report.add("isolated_vertices", "isolated vertices", s.isolated_vertices - welded);
+  report.add("boundary_edges", "boundary edges", s.boundary_edges);
+  report.add("nonmanifold_edges", "non-manifold edges", s.nonmanifold_edges);
+  report.add("average_edge", "mean edge length", s.average_edge, fmt::format("{:.4g}", s.average_edge));
+  report.add("repeated_corners", "repeated corners", s.repeated_corners);
+  report.add("repeated_positions", "repeated positions", s.repeated_positions);
+  report.document["welded_vertices"] = welded;
+  if (welded > 0) report.add_line("welded vertices", std::to_string(welded));
+  report.add("bounding_box", "bounding box", s.bounds ? Json{{"min", s.bounds->min}, {"max", s.bounds->max}} : Json(),
+             to_text(s.bounds));
+  report.document["warnings"] = std::move(warnings);
+  return report;
 }
 
-Json to_json(Input& input) {
-  const IndexHeader& header = input.header();
-  Json document{{"index", input.name()},
-                {"format", header.format},
-                {"kind", kind_name(header.kind)},
-                {"vertices", header.vertices},
-                {"precision", precision_name(header)},
-                {"fingerprint", to_text(header.mesh)}};
-  document.update(header.kind == IndexKind::Paper ? json_of(input.paper_index()) : json_of(input.exact_index()));
-  return document;
-}
-
-std::string to_text(Input& input) {
-  const IndexHeader& header = input.header();
-  Rows rows(kWidth);
-  rows.add("index",
-           fmt::format("{} ({}, format {})", printable_name(input.name()), kind_name(header.kind), header.format));
-  rows.add("vertices", header.vertices);
-  rows.add("coordinates", precision_name(header));
-  rows.add("mesh", to_text(header.mesh));
-  return rows.text() + '\n' +
-         (header.kind == IndexKind::Paper ? text_of(input.paper_index()) : text_of(input.exact_index()));
+Report report_of(const std::string& name, const IndexHeader& header) {
+  const std::string_view precision = header.is_double ? "double" : "float";
+  const std::string_view kind = kind_name(header.kind);
+  Report report{{{"index", name}, {"format", header.format}, {"kind", kind}}, ""};
+  report.add_line("index", fmt::format("{} ({}, format {})", printable_name(name), kind, header.format));
+  report.add("vertices", "vertices", header.vertices);
+  report.add("precision", "coordinates", precision, precision);
+  report.add("fingerprint", "mesh", to_text(header.mesh), to_text(header.mesh));
+  return report;
 }
 
 std::size_t components_if_welded(const io::Mesh& mesh, double eps) {
@@ -212,31 +322,36 @@ void info_of_mesh(const InfoCommand& options, Input& input) {
   summary.repeated_positions -=
       std::min(summary.repeated_positions, static_cast<std::size_t>(std::ranges::count(walls, 1)));
   note_split_components(input, summary);
-  Json document = to_json(input, summary);
-  std::string text = to_text(input, summary);
+  Report report = report_of(input, summary);
   if (options.index) {
-    document["index"] = {{"exact", json_of(input.exact_index())}, {"paper", json_of(input.paper_index())}};
-    text += '\n' + text_of(input.exact_index()) + '\n' + text_of(input.paper_index());
+    const Report exact = report_of(input.exact_index());
+    const Report paper = report_of(input.paper_index());
+    report.document["index"] = {{"exact", exact.document}, {"paper", paper.document}};
+    report.text += '\n' + exact.text + '\n' + paper.text;
   }
-  print_result(options.json, document, text);
+  print_result(options.json, report.document, report.text);
 }
 
 void info(const InfoCommand& options) {
   Input input(options.reading);
   if (input.mesh() != nullptr) return info_of_mesh(options, input);
-  print_result(options.json, to_json(input), to_text(input));
+  const IndexHeader& header = input.header();
+  Report report = report_of(input.name(), header);
+  const Report index =
+      header.kind == IndexKind::Paper ? report_of(input.paper_index()) : report_of(input.exact_index());
+  report.document.update(index.document);
+  print_result(options.json, report.document, report.text + '\n' + index.text);
 }
 
 }  // namespace
 
 void add_info(CLI::App& program) {
-  auto options = std::make_shared<InfoCommand>();
-  CLI::App* command = program.add_subcommand(
-      "info", "Print the size, components, boundary and defects of a mesh, or the size and levels of an index");
-  add_file(*command, options->reading);
-  command->add_flag("--index", options->index, "for a mesh: also build both indexes and print their sizes and levels");
-  add_json(*command, options->json);
-  command->callback([options] { info(*options); });
+  const auto [command, options] = add_command(
+      program, "info", "Print the size, components, boundary and defects of a mesh, or the size and levels of an index",
+      info);
+  add_file(command, options.reading);
+  command.add_flag("--index", options.index, "for a mesh: also build both indexes and print their sizes and levels");
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

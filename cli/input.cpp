@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,11 +23,13 @@
 #include "meshhood/error.h"
 #include "meshhood/masks.h"
 
+#include "io/messages.h"
+#include "io/number.h"
+#include "io/weld.h"
 #include "output.h"
 #include "parts/manifest.h"
 #include "program.h"
 #include "system.h"
-#include "task.h"
 
 namespace meshhood::cli {
 namespace {
@@ -37,18 +41,10 @@ void refuse_parts(const std::string& file) {
   std::error_code none;
   const std::filesystem::path folder = path_of(file);
   if (!std::filesystem::is_regular_file(folder / parts::kManifestFile, none)) return;
-  raise(
-      ErrorCode::InvalidOption,
-      fmt::format("{}: is a folder of parts; name the index of one, such as {}, whose vertices.npy has the numbers of "
-                  "its vertices, or use meshhood.open_parts of the Python package for all",
-                  printable_name(file), printable_name((folder / "part-00000" / "index.mhi").generic_string())));
-}
-
-std::string task_of(const std::string& file) { return "reading " + file; }
-
-io::Precision precision_of(const Reading& reading) {
-  if (reading.precision.empty()) return io::Precision::FromFile;
-  return reading.precision == "float" ? io::Precision::Float : io::Precision::Double;
+  wrong_option(
+      "{}: is a folder of parts; name the index of one, such as {}, whose vertices.npy has the numbers of "
+      "its vertices, or use meshhood.open_parts of the Python package for all",
+      printable_name(file), printable_name((folder / "part-00000" / "index.mhi").generic_string()));
 }
 
 OtherReader other_reader;
@@ -67,7 +63,12 @@ template <class Content>
 Content read_with(Content (*read)(const std::filesystem::path&, const io::ReadOptions&), const Reading& reading,
                   io::ReadOptions options) {
   const std::string& file = reading.file;
-  options.precision = precision_of(reading);
+  refuse_parts(file);
+  Task task("reading " + file, kMegabytes);
+  options.progress = task.progress();
+  if (!reading.precision.empty()) {
+    options.precision = reading.precision == "float" ? io::Precision::Float : io::Precision::Double;
+  }
   try {
     return read(path_of(file), options);
   } catch (const Error& refusal) {
@@ -83,8 +84,7 @@ void refuse_to_read_otherwise(const Reading& reading) {
   for (const auto& [value, option, advice] : {std::array<std::string_view, 3>{reading.weld, "--weld", "weld the mesh"},
                                               {reading.precision, "--precision", "choose it"}}) {
     if (value.empty()) continue;
-    raise(ErrorCode::InvalidOption,
-          fmt::format("{}: {} is an index; {} when the index is built", option, printable_name(reading.file), advice));
+    wrong_option("{}: {} is an index; {} when the index is built", option, printable_name(reading.file), advice);
   }
 }
 
@@ -109,18 +109,59 @@ PositionsData positions_of(const paper::Index& index) {
   });
 }
 
+/// As `kept_vertices` of a mesh, whose walls are kept: they are where they are because they have no position.
+std::vector<VertexId> kept_of_mesh(const io::Mesh& mesh, double eps) {
+  if (mesh.walls.empty()) return kept_vertices(mesh.view().positions, eps);
+  std::vector<VertexId> kept(mesh.walls.size());
+  std::iota(kept.begin(), kept.end(), VertexId{0});
+  std::vector<VertexId> others;
+  std::copy_if(kept.begin(), kept.end(), std::back_inserter(others), [&](VertexId v) { return mesh.walls[v] == 0; });
+  std::visit(
+      [&]<class Real>(const std::vector<Real>& all) {
+        std::vector<Real> xyz;
+        for (const std::size_t v : others) xyz.insert(xyz.end(), &all[3 * v], &all[3 * v] + 3);
+        const std::vector<VertexId> kept_others = kept_vertices(xyz, eps);
+        for (std::size_t i = 0; i < others.size(); ++i) kept[others[i]] = others[kept_others[i]];
+      },
+      mesh.positions);
+  return kept;
+}
+
 }  // namespace
+
+double eps_of(const std::string& weld) {
+  if (weld == "true") return 0;  // what CLI11 stores for a flag without a value
+  if (const auto number = io::parse_real<double>(weld)) return *number;
+  wrong_option("--weld={}, expected a finite number >= 0", io::quote(weld));
+}
+
+std::string rounding_eps(double mean_edge) { return fmt::format("{:.1g}", mean_edge / 1000); }
+
+std::vector<VertexId> kept_vertices(const PositionsView& positions, double eps) {
+  std::vector<VertexId> kept = io::welded_ids(positions, eps);
+  std::vector<VertexId> first;
+  for (std::size_t v = 0; v < kept.size(); ++v) {
+    if (kept[v] == first.size()) first.push_back(static_cast<VertexId>(v));
+    kept[v] = first[kept[v]];
+  }
+  return kept;
+}
+
+Welding::Welding(io::Mesh& mesh, const std::string& weld, const std::string& file) {
+  if (weld.empty()) return;
+  kept_ = kept_of_mesh(mesh, eps_of(weld));
+  for (std::uint32_t& corner : mesh.corners) corner = kept_[corner];
+  for (std::size_t v = 0; v < kept_.size(); ++v) count_ += kept_[v] == v ? 0 : 1;
+  print_error("note: ",
+              fmt::format("{}: {} of {} vertices welded; all keep their numbers", file, count_, kept_.size()));
+}
 
 void read_others_by(OtherReader reader) { other_reader = std::move(reader); }
 
 bool reads_others() { return other_reader != nullptr; }
 
 Input::Input(const Reading& reading, unsigned threads) : name_(reading.file) {
-  refuse_parts(name_);
-  auto content = [&] {
-    Task task(task_of(name_), kMegabytes);
-    return read_with(io::read_mesh_or_index, reading, {.threads = threads, .progress = task.progress()});
-  }();
+  auto content = read_with(io::read_mesh_or_index, reading, {.threads = threads});
   if (auto* mesh = std::get_if<io::Mesh>(&content)) {
     mesh_ = std::move(*mesh);
     print_warnings(*mesh_, name_);
@@ -148,18 +189,18 @@ std::size_t Input::vertex_count() const {
 
 void Input::need_edges(const std::string& purpose) const {
   if (mesh_ || exact_) return;
-  raise(ErrorCode::InvalidOption,
-        fmt::format("{}: {} needs the edges of the mesh, which an index of the paper does not "
-                    "contain; name the mesh or an exact index",
-                    printable_name(name_), purpose));
+  wrong_option(
+      "{}: {} needs the edges of the mesh, which an index of the paper does not "
+      "contain; name the mesh or an exact index",
+      printable_name(name_), purpose);
 }
 
 void Input::need_faces(const std::string& purpose) const {
   if (mesh_ || (exact_ && exact_->faces())) return;
-  raise(ErrorCode::InvalidOption,
-        fmt::format("{}: {} needs the faces of the mesh, which this index does not contain; name the mesh, or an index "
-                    "that was built with --faces",
-                    printable_name(name_), purpose));
+  wrong_option(
+      "{}: {} needs the faces of the mesh, which this index does not contain; name the mesh, or an index "
+      "that was built with --faces",
+      printable_name(name_), purpose);
 }
 
 PositionsView Input::positions() {
@@ -200,10 +241,10 @@ void Input::set_masks(OwnedMasks masks) {
 
 void Input::need_positions(const std::string& method) const {
   if (!mesh_ || mesh_->walls.empty()) return;
-  raise(ErrorCode::InvalidOption,
-        fmt::format("{}: has vertices without a position, which are walls: {} does not pass them by; expected --method "
-                    "exact",
-                    printable_name(name_), method));
+  wrong_option(
+      "{}: has vertices without a position, which are walls: {} does not pass them by; expected --method "
+      "exact",
+      printable_name(name_), method);
 }
 
 void Input::ignore_welded() {
@@ -242,39 +283,17 @@ const paper::Index& Input::paper_index() {
 }
 
 io::Mesh read_mesh(const Reading& reading, unsigned threads, std::uint64_t max_bytes) {
-  refuse_parts(reading.file);
-  io::Mesh mesh = [&] {
-    Task task(task_of(reading.file), kMegabytes);
-    return read_with<io::Mesh>(io::read_mesh, reading,
-                               {.threads = threads, .max_bytes = max_bytes, .progress = task.progress()});
-  }();
+  io::Mesh mesh = read_with<io::Mesh>(io::read_mesh, reading, {.threads = threads, .max_bytes = max_bytes});
   print_warnings(mesh, reading.file);
   return mesh;
 }
 
 io::LoadedIndex load_index(const std::string& file) {
   refuse_parts(file);
-  Task task(task_of(file), kMegabytes);
+  Task task("reading " + file, kMegabytes);
   return io::load_any(path_of(file), {.progress = task.progress()});
 }
 
 std::string_view kind_name(IndexKind kind) { return kind == IndexKind::Exact ? "exact" : "paper"; }
-
-template <class Mesh>
-Index build_exact_index(const Mesh& mesh, unsigned threads) {
-  Task task("building the index");
-  return build(mesh, {.threads = threads, .progress = task.progress()});
-}
-
-template <class Mesh>
-paper::Index build_paper_index(const Mesh& mesh) {
-  Task task("building the index of the paper");
-  return paper::build(mesh, {}, {.progress = task.progress()});
-}
-
-template Index build_exact_index(const MeshView& mesh, unsigned threads);
-template Index build_exact_index(const GraphView& graph, unsigned threads);
-template paper::Index build_paper_index(const MeshView& mesh);
-template paper::Index build_paper_index(const GraphView& graph);
 
 }  // namespace meshhood::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -16,8 +17,9 @@
 #include "meshhood/paper.h"
 #include "meshhood/serialize.h"
 
+#include "io/mesh_io.h"
 #include "io/readers.h"
-#include "weld.h"
+#include "task.h"
 
 namespace meshhood::cli {
 
@@ -26,6 +28,42 @@ struct Reading {
   std::string file = {};
   std::string weld = {};
   std::string precision = {};
+};
+
+// --weld: the mesh with vertices at the same place joined (io/weld.h), in the numbering of the file. The faces name
+// only kept vertices. The others have their positions, and are in no face; where an option names one, the kept vertex
+// is taken.
+
+/// What was typed, as a number; 0 if none was.
+[[nodiscard]] double eps_of(const std::string& weld);
+
+/// EPS for positions that differ by rounding, as a note names it: a thousandth of the mean edge, in one digit.
+[[nodiscard]] std::string rounding_eps(double mean_edge);
+
+/// For each vertex the one that it becomes, itself if it is kept. Throws as `io::welded_ids`.
+[[nodiscard]] std::vector<VertexId> kept_vertices(const PositionsView& positions, double eps);
+
+/// Which vertices of a mesh have become others.
+class Welding {
+ public:
+  /// Nothing is welded.
+  Welding() = default;
+
+  /// Welds the mesh of `file`, as `weld` says, and prints a note. Throws Error{InvalidOption, InvalidMesh}.
+  Welding(io::Mesh& mesh, const std::string& weld, const std::string& file);
+
+  /// The vertex that `v` has become.
+  [[nodiscard]] VertexId kept(VertexId v) const { return kept_.empty() ? v : kept_[v]; }
+
+  /// By vertex: the one that it has become; empty if all are kept.
+  [[nodiscard]] const std::vector<VertexId>& kept() const { return kept_; }
+
+  /// How many are not kept.
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  std::vector<VertexId> kept_;
+  std::size_t count_ = 0;
 };
 
 /// Whether `read_others_by` has set a reader of other formats.
@@ -87,7 +125,6 @@ class Input {
 
   /// What all searches leave out, beside vertices without a position. Before the first use of the index.
   void set_masks(OwnedMasks masks);
-  [[nodiscard]] const OwnedMasks& masks() const { return masks_; }
   [[nodiscard]] bool is_wall(VertexId v) const { return !masks_.walls.empty() && masks_.walls[v] != 0; }
 
   /// Throws Error{InvalidOption} if a vertex has no position, which only searches of the exact index pass by. `method`
@@ -136,8 +173,14 @@ class Input {
 
 /// Builds an index of a `MeshView` or a `GraphView`, with progress.
 template <class Mesh>
-[[nodiscard]] Index build_exact_index(const Mesh& mesh, unsigned threads);
+[[nodiscard]] Index build_exact_index(const Mesh& mesh, unsigned threads) {
+  Task task("building the index");
+  return build(mesh, {.threads = threads, .progress = task.progress()});
+}
 template <class Mesh>
-[[nodiscard]] paper::Index build_paper_index(const Mesh& mesh);
+[[nodiscard]] paper::Index build_paper_index(const Mesh& mesh) {
+  Task task("building the index of the paper");
+  return paper::build(mesh, {}, {.progress = task.progress()});
+}
 
 }  // namespace meshhood::cli

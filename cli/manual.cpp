@@ -13,17 +13,11 @@
 #include "meshhood/version.h"
 
 #include "commands.h"
-#include "names.h"
 #include "options.h"
 #include "output.h"
 
 namespace meshhood::cli {
 namespace {
-
-enum class Manual { Man, Bash, Zsh, Fish };
-
-constexpr Names<Manual, 4> kManuals{
-    {{"man", Manual::Man}, {"bash", Manual::Bash}, {"zsh", Manual::Zsh}, {"fish", Manual::Fish}}};
 
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
@@ -284,15 +278,8 @@ std::string for_man(const CLI::App& program) {
   return text;
 }
 
-std::string text_of(const CLI::App& program, Manual manual) {
-  switch (manual) {
-    case Manual::Man: return for_man(program);
-    case Manual::Bash: return for_bash(program);
-    case Manual::Zsh: return for_zsh(program);
-    case Manual::Fish: return for_fish(program);
-  }
-  return {};
-}
+constexpr Names<std::string (*)(const CLI::App&), 4> kManuals{
+    {{"man", for_man}, {"bash", for_bash}, {"zsh", for_zsh}, {"fish", for_fish}}};
 
 }  // namespace
 
@@ -300,11 +287,10 @@ void add_manual(CLI::App& program) {
   auto kind = std::make_shared<std::string>();
   CLI::App* command = program.add_subcommand(
       "manual", "Print the manual page, or the completions for a shell; make install installs all");
-  command->add_option("KIND", *kind, "man: the manual page; bash, zsh, fish: the completions for this shell")
-      ->required()
-      ->check(one_of(names_of(kManuals)))
-      ->type_name(fmt::format("{}", fmt::join(names_of(kManuals), "|")));
-  command->callback([kind, &program] { print_text(text_of(program, value_of(kManuals, *kind))); });
+  add_choice(*command, "KIND", "man: the manual page; bash, zsh, fish: the completions for this shell",
+             names_of(kManuals), *kind)
+      ->required();
+  command->callback([kind, &program] { print_text(value_of(kManuals, *kind)(program)); });
 }
 
 }  // namespace meshhood::cli

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "methods.h"
 
+#include <algorithm>
+#include <numeric>
 #include <string>
+#include <tuple>
 
-#include "meshhood/error.h"
 #include "meshhood/surface.h"
 
-#include "options.h"
+#include "output.h"
 
 namespace meshhood::cli {
 
@@ -16,6 +18,9 @@ void add_method(CLI::App& command, MethodOptions& options) {
              "all vertices in the ball",
              {"exact", "bfs", "paper", "ball"}, options.method);
   add_metric(command, options.metric);
+  add_choice(command, "--sort",
+             "order of the vertices of an answer: id, index (that of the index, the fastest) or distance, then id",
+             {"id", "index", "distance"}, options.sort);
 }
 
 void add_metric(CLI::App& command, std::string& metric) {
@@ -43,15 +48,20 @@ Searcher make_searcher(const std::string& metric, Input& input) {
 
 void check_metric(const std::string& name, const std::string& unit) {
   if (name == "rings" && unit != "mesh") {
-    raise(ErrorCode::InvalidOption, "--metric rings: expected --unit mesh, because the radius is a number of edges");
+    wrong_option("--metric rings: expected --unit mesh, because the radius is a number of edges");
   }
 }
 
-void check_method(const MethodOptions& options, bool has_masks, const std::string& unit) {
+void check_method(const MethodOptions& options, const Reading& reading, bool has_masks, const std::string& unit) {
   if (options.method != "exact" && (!options.is_straight() || has_masks)) {
-    raise(ErrorCode::InvalidOption, "--metric, --walls and --ignored require --method exact");
+    wrong_option("--metric, --walls and --ignored require --method exact");
   }
   check_metric(options.metric, unit);
+  if (options.sort == "index" && options.method != "exact") wrong_option("--sort index: expected --method exact");
+  if (options.method == "ball" && !reading.weld.empty()) {
+    wrong_option(
+        "--weld: expected another --method than ball, which knows no faces, so that welding has no effect on it");
+  }
 }
 
 SearchMethod method_of(const MethodOptions& options, Input& input, const paper::QueryOptions& settings,
@@ -64,6 +74,27 @@ SearchMethod method_of(const MethodOptions& options, Input& input, const paper::
   if (name == "ball") return SearchMethod::ball_scan(input.positions());
   if (name == "paper") return {input.paper_index(), settings};
   return input.exact_index(threads);
+}
+
+VertexSorter::VertexSorter(const std::string& sort, Input& input) : by_distance_(sort == "distance") {
+  if (sort != "index") return;
+  places_.resize(input.vertex_count());
+  const std::span<const VertexId> permutation = input.exact_index().permutation();
+  std::iota(places_.begin(), places_.end(), 0U);
+  for (std::size_t i = 0; i < permutation.size(); ++i) places_[permutation[i]] = static_cast<std::uint32_t>(i);
+}
+
+void VertexSorter::sort(std::span<VertexId> ids, std::span<double> distances) {
+  items_.clear();
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const double distance = distances.empty() ? 0 : distances[i];
+    const double key = by_distance_ ? distance : places_.empty() ? 0 : places_[ids[i]];
+    items_.push_back({key, ids[i], distance});
+  }
+  std::sort(items_.begin(), items_.end(),
+            [](const Item& a, const Item& b) { return std::tie(a.key, a.id) < std::tie(b.key, b.id); });
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = items_[i].id;
+  for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = items_[i].distance;
 }
 
 }  // namespace meshhood::cli

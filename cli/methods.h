@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -9,9 +12,9 @@
 #include "meshhood/paper.h"
 
 #include "input.h"
-#include "names.h"
+#include "options.h"
 
-/// How a search finds vertices and measures their distances, by names.
+/// How a search finds vertices, measures their distances and orders them, by names.
 namespace meshhood::cli {
 
 /// Paths along the surface are those of another index (see `choose_metric`).
@@ -24,11 +27,12 @@ inline constexpr Names<Metric, 5> kMetrics{{{"straight", Metric::Straight},
 struct MethodOptions {
   std::string method = "exact";
   std::string metric = "straight";
+  std::string sort = "id";  ///< the order of the vertices of an answer
 
   [[nodiscard]] bool is_straight() const { return metric == "straight"; }
 };
 
-/// --method and --metric.
+/// --method, --metric and --sort.
 void add_method(CLI::App& command, MethodOptions& options);
 
 /// --metric alone, of a command that always searches by the index.
@@ -44,12 +48,35 @@ void add_metric(CLI::App& command, std::string& metric);
 /// Throws Error{InvalidOption} if the metric has no radii of this unit.
 void check_metric(const std::string& name, const std::string& unit);
 
-/// Throws Error{InvalidOption} if the options contradict each other, masks, or the unit of the radius.
-void check_method(const MethodOptions& options, bool has_masks, const std::string& unit);
+/// Throws Error{InvalidOption} if the options contradict each other, masks, --weld, or the unit of the radius.
+void check_method(const MethodOptions& options, const Reading& reading, bool has_masks, const std::string& unit);
 
 /// Of the straight metric: a query of the exact index has its own. Borrows `input`. `settings` are those of the method
 /// paper; `threads` build the index. Throws Error{InvalidOption} if the method needs edges and the input has none.
 [[nodiscard]] SearchMethod method_of(const MethodOptions& options, Input& input,
                                      const paper::QueryOptions& settings = {}, unsigned threads = kAllProcessors);
+
+/// Puts answers into an order. Of equal distances, the smaller id comes first.
+class VertexSorter {
+ public:
+  /// `sort` as typed. The input must have edges if it is "index".
+  VertexSorter(const std::string& sort, Input& input);
+
+  [[nodiscard]] bool needs_distances() const { return by_distance_; }
+
+  /// Sorts `ids`, and with them `distances`, which may be empty unless they are needed.
+  void sort(std::span<VertexId> ids, std::span<double> distances);
+
+ private:
+  struct Item {
+    double key;
+    VertexId id;
+    double distance;
+  };
+
+  bool by_distance_;
+  std::vector<std::uint32_t> places_;  // of each vertex, if it is the index order
+  std::vector<Item> items_;            // of one call
+};
 
 }  // namespace meshhood::cli

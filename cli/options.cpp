@@ -47,8 +47,7 @@ double edge_unit(Input& input) {
   input.need_edges("--unit edge");
   const double mean = mean_edge_length(input.graph());
   if (mean > 0) return mean;
-  raise(ErrorCode::InvalidOption,
-        "--unit edge: the mean edge length of " + printable_name(input.name()) + " is 0, expected a length > 0");
+  wrong_option("--unit edge: the mean edge length of {} is 0, expected a length > 0", printable_name(input.name()));
 }
 
 /// The number of characters to insert, delete, replace or swap to turn `a` into `b`.
@@ -116,6 +115,15 @@ CLI::Validator output_name(const std::string& option, const std::string& extensi
   return {check, ""};
 }
 
+/// Accepts one of `values`, and suggests one for a typo.
+CLI::Validator one_of(std::vector<std::string> values) {
+  const auto check = [values = std::move(values)](const std::string& word) -> std::string {
+    if (std::find(values.begin(), values.end(), word) != values.end()) return {};
+    return fmt::format("'{}' is not one of {}{}", word, fmt::join(values, ", "), suggestion(word, values));
+  };
+  return {check, ""};
+}
+
 bool is_same_file(const std::string& a, const std::string& b) {
   namespace fs = std::filesystem;
   std::error_code missing;
@@ -172,14 +180,6 @@ CLI::Validator whole_number(std::uint64_t most) {
   return {check, ""};
 }
 
-CLI::Validator one_of(std::vector<std::string> values) {
-  const auto check = [values = std::move(values)](const std::string& word) -> std::string {
-    if (std::find(values.begin(), values.end(), word) != values.end()) return {};
-    return fmt::format("'{}' is not one of {}{}", word, fmt::join(values, ", "), suggestion(word, values));
-  };
-  return {check, ""};
-}
-
 CLI::Option* add_numbers(CLI::App& command, const std::string& name, const std::string& description,
                          std::vector<std::uint64_t>& values) {
   return add_number(command, name, description, values)->delimiter(',')->allow_extra_args(false);
@@ -218,7 +218,12 @@ CLI::Option* add_choices(CLI::App& command, const std::string& name, const std::
 }
 
 std::array<CLI::Option*, 2> add_reading(CLI::App& command, Reading& reading) {
-  CLI::Option* weld = add_weld(command, reading.weld);
+  CLI::Option* const weld =
+      command
+          .add_flag("--weld", reading.weld,
+                    "of a mesh: join vertices at equal positions, or at most EPS apart; they keep their numbers, and "
+                    "results name the first of them")
+          ->option_text("[=EPS]");
   return {weld, add_choice(command, "--precision",
                            "of the positions of a mesh; without it, what the file declares, or for text that declares "
                            "nothing, float if that keeps what is written, else double",
@@ -272,8 +277,9 @@ CLI::Option* add_radius(CLI::App& command, Radius& radius) {
 
 CLI::Option* add_radii(CLI::App& command, Radii& radii) {
   const auto store = [&radii](const std::vector<std::string>& lists) {
+    // The last comma keeps an empty part at the end, which is then refused: a shell makes it of an unset variable.
     for (const std::string& list : lists) {
-      for (std::string& value : split_list(list)) radii.values.push_back(std::move(value));
+      for (std::string& value : CLI::detail::split(list + ',', ',')) radii.values.push_back(std::move(value));
     }
   };
   CLI::Option* const option =
@@ -292,18 +298,6 @@ void add_unit(CLI::App& command, const std::string& length, std::string& unit) {
   add_choice(command, "--unit",
              fmt::format("unit of the {}; mesh: that of the positions; edge: the mean edge length of the mesh", length),
              {"mesh", "edge"}, unit);
-}
-
-std::vector<std::string> split_list(std::string_view text) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == ',') {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
 }
 
 double parse_radius(std::string_view name, const std::string& text) {
@@ -346,13 +340,12 @@ void check_outputs() {
     const auto& [option, output] = outputs[i];
     for (const auto& [other, file] : named_files().inputs) {
       if (!is_same_file(file, output)) continue;
-      raise(ErrorCode::InvalidOption, fmt::format("{} {} would overwrite {}, {}; name another file", option,
-                                                  printable_name(output), other, printable_name(file)));
+      wrong_option("{} {} would overwrite {}, {}; name another file", option, printable_name(output), other,
+                   printable_name(file));
     }
     for (const auto& [other, file] : std::span(outputs).first(i)) {
       if (!is_same_file(file, output)) continue;
-      raise(ErrorCode::InvalidOption,
-            fmt::format("{} and {} name the same file, {}; name two", other, option, printable_name(output)));
+      wrong_option("{} and {} name the same file, {}; name two", other, option, printable_name(output));
     }
     check_place(output);
   }

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -19,15 +22,50 @@
 /// outlive the command.
 namespace meshhood::cli {
 
+/// A command and its options, which live as long.
+template <class Options>
+struct Command {
+  CLI::App& app;
+  Options& options;
+};
+
+/// Adds a command, which calls `run(options)` when the arguments are parsed.
+template <class Options>
+Command<Options> add_command(CLI::App& program, const std::string& name, const std::string& description,
+                             void (*run)(const Options&)) {
+  auto options = std::make_shared<Options>();
+  CLI::App* const command = program.add_subcommand(name, description);
+  command->callback([options, run] { run(*options); });
+  return {*command, *options};
+}
+
+/// The values of an enumeration and their names on the command line.
+template <class T, std::size_t Size>
+using Names = std::array<std::pair<std::string_view, T>, Size>;
+
+/// The names, in their order.
+template <class T, std::size_t Size>
+[[nodiscard]] std::vector<std::string> names_of(const Names<T, Size>& names) {
+  std::vector<std::string> result;
+  for (const auto& [name, value] : names) result.emplace_back(name);
+  return result;
+}
+
+/// The value of a name, which is one of `names`.
+template <class T, std::size_t Size>
+[[nodiscard]] T value_of(const Names<T, Size>& names, std::string_view name) {
+  for (const auto& [known, value] : names) {
+    if (known == name) return value;
+  }
+  return names.front().second;
+}
+
 /// The name of a file that is read more than once, or of a folder: `-` is refused. An empty name is refused, too, which
 /// is what a shell makes of an unset variable.
 [[nodiscard]] CLI::Validator stored_name(const std::string& option);
 
 /// Accepts decimal digits only, for a number up to `most`: CLI11 reads 010 as 8, and 2^64 as 2^64 - 1.
 [[nodiscard]] CLI::Validator whole_number(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
-
-/// Accepts one of `values`, and suggests one for a typo.
-[[nodiscard]] CLI::Validator one_of(std::vector<std::string> values);
 
 /// An option whose value is a whole number up to `most`.
 template <class Value>
@@ -102,10 +140,6 @@ CLI::Option* add_radii(CLI::App& command, Radii& radii);
 
 /// --unit. `length` is what has the unit: "radius".
 void add_unit(CLI::App& command, const std::string& length, std::string& unit);
-
-/// The parts of `text` between its commas. Unlike CLI11, keeps empty parts, which are then refused: a shell makes them
-/// of an unset variable.
-[[nodiscard]] std::vector<std::string> split_list(std::string_view text);
 
 /// In the unit of the positions. Throws Error{InvalidRadius, InvalidOption}.
 [[nodiscard]] double resolve(const Radius& radius, Input& input);

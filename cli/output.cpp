@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "io/system.h"
 #include "system.h"
 
 namespace meshhood::cli {
@@ -19,7 +20,7 @@ namespace {
 bool is_output_kept = false;
 
 [[noreturn]] void fail(int error_number) {
-  if (is_closed_pipe(error_number)) throw OutputClosed();
+  if (is_closed_pipe(error_number)) io::raise_errno(io::kStandardOutput, EPIPE);
   io::raise_errno("standard output", error_number);
 }
 
@@ -61,19 +62,6 @@ std::string bytes_text(double bytes, int digits) {
   const double most = 1000 - std::pow(10.0, 3 - digits) / 2;
   for (; bytes >= most && unit + 1 < kUnits.size(); ++unit) bytes /= 1000;
   return fmt::format("{:.{}g} {}", bytes, digits, kUnits[unit]);
-}
-
-std::string rounded_text(double number) {
-  std::string text = fmt::format("{:.3g}", number);
-  if (number < 999.5 || !std::isfinite(number)) return text;
-  const double step = std::pow(10.0, std::floor(std::log10(number)) - 2);
-  text = fmt::format("{:.0f}", std::round(number / step) * step);
-  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, ",");
-  return text;
-}
-
-void Rows::add(std::string_view name, std::string_view value) {
-  text_ += fmt::format("{:<{}} {}\n", name, width_, value);
 }
 
 }  // namespace meshhood::cli

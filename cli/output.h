@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "meshhood/error.h"
 
 #include "io/messages.h"
 
@@ -19,13 +22,11 @@ using Json = nlohmann::ordered_json;
 
 using io::printable_name;
 
-/// Thrown if the reader of standard output has closed it, as `head` does: the program then ends quietly.
-struct OutputClosed {};
-
 /// From now on, `print_text` writes to standard error.
 void keep_standard_output_for_file();
 
-/// Writes `text` to standard output and flushes. Throws Error{IoFailure}, OutputClosed.
+/// Writes `text` to standard output and flushes. Throws Error{IoFailure}; of EPIPE and `io::kStandardOutput` if its
+/// reader has closed it, as `head` does: the program then ends quietly.
 void print_text(std::string_view text);
 
 /// Prints the JSON document of a `--json` run. Bytes that are not UTF-8 become U+FFFD.
@@ -34,6 +35,12 @@ void print_json(const Json& document);
 /// Prints the result of a command: `document` in a `--json` run, otherwise `text`.
 void print_result(bool json, const Json& document, std::string_view text);
 
+/// Throws Error{InvalidOption}. The text names what is at fault, its value and what was expected.
+template <class... Parts>
+[[noreturn]] void wrong_option(fmt::format_string<Parts...> text, Parts&&... parts) {
+  raise(ErrorCode::InvalidOption, fmt::format(text, std::forward<Parts>(parts)...));
+}
+
 /// Closes standard output: some file systems report errors only then. Throws as `print_text`.
 void close_output();
 
@@ -41,28 +48,7 @@ void close_output();
 /// "warning: " or "note: ".
 void print_error(std::string_view severity, std::string_view text);
 
-// Numbers as people read them. JSON has them in full.
-
-/// "1.76 GB", with a unit of powers of 1000.
+/// "1.76 GB", with a unit of powers of 1000. JSON has numbers in full.
 [[nodiscard]] std::string bytes_text(double bytes, int digits = 3);
-
-/// "42,000", with three significant digits.
-[[nodiscard]] std::string rounded_text(double number);
-
-/// A text table of names and values.
-class Rows {
- public:
-  /// `width` is that of the names.
-  explicit Rows(std::size_t width) : width_(width) {}
-
-  void add(std::string_view name, std::string_view value);
-  void add(std::string_view name, std::uint64_t value) { add(name, std::to_string(value)); }
-
-  [[nodiscard]] const std::string& text() const { return text_; }
-
- private:
-  std::size_t width_;
-  std::string text_;
-};
 
 }  // namespace meshhood::cli

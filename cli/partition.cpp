@@ -68,90 +68,70 @@ parts::PartitionResult run(const PartitionCommand& options) {
                    {.threads = options.threads, .progress = task.progress()});
 }
 
-/// Figures of all parts.
-struct Totals {
-  std::uint64_t vertices = 0;  ///< with the halos
-  std::uint64_t largest = 0;   ///< of a part
-  std::uint64_t bytes = 0;
-};
-
-Totals totals_of(const parts::Manifest& manifest) {
-  Totals totals;
-  for (const parts::Part& part : manifest.parts) {
-    totals.vertices += part.vertices;
-    totals.largest = std::max(totals.largest, part.vertices);
-    for (const parts::PartFile& file : part.files) totals.bytes += file.bytes;
-  }
-  return totals;
-}
-
-Json to_json(const std::string& output, const parts::PartitionResult& result) {
-  const parts::Plan& plan = result.manifest.plan;
-  const Totals totals = totals_of(result.manifest);
-  return {{"output", output},
-          {"vertices", plan.vertices},
-          {"faces", plan.faces},
-          {"parts", plan.parts},
-          {"kept", result.kept},
-          {"halo", plan.halo},
-          {"mean_edge_length", plan.mean_edge_length},
-          {"vertices_with_halo", totals.vertices},
-          {"largest_part", totals.largest},
-          {"bytes", totals.bytes}};
-}
-
-std::string to_text(const std::string& output, const parts::PartitionResult& result) {
-  const parts::Plan& plan = result.manifest.plan;
-  const Totals totals = totals_of(result.manifest);
-  return fmt::format("{}: {} vertices in {} part{} ({} kept), {} with the halos of {:.6g}, {}\n",
-                     printable_name(output), plan.vertices, plan.parts, plan.parts == 1 ? "" : "s", result.kept,
-                     totals.vertices, plan.halo, bytes_text(static_cast<double>(totals.bytes)));
-}
-
 void partition_mesh(const PartitionCommand& options) {
   const parts::PartitionResult result = run(options);
   for (const std::string& warning : result.warnings) print_error("warning: ", warning);
-  print_result(options.json, to_json(options.output, result), to_text(options.output, result));
+  const parts::Plan& plan = result.manifest.plan;
+  std::uint64_t vertices = 0;  // with the halos
+  std::uint64_t largest = 0;   // of a part
+  std::uint64_t bytes = 0;
+  for (const parts::Part& part : result.manifest.parts) {
+    vertices += part.vertices;
+    largest = std::max(largest, part.vertices);
+    for (const parts::PartFile& file : part.files) bytes += file.bytes;
+  }
+  print_result(options.json,
+               {{"output", options.output},
+                {"vertices", plan.vertices},
+                {"faces", plan.faces},
+                {"parts", plan.parts},
+                {"kept", result.kept},
+                {"halo", plan.halo},
+                {"mean_edge_length", plan.mean_edge_length},
+                {"vertices_with_halo", vertices},
+                {"largest_part", largest},
+                {"bytes", bytes}},
+               fmt::format("{}: {} vertices in {} part{} ({} kept), {} with the halos of {:.6g}, {}\n",
+                           printable_name(options.output), plan.vertices, plan.parts, plan.parts == 1 ? "" : "s",
+                           result.kept, vertices, plan.halo, bytes_text(static_cast<double>(bytes))));
 }
 
 }  // namespace
 
 void add_partition(CLI::App& program) {
-  auto options = std::make_shared<PartitionCommand>();
-  CLI::App* command =
-      program.add_subcommand("partition", "Cut a mesh of any size into parts, each of which answers queries alone");
+  const auto [command, options] = add_command(
+      program, "partition", "Cut a mesh of any size into parts, each of which answers queries alone", partition_mesh);
   command
-      ->add_option("MESH", options->mesh.file,
-                   "binary PLY, or positions as .npy with --faces: read in chunks; other formats: read into memory")
+      .add_option("MESH", options.mesh.file,
+                  "binary PLY, or positions as .npy with --faces: read in chunks; other formats: read into memory")
       ->check(stored_name("MESH"))
       ->required()
       ->type_name("");
   CLI::Option* faces =
-      command->add_option("--faces", options->faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
+      command.add_option("--faces", options.faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
           ->check(stored_name("--faces"))
           ->type_name("FILE");
-  for (CLI::Option* option : add_reading(*command, options->mesh)) option->excludes(faces);
-  CLI::Option* parts = add_number(*command, "--parts", "number of parts", options->parts);
-  add_number(*command, "--vertices-per-part",
+  for (CLI::Option* option : add_reading(command, options.mesh)) option->excludes(faces);
+  CLI::Option* parts = add_number(command, "--parts", "number of parts", options.parts);
+  add_number(command, "--vertices-per-part",
              "approximate number of vertices of a part without its halo; sets the number of parts",
-             options->vertices_per_part)
+             options.vertices_per_part)
       ->excludes(parts);
-  command->add_option("--halo", options->halo, "the largest radius that the parts answer")
+  command.add_option("--halo", options.halo, "the largest radius that the parts answer")
       ->type_name("NUMBER")
       ->required();
-  add_unit(*command, "halo", options->unit);
-  command->add_option("--memory", options->memory, "most bytes of memory, for example 500MB or 4GiB (default: 1GiB)")
+  add_unit(command, "halo", options.unit);
+  command.add_option("--memory", options.memory, "most bytes of memory, for example 500MB or 4GiB (default: 1GiB)")
       ->transform(CLI::AsSizeValue(true))
       ->type_name("SIZE")
       ->default_val("1GiB");
-  add_threads(*command, options->threads);
-  command->add_flag("--no-resume", options->no_resume, "remove the parts that an earlier run has finished");
-  command->add_option("-o,--output", options->output, "folder to write; created if it does not exist")
+  add_threads(command, options.threads);
+  command.add_flag("--no-resume", options.no_resume, "remove the parts that an earlier run has finished");
+  command.add_option("-o,--output", options.output, "folder to write; created if it does not exist")
       ->check(stored_name("--output"))
       ->type_name("FOLDER")
       ->required();
-  add_json(*command, options->json);
-  command->callback([options] { partition_mesh(*options); });
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

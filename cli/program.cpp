@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <stdexcept>
@@ -24,7 +27,6 @@
 #include "meshhood/version.h"
 
 #include "commands.h"
-#include "help.h"
 #include "io/number.h"
 #include "io/system.h"
 #include "options.h"
@@ -43,6 +45,70 @@ constexpr const char* kFooter =
     "error.\n"
     "Exit codes: 0 done, 2 wrong usage, 3 not a valid mesh, 4 not a valid index, 5 failed to read or write, 6 a limit, "
     "the memory or the disk is too small, 130 interrupted.";
+
+std::size_t terminal_width() {
+  constexpr std::size_t kDefault = 80;
+  constexpr std::size_t kLeast = 60;                // for a column of names and one of words
+  const char* const text = std::getenv("COLUMNS");  // NOLINT(concurrency-mt-unsafe): no thread sets it
+  const std::optional<std::uint64_t> columns = text == nullptr ? std::nullopt : io::parse_count(text);
+  if (columns && *columns > 0) return std::max<std::size_t>(*columns, kLeast);
+  return std::max(terminal_columns().value_or(kDefault), kLeast);
+}
+
+/// Breaks lines at blanks. A longer word keeps its length.
+std::string wrapped(std::string_view text, std::size_t width) {
+  std::string result;
+  std::size_t line = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
+    if (line > 0 && line + 1 + end > width) {
+      result += '\n';
+      line = 0;
+    }
+    if (line > 0) result += ' ';
+    line += end + (line > 0 ? 1 : 0);
+    result += text.substr(0, end);
+    if (end < text.size() && text[end] == '\n') {
+      result += '\n';
+      line = 0;
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return result;
+}
+
+/// The help of CLI11, wrapped to the terminal: to COLUMNS if it is set, to the width of the terminal on standard
+/// output, or else to 80 characters.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return in_column(CLI::Formatter::make_option_desc(option));
+  }
+
+  std::string make_subcommand(const CLI::App* command) const override {
+    const std::size_t width = get_column_width();
+    const std::string margin = fmt::format("\n{:{}}", "", width);
+    std::string line = fmt::format("{:{}}", "  " + command->get_display_name(true), width);
+    if (line.size() > width) line += margin;
+    for (const char c : in_column(command->get_description())) c == '\n' ? line += margin : line += c;
+    return line + '\n';
+  }
+
+  std::string make_description(const CLI::App* command) const override {
+    return wrapped(CLI::Formatter::make_description(command), width_);
+  }
+
+  std::string make_footer(const CLI::App* command) const override {
+    return wrapped(CLI::Formatter::make_footer(command), width_);
+  }
+
+ private:
+  [[nodiscard]] std::string in_column(const std::string& text) const {
+    return wrapped(text, width_ - get_column_width());
+  }
+
+  std::size_t width_ = terminal_width();
+};
 
 /// Part of the interface of the program.
 enum class ExitCode {
@@ -91,7 +157,7 @@ void refuse_empty_values(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
     if (argument == "--") return;
     if (!argument.starts_with("--") || argument.find('=') != argument.size() - 1) continue;
-    raise(ErrorCode::InvalidOption, fmt::format("{}: the value is empty", argument.substr(0, argument.size() - 1)));
+    wrong_option("{}: the value is empty", argument.substr(0, argument.size() - 1));
   }
 }
 
@@ -164,7 +230,7 @@ void run(CLI::App& program, std::vector<std::string> arguments) {
     join_values(arguments);
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
     program.parse(std::move(arguments));
-    if (program.get_subcommands().empty()) raise(ErrorCode::InvalidOption, "a command is missing; see --help");
+    if (program.get_subcommands().empty()) wrong_option("a command is missing; see --help");
   } catch (const CLI::Success& request) {
     const std::string unknown = program.get_subcommands().empty() ? unknown_argument(program) : "";
     if (!unknown.empty()) raise(ErrorCode::InvalidOption, unknown);
@@ -183,8 +249,6 @@ ExitCode run_or_report(std::vector<std::string> arguments) {
     CLI::App program(kDescription, "meshhood");
     add_subcommands(program);
     run(program, std::move(arguments));
-    return ExitCode::Ok;
-  } catch (const OutputClosed&) {
     return ExitCode::Ok;
   } catch (const Error& error) {
     if (error.path() == io::kStandardOutput && error.error_number() == EPIPE) return ExitCode::Ok;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,13 +18,12 @@
 
 #include "commands.h"
 #include "input.h"
+#include "mesh_file.h"
 #include "methods.h"
 #include "options.h"
 #include "output.h"
-#include "painting.h"
 #include "start.h"
 #include "table_file.h"
-#include "vertex_order.h"
 
 namespace meshhood::cli {
 namespace {
@@ -35,7 +33,6 @@ struct QueryCommand {
   Radii radii;
   StartOptions start;
   MethodOptions search;
-  std::string sort = "id";
   std::optional<std::string> factor;
   bool count = false;
   bool distances = false;
@@ -44,19 +41,6 @@ struct QueryCommand {
 
   [[nodiscard]] bool is_painted() const { return !output.name.empty() && !output.is_csv(); }
 };
-
-struct Answer {
-  std::optional<VertexId> vertex;        ///< none for --point
-  std::vector<std::size_t> counts = {};  ///< for each radius
-  std::vector<VertexId> vertices = {};   ///< ring by ring; empty if they are neither printed nor painted
-  std::vector<double> distances = {};    ///< of `vertices`, if requested
-};
-
-AnySearcher searcher_of(const QueryCommand& options, Input& input) {
-  paper::QueryOptions settings;
-  if (options.factor) settings.radius_ratio = parse_radius("--factor", *options.factor);
-  return method_of(options.search, input, settings).make_searcher();
-}
 
 /// How many of `component` are welded with vertices of other components. `first`: by vertex, the one that it becomes.
 std::ptrdiff_t count_shared(const std::vector<VertexId>& component, const std::vector<VertexId>& first,
@@ -110,7 +94,7 @@ Json to_json(const QueryCommand& options, const Answer& answer) {
   if (answer.vertex) {
     document["vertex"] = *answer.vertex;
   } else {
-    document["point"] = options.start.center();
+    document["point"] = parse_point(options.start.point);
   }
   document["counts"] = answer.counts;
   if (!options.count) document["vertices"] = answer.vertices;
@@ -194,19 +178,21 @@ void print(const QueryCommand& options, std::span<const double> radii, const std
 void paint(const QueryCommand& options, Input& input, const std::vector<Answer>& answers) {
   const std::string& method = options.search.method;
   const Color color = method == "ball" ? kBallColor : method == "paper" ? kPaperColor : kExactColor;
-  Painting painting(input.vertex_count());
-  for (const Answer& answer : answers) painting.paint(answer.vertices, color);
+  std::vector<Layer> layers;
+  for (const Answer& answer : answers) layers.push_back({answer.vertices, color});
   for (const Answer& answer : answers) {
-    if (answer.vertex) painting.paint(std::span(&*answer.vertex, 1), kQueryColor);
+    if (answer.vertex) layers.push_back({std::span(&*answer.vertex, 1), kQueryColor});
   }
-  painting.write(options.output.name, input);
+  write_painting(options.output.name, input, layers);
 }
 
 std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<const QueryStart> starts, double radius,
                                       Input& input) {
   const std::string& method = options.search.method;
-  AnySearcher chosen = searcher_of(options, input);
-  VertexSorter sorter(options.sort, input);
+  paper::QueryOptions settings;
+  if (options.factor) settings.radius_ratio = parse_radius("--factor", *options.factor);
+  AnySearcher chosen = method_of(options.search, input, settings).make_searcher();
+  VertexSorter sorter(options.search.sort, input);
   std::vector<Answer> answers;
   for (const QueryStart& start : starts) {
     const VertexId v = *start.vertex();
@@ -235,18 +221,18 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<con
 std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<const QueryStart> starts,
                                       std::span<const double> radii, Input& input) {
   input.need_edges("this query");
-  VertexSorter sorter(options.sort, input);
+  VertexSorter sorter(options.search.sort, input);
   std::vector<Answer> answers;
   RegionSearch search(options.search.metric, input);
   for (const QueryStart& start : starts) {
-    StartAnswer found = search.regions(start, radii);
+    Answer found = search.regions(start, radii);
     std::size_t begin = 0;
     for (const std::size_t end : found.counts) {
       sorter.sort(std::span(found.vertices).subspan(begin, end - begin),
                   std::span(found.distances).subspan(begin, end - begin));
       begin = end;
     }
-    answers.push_back({start.vertex(), std::move(found.counts), std::move(found.vertices), std::move(found.distances)});
+    answers.push_back(std::move(found));
   }
   if (options.start.is_plain() && options.search.is_straight()) {
     Searcher searcher(input.exact_index());
@@ -268,17 +254,15 @@ std::vector<double> ascending_radii(const QueryCommand& options, Input& input) {
 
 void check_options(const QueryCommand& options) {
   const std::string& method = options.search.method;
-  if (options.factor && method != "paper") raise(ErrorCode::InvalidOption, "--factor requires --method paper");
+  if (options.factor && method != "paper") wrong_option("--factor requires --method paper");
   const bool has_point = !options.start.point.empty();
-  if (has_point && method != "exact") raise(ErrorCode::InvalidOption, "--point requires --method exact");
-  check_method(options.search, !options.start.masks.empty(), options.radii.unit);
+  if (has_point && method != "exact") wrong_option("--point requires --method exact");
+  check_method(options.search, options.reading, !options.start.masks.empty(), options.radii.unit);
   const std::size_t radii = options.radii.values.size();
   if (radii > 1 && method != "exact") {
-    raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one with --method {}", radii, method));
+    wrong_option("--radius: {} radii, expected one with --method {}", radii, method);
   }
-  check_sort(options.sort, method);
   check_start_options(options.start, true, options.search.metric);
-  check_weld(options.reading.weld, method);
 }
 
 void query_command(const QueryCommand& options) {
@@ -298,34 +282,32 @@ void query_command(const QueryCommand& options) {
 }  // namespace
 
 void add_query(CLI::App& program) {
-  auto options = std::make_shared<QueryCommand>();
-  CLI::App* command = program.add_subcommand("query", "Print the neighborhood of one or more vertices");
-  add_file(*command, options->reading);
-  add_radii(*command, options->radii)
+  const auto [command, options] =
+      add_command(program, "query", "Print the neighborhood of one or more vertices", query_command);
+  add_file(command, options.reading);
+  add_radii(command, options.radii)
       ->description(
           "radius of the ball; a vertex at exactly this distance is inside; several, ascending: -r 1,2 or -r 1 -r 2, "
           "then each vertex is printed once, with the smallest radius whose neighborhood has it, and --count prints a "
           "line for each radius");
   add_start(
-      *command,
+      command,
       "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, or -v - for a list on standard "
       "input, one in each line; then each line of the answer begins with the query vertex",
-      options->start);
-  add_method(*command, options->search);
-  add_sort(*command, options->sort);
+      options.start);
+  add_method(command, options.search);
   command
-      ->add_option("--factor", options->factor,
-                   "f of the paper's query, the ratio of the radius to that of the clusters: greater is more exact "
-                   "(default 10)")
+      .add_option("--factor", options.factor,
+                  "f of the paper's query, the ratio of the radius to that of the clusters: greater is more exact "
+                  "(default 10)")
       ->type_name("NUMBER");
-  CLI::Option* count = command->add_flag("--count", options->count, "print only the number of vertices");
+  CLI::Option* count = command.add_flag("--count", options.count, "print only the number of vertices");
   command
-      ->add_flag("--distances", options->distances, "print each vertex with its distance, in the metric of the radius")
+      .add_flag("--distances", options.distances, "print each vertex with its distance, in the metric of the radius")
       ->excludes(count);
-  add_table_output(*command, ".ply", "the mesh with the neighborhood in color, beside the answer, or a table instead",
-                   options->output);
-  add_json(*command, options->json);
-  command->callback([options] { query_command(*options); });
+  add_table_output(command, ".ply", "the mesh with the neighborhood in color, beside the answer, or a table instead",
+                   options.output);
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

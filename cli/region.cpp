@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,19 +12,17 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "meshhood/error.h"
 #include "meshhood/patch.h"
 #include "meshhood/surface.h"
 
 #include "commands.h"
 #include "input.h"
-#include "io/mesh_io.h"
 #include "io/npz_writer.h"
+#include "mesh_file.h"
 #include "options.h"
 #include "output.h"
 #include "start.h"
 #include "system.h"
-#include "task.h"
 
 namespace meshhood::cli {
 namespace {
@@ -41,16 +38,11 @@ struct RegionCommand {
   bool json = false;
 };
 
-void write_mesh(const std::string& file, const MeshView& mesh) {
-  Task task("writing " + file);
-  io::write_ply(path_of(file), mesh, {.progress = task.progress()});
-}
-
 void write_mesh(const std::string& file, const PositionsView& whole, const Submesh& part) {
   whole.visit([&]<class Real>(const StridedPositions<Real>& all) {
     std::vector<Real> positions;
     for (const VertexId v : part.vertices) positions.insert(positions.end(), {all(v, 0), all(v, 1), all(v, 2)});
-    write_mesh(file, {positions, FacesView::polygons(part.offsets, part.corners)});
+    write_ply(file, {positions, FacesView::polygons(part.offsets, part.corners)});
   });
 }
 
@@ -95,7 +87,7 @@ void clip(const RegionCommand& options, const QueryStart& start, double radius, 
   const ClippedMesh part = searcher.clip(from, radius, options.tolerance.value_or(1e-3));
   const double volume = searcher.measure(from, radius).volume;
   const double gap = searcher.gap(from, radius).distance;
-  write_mesh(options.output, part.view());
+  write_ply(options.output, part.view());
   if (!options.arrays.empty()) {
     io::NpzWriter npz(path_of(options.arrays));
     add_rows<std::int64_t>(npz, "vertices", part.vertices);
@@ -119,9 +111,9 @@ void region(const RegionCommand& options) {
   check_start_options(options.start, false);
   const bool clips = options.faces == "clip";
   if (clips && !options.start.seeds.empty()) {
-    raise(ErrorCode::InvalidOption, "--faces clip: starts at the nearest point of the surface, expected no --seed");
+    wrong_option("--faces clip: starts at the nearest point of the surface, expected no --seed");
   }
-  if (options.tolerance && !clips) raise(ErrorCode::InvalidOption, "--tolerance: expected --faces clip");
+  if (options.tolerance && !clips) wrong_option("--tolerance: expected --faces clip");
   check_outputs();
   Input input(options.reading);
   input.need_faces("region");
@@ -149,29 +141,28 @@ void region(const RegionCommand& options) {
 }  // namespace
 
 void add_region(CLI::App& program) {
-  auto options = std::make_shared<RegionCommand>();
-  CLI::App* command = program.add_subcommand("region", "Write the part of the mesh in a neighborhood, and its rim");
-  add_surface(*command, options->reading);
-  add_radius(*command, options->radius);
-  add_start(*command, "query vertex, by its number in the file from 0", options->start);
+  const auto [command, options] =
+      add_command(program, "region", "Write the part of the mesh in a neighborhood, and its rim", region);
+  add_surface(command, options.reading);
+  add_radius(command, options.radius);
+  add_start(command, "query vertex, by its number in the file from 0", options.start);
   add_choice(
-      *command, "--faces",
+      command, "--faces",
       "all: the faces with all corners in the neighborhood; any: with at least one corner; clip: the connected "
       "surface in the ball, in triangles that end at the sphere, which is around the vertex, or the point of the "
       "surface nearest to --point",
-      {"all", "any", "clip"}, options->faces);
+      {"all", "any", "clip"}, options.faces);
   command
-      ->add_option("--tolerance", options->tolerance,
-                   "with --faces clip: how far chords may be from the arcs of the sphere, in radii, from 1e-12 to 1; "
-                   "by default 0.001")
+      .add_option("--tolerance", options.tolerance,
+                  "with --faces clip: how far chords may be from the arcs of the sphere, in radii, from 1e-12 to 1; "
+                  "by default 0.001")
       ->type_name("SHARE");
-  add_output(*command, ".ply", "mesh file to write", options->output)->required();
-  add_output(*command, ".npz",
+  add_output(command, ".ply", "mesh file to write", options.output)->required();
+  add_output(command, ".npz",
              "also write the number in MESH of each vertex and face of the output, and the rim: the lines where the "
              "surface leaves the ball; with --faces clip three vertices and weights for each vertex, and no rim",
-             options->arrays, "--arrays");
-  add_json(*command, options->json);
-  command->callback([options] { region(*options); });
+             options.arrays, "--arrays");
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <span>
@@ -14,28 +15,50 @@
 
 #include "meshhood/error.h"
 
-#include "io/mesh_io.h"
+#include "mesh_file.h"
 #include "methods.h"
-#include "options.h"
 #include "system.h"
 
 namespace meshhood::cli {
 namespace {
 
+std::optional<std::vector<VertexId>> list_of(const std::string& file, const Input& input) {
+  if (file.empty()) return std::nullopt;
+  if (file.find_first_not_of("0123456789,") == std::string::npos && !std::filesystem::exists(path_of(file))) {
+    wrong_option("--vertices {}: expected a file that lists vertices, or - for standard input", file);
+  }
+  std::vector<VertexId> list = read_vertex_list(file, input.vertex_count());
+  for (VertexId& v : list) v = input.welding().kept(v);
+  return list;
+}
+
+BatchVertices rows_of(const std::optional<std::vector<VertexId>>& list, const Input& input) {
+  if (list) return *list;
+  return input.welding().count() > 0 ? BatchVertices(input.welding().kept()) : BatchVertices();
+}
+
+std::vector<double> radii_of(const RowOptions& options, std::size_t rows, Input& input) {
+  if (options.row_radii.empty()) return resolve(options.radii, input);
+  std::vector<double> radii = read_channel(options.row_radii, rows, "radii");
+  const double unit = resolve(Radius{"1", options.radii.unit}, input);
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (!(radii[row] >= 0)) {
+      raise(ErrorCode::InvalidRadius, fmt::format("{}: row {}: radius {}, expected a number >= 0",
+                                                  printable_name(options.row_radii), row, radii[row]));
+    }
+    radii[row] *= unit;
+  }
+  return radii;
+}
+
 struct TableCommand {
+  QuantityName name;
+  std::shared_ptr<Quantity> quantity;
   Reading reading;
   RowOptions rows;
   ValueFiles files;
   bool json = false;
 };
-
-/// Calls `f(key, name)` for each requested file.
-template <class F>
-void for_each(const ValueFiles& files, F&& f) {
-  if (!files.table.name.empty()) f("output", files.table.name);
-  if (!files.ply.empty()) f("ply", files.ply);
-  if (!files.vtk.empty()) f("vtk", files.vtk);
-}
 
 /// --output, --csv, --ply and --vtk. A mesh has values of all vertices, so the last two exclude --vertices.
 void add_files(CLI::App& command, ValueFiles& files, const std::string& shown) {
@@ -150,27 +173,28 @@ void write_meshes(const ValueFiles& files, const RowTable& table, Input& input) 
     io::write_vtk(path_of(files.vtk), mesh, {.properties = properties, .walls = walls, .progress = task.progress()});
   }
   if (!files.ply.empty()) {
-    Task task("writing " + files.ply);
     properties.insert(properties.begin(), {"quality", values.front()});
-    io::write_ply(path_of(files.ply), mesh,
-                  {.colors = table.colors, .properties = properties, .walls = walls, .progress = task.progress()});
+    write_ply(files.ply, mesh, {.colors = table.colors, .properties = properties, .walls = walls});
   }
 }
 
-void run(const TableCommand& options, const QuantityName& name, Quantity& quantity) {
-  quantity.check(options.rows);
-  if (options.files.first().empty()) raise(ErrorCode::InvalidOption, "expected --output, --csv, --ply or --vtk");
+void run(const TableCommand& options) {
+  options.quantity->check(options.rows);
+  if (options.files.first().empty()) wrong_option("expected --output, --csv, --ply or --vtk");
   check_outputs();
   Input input(options.reading, options.rows.threads);
+  const QuantityName& name = options.name;
   name.needs_faces ? input.need_faces(name.name) : input.need_edges(name.name);
   const RowQuery rows(options.rows, input);
-  RowTable table = quantity.compute({input, rows, options.rows, options.files});
+  RowTable table = options.quantity->compute({input, rows, options.rows, options.files});
   Json document;
   std::string names;
-  for_each(options.files, [&](const char* key, const std::string& file) {
-    document[key] = file;
-    names += (names.empty() ? "" : ", ") + printable_name(file);
-  });
+  const auto& [output, ply, vtk] = options.files;
+  for (const auto& [key, file] : {std::pair{"output", &output.name}, {"ply", &ply}, {"vtk", &vtk}}) {
+    if (file->empty()) continue;
+    document[key] = *file;
+    names += (names.empty() ? "" : ", ") + printable_name(*file);
+  }
   document["rows"] = table.rows;
   if (options.rows.row_radii.empty()) document["radii"] = table.radii;
   document.update(table.summary);
@@ -184,7 +208,60 @@ void run(const TableCommand& options, const QuantityName& name, Quantity& quanti
   print_result(options.json, document, text);
 }
 
+/// Of a function.
+class PlainQuantity : public Quantity {
+ public:
+  explicit PlainQuantity(RowTable (*function)(const RowTask&)) : function_(function) {}
+  RowTable compute(const RowTask& task) override { return function_(task); }
+
+ private:
+  RowTable (*function_)(const RowTask&);
+};
+
 }  // namespace
+
+void add_rows(CLI::App& command, RowOptions& options) {
+  CLI::Option* const radius = add_radii(command, options.radii)->required(false);
+  add_file_option(command, "--radii",
+                  "instead of --radius, one for each row: text with a number per line, or an array of NumPy (.npy)",
+                  options.row_radii)
+      ->excludes(radius);
+  add_file_option(command, "-v,--vertices", "text file with the query vertices, one per line (default: all)",
+                  options.vertices);
+  add_masks(command, options.masks);
+  add_threads(command, options.threads);
+}
+
+void need_radii(const RowOptions& options) {
+  if (!options.has_radii()) wrong_option("expected --radius or --radii");
+}
+
+RowQuery::RowQuery(const RowOptions& options, Input& input)
+    : list_(list_of(options.vertices, input)),
+      rows_(rows_of(list_, input)),
+      metric_(choose_metric(options.metric, input)),
+      size_(rows_.count(input.vertex_count())),
+      are_of_rows_(!options.row_radii.empty()),
+      radii_(radii_of(options, size_, input)) {
+  check_metric(options.metric, options.radii.unit);
+  input.set_masks(read_masks(options.masks, input));
+  if (metric_ == Metric::Space) input.ignore_welded();
+}
+
+BatchQuery RowQuery::query(BatchRadius radius) const {
+  return {.vertices = rows_, .radius = std::move(radius), .metric = metric_};
+}
+
+void write_vertices(io::NpzWriter& npz, const BatchVertices& rows) {
+  if (!rows.list()) return;
+  npz.add_converted<std::int64_t>("vertices", *rows.list());
+}
+
+void write_radii(io::NpzWriter& npz, const BatchRadius& radius) {
+  if (radius.scales()) return npz.add<double>("radii", *radius.scales());
+  npz.begin<double>("radii", std::array<std::uint64_t, 2>{1, radius.list()->size()});
+  npz.append<double>(*radius.list());
+}
 
 std::vector<Column> columns_of(const std::vector<SurfacePoint>& points, const std::string& vertices,
                                std::size_t scales) {
@@ -254,16 +331,20 @@ void RowTable::add_properties(std::initializer_list<std::string_view> names) {
   }
 }
 
+void add_quantity(CLI::App& program, const QuantityName& name, RowTable (*compute)(const RowTask&)) {
+  add_quantity(program, name, std::make_shared<PlainQuantity>(compute));
+}
+
 void add_quantity(CLI::App& program, const QuantityName& name, const std::shared_ptr<Quantity>& quantity) {
-  auto options = std::make_shared<TableCommand>();
-  CLI::App* command = program.add_subcommand(name.name, name.description);
-  name.needs_faces ? add_surface(*command, options->reading) : add_file(*command, options->reading);
-  add_rows(*command, options->rows);
-  if (name.has_metric) add_metric(*command, options->rows.metric);
-  quantity->add_options(*command);
-  add_files(*command, options->files, name.shown);
-  add_json(*command, options->json);
-  command->callback([options, name, quantity] { run(*options, name, *quantity); });
+  const auto [command, options] = add_command(program, name.name, name.description, run);
+  options.name = name;
+  options.quantity = quantity;
+  name.needs_faces ? add_surface(command, options.reading) : add_file(command, options.reading);
+  add_rows(command, options.rows);
+  if (name.has_metric) add_metric(command, options.rows.metric);
+  quantity->add_options(command);
+  add_files(command, options.files, name.shown);
+  add_json(command, options.json);
 }
 
 }  // namespace meshhood::cli

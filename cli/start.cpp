@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "meshhood/error.h"
 #include "meshhood/search.h"
 
 #include "io/messages.h"
@@ -41,12 +40,12 @@ void note_far_point(const PositionsView& positions, const Start& start, double r
 
 SpacePoint parse_point(const std::vector<std::string>& point) {
   if (point.size() != 3) {
-    raise(ErrorCode::InvalidOption, fmt::format("--point: {} numbers, expected X,Y,Z", point.size()));
+    wrong_option("--point: {} numbers, expected X,Y,Z", point.size());
   }
   SpacePoint p{};
   for (std::size_t axis = 0; axis < p.size(); ++axis) {
     const auto number = io::parse_real<double>(point[axis]);
-    if (!number) raise(ErrorCode::InvalidOption, "--point: " + io::quote(point[axis]) + ", expected a number");
+    if (!number) wrong_option("--point: {}, expected a number", io::quote(point[axis]));
     p[axis] = *number;
   }
   return p;
@@ -73,16 +72,15 @@ bool StartOptions::is_list() const {
 
 void check_start_options(const StartOptions& options, bool takes_many, const std::string& metric) {
   if (options.point.empty() == options.vertices.empty()) {
-    raise(ErrorCode::InvalidOption, "expected either --vertex or --point");
+    wrong_option("expected either --vertex or --point");
   }
-  if (!takes_many && options.is_list()) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
+  if (!takes_many && options.is_list()) wrong_option("--vertex: expected one vertex");
   if (!options.point.empty() && metric == "rings") {
-    raise(ErrorCode::InvalidOption,
-          "--metric rings: expected --vertex instead of --point, because a point has no edges");
+    wrong_option("--metric rings: expected --vertex instead of --point, because a point has no edges");
   }
 }
 
-QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(options.center()) {
+QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(parse_point(options.point)) {
   for (const std::uint64_t seed : options.seeds) seeds_.push_back(resolve_vertex(seed, input));
   if (seeds_.empty()) seeds_.push_back(input.welding().kept(nearest(input.exact_index(), point_).vertex));
 }
@@ -107,8 +105,8 @@ std::vector<QueryStart> starts_of(const StartOptions& options, const std::string
 RegionSearch::RegionSearch(const std::string& metric, Input& input)
     : positions_(input.positions()), searcher_(make_searcher(metric, input)), distance_of_(input.vertex_count()) {}
 
-StartAnswer RegionSearch::regions(const QueryStart& start, std::span<const double> radii) {
-  StartAnswer answer;
+Answer RegionSearch::regions(const QueryStart& start, std::span<const double> radii) {
+  Answer answer{.vertex = start.vertex()};
   searcher_.neighborhood(start.view(), radii.back(), answer.vertices, answer.distances);
   if (!searcher_.has_seed(start.view(), radii.back())) note_far_point(positions_, start.view(), radii.back());
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) distance_of_[answer.vertices[i]] = answer.distances[i];

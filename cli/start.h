@@ -30,9 +30,6 @@ struct StartOptions {
   std::vector<std::uint64_t> seeds;
   MaskFiles masks;
 
-  /// --point. Throws Error{InvalidOption}.
-  [[nodiscard]] SpacePoint center() const { return parse_point(point); }
-
   /// Whether there may be several answers.
   [[nodiscard]] bool is_list() const;
 
@@ -74,10 +71,11 @@ class QueryStart {
 [[nodiscard]] std::vector<QueryStart> starts_of(const StartOptions& options, const std::string& metric, Input& input);
 
 /// The answer to one query, ring by ring. With one radius there is one ring.
-struct StartAnswer {
-  std::vector<VertexId> vertices;   ///< each ring in an order of its own
-  std::vector<double> distances;    ///< of `vertices`
-  std::vector<std::size_t> counts;  ///< the first `counts[i]` vertices are within radius `i`
+struct Answer {
+  std::optional<VertexId> vertex = {};   ///< none for --point
+  std::vector<std::size_t> counts = {};  ///< for each radius: the first `counts[i]` vertices are within it
+  std::vector<VertexId> vertices = {};   ///< each ring in an order of its own; empty if only their number is needed
+  std::vector<double> distances = {};    ///< of `vertices`, if needed
 };
 
 /// Answers starts one after the other, in memory that it keeps.
@@ -87,7 +85,7 @@ class RegionSearch {
 
   /// The neighborhoods of a start for ascending `radii`, at least one, as the rings of `Searcher::nested`. By rings the
   /// start must be a vertex.
-  [[nodiscard]] StartAnswer regions(const QueryStart& start, std::span<const double> radii);
+  [[nodiscard]] Answer regions(const QueryStart& start, std::span<const double> radii);
 
  private:
   PositionsView positions_;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -24,6 +26,18 @@ struct TableFile {
 
 /// --output, of `extension` (".npz") or .csv, and --csv, which prints the table instead.
 void add_table_output(CLI::App& command, const std::string& extension, const std::string& description, TableFile& file);
+
+/// The size of an answer.
+struct AnswerSize {
+  std::size_t rows = 0;
+  std::uint64_t count = 0;  ///< of vertices in all rows
+};
+
+/// Throws Error{TooLarge} if `bytes`, the size of the file `output` for an answer of `size`, exceeds what the user says
+/// or else the free space of its disk, unless that is unknown. `about` is for the message: "at least " for a lower
+/// bound.
+void check_size(const std::string& output, std::optional<std::uint64_t> max_bytes, const AnswerSize& size, double bytes,
+                std::string_view about = "");
 
 /// The names of a table with a line for each vertex of an answer.
 [[nodiscard]] std::vector<std::string> pair_names(bool distances);

@@ -2,6 +2,7 @@
 #include "task.h"
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <mutex>
@@ -13,7 +14,6 @@
 #include "meshhood/error.h"
 
 #include "io/messages.h"
-#include "output.h"
 #include "system.h"
 
 namespace meshhood::cli {
@@ -26,6 +26,16 @@ constexpr auto kRefresh = std::chrono::milliseconds(200);
 constexpr const char* kClearLine = "\r\x1b[K";
 
 volatile std::sig_atomic_t caught = 0;
+
+/// "42,000", with three significant digits.
+std::string rounded_text(double number) {
+  std::string text = fmt::format("{:.3g}", number);
+  if (number < 999.5 || !std::isfinite(number)) return text;
+  const double step = std::pow(10.0, std::floor(std::log10(number)) - 2);
+  text = fmt::format("{:.0f}", std::round(number / step) * step);
+  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, ",");
+  return text;
+}
 
 void remember([[maybe_unused]] int signal) {
   caught = 1;
@@ -67,14 +77,10 @@ void Task::check_cancelled() {
 
 Progress Task::progress(std::size_t pass, std::size_t passes) {
   return [this, pass, passes](std::size_t done, std::size_t total) {
-    report(pass * total + done, passes * total);
+    done_ = pass * total + done;
+    total_ = passes * total;
     return caught == 0;
   };
-}
-
-void Task::report(std::size_t done, std::size_t total) {
-  done_ = done;
-  total_ = total;
 }
 
 void Task::show() {

@@ -37,9 +37,6 @@ class Task {
   /// For the operation, or for pass number `pass` of `passes` that take about as long. Borrows the task.
   [[nodiscard]] Progress progress(std::size_t pass = 0, std::size_t passes = 1);
 
-  /// Sets how much is done. A total of 0 means that it is unknown.
-  void report(std::size_t done, std::size_t total);
-
   /// Throws Error{Cancelled} if a signal has arrived.
   static void check_cancelled();
 
@@ -51,7 +48,7 @@ class Task {
   std::string description_;
   Unit unit_;
   std::atomic<std::size_t> done_ = 0;
-  std::atomic<std::size_t> total_ = 0;
+  std::atomic<std::size_t> total_ = 0;  // 0 if it is unknown
   std::mutex mutex_;
   std::condition_variable finished_;
   bool is_finished_ = false;

@@ -24,13 +24,14 @@
 #include "io/number.h"
 #include "io/text.h"
 #include "options.h"
+#include "output.h"
 #include "system.h"
 
 namespace meshhood::cli {
 namespace {
 
 [[noreturn]] void fail(const io::InputBuffer& input, std::string_view message) {
-  raise(ErrorCode::InvalidOption, fmt::format("{}: {}", input.name(), message));
+  wrong_option("{}: {}", input.name(), message);
 }
 
 /// Any number of rows is right if `vertices` has none.
@@ -156,9 +157,10 @@ std::vector<std::uint8_t> read_mask(const std::string& file, const Input& input)
   std::vector<std::uint8_t> mask(input.vertex_count());
   const std::vector<VertexId> list = read_vertex_list(file, mask.size());
   if (list.size() == mask.size() && list.size() > 2 && std::ranges::max(list) <= 1) {
-    raise(ErrorCode::InvalidOption, fmt::format("{}: {} numbers 0 or 1, expected the vertices of the mask, one in each "
-                                                "line",
-                                                io::printable_name(file), list.size()));
+    wrong_option(
+        "{}: {} numbers 0 or 1, expected the vertices of the mask, one in each "
+        "line",
+        printable_name(file), list.size());
   }
   for (const VertexId v : list) mask[input.welding().kept(v)] = 1;
   return mask;
@@ -195,8 +197,7 @@ std::vector<SpacePoint> read_points(const std::string& file) {
   constexpr std::size_t kAxes = 3;
   const Channels read = read_channels(file, std::nullopt);
   if (read.channels != kAxes && !read.numbers.empty()) {
-    raise(ErrorCode::InvalidOption,
-          fmt::format("{}: {} numbers for each point, expected {}", io::printable_name(file), read.channels, kAxes));
+    wrong_option("{}: {} numbers for each point, expected {}", printable_name(file), read.channels, kAxes);
   }
   std::vector<SpacePoint> points(read.numbers.size() / kAxes);
   for (std::size_t i = 0; i < read.numbers.size(); ++i) points[i / kAxes][i % kAxes] = read.numbers[i];
@@ -206,8 +207,7 @@ std::vector<SpacePoint> read_points(const std::string& file) {
 std::vector<double> read_channel(const std::string& file, std::size_t vertices, std::string_view values) {
   Channels read = read_channels(file, vertices);
   if (read.channels == 1) return std::move(read.numbers);
-  raise(ErrorCode::InvalidOption,
-        fmt::format("{}: {} {} for each vertex, expected one", io::printable_name(file), read.channels, values));
+  wrong_option("{}: {} {} for each vertex, expected one", printable_name(file), read.channels, values);
 }
 
 void add_masks(CLI::App& command, MaskFiles& files) {

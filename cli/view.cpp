@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -68,24 +67,19 @@ std::string base64(std::span<const char> bytes) {
   return text;
 }
 
-/// Little-endian, as this machine is (an index can be loaded on no other).
-std::string encode(const std::vector<float>& values) {
-  return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
-}
-
-/// A page stores float. Values that are not finite get no color; others must not become infinite.
-std::vector<float> as_floats(const std::vector<double>& values) {
+/// In base 64, as float, and little-endian, as this machine is (an index can be loaded on no other). Values that are
+/// not finite get no color; others must not become infinite.
+std::string encode(const std::vector<double>& values) {
   constexpr double kMost = std::numeric_limits<float>::max();
   std::vector<float> result;
   result.reserve(values.size());
   for (const double value : values) {
     if (std::isfinite(value) && std::abs(value) > kMost) {
-      raise(ErrorCode::InvalidOption, fmt::format("values: vertex {}: {}, but a page holds numbers of at most {:.3g}",
-                                                  result.size(), value, kMost));
+      wrong_option("values: vertex {}: {}, but a page holds numbers of at most {:.3g}", result.size(), value, kMost);
     }
     result.push_back(static_cast<float>(value));
   }
-  return result;
+  return base64({reinterpret_cast<const char*>(result.data()), result.size() * sizeof(float)});
 }
 
 /// The initial state of the page.
@@ -110,7 +104,7 @@ Json settings_of(const ViewCommand& options, Input& input) {
   if (!options.values.empty()) {
     const std::vector<double> values = read_channel(options.values, input.vertex_count(), "values");
     const std::string title = path_of(options.values).stem().string();
-    settings["scalar"] = {{"title", title}, {"values", encode(as_floats(values))}};
+    settings["scalar"] = {{"title", title}, {"values", encode(values)}};
   }
   return settings;
 }
@@ -174,10 +168,9 @@ fs::path find_page() {
         "viewer.html");
 }
 
-/// Writes a copy of the page that holds `mesh`, or `ply` unless it is empty, the content of the same mesh as PLY.
-void write_page(const fs::path& output, const fs::path& mesh, const std::string& ply, const Json& settings) {
-  check_mesh_of_page(mesh);
-  const fs::path page = find_page();
+/// Writes a copy of `page` that holds `mesh`, or `ply` unless it is empty, the content of the same mesh as PLY.
+void write_page(const fs::path& page, const fs::path& output, const fs::path& mesh, const std::string& ply,
+                const Json& settings) {
   const std::string text = read_text(page);
   std::error_code none;
   if (fs::equivalent(page, output, none)) io::raise_io(output, 0, "is the page that is copied, expected another file");
@@ -206,10 +199,10 @@ void view(const ViewCommand& options) {
   if (options.output.empty()) name_output("--output", output);
   check_outputs();
   check_mesh_of_page(path_of(options.reading.file));
-  static_cast<void>(find_page());  // before the work begins
+  const fs::path page = find_page();  // before the work begins
   Input input(options.reading);
   input.need_edges("view");
-  write_page(path_of(output), path_of(options.reading.file), input.other_as_ply(), settings_of(options, input));
+  write_page(page, path_of(output), path_of(options.reading.file), input.other_as_ply(), settings_of(options, input));
   print_text(output + "\n");
   if (!options.open) return;
   if (const auto program = open_in_browser(fs::absolute(path_of(output))); !program.empty()) {
@@ -220,18 +213,16 @@ void view(const ViewCommand& options) {
 }  // namespace
 
 void add_view(CLI::App& program) {
-  auto options = std::make_shared<ViewCommand>();
-  CLI::App* command =
-      program.add_subcommand("view", "Write a page that shows the mesh and its neighborhoods in a browser");
-  add_file(*command, options->reading);
-  add_number(*command, "-v,--vertex", "vertex to show at first, by its number in the file from 0", options->vertex);
-  add_radius(*command, options->radius)->required(false);
-  add_file_option(*command, "--ids", "show these vertices, one on each line, as printed by query", options->answer);
-  add_file_option(*command, "--values",
-                  "color the vertices by these numbers: one per line, or an array of NumPy (.npy)", options->values);
-  add_output(*command, ".html", "the page; by default the name of FILE, in this folder", options->output);
-  command->add_flag("--open", options->open, "also open the page in the browser");
-  command->callback([options] { view(*options); });
+  const auto [command, options] =
+      add_command(program, "view", "Write a page that shows the mesh and its neighborhoods in a browser", view);
+  add_file(command, options.reading);
+  add_number(command, "-v,--vertex", "vertex to show at first, by its number in the file from 0", options.vertex);
+  add_radius(command, options.radius)->required(false);
+  add_file_option(command, "--ids", "show these vertices, one on each line, as printed by query", options.answer);
+  add_file_option(command, "--values", "color the vertices by these numbers: one per line, or an array of NumPy (.npy)",
+                  options.values);
+  add_output(command, ".html", "the page; by default the name of FILE, in this folder", options.output);
+  command.add_flag("--open", options.open, "also open the page in the browser");
 }
 
 }  // namespace meshhood::cli

@@ -15,7 +15,7 @@ from array import array
 
 from PIL import Image, ImageDraw, ImageFont
 
-# As in cli/painting.h, and on the page.
+# As in cli/mesh_file.h, and on the page.
 EXACT_COLOR = (0, 158, 115)
 PAPER_COLOR = (240, 228, 66)
 BALL_COLOR = (0, 114, 178)

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -11,7 +10,9 @@
 #include "meshhood/mesh.h"
 
 #include "input.h"
+#include "io/mesh_io.h"
 
+/// The meshes that commands write, and their colors.
 namespace meshhood::cli {
 
 using Color = std::array<std::uint8_t, 3>;
@@ -24,18 +25,16 @@ inline constexpr Color kBallColor{0, 114, 178};
 inline constexpr Color kQueryColor{213, 94, 0};
 inline constexpr Color kOtherColor{217, 219, 224};
 
-/// The colors of the vertices of a mesh, initially light gray.
-class Painting {
- public:
-  explicit Painting(std::size_t vertices);
+/// Writes a mesh as PLY, with progress. Throws as `io::write_ply`.
+void write_ply(const std::string& file, const MeshView& mesh, io::PlyOptions options = {});
 
-  void paint(std::span<const VertexId> vertices, const Color& color);
-
-  /// Writes the colored surface as PLY. Throws as `io::write_ply`.
-  void write(const std::string& file, Input& input) const;
-
- private:
-  std::vector<std::uint8_t> colors_;  // #V by 3
+/// Vertices of one color.
+struct Layer {
+  std::span<const VertexId> vertices;
+  Color color;
 };
+
+/// The same of the surface of `input`, light gray below the layers, of which the last is on top.
+void write_painting(const std::string& file, Input& input, const std::vector<Layer>& layers);
 
 }  // namespace meshhood::cli
