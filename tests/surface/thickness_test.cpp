@@ -16,7 +16,6 @@
 #include "meshhood/index.h"
 #include "meshhood/surface.h"
 
-#include "support/indexed.h"
 #include "support/long_point.h"
 #include "support/random.h"
 #include "support/refusal.h"
@@ -231,7 +230,9 @@ TEST(Thickness, IsThatOfAScanOfAllFaces) {
 }
 
 TEST(Thickness, OfSomeVerticesIsThatOfAll) {
-  const auto [mesh, index, surface] = with_surface(ball(9, 11));
+  const TestMesh mesh = ball(9, 11);
+  const Index index = build(mesh.view());
+  const Surface surface(index, mesh.view().faces);
   const std::vector<VertexId> some{7, 3, 7, 40};
   for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
     const std::vector<double> all = thickness(surface, {}, method);
@@ -254,11 +255,12 @@ TEST(Thickness, IsInfiniteWhereNothingIsOppositeAndNanWithoutANormal) {
 }
 
 TEST(Thickness, RefusesWrongVerticesAndMeshesWithoutFaces) {
-  const auto [mesh, index] = indexed(ball(5, 6));
+  const TestMesh mesh = ball(5, 6);
+  const Index index = build(mesh.view());
   const std::vector<VertexId> wrong{0, 1000};
   expect_refused(ErrorCode::VertexOutOfRange,
-                 "row 1: ", [&] { return thickness(Surface(index, mesh.view().faces), wrong); });
-  expect_refused(ErrorCode::InvalidMesh, "face", [&] { return thickness(Surface(index, FacesView{})); });
+                 "row 1: ", [&] { static_cast<void>(thickness(Surface(index, mesh.view().faces), wrong)); });
+  expect_refused(ErrorCode::InvalidMesh, "face", [&] { static_cast<void>(thickness(Surface(index, FacesView{}))); });
 }
 
 }  // namespace
