@@ -67,7 +67,7 @@ TEST(OpenMeshMesh, WithDeletedVerticesIsRefusedUntilItsGarbageIsCollected) {
   expect_adapter_mesh([&] {
     mesh.delete_vertex(extra);
     expect_refused(ErrorCode::InvalidMesh, "has deleted vertices: call garbage_collection() first",
-                   [&] { static_cast<void>(copy_mesh(mesh)); });
+                   [&] { return copy_mesh(mesh); });
     mesh.garbage_collection();
     return copy_mesh(mesh);
   }());

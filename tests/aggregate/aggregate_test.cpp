@@ -22,8 +22,10 @@
 #include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/random.h"
 #include "support/refusal.h"
+#include "support/reports.h"
 #include "support/scale.h"
 #include "support/without_walls.h"
 
@@ -275,7 +277,7 @@ class AggregateCase {
   std::size_t compared_ = 0;
 };
 
-class AggregateOfFamily : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(AggregateOfFamily);
 
 TEST_P(AggregateOfFamily, EqualsTheDefinition) {
   Random random(3);
@@ -316,8 +318,6 @@ TEST_P(AggregateOfFamily, EqualsTheDefinition) {
   }
   std::printf("%zu numbers compared\n", compared);
 }
-
-INSTANTIATE_TEST_SUITE_P(Families, AggregateOfFamily, testing::ValuesIn(families()), family_name);
 
 /// A bumpy grid with many leaves, so that packets have cores, whole and partial leaves.
 class Aggregate : public testing::Test {
@@ -563,8 +563,7 @@ TEST_F(Aggregate, OfSmallValuesDoesNotDependOnHugeOnesElsewhere) {
 /// A lattice, whose distances are exact, with a huge value at vertices at exactly the radius.
 TEST(AggregateWithAKernel, GivesAVertexAtExactlyTheRadiusNoWeight) {
   constexpr VertexId kSide = 60;
-  const TestMesh mesh = make_grid(kSide, kSide, true).finish(false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(kSide, kSide, true).finish(false));
   Random random(4);
   Searcher searcher(index);
   std::vector<VertexId> ids;
@@ -606,8 +605,7 @@ TEST(AggregateWithAKernel, GivesAVertexAtExactlyTheRadiusNoWeight) {
 }
 
 TEST(AggregateOfFloats, IsThatOfTheSameNumbersAsDoubles) {
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(30));
   std::vector<float> floats;
   Random random(8);
   for (std::size_t i = 0; i < 2 * mesh.size(); ++i) floats.push_back(static_cast<float>(random.uniform(-3, 5)));
@@ -625,7 +623,7 @@ TEST_F(Aggregate, RefusesWrongArguments) {
   const std::vector<double> values(scene.size(), 1.0);
   const auto refuse = [&](ErrorCode code, const std::string& cause, const SignalView& given,
                           const AggregateQuery& query) {
-    expect_refused(code, cause, [&] { static_cast<void>(aggregate(scene.index(), given, query)); });
+    expect_refused(code, cause, [&] { return aggregate(scene.index(), given, query); });
   };
   const AggregateQuery query{.radius = 1};
   refuse(ErrorCode::InvalidOption, "channels is 0", {values, 0}, query);
@@ -655,32 +653,21 @@ TEST_F(Aggregate, RefusesWrongArguments) {
   const std::vector<VertexId> list{0, 3600};
   refuse(ErrorCode::VertexOutOfRange, "row 1", {values}, {.vertices = list, .radius = 1});
   expect_refused(ErrorCode::TooLarge, "limit of 10 numbers",
-                 [&] { static_cast<void>(aggregate(scene.index(), {values}, query, {.max_bytes = 80})); });
+                 [&] { return aggregate(scene.index(), {values}, query, {.max_bytes = 80}); });
   std::vector<double> small(5);
   expect_refused(ErrorCode::InvalidOption, "room for 5 numbers",
                  [&] { aggregate(scene.index(), {values}, query, small); });
 }
 
 TEST_F(Aggregate, ReportsItsProgressAndCanBeCancelled) {
-  std::size_t last = 0;
-  std::size_t total = 0;
   const AggregateQuery query{.radius = BatchRadius::scales({2, 3})};
-  static_cast<void>(
-      aggregate(scene.index(), signal.view(false), query, {.progress = [&](std::size_t done, std::size_t of) {
-                  EXPECT_GE(done, last);
-                  last = done;
-                  total = of;
-                  return true;
-                }}));
-  EXPECT_EQ(last, 2 * scene.size());
-  EXPECT_EQ(total, last);
-  for (const std::size_t reports : {0U, 1U, 2U}) {
-    std::size_t left = reports;
-    expect_refused(ErrorCode::Cancelled, "cancelled", [&] {
-      static_cast<void>(aggregate(scene.index(), signal.view(false), query,
-                                  {.progress = [&](std::size_t, std::size_t) { return left-- > 0; }}));
-    });
-  }
+  const auto call = [&](const Progress& progress) {
+    static_cast<void>(aggregate(scene.index(), signal.view(false), query, {.progress = progress}));
+  };
+  const Reports reports = reports_of(call);
+  expect_from_nothing_to_all(reports);
+  EXPECT_EQ(reports.back().second, 2 * scene.size());
+  for (const std::size_t last : {0U, 1U, 2U}) expect_cancelled_at(last, call);
 }
 
 TEST_F(Aggregate, CopiesItsListsWhenTheCallBegins) {

@@ -15,6 +15,7 @@
 #include "aggregate/reducers.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/random.h"
 #include "support/scale.h"
 
@@ -45,7 +46,7 @@ Values draw(std::size_t vertices, bool gaps) {
   return result;
 }
 
-class ListedSumsOf : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(ListedSumsOf);
 
 TEST_P(ListedSumsOf, ManyChannelsAreThoseOfEachByItself) {
   const TestMesh mesh = make_mesh(GetParam(), 5, scaled(400, 120));
@@ -85,11 +86,8 @@ TEST_P(ListedSumsOf, ManyChannelsAreThoseOfEachByItself) {
   std::printf("%s: %zu of 12 calls listed\n", std::string(GetParam().name).c_str(), listed);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ListedSumsOf, testing::ValuesIn(families()), family_name);
-
 TEST(ListedSums, AreForManyChannelsOfModerateValuesOverSmallNeighborhoods) {
-  const TestMesh mesh = make_grid(40, 40, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(40, 40, false));
   const AggregateQuery mean{.radius = 3.0, .kernel = SmoothingKernel::Biweight};
   Values drawn = draw(mesh.size(), false);
   EXPECT_TRUE(is_better_listed(index, drawn.view(), mean, 3));

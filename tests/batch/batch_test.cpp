@@ -129,7 +129,7 @@ void expect_right(const SearchMethod& index, const Source& source, const RandomR
   }
 }
 
-class Families : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(Families);
 
 TEST_P(Families, RowsAreTheAnswersToSingleQueries) {
   std::size_t rows = 0;
@@ -150,8 +150,6 @@ TEST_P(Families, RowsAreTheAnswersToSingleQueries) {
   }
   std::printf("%s: %zu rows, %zu numbers of threads\n", std::string(GetParam().name).c_str(), rows, kThreads.size());
 }
-
-INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(families()), family_name);
 
 /// A grid of 60 by 60 vertices, and its index.
 class Batches : public testing::Test {
@@ -297,14 +295,14 @@ TEST_F(Batches, RefuseMemoryOfAnotherSize) {
       return {std::span(ids).first(with_ids), std::span(distances).first(with_distances)};
     };
     expect_refused(ErrorCode::InvalidOption, cause, [&] {
-      static_cast<void>(neighborhoods(index, {.radius = 0.5}, allocate, {.distances = true}, {.threads = 2}));
+      return neighborhoods(index, {.radius = 0.5}, allocate, {.distances = true}, {.threads = 2});
     });
   };
   refused("memory for 3599 ids, expected for 3600", 3599, 3600);
   refused("memory for 3601 ids, expected for 3600", 3601, 3600);
   refused("memory for 0 distances, expected for 3600", 3600, 0);
   expect_refused(ErrorCode::InvalidOption, "allocate is empty",
-                 [&] { static_cast<void>(neighborhoods(index, {.radius = 1.0}, BatchAllocator{})); });
+                 [&] { return neighborhoods(index, {.radius = 1.0}, BatchAllocator{}); });
 }
 
 TEST_F(Batches, PassOnExceptionsOfTheAllocator) {
@@ -331,13 +329,13 @@ void expect_all_refused(ErrorCode code, const std::string& cause, const SearchMe
     return true;
   };
   expect_refused(code, cause, [&] { for_each_neighborhood(index, query, never, {}, run); });
-  expect_refused(code, cause, [&] { static_cast<void>(neighborhoods(index, query, {}, run)); });
-  expect_refused(code, cause, [&] { static_cast<void>(counts(index, query, run)); });
+  expect_refused(code, cause, [&] { return neighborhoods(index, query, {}, run); });
+  expect_refused(code, cause, [&] { return counts(index, query, run); });
   const auto no_memory = [&](std::size_t) -> BatchMemory {
     ADD_FAILURE() << "allocated before: " << cause;
     return {};
   };
-  expect_refused(code, cause, [&] { static_cast<void>(neighborhoods(index, query, no_memory, {}, run)); });
+  expect_refused(code, cause, [&] { return neighborhoods(index, query, no_memory, {}, run); });
 }
 
 TEST_F(Batches, RefuseInvalidArgumentsBeforeTheFirstRow) {
@@ -370,7 +368,7 @@ TEST_F(Batches, RefuseAnInvalidGraph) {
   const std::vector<VertexId> neighbors{1};
   const std::vector<float> positions(6);
   expect_refused(ErrorCode::InvalidMesh, "0 is not among the neighbors of 1",
-                 [&] { static_cast<void>(SearchMethod::breadth_first({positions, {offsets, neighbors}})); });
+                 [&] { return SearchMethod::breadth_first({positions, {offsets, neighbors}}); });
 }
 
 TEST_F(Batches, ReadTheirQueryOnce) {
@@ -404,7 +402,7 @@ TEST_F(Batches, RefuseAResultBeyondTheLimit) {
       EXPECT_EQ(neighborhoods(index, {.radius = 3}, {.distances = distances}, run).ids.size(), ids);
       --run.max_bytes;
       expect_refused(ErrorCode::TooLarge, " bytes, exceeds max_bytes, " + std::to_string(run.max_bytes),
-                     [&] { static_cast<void>(neighborhoods(index, {.radius = 3}, {.distances = distances}, run)); });
+                     [&] { return neighborhoods(index, {.radius = 3}, {.distances = distances}, run); });
     }
   }
 }
@@ -418,9 +416,8 @@ TEST_F(Batches, RefuseAResultFarBeyondTheLimitByASample) {
                                 return true;
                               },
                           .max_bytes = std::uint64_t{1} << 30};
-  expect_refused(ErrorCode::TooLarge, "about 1440000000 bytes, exceeds max_bytes, 1073741824", [&] {
-    static_cast<void>(neighborhoods(index, {.vertices = vertices, .radius = kInfinity}, {}, run));
-  });
+  expect_refused(ErrorCode::TooLarge, "about 1440000000 bytes, exceeds max_bytes, 1073741824",
+                 [&] { return neighborhoods(index, {.vertices = vertices, .radius = kInfinity}, {}, run); });
   EXPECT_EQ(most, 0U) << "all rows of the refused batch were counted";
 }
 
@@ -497,7 +494,7 @@ TEST_F(Batches, CanBeCancelledAtAnyReport) {
     EXPECT_LT(rows, index.vertex_count());
     const auto no = [](std::size_t, std::size_t) { return false; };
     expect_refused(ErrorCode::Cancelled, "cancelled",
-                   [&] { static_cast<void>(counts(index, {.radius = 2.0}, {.threads = threads, .progress = no})); });
+                   [&] { return counts(index, {.radius = 2.0}, {.threads = threads, .progress = no}); });
   }
 }
 

@@ -21,6 +21,7 @@
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/limited_isa.h"
 #include "support/random.h"
 #include "support/refusal.h"
@@ -72,7 +73,7 @@ void cut(NearestRow& row, std::size_t size) {
   row.distances.resize(row.ids.size());
 }
 
-class KNearestIn : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(KNearestIn);
 
 TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
   std::size_t rows = 0;
@@ -154,11 +155,8 @@ TEST_P(KNearestIn, AllVerticesHaveTheRowsOfSingleQueries) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, KNearestIn, testing::ValuesIn(families()), family_name);
-
 TEST(KNearest, DiscsOfAPlaneHaveTheirArea) {
-  const TestMesh mesh = make_grid(60, 60, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(60, 60, false));
   const std::vector<double> areas = vertex_areas(mesh.view());
   const std::vector<VertexId> middle{60 * 30 + 30};
   for (const Metric metric : {Metric::Straight, Metric::Path}) {
@@ -169,27 +167,23 @@ TEST(KNearest, DiscsOfAPlaneHaveTheirArea) {
 }
 
 TEST(KNearest, RefusesWrongArguments) {
-  const TestMesh mesh = make_grid(4, 4, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(4, 4, false));
   const std::vector<VertexId> vertices{1, 16};
   const std::vector<double> areas(16, 1.0);
   std::vector<double> wrong = areas;
   wrong[3] = -1;
-  expect_refused(ErrorCode::VertexOutOfRange, "row 1: vertex 16",
-                 [&] { static_cast<void>(k_nearest(index, vertices, 3)); });
-  expect_refused(ErrorCode::InvalidRadius, "-2", [&] { static_cast<void>(k_nearest(index, {}, 3, {.radius = -2})); });
+  expect_refused(ErrorCode::VertexOutOfRange, "row 1: vertex 16", [&] { return k_nearest(index, vertices, 3); });
+  expect_refused(ErrorCode::InvalidRadius, "-2", [&] { return k_nearest(index, {}, 3, {.radius = -2}); });
   expect_refused(ErrorCode::TooLarge, "rows, expected at most",
-                 [&] { static_cast<void>(k_nearest(index, {}, std::numeric_limits<std::size_t>::max() / 4)); });
-  expect_refused(ErrorCode::InvalidOption, "area: 0", [&] { static_cast<void>(discs(index, {}, 0, areas)); });
-  expect_refused(ErrorCode::InvalidOption, "areas: vertex 3 has -1",
-                 [&] { static_cast<void>(discs(index, {}, 1, wrong)); });
+                 [&] { return k_nearest(index, {}, std::numeric_limits<std::size_t>::max() / 4); });
+  expect_refused(ErrorCode::InvalidOption, "area: 0", [&] { return discs(index, {}, 0, areas); });
+  expect_refused(ErrorCode::InvalidOption, "areas: vertex 3 has -1", [&] { return discs(index, {}, 1, wrong); });
   expect_refused(ErrorCode::InvalidOption, "areas: 2 values",
-                 [&] { static_cast<void>(discs(index, {}, 1, std::span(areas).first(2))); });
+                 [&] { return discs(index, {}, 1, std::span(areas).first(2)); });
 }
 
 TEST(KNearest, WritesAllOfTheMemoryOfTheCaller) {
-  const TestMesh mesh = make_grid(2, 3, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(2, 3, false));
   const std::vector<VertexId> vertices{4, 0};
   const std::size_t k = mesh.size() + 1;
   std::vector<VertexId> ids;
@@ -214,8 +208,7 @@ TEST(KNearest, WritesAllOfTheMemoryOfTheCaller) {
 }
 
 TEST(KNearest, RefusesAResultBeyondTheLimit) {
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(30));
   const std::vector<double> areas(mesh.size(), 1.0);
   const std::uint64_t bytes = 12 * 20 * mesh.size();
   for (const Metric metric : {Metric::Straight, Metric::Path, Metric::Rings}) {
@@ -225,14 +218,13 @@ TEST(KNearest, RefusesAResultBeyondTheLimit) {
     EXPECT_EQ(discs(index, {}, 20, areas, options, run).ids.size(), bytes / 12);
     --run.max_bytes;
     const std::string message = " bytes, exceeds max_bytes, " + std::to_string(run.max_bytes);
-    expect_refused(ErrorCode::TooLarge, message, [&] { static_cast<void>(k_nearest(index, {}, 20, options, run)); });
-    expect_refused(ErrorCode::TooLarge, message, [&] { static_cast<void>(discs(index, {}, 20, areas, options, run)); });
+    expect_refused(ErrorCode::TooLarge, message, [&] { return k_nearest(index, {}, 20, options, run); });
+    expect_refused(ErrorCode::TooLarge, message, [&] { return discs(index, {}, 20, areas, options, run); });
   }
 }
 
 TEST(KNearest, RefusesDiscsFarBeyondTheLimitByASample) {
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(30));
   const std::vector<double> areas(mesh.size(), 1.0);
   const std::vector<VertexId> vertices(10'000, VertexId{7});
   std::size_t most = 0;
@@ -242,16 +234,14 @@ TEST(KNearest, RefusesDiscsFarBeyondTheLimitByASample) {
                                 return true;
                               },
                           .max_bytes = std::uint64_t{12} * 100 * vertices.size()};
-  expect_refused(ErrorCode::TooLarge, "at least about",
-                 [&] { static_cast<void>(discs(index, vertices, 1e9, areas, {}, run)); });
+  expect_refused(ErrorCode::TooLarge, "at least about", [&] { return discs(index, vertices, 1e9, areas, {}, run); });
   EXPECT_EQ(most, 0U) << "rows of the refused call were searched";
 }
 
 TEST(KNearest, ReturnsDiscsWithinTheLimitThatTheSampleDoesNotExclude) {
   // A component of one vertex and one of many: half of the rows are large, and their sample does not prove that the
   // result is too large.
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(30));
   const std::vector<double> areas(mesh.size(), 1.0);
   std::vector<std::uint8_t> walls(mesh.size(), 0);
   walls[5] = 1;
@@ -263,10 +253,9 @@ TEST(KNearest, ReturnsDiscsWithinTheLimitThatTheSampleDoesNotExclude) {
 }
 
 TEST(KNearest, StopsWhenItIsCancelled) {
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(30));
   expect_refused(ErrorCode::Cancelled, "", [&] {
-    static_cast<void>(k_nearest(index, {}, 5, {}, {.progress = [](std::size_t, std::size_t) { return false; }}));
+    return k_nearest(index, {}, 5, {}, {.progress = [](std::size_t, std::size_t) { return false; }});
   });
 }
 

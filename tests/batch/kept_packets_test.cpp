@@ -137,7 +137,7 @@ TEST(KeptChunks, OfMoreRowsThanAreSortedAtATime) {
   }
 }
 
-class KeptRows : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(KeptRows);
 
 TEST_P(KeptRows, AreThoseThatWereSearchedForEach) {
   Random random(8);
@@ -185,8 +185,6 @@ TEST_P(KeptRows, AreThoseThatWereSearchedForEach) {
   }
   std::printf("%zu rows\n", rows);
 }
-
-INSTANTIATE_TEST_SUITE_P(Families, KeptRows, testing::ValuesIn(families()), family_name);
 
 }  // namespace
 }  // namespace meshhood::test

@@ -22,8 +22,10 @@
 #include "exact/index_access.h"
 #include "support/exact_answer.h"
 #include "support/families.h"
+#include "support/indexed.h"
 #include "support/random.h"
 #include "support/refusal.h"
+#include "support/reports.h"
 
 namespace meshhood::test {
 namespace {
@@ -193,8 +195,7 @@ TEST_F(Packets, HavePiecesInIndexOrder) {
 TEST(PacketsOfAStar, HavePiecesInIndexOrder) {
   for (const Family& family : families()) {
     if (family.name != "star" && family.name != "random faces") continue;
-    const TestMesh mesh = make_mesh(family, 2, 700);
-    const Index index = build(mesh.view());
+    const auto [mesh, index] = indexed(make_mesh(family, 2, 700));
     std::size_t long_runs = 0;
     std::size_t with_words = 0;
     visit(index, {.radius = 0.9},
@@ -239,21 +240,14 @@ TEST_F(Packets, PassOnExceptionsOfAVisitor) {
 }
 
 TEST_F(Packets, ReportTheRowsAndCanBeCancelled) {
-  std::vector<std::size_t> reports;
-  const auto nothing = everyone([](const PacketAnswer&) {});
-  const auto note = [&](std::size_t done, std::size_t total) {
-    EXPECT_EQ(total, index.vertex_count());
-    reports.push_back(done);
-    return true;
+  const auto call = [&](const Progress& progress) {
+    for_each_packet(index, {.radius = 3}, everyone([](const PacketAnswer&) {}), {.progress = progress});
   };
-  for_each_packet(index, {.radius = 3}, nothing, {.progress = note});
-  EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
-  EXPECT_EQ(reports.front(), 0U);
-  EXPECT_EQ(reports.back(), index.vertex_count());
-  expect_refused(ErrorCode::Cancelled, "cancelled", [&] {
-    for_each_packet(index, {.radius = 3}, nothing,
-                    {.progress = [](std::size_t done, std::size_t total) { return done < total; }});
-  });
+  const Reports reports = reports_of(call);
+  expect_from_nothing_to_all(reports);
+  EXPECT_EQ(reports.back().second, index.vertex_count());
+  expect_refused(ErrorCode::Cancelled, "cancelled",
+                 [&] { call([](std::size_t done, std::size_t total) { return done < total; }); });
 }
 
 TEST_F(Packets, AreRefusedBeforeTheFirstVisit) {

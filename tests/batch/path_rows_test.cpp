@@ -17,13 +17,14 @@
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/limited_isa.h"
 #include "support/scale.h"
 
 namespace meshhood::test {
 namespace {
 
-class RowsOfFamily : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(RowsOfFamily);
 
 TEST_P(RowsOfFamily, AreThoseOfASearcher) {
   Random random(37);
@@ -31,8 +32,7 @@ TEST_P(RowsOfFamily, AreThoseOfASearcher) {
   constexpr std::array kMetrics{Metric::Path, Metric::Rings, Metric::Straight, Metric::Space};
   for (std::uint64_t seed = 0; seed < scaled(64, 16); ++seed) {
     const Metric metric = kMetrics[seed % 4];
-    const TestMesh mesh = make_mesh(GetParam(), seed, 300);
-    const Index index = build(mesh.view());
+    const auto [mesh, index] = indexed(make_mesh(GetParam(), seed, 300));
     const LimitedIsa limited(available_isas()[seed / 4 % available_isas().size()]);
     const std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), random.below(2) * 9);
     const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), random.below(2) * 4);
@@ -70,11 +70,8 @@ TEST_P(RowsOfFamily, AreThoseOfASearcher) {
   std::printf("%zu rows\n", rows);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, RowsOfFamily, testing::ValuesIn(families()), family_name);
-
 TEST(Rings, HaveScalesInCounts) {
-  const TestMesh mesh = make_grid(5, 5, true).finish(false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(5, 5, true).finish(false));
   const std::vector<VertexId> middle{12};
   EXPECT_THAT(counts(SearchMethod(index).by(Metric::Rings), {middle, BatchRadius::scales({0, 1, 2, 100})}),
               testing::ElementsAre(1, 5, 13, 25));

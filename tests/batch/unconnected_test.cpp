@@ -3,7 +3,6 @@
 #include "meshhood/unconnected.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/oracle.h"
 #include "support/random.h"
 #include "support/refusal.h"
@@ -37,7 +37,7 @@ NearestVertex scan(const Oracle& oracle, VertexId v, double radius) {
   return best;
 }
 
-class UnconnectedFamilies : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(UnconnectedFamilies);
 
 TEST_P(UnconnectedFamilies, AreTheFirstOfAScan) {
   std::size_t rows = 0;
@@ -70,12 +70,9 @@ TEST_P(UnconnectedFamilies, AreTheFirstOfAScan) {
   std::printf("%s: %zu rows, %zu with a vertex\n", std::string(GetParam().name).c_str(), rows, found);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, UnconnectedFamilies, testing::ValuesIn(families()), family_name);
-
 // At the larger radii some vertices of a leaf reach the other half around the fold, others of the leaf do not.
 TEST(Unconnected, OfAFoldedSheetAreThoseOfAScan) {
-  const TestMesh mesh = make_folded_sheet(24);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_folded_sheet(24));
   const Oracle oracle(mesh);
   const std::vector<double> radii{3.0, 8.0, 10.0, 12.0};
   const Unconnected result = nearest_unconnected(index, {.radius = BatchRadius::scales(radii)});
@@ -88,14 +85,12 @@ TEST(Unconnected, OfAFoldedSheetAreThoseOfAScan) {
 }
 
 TEST(Unconnected, RefusesARowThatDoesNotExistAndARadiusThatIsNone) {
-  const TestMesh mesh = make_grid(5, 5, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(5, 5, false));
   const std::vector<VertexId> vertices{3, 25};
   expect_refused(ErrorCode::VertexOutOfRange, "row 1: vertex 25",
-                 [&] { static_cast<void>(nearest_unconnected(index, {.vertices = vertices, .radius = 1})); });
-  expect_refused(ErrorCode::InvalidRadius, "-1",
-                 [&] { static_cast<void>(nearest_unconnected(index, {.radius = -1.0})); });
-  expect_refused(ErrorCode::InvalidRadius, "nan", [&] { static_cast<void>(nearest_unconnected(index, {})); });
+                 [&] { return nearest_unconnected(index, {.vertices = vertices, .radius = 1}); });
+  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { return nearest_unconnected(index, {.radius = -1.0}); });
+  expect_refused(ErrorCode::InvalidRadius, "nan", [&] { return nearest_unconnected(index, {}); });
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "exact/index_access.h"
 #include "support/families.h"
+#include "support/indexed.h"
 #include "support/refusal.h"
 #include "support/test_mesh.h"
 #include "surface/surface.h"
@@ -40,9 +41,7 @@ TestMesh cylinder(double radius, bool quads) {
 TEST(CorrectedCurvature, OfACylinderIsThatOfTheFormula) {
   for (const bool quads : {false, true}) {
     const double radius = 4;
-    const TestMesh mesh = cylinder(radius, quads);
-    const Index index = build(mesh.view());
-    const Surface surface(index, mesh.view());
+    const auto [mesh, index, surface] = with_surface(cylinder(radius, quads));
     const std::vector<VertexId> rows{40 * 30 + 20, 40 * 61 + 18};
     const CorrectedCurvatures found = corrected_curvatures(surface, {rows, 0.8});
     for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -60,9 +59,7 @@ TEST(CorrectedCurvature, OfACylinderIsThatOfTheFormula) {
 }
 
 TEST(CorrectedCurvature, OfNormalsThatPointToTheOtherSideIsStillOrdered) {
-  const TestMesh mesh = bumpy_grid(15).finish(false);
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view());
+  const auto [mesh, index, surface] = with_surface(bumpy_grid(15).finish(false));
   std::vector<double> opposite;
   for (VertexId v = 0; v < mesh.size(); ++v) {
     const Point n = SurfaceAccess::oriented(surface).normal(IndexAccess::view(index).place(v));
@@ -76,8 +73,7 @@ TEST(CorrectedCurvature, OfNormalsThatPointToTheOtherSideIsStillOrdered) {
 }
 
 TEST(CorrectedCurvature, ScalesWithTheMeshBitForBit) {
-  const TestMesh mesh = bumpy_grid(12).finish(false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(12).finish(false));
   const auto expected = corrected_curvatures(Surface(index, mesh.view()), {{}, 3.0});
   for (const int exponent : {-300, 300}) {
     TestMesh other = mesh;
@@ -100,8 +96,7 @@ TEST(CorrectedCurvature, ScalesWithTheMeshBitForBit) {
 }
 
 TEST(CorrectedCurvature, FollowsFromItsMeasures) {
-  const TestMesh mesh = bumpy_grid(12).finish(false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(12).finish(false));
   const auto found = corrected_curvatures(Surface(index, mesh.view()), {{}, 3.0});
   ASSERT_EQ(found.measures.size(), 12 * mesh.size());
   for (std::size_t v = 0; v < mesh.size(); ++v) {
@@ -131,15 +126,13 @@ TEST(CorrectedCurvature, OfAVertexWithoutFacesIsNan) {
 }
 
 TEST(CorrectedCurvature, RefusesInvalidArgumentsAndNamesThem) {
-  const TestMesh mesh = bumpy_grid(6).finish(false);
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view());
+  const auto [mesh, index, surface] = with_surface(bumpy_grid(6).finish(false));
   const std::vector<VertexId> outside{36};
   const std::vector<std::uint32_t> corners{0, 1, 99};
-  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)corrected_curvatures(surface, {{}, -1.0}); });
-  expect_refused(ErrorCode::VertexOutOfRange, "36", [&] { (void)corrected_curvatures(surface, {outside, 1.0}); });
+  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { return corrected_curvatures(surface, {{}, -1.0}); });
+  expect_refused(ErrorCode::VertexOutOfRange, "36", [&] { return corrected_curvatures(surface, {outside, 1.0}); });
   expect_refused(ErrorCode::InvalidMesh, "99",
-                 [&] { (void)corrected_curvatures(Surface(index, FacesView::triangles(corners)), {{}, 1.0}); });
+                 [&] { return corrected_curvatures(Surface(index, FacesView::triangles(corners)), {{}, 1.0}); });
 }
 
 }  // namespace

@@ -24,6 +24,7 @@
 #include "curvature/quadric.h"
 #include "exact/index_access.h"
 #include "support/families.h"
+#include "support/indexed.h"
 #include "support/refusal.h"
 #include "support/scale.h"
 #include "support/test_mesh.h"
@@ -34,15 +35,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 const CurvatureOptions kUnfilteredJet{.filter = false, .fit = CurvatureFit::Jet};
-
-/// A mesh with its index and surface.
-struct Case {
-  TestMesh mesh;
-  Index index;
-  Surface surface;
-
-  explicit Case(TestMesh given) : mesh(std::move(given)), index(build(mesh.view())), surface(index, mesh.view()) {}
-};
 
 /// A surface over a grid of angles that is closed in both directions.
 template <class F>
@@ -92,7 +84,7 @@ double largest_difference(const Curvatures& a, const Curvatures& b) {
 }
 
 TEST(Curvatures, OfATorusAreThoseOfTheFormula) {
-  const Case torus_case(torus(3, 1));
+  const WithSurface torus_case = with_surface(torus(3, 1));
   const Curvatures k = curvatures(torus_case.surface, {.radius = 0.35});
   double worst = 0;
   for (std::size_t v = 0; v < torus_case.mesh.size(); ++v) {
@@ -111,11 +103,11 @@ TEST(Curvatures, OfATorusAreThoseOfTheFormula) {
 
 TEST(Curvatures, ChangeSignIfTheFacesAreTurned) {
   TestMesh mesh = torus(3, 1);
-  const Case one(mesh);
+  const WithSurface one = with_surface(mesh);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     std::swap(mesh.corners[mesh.offsets[f]], mesh.corners[mesh.offsets[f] + 1]);
   }
-  const Case turned(mesh);
+  const WithSurface turned = with_surface(mesh);
   const Curvatures a = curvatures(one.surface, {.radius = 0.35});
   Curvatures b = curvatures(turned.surface, {.radius = 0.35});
   std::swap(b.k1, b.k2);
@@ -126,7 +118,7 @@ TEST(Curvatures, ChangeSignIfTheFacesAreTurned) {
 
 TEST(Curvatures, OfAPlaneAre0AlsoAtItsBoundary) {
   for (const bool quads : {false, true}) {
-    const Case plane(make_grid(30, 30, quads).finish(false));
+    const WithSurface plane = with_surface(make_grid(30, 30, quads).finish(false));
     for (const CurvatureOptions& options : {CurvatureOptions{}, like_libigl()}) {
       const Curvatures k = curvatures(plane.surface, {.radius = 4.0}, options);
       EXPECT_THAT(k.k1, testing::Each(testing::DoubleEq(0)));
@@ -137,7 +129,7 @@ TEST(Curvatures, OfAPlaneAre0AlsoAtItsBoundary) {
 }
 
 TEST(Curvatures, OfAGraphAreThoseOfItsQuadricWhereTheNormalIsVertical) {
-  const Case saddle(graph(0.3, 0.4, -0.5, 41));
+  const WithSurface saddle = with_surface(graph(0.3, 0.4, -0.5, 41));
   const VertexId middle = 20 * 41 + 20;
   const std::vector<VertexId> rows{middle};
   // The shape operator of the height field is -[[2a, b], [b, 2c]].
@@ -154,7 +146,7 @@ void expect_like_points(const Family& family, const CurvatureOptions& options, s
   for (std::uint64_t seed = 0; seed < scaled(2); ++seed) {
     const TestMesh mesh = make_mesh(family, seed, 200);
     if (mesh.face_count() == 0) continue;
-    const Case one(mesh);
+    const WithSurface one = with_surface(mesh);
     const OrientedIndex state = SurfaceAccess::oriented(one.surface);
     const GraphData graph = extract_graph(one.index);
     const double edge = mean_edge_length(graph.view());
@@ -200,7 +192,7 @@ TEST(Curvatures, AreThoseOfTheFitToThePointsOnEveryFamily) {
 
 TEST(Curvatures, OfJetsAreThoseOfTheFitToThePoints) {
   for (const TestMesh& mesh : {torus(3, 1), graph(0.2, 0.5, -0.4, 31)}) {
-    const Case one(mesh);
+    const WithSurface one = with_surface(mesh);
     const OrientedIndex state = SurfaceAccess::oriented(one.surface);
     const GraphData edges = extract_graph(one.index);
     const double radius = 4 * mean_edge_length(edges.view());
@@ -218,13 +210,13 @@ TEST(Curvatures, OfJetsAreThoseOfTheFitToThePoints) {
 
 TEST(Curvatures, ScaleByPowersOfTwoBitForBit) {
   const TestMesh mesh = bumpy_grid(30).finish(false);
-  const Case one(mesh);
+  const WithSurface one = with_surface(mesh);
   for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
     const Curvatures expected = curvatures(one.surface, {.radius = 3.0}, {.fit = fit});
     for (const int exponent : {-480, -400, -300, -3, 5, 300, 480}) {
       TestMesh scaled_mesh = mesh;
       for (double& x : scaled_mesh.positions) x = std::ldexp(x, exponent);
-      const Case other(scaled_mesh);
+      const WithSurface other = with_surface(scaled_mesh);
       const Curvatures k = curvatures(other.surface, {.radius = std::ldexp(3.0, exponent)}, {.fit = fit});
       for (std::size_t v = 0; v < mesh.size(); ++v) {
         ASSERT_EQ(std::ldexp(k.k1[v], exponent), expected.k1[v]) << "2^" << exponent << ", vertex " << v;
@@ -239,9 +231,9 @@ TEST(Curvatures, ScaleByPowersOfTwoBitForBit) {
 TEST(Curvatures, DoNotDependOnWhereTheMeshLies) {
   TestMesh mesh = bumpy_grid(30).finish(true);  // floats, so that moving by a whole number is exact
   mesh.finish(false);
-  const Case one(mesh);
+  const WithSurface one = with_surface(mesh);
   for (double& x : mesh.positions) x += 0x1p20;
-  const Case far(mesh);
+  const WithSurface far = with_surface(mesh);
   EXPECT_LT(largest_difference(curvatures(one.surface, {.radius = 3.0}), curvatures(far.surface, {.radius = 3.0})),
             1e-9);
 }
@@ -250,8 +242,8 @@ TEST(Curvatures, DoNotDependOnTheNumbering) {
   Random random(7);
   const TestMesh mesh = torus(3, 1);
   const std::vector<std::uint32_t> place = random.permutation(mesh.size());
-  const Case one(mesh);
-  const Case other(renumbered(mesh, place));
+  const WithSurface one = with_surface(mesh);
+  const WithSurface other = with_surface(renumbered(mesh, place));
   const Curvatures a = curvatures(one.surface, {.radius = 0.4});
   const Curvatures b = curvatures(other.surface, {.radius = 0.4});
   Curvatures back = b;
@@ -303,7 +295,7 @@ struct Poisoned {
 };
 
 TEST(Curvatures, AreWrittenToAllOfTheMemoryOfTheCaller) {
-  const Case one(bumpy_grid(30).finish(false));
+  const WithSurface one = with_surface(bumpy_grid(30).finish(false));
   std::vector<std::uint8_t> walls(one.surface.vertex_count());
   for (std::size_t v = 100; v < 140; ++v) walls[v] = 1;
   std::vector<std::uint8_t> ignored(one.surface.vertex_count());
@@ -338,7 +330,7 @@ TEST(Curvatures, AreWrittenToAllOfTheMemoryOfTheCaller) {
 }
 
 TEST(Curvatures, RefuseMemoryOfAnotherSize) {
-  const Case one(bumpy_grid(5).finish(false));
+  const WithSurface one = with_surface(bumpy_grid(5).finish(false));
   const std::size_t rows = one.surface.vertex_count();
   Poisoned whole(rows);
   const auto expect_refusal = [&](const std::string& array, auto change) {
@@ -378,7 +370,7 @@ TEST(Curvatures, TheFilterKeepsTheOtherSideOfAFoldOut) {
     const auto below = static_cast<std::uint32_t>(size) + i;
     mesh.add_face({i, i + 1, below + 1, below});
   }
-  const Case plates(mesh.finish(false));
+  const WithSurface plates = with_surface(mesh.finish(false));
   const std::vector<VertexId> rows{5 * 20 + 10, 6 * 20 + 10, 14 * 20 + 10};
   const Curvatures with = curvatures(plates.surface, {.vertices = rows, .radius = 8.0});
   const Curvatures without = curvatures(plates.surface, {.vertices = rows, .radius = 8.0}, {.filter = false});
@@ -397,7 +389,7 @@ TEST(Curvatures, ReportTheStateOfEachRow) {
   mesh.add_vertex(201, 0, 0);
   mesh.add_vertex(202, 0, 0);
   mesh.add_face({flat, flat + 1, flat + 2});
-  const Case one(mesh.finish(false));
+  const WithSurface one = with_surface(mesh.finish(false));
   const Curvatures k = curvatures(one.surface, {.radius = std::numeric_limits<double>::infinity()});
   EXPECT_EQ(k.state[0], CurvatureState::TooFew);
   EXPECT_EQ(k.state[isolated], CurvatureState::NoNormal);
@@ -407,7 +399,7 @@ TEST(Curvatures, ReportTheStateOfEachRow) {
 }
 
 TEST(Curvatures, ANeighborhoodOfFewerThanSixVerticesIsExtended) {
-  const Case one(bumpy_grid(12).finish(false));
+  const WithSurface one = with_surface(bumpy_grid(12).finish(false));
   const Curvatures none = curvatures(one.surface, {.radius = 0.0});
   EXPECT_THAT(none.state, testing::Each(testing::AnyOf(CurvatureState::Extended, CurvatureState::RankDeficient)));
   EXPECT_THAT(none.state, testing::Contains(CurvatureState::Extended));
@@ -416,7 +408,7 @@ TEST(Curvatures, ANeighborhoodOfFewerThanSixVerticesIsExtended) {
 }
 
 TEST(Curvatures, CountTheVerticesThatAreFitted) {
-  const Case one(torus(3, 1));
+  const WithSurface one = with_surface(torus(3, 1));
   Searcher searcher(one.index);
   for (const double radius : {0.1, 0.3, 0.5}) {
     const Curvatures found = curvatures(one.surface, {.radius = radius}, {.filter = false});
@@ -428,7 +420,7 @@ TEST(Curvatures, CountTheVerticesThatAreFitted) {
 }
 
 TEST(Curvatures, GivenNormalsReplaceFaces) {
-  const Case one(torus(3, 1));
+  const WithSurface one = with_surface(torus(3, 1));
   const OrientedIndex state = SurfaceAccess::oriented(one.surface);
   std::vector<double> normals(3 * one.mesh.size());
   for (std::size_t i = 0; i < one.mesh.size(); ++i) {
@@ -442,7 +434,7 @@ TEST(Curvatures, GivenNormalsReplaceFaces) {
 }
 
 TEST(Curvatures, AVertexWithANormalOfNanHasNoNormal) {
-  const Case one(bumpy_grid(12).finish(false));
+  const WithSurface one = with_surface(bumpy_grid(12).finish(false));
   std::vector<double> normals(3 * one.mesh.size());
   for (std::size_t v = 0; v < one.mesh.size(); ++v) normals[3 * v + 2] = 1;
   normals[3 * 77 + 1] = std::nan("");
@@ -456,7 +448,7 @@ TEST(Curvatures, AVertexWithANormalOfNanHasNoNormal) {
 
 TEST(Curvatures, LibiglsAxisPointsToTheNeighborWithTheLowestId) {
   const TestMesh mesh = renumbered(bumpy_grid(9).finish(false), Random(3).permutation(81));
-  const Case one(mesh);
+  const WithSurface one = with_surface(mesh);
   const OrientedIndex state = SurfaceAccess::oriented(one.surface);
   const Adjacency edges = adjacency(one.mesh.view());
   for (std::size_t i = 0; i < one.mesh.size(); ++i) {
@@ -471,7 +463,7 @@ TEST(Curvatures, AnOpenBallHasNoVertexAtExactlyTheRadius) {
   const VertexId middle = 10 * 21 + 10;
   mesh.positions[3 * (middle + 6) + 2] = 8;
   const double radius = 10;  // 6, 0, 8
-  const Case one(mesh.finish(false));
+  const WithSurface one = with_surface(mesh.finish(false));
   const std::vector<VertexId> rows{middle};
   EXPECT_NE(curvatures(one.surface, {.vertices = rows, .radius = radius}, {.filter = false}).k1[0], 0);
   EXPECT_EQ(curvatures(one.surface, {.vertices = rows, .radius = radius}, {.filter = false, .open_ball = true}).k1[0],
@@ -479,30 +471,31 @@ TEST(Curvatures, AnOpenBallHasNoVertexAtExactlyTheRadius) {
 }
 
 TEST(Curvatures, RefuseInvalidArgumentsAndNameThem) {
-  const Case one(bumpy_grid(5).finish(false));
+  const WithSurface one = with_surface(bumpy_grid(5).finish(false));
   TestMesh moved = one.mesh;
   moved.positions[3 * 7] += 1;
   TestMesh smaller = bumpy_grid(4).finish(false);
   const MeshView no_faces{one.mesh.positions_view(), FacesView()};
   std::vector<double> normals(3 * one.mesh.size(), 1.0);
-  expect_refused(ErrorCode::InvalidMesh, "vertex 7", [&] { (void)Surface(one.index, moved.view()); });
-  expect_refused(ErrorCode::InvalidMesh, "16 vertices", [&] { (void)Surface(one.index, smaller.view()); });
+  expect_refused(ErrorCode::InvalidMesh, "vertex 7", [&] { return Surface(one.index, moved.view()); });
+  expect_refused(ErrorCode::InvalidMesh, "16 vertices", [&] { return Surface(one.index, smaller.view()); });
   expect_refused(ErrorCode::InvalidMesh, "no faces",
-                 [&] { (void)curvatures(Surface(one.index, no_faces), {.radius = 1.0}); });
+                 [&] { return curvatures(Surface(one.index, no_faces), {.radius = 1.0}); });
   expect_refused(ErrorCode::InvalidMesh, "25 vertices",
-                 [&] { (void)Surface::of_normals(one.index, std::span(normals).first(3)); });
+                 [&] { return Surface::of_normals(one.index, std::span(normals).first(3)); });
   normals[3 * 4 + 1] = -std::numeric_limits<double>::infinity();
-  expect_refused(ErrorCode::InvalidMesh, "vertex 4", [&] { (void)Surface::of_normals(one.index, normals); });
-  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)curvatures(one.surface, {.radius = -1.0}); });
+  expect_refused(ErrorCode::InvalidMesh, "vertex 4", [&] { return Surface::of_normals(one.index, normals); });
+  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { return curvatures(one.surface, {.radius = -1.0}); });
   expect_refused(ErrorCode::InvalidRadius, "-1",
-                 [&] { (void)curvatures(one.surface, {.radius = -1.0}, like_libigl()); });
+                 [&] { return curvatures(one.surface, {.radius = -1.0}, like_libigl()); });
   expect_refused(ErrorCode::InvalidOption, "thread",
-                 [&] { (void)curvatures(one.surface, {.radius = 1.0}, {}, {.threads = kMaxThreads + 1}); });
+                 [&] { return curvatures(one.surface, {.radius = 1.0}, {}, {.threads = kMaxThreads + 1}); });
   expect_refused(ErrorCode::InvalidOption, "not the jet", [&] {
-    (void)curvatures(one.surface, {.radius = 1.0}, {.shape_operator = ShapeOperator::Libigl, .fit = CurvatureFit::Jet});
+    return curvatures(one.surface, {.radius = 1.0},
+                      {.shape_operator = ShapeOperator::Libigl, .fit = CurvatureFit::Jet});
   });
   expect_refused(ErrorCode::Cancelled, "cancel", [&] {
-    (void)curvatures(one.surface, {.radius = 1.0}, {}, {.progress = [](std::size_t, std::size_t) { return false; }});
+    return curvatures(one.surface, {.radius = 1.0}, {}, {.progress = [](std::size_t, std::size_t) { return false; }});
   });
 }
 

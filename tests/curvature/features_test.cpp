@@ -20,6 +20,7 @@
 #include "meshhood/patch.h"
 
 #include "support/families.h"
+#include "support/indexed.h"
 #include "support/refusal.h"
 #include "support/scale.h"
 #include "support/test_mesh.h"
@@ -29,7 +30,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-struct Bumps {
+class BumpyFeatures : public testing::Test {
+ protected:
   TestMesh mesh = bumpy_grid(20).finish(false);
   Index index = build(mesh.view());
   Surface surface{index, mesh.view()};
@@ -37,15 +39,14 @@ struct Bumps {
   std::vector<double> radii{2.0, 3.5, 5.0};
 };
 
-TEST(Features, AreCurvaturesTimesTheRadius) {
-  const Bumps bumps;
+TEST_F(BumpyFeatures, AreCurvaturesTimesTheRadius) {
   const std::vector<double> found =
-      features(bumps.surface, {{}, BatchRadius::scales(bumps.radii)},
+      features(surface, {{}, BatchRadius::scales(radii)},
                {.kinds = {Feature::K1, Feature::K2, Feature::Crease, Feature::Gaussian, Feature::ShapeIndex}});
-  const std::size_t vertices = bumps.mesh.size();
-  for (std::size_t i = 0; i < bumps.radii.size(); ++i) {
-    const double r = bumps.radii[i];
-    const Curvatures k = curvatures(bumps.surface, {.radius = r});
+  const std::size_t vertices = mesh.size();
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const double r = radii[i];
+    const Curvatures k = curvatures(surface, {.radius = r});
     for (std::size_t v = 0; v < vertices; ++v) {
       const double* const of_row = &found[5 * (i * vertices + v)];
       ASSERT_EQ(of_row[0], r * k.k1[v]);
@@ -57,13 +58,12 @@ TEST(Features, AreCurvaturesTimesTheRadius) {
   }
 }
 
-TEST(Features, OfMomentsAreThoseOfPrincipalComponents) {
-  const Bumps bumps;
+TEST_F(BumpyFeatures, OfMomentsAreThoseOfPrincipalComponents) {
   const std::vector<VertexId> rows{210, 5, 399};
-  const std::vector<double> found = features(bumps.surface, {rows, BatchRadius::scales(bumps.radii)},
-                                             {.kinds = {Feature::Crease, Feature::Variation}, .areas = bumps.areas});
+  const std::vector<double> found = features(surface, {rows, BatchRadius::scales(radii)},
+                                             {.kinds = {Feature::Crease, Feature::Variation}, .areas = areas});
   const PrincipalComponents patch =
-      principal_components(bumps.index, {.vertices = rows, .radius = bumps.radii[1]}, {.weights = bumps.areas});
+      principal_components(index, {.vertices = rows, .radius = radii[1]}, {.weights = areas});
   for (std::size_t row = 0; row < rows.size(); ++row) {
     EXPECT_EQ(found[2 * (1 * rows.size() + row) + 1],
               surface_variation(patch.variances[3 * row], patch.variances[3 * row + 1], patch.variances[3 * row + 2]));
@@ -71,16 +71,15 @@ TEST(Features, OfMomentsAreThoseOfPrincipalComponents) {
 }
 
 /// Of an index with ignored vertices, too, of which patches are searched apart from the others.
-TEST(Features, OfSeveralKindsHaveTheBitsOfEach) {
-  const Bumps bumps;
-  std::vector<std::uint8_t> ignored(bumps.mesh.size());
+TEST_F(BumpyFeatures, OfSeveralKindsHaveTheBitsOfEach) {
+  std::vector<std::uint8_t> ignored(mesh.size());
   for (std::size_t v = 0; v < ignored.size(); v += 7) ignored[v] = 1;
   std::vector<Feature> kinds;
   for (int kind = 0; kind <= static_cast<int>(Feature::Variation); ++kind) kinds.push_back(static_cast<Feature>(kind));
-  std::vector<VertexId> rows(scaled(bumps.mesh.size(), 100));
+  std::vector<VertexId> rows(scaled(mesh.size(), 100));
   std::iota(rows.begin(), rows.end(), 0);
-  const BatchQuery query{.vertices = rows, .radius = BatchRadius::scales(bumps.radii)};
-  const auto compare = [&](const Surface& surface) {
+  const BatchQuery query{.vertices = rows, .radius = BatchRadius::scales(radii)};
+  const auto compare = [&](const Surface& of) {
     std::size_t most = 0;
     std::size_t end = 0;
     const auto count = [&](std::size_t done, std::size_t total) {
@@ -88,10 +87,10 @@ TEST(Features, OfSeveralKindsHaveTheBitsOfEach) {
       end = total;
       return true;
     };
-    const std::vector<double> together = features(surface, query, {.kinds = kinds}, {.threads = 2, .progress = count});
+    const std::vector<double> together = features(of, query, {.kinds = kinds}, {.threads = 2, .progress = count});
     EXPECT_EQ(most, end);
     for (std::size_t k = 0; k < kinds.size(); ++k) {
-      const std::vector<double> alone = features(surface, query, {.kinds = {kinds[k]}});
+      const std::vector<double> alone = features(of, query, {.kinds = {kinds[k]}});
       ASSERT_EQ(together.size(), kinds.size() * alone.size());
       for (std::size_t i = 0; i < alone.size(); ++i) {
         const double found = together[i * kinds.size() + k];
@@ -100,8 +99,8 @@ TEST(Features, OfSeveralKindsHaveTheBitsOfEach) {
       }
     }
   };
-  compare(bumps.surface);
-  compare(Surface(masked(bumps.index, {.ignored = ignored}), bumps.mesh.view()));
+  compare(surface);
+  compare(Surface(masked(index, {.ignored = ignored}), mesh.view()));
 }
 
 /// The corner of a cube, cut off, and its mirror image 0.2 above.
@@ -121,9 +120,7 @@ TestMesh two_corners() {
 }
 
 TEST(Features, OfPatchesAreInvariantsAndGapsWithoutUnit) {
-  const TestMesh mesh = two_corners();
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view());
+  const auto [mesh, index, surface] = with_surface(two_corners());
   const std::vector<VertexId> rows{0, 4};
   const FeatureOptions options{.kinds = {Feature::Gap, Feature::Gaussian, Feature::Volume, Feature::Area}};
   const std::vector<double> found = features(surface, {rows, BatchRadius::scales({0.1, 0.4})}, options);
@@ -147,22 +144,20 @@ TEST(Features, OfPatchesAreInvariantsAndGapsWithoutUnit) {
   EXPECT_THAT(totals, testing::Each(2U)) << "curvatures and patches share a search";
 }
 
-TEST(Features, OfPatchesHaveNoVolumeAtABorderAndNoFacesBehindWalls) {
-  const Bumps bumps;
+TEST_F(BumpyFeatures, OfPatchesHaveNoVolumeAtABorderAndNoFacesBehindWalls) {
   const FeatureOptions kinds{.kinds = {Feature::Area, Feature::Volume}};
   const std::vector<VertexId> rows{0, 210};  // a corner, and in the middle
-  const std::vector<double> found = features(bumps.surface, {rows, 2.0}, kinds);
+  const std::vector<double> found = features(surface, {rows, 2.0}, kinds);
   EXPECT_TRUE(found[0] > 0 && std::isnan(found[1]));
   EXPECT_TRUE(found[2] > 0 && found[3] > 0);
-  std::vector<std::uint8_t> walls(bumps.mesh.size());
+  std::vector<std::uint8_t> walls(mesh.size());
   walls[211] = 1;
-  const std::vector<double> walled =
-      features(bumps.surface.on(masked(bumps.index, {.walls = walls})), {rows, 2.0}, kinds);
+  const std::vector<double> walled = features(surface.on(masked(index, {.walls = walls})), {rows, 2.0}, kinds);
   EXPECT_LT(walled[2], found[2]);
   EXPECT_TRUE(std::isnan(walled[3]));
   walls.assign(walls.size(), 1);
   expect_refused(ErrorCode::InvalidMesh, "every face",
-                 [&] { (void)features(bumps.surface.on(masked(bumps.index, {.walls = walls})), {rows, 2.0}, kinds); });
+                 [&] { return features(surface.on(masked(index, {.walls = walls})), {rows, 2.0}, kinds); });
 }
 
 TEST(Features, TheHeightOfASphereIsItsRadiusTimesTheMeanCurvature) {
@@ -186,15 +181,14 @@ TEST(Features, TheHeightOfASphereIsItsRadiusTimesTheMeanCurvature) {
   EXPECT_NEAR(found[0], found[1], 0.02);
 }
 
-TEST(Features, DoNotDependOnTheUnit) {
-  const Bumps bumps;
-  TestMesh mesh = bumps.mesh;
-  for (double& x : mesh.positions) x = std::ldexp(x, -200);
-  const Index index = build(mesh.view());
-  std::vector<double> radii = bumps.radii;
-  for (double& r : radii) r = std::ldexp(r, -200);
-  EXPECT_EQ(features(Surface(index, mesh.view()), {{}, BatchRadius::scales(radii)}, {}, {.threads = 2}),
-            features(bumps.surface, {{}, BatchRadius::scales(bumps.radii)}));
+TEST_F(BumpyFeatures, DoNotDependOnTheUnit) {
+  TestMesh tiny = mesh;
+  for (double& x : tiny.positions) x = std::ldexp(x, -200);
+  const Index tiny_index = build(tiny.view());
+  std::vector<double> tiny_radii = radii;
+  for (double& r : tiny_radii) r = std::ldexp(r, -200);
+  EXPECT_EQ(features(Surface(tiny_index, tiny.view()), {{}, BatchRadius::scales(tiny_radii)}, {}, {.threads = 2}),
+            features(surface, {{}, BatchRadius::scales(radii)}));
 }
 
 TEST(Features, OfAVertexWithoutNormalAreNan) {
@@ -257,39 +251,38 @@ TEST(Features, PersistIsTheLongestRunOfOneSign) {
   EXPECT_THAT(two.scales, testing::ElementsAre(2, -1));
 }
 
-TEST(Features, RefuseInvalidArgumentsAndNameThem) {
-  const Bumps bumps;
-  const auto of = [&](const std::vector<double>& radii, const FeatureOptions& options) {
-    return features(bumps.surface, {{}, BatchRadius::scales(radii)}, options);
+TEST_F(BumpyFeatures, RefuseInvalidArgumentsAndNameThem) {
+  const auto of = [&](const std::vector<double>& given, const FeatureOptions& options) {
+    return features(surface, {{}, BatchRadius::scales(given)}, options);
   };
-  expect_refused(ErrorCode::InvalidOption, "no kinds", [&] { (void)of({1.0}, {.kinds = {}}); });
-  expect_refused(ErrorCode::InvalidOption, "no radii", [&] { (void)of({}, {}); });
-  expect_refused(ErrorCode::InvalidRadius, "radius 1: 0", [&] { (void)of({1.0, 0.0}, {}); });
-  expect_refused(ErrorCode::InvalidRadius, "inf", [&] { (void)of({std::numeric_limits<double>::infinity()}, {}); });
-  EXPECT_EQ(of({1.0}, {.kinds = {Feature::Height}}), of({1.0}, {.kinds = {Feature::Height}, .areas = bumps.areas}));
-  const std::vector<double> normals(3 * bumps.mesh.size(), 1.0);
+  expect_refused(ErrorCode::InvalidOption, "no kinds", [&] { return of({1.0}, {.kinds = {}}); });
+  expect_refused(ErrorCode::InvalidOption, "no radii", [&] { return of({}, {}); });
+  expect_refused(ErrorCode::InvalidRadius, "radius 1: 0", [&] { return of({1.0, 0.0}, {}); });
+  expect_refused(ErrorCode::InvalidRadius, "inf", [&] { return of({std::numeric_limits<double>::infinity()}, {}); });
+  EXPECT_EQ(of({1.0}, {.kinds = {Feature::Height}}), of({1.0}, {.kinds = {Feature::Height}, .areas = areas}));
+  const std::vector<double> normals(3 * mesh.size(), 1.0);
   expect_refused(ErrorCode::InvalidOption, "need `areas`", [&] {
-    (void)features(Surface::of_normals(bumps.index, normals), {{}, 1.0}, {.kinds = {Feature::Height}});
+    return features(Surface::of_normals(index, normals), {{}, 1.0}, {.kinds = {Feature::Height}});
   });
   for (const Feature kind : {Feature::Area, Feature::Volume, Feature::Gap}) {
     expect_refused(ErrorCode::InvalidOption, "expected a surface with faces", [&] {
-      (void)features(Surface::of_normals(bumps.index, normals), {{}, 1.0}, {.kinds = {kind}, .areas = bumps.areas});
+      return features(Surface::of_normals(index, normals), {{}, 1.0}, {.kinds = {kind}, .areas = areas});
     });
     expect_refused(ErrorCode::InvalidOption, "expected the straight metric",
-                   [&] { (void)features(bumps.surface, {{}, 1.0, Metric::Path}, {.kinds = {kind}}); });
+                   [&] { return features(surface, {{}, 1.0, Metric::Path}, {.kinds = {kind}}); });
   }
-  expect_refused(ErrorCode::InvalidOption, "0 radii", [&] { (void)geometric_radii(1, 2, 0); });
-  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)geometric_radii(-1, 1, 2); });
-  expect_refused(ErrorCode::InvalidRadius, "the smallest radius is 2", [&] { (void)geometric_radii(2, 1, 3); });
+  expect_refused(ErrorCode::InvalidOption, "0 radii", [&] { return geometric_radii(1, 2, 0); });
+  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { return geometric_radii(-1, 1, 2); });
+  expect_refused(ErrorCode::InvalidRadius, "the smallest radius is 2", [&] { return geometric_radii(2, 1, 3); });
   const std::vector<double> values(4);
-  const std::vector<double> radii{2.0, 1.0};
-  expect_refused(ErrorCode::InvalidRadius, "1 after 2", [&] { (void)persistence(values, radii, 1); });
-  expect_refused(ErrorCode::InvalidOption, "threshold 0", [&] { (void)persistence({}, std::vector<double>{1}, 0); });
+  const std::vector<double> descending{2.0, 1.0};
+  expect_refused(ErrorCode::InvalidRadius, "1 after 2", [&] { return persistence(values, descending, 1); });
+  expect_refused(ErrorCode::InvalidOption, "threshold 0", [&] { return persistence({}, std::vector<double>{1}, 0); });
   expect_refused(ErrorCode::InvalidOption, "3 values",
-                 [&] { (void)persistence(std::span(values).first(3), std::vector<double>{1, 2}, 1); });
+                 [&] { return persistence(std::span(values).first(3), std::vector<double>{1, 2}, 1); });
   expect_refused(ErrorCode::Cancelled, "cancel", [&] {
-    (void)features(bumps.surface, {{}, BatchRadius::scales({1.0, 2.0})}, {},
-                   {.progress = [](std::size_t done, std::size_t total) { return done < total / 2; }});
+    return features(surface, {{}, BatchRadius::scales({1.0, 2.0})}, {},
+                    {.progress = [](std::size_t done, std::size_t total) { return done < total / 2; }});
   });
 }
 

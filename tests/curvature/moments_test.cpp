@@ -18,6 +18,7 @@
 #include "base/vector.h"
 #include "curvature/symmetric.h"
 #include "support/families.h"
+#include "support/indexed.h"
 #include "support/oracle.h"
 #include "support/random.h"
 #include "support/refusal.h"
@@ -123,8 +124,7 @@ TEST_P(MomentsOfAGradedMesh, KeepTheirBound) {
 INSTANTIATE_TEST_SUITE_P(Sizes, MomentsOfAGradedMesh, testing::Values(1, 1e2, 1e4, 1e6));
 
 TEST(Moments, OfTinyNeighborhoodsAreThoseOfTheirVertices) {
-  const TestMesh mesh = bumpy_grid(12).finish(false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(12).finish(false));
   std::vector<double> radii(mesh.size(), 3.0);
   for (std::size_t v = 0; v < radii.size(); v += 7) radii[v] = 1e-320;
   const std::vector<double> found = moments(index, {.radius = radii}, {.degree = 4});
@@ -153,8 +153,7 @@ TEST(Moments, OfDenormalPositionsAreExact) {
 }
 
 TEST(Moments, OfALowerDegreeAreTheFirstColumns) {
-  const TestMesh mesh = bumpy_grid(15).finish(false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(15).finish(false));
   const std::vector<double> all = moments(index, {.radius = 3.0}, {.degree = 4});
   for (const unsigned degree : {0U, 1U, 2U, 3U}) {
     const std::vector<double> some = moments(index, {.radius = 3.0}, {.degree = degree}, {.threads = 2});
@@ -253,20 +252,20 @@ TEST(PrincipalComponents, OfNoWeightAreNan) {
 }
 
 TEST(Moments, RefuseInvalidArgumentsAndNameThem) {
-  const TestMesh mesh = bumpy_grid(5).finish(false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(5).finish(false));
   std::vector<double> weights(mesh.size(), 1.0);
   weights[7] = -2;
   const std::vector<VertexId> outside{25};
   expect_refused(ErrorCode::InvalidOption, "degree is 5",
-                 [&] { (void)moments(index, {.radius = 1.0}, {.degree = 5}); });
+                 [&] { return moments(index, {.radius = 1.0}, {.degree = 5}); });
   expect_refused(ErrorCode::InvalidOption, "weights: vertex 7 has -2",
-                 [&] { (void)moments(index, {.radius = 1.0}, {.weights = weights}); });
-  expect_refused(ErrorCode::InvalidOption, "weights: 3 values",
-                 [&] { (void)principal_components(index, {.radius = 1.0}, {.weights = std::span(weights).first(3)}); });
-  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)moments(index, {.radius = -1.0}); });
+                 [&] { return moments(index, {.radius = 1.0}, {.weights = weights}); });
+  expect_refused(ErrorCode::InvalidOption, "weights: 3 values", [&] {
+    return principal_components(index, {.radius = 1.0}, {.weights = std::span(weights).first(3)});
+  });
+  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { return moments(index, {.radius = -1.0}); });
   expect_refused(ErrorCode::VertexOutOfRange, "25",
-                 [&] { (void)moments(index, {.vertices = outside, .radius = 1.0}); });
+                 [&] { return moments(index, {.vertices = outside, .radius = 1.0}); });
 }
 
 }  // namespace

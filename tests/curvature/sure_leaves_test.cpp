@@ -13,6 +13,7 @@
 #include "curvature/packet_moments.h"
 #include "exact/index_access.h"
 #include "support/families.h"
+#include "support/indexed.h"
 #include "support/random.h"
 #include "support/scale.h"
 
@@ -90,8 +91,7 @@ TEST(SureLeaves, AreWholeInTheAnswersOfAllVerticesOfALeaf) {
 }
 
 TEST(SureLeaves, OfARegularMeshAreManyInALargeBall) {
-  const TestMesh mesh = bumpy_grid(60).finish(false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(60).finish(false));
   const IndexView& view = IndexAccess::view(index);
   SureLeaves sure(view);
   EXPECT_EQ(sure_leaves(sure, view, 5, std::numeric_limits<double>::infinity()).size(), view.leaf_count());
@@ -100,8 +100,7 @@ TEST(SureLeaves, OfARegularMeshAreManyInALargeBall) {
 }
 
 TEST(SureLeaves, HaveTheQueriesThatWereSetSinceTheBeginning) {
-  const TestMesh mesh = bumpy_grid(20).finish(false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(20).finish(false));
   SureLeaves sure(IndexAccess::view(index));
   sure.begin(1);
   ASSERT_EQ(sure.next(TreeBounds(IndexAccess::view(index).frame, 100)), LeafId{1});

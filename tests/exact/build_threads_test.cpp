@@ -2,7 +2,6 @@
 // A build on several threads gives the same bytes, and can be cancelled.
 #include <cstdio>
 #include <new>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 
 #include "support/families.h"
 #include "support/refusal.h"
+#include "support/reports.h"
 #include "support/same_storage.h"
 
 namespace meshhood::test {
@@ -40,38 +40,19 @@ TEST(ThreadedBuild, GivesTheSameBytesOnAllFamilies) {
 
 TEST(ThreadedBuild, RejectsTooManyThreads) {
   expect_refused(ErrorCode::InvalidOption, "threads is 1025, expected at most 1024",
-                 [] { static_cast<void>(build(MeshView{}, {.threads = 1025})); });
-}
-
-/// The number of progress reports of a build of `mesh`.
-std::size_t count_reports(const MeshView& mesh, unsigned threads) {
-  std::size_t reports = 0;
-  std::size_t last = 0;
-  const auto caller = std::this_thread::get_id();
-  const auto progress = [&](std::size_t done, std::size_t total) {
-    EXPECT_EQ(std::this_thread::get_id(), caller);
-    EXPECT_GE(done, last);
-    EXPECT_EQ(done == total, done == 7);
-    last = done;
-    ++reports;
-    return true;
-  };
-  static_cast<void>(build(mesh, {.threads = threads, .progress = progress}));
-  EXPECT_EQ(last, 7U);
-  return reports;
+                 [] { return build(MeshView{}, {.threads = 1025}); });
 }
 
 TEST(ThreadedBuild, ReportsAndCanBeCancelledAtAnyReport) {
   const TestMesh mesh = make_grid(300, 300, false).finish(true);
   for (const unsigned threads : {1U, 2U, 3U, 8U}) {
-    EXPECT_GE(count_reports(mesh.view(), threads), 2U);
-    for (const std::size_t last : {1U, 2U}) {
-      std::size_t reports = 0;
-      const auto progress = [&](std::size_t, std::size_t) { return ++reports < last; };
-      expect_refused(ErrorCode::Cancelled, "cancelled",
-                     [&] { static_cast<void>(build(mesh.view(), {.threads = threads, .progress = progress})); });
-      EXPECT_EQ(reports, last);
-    }
+    const auto call = [&](const Progress& progress) {
+      static_cast<void>(build(mesh.view(), {.threads = threads, .progress = progress}));
+    };
+    const Reports reports = reports_of(call);
+    expect_from_nothing_to_all(reports);
+    EXPECT_EQ(reports.back().second, 7U);
+    for (const std::size_t last : {0U, 1U}) expect_cancelled_at(last, call);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/forged_index.h"
+#include "support/indexed.h"
 
 namespace meshhood::test {
 namespace {
@@ -30,8 +31,7 @@ TestMesh two_bumpy_grids(std::size_t side) {
 
 /// The faults that `check` reports after `damage`.
 std::vector<std::string> faults_after(const std::function<void(IndexData&)>& damage) {
-  const TestMesh mesh = two_bumpy_grids(50);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(two_bumpy_grids(50));
   IndexData arrays = arrays_of(index);
   damage(arrays);
   return IndexAccess::make(std::move(arrays)).check(mesh.view());
@@ -44,7 +44,7 @@ void expect_found(const char* fault, const std::function<void(IndexData&)>& dama
   EXPECT_LE(faults.size(), 16U);
 }
 
-class IndexCheckOfFamilies : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(IndexCheckOfFamilies);
 
 TEST_P(IndexCheckOfFamilies, FindsNothingInAnIndexOfTheMesh) {
   for (const std::size_t vertices : {1U, 50U, 3000U, 20000U}) {
@@ -53,26 +53,18 @@ TEST_P(IndexCheckOfFamilies, FindsNothingInAnIndexOfTheMesh) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, IndexCheckOfFamilies, testing::ValuesIn(families()), family_name);
-
-TEST(IndexCheck, FindsAWrongNumbering) {
+TEST(IndexCheck, FindsWrongNumbersAndPositions) {
   expect_found("does not have the slot of its position",
                [](IndexData& i) { std::swap(i.permutation[3], i.permutation[40]); });
   expect_found("does not have the slot of its position", [](IndexData& i) { i.slot[100] ^= 1; });
   expect_found("does not hold 1 to 32 vertices", [](IndexData& i) { --i.leaves[2].size; });
-}
-
-TEST(IndexCheck, FindsAWrongPosition) {
   expect_found("its position differs", [](IndexData& i) { std::get<RawVector<float>>(i.positions)[200] += 1; });
 }
 
-TEST(IndexCheck, FindsAWrongEdge) {
+TEST(IndexCheck, FindsAWrongEdgeAndALeafWronglyMarkedAsConnected) {
   expect_found("its neighbors differ", [](IndexData& i) { i.adjacency[5] = 0; });
   expect_found("its neighbors differ", [](IndexData& i) { i.cross_edges[9].to ^= 1; });
   expect_found("the boundary of its link", [](IndexData& i) { i.links[7].boundary = 0; });
-}
-
-TEST(IndexCheck, FindsALeafWronglyMarkedAsConnected) {
   expect_found("its mark as connected", [](IndexData& i) { i.leaves[4].connected = !i.leaves[4].connected; });
 }
 

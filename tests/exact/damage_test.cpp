@@ -3,7 +3,6 @@
 // answers stay within its arrays. Rows F1 to F3 of the catalogue in docs/reliability.md.
 #include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -12,7 +11,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "meshhood/error.h"
 #include "meshhood/reorder.h"
 #include "meshhood/search.h"
 
@@ -33,24 +31,12 @@ TestMesh bumpy_sheets(std::size_t side, bool single) {
   return mesh.finish(single);
 }
 
-/// The error for the bytes; empty if they are accepted.
-std::string refusal_of(const std::function<Index()>& load) {
-  try {
-    static_cast<void>(load());
-    return {};
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::MalformedIndex) << error.what();
-    EXPECT_TRUE(names_a_place(error.what())) << error.what();
-    return error.what();
-  }
-}
-
 std::string refusal_of_mapping(std::span<const std::byte> bytes) {
-  return refusal_of([bytes] { return map(bytes, nullptr); });
+  return refusal_by([bytes] { return map(bytes, nullptr); });
 }
 
 std::string refusal_of_loading(std::span<const std::byte> bytes) {
-  return refusal_of([bytes] { return load(bytes); });
+  return refusal_by([bytes] { return load(bytes); });
 }
 
 /// Changes bytes one at a time, and counts the changes.

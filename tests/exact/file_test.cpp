@@ -21,6 +21,7 @@
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/index_bytes.h"
+#include "support/indexed.h"
 #include "support/refusal.h"
 #include "support/same_storage.h"
 
@@ -65,7 +66,7 @@ std::size_t expect_the_same_after_saving(const Index& index, const MeshView& mes
   return queries;
 }
 
-class Serialize : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(Serialize);
 
 TEST_P(Serialize, RestoresTheIndex) {
   std::size_t queries = 0;
@@ -94,8 +95,6 @@ TEST_P(Serialize, RestoresTheGraphOfTheMesh) {
       },
       found.positions);
 }
-
-INSTANTIATE_TEST_SUITE_P(All, Serialize, testing::ValuesIn(families()), family_name);
 
 TEST(SerializeEdges, HandlesNoVerticesOneVertexAndIsolatedVertices) {
   const std::vector<float> none;
@@ -146,8 +145,7 @@ TEST_P(Serialize, RestoresTheFaces) {
 }
 
 TEST(SerializeEdges, GivesTheSameBytesHoweverTheFacesAreRepresented) {
-  const TestMesh mesh = make_grid(5, 4, false).finish(true);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(5, 4, false).finish(true));
   const std::vector<std::byte> expected = saved(index, {.faces = mesh.view().faces});
   const Index loaded = load(expected);
   EXPECT_TRUE(loaded.faces()->are_triangles());
@@ -172,8 +170,7 @@ TEST(SerializeEdges, RestoresPolygonsWithAsManyCornersAsTriangles) {
 }
 
 TEST(SerializeEdges, KeepsNoFacesApartFromFacesThatAreNone) {
-  const TestMesh mesh = make_grid(5, 4, false).finish(true);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(5, 4, false).finish(true));
   const Index loaded = load(saved(index, {.faces = FacesView{}}));
   ASSERT_TRUE(loaded.faces());
   EXPECT_EQ(loaded.faces()->size(), 0U);
@@ -184,7 +181,7 @@ TEST(SerializeEdges, RefusesFacesThatAreNotOfTheIndex) {
   const TestMesh large = make_grid(5, 5, false).finish(true);
   const Index index = build(small.view());
   expect_refused(ErrorCode::InvalidMesh, "but the mesh has 20 vertices",
-                 [&] { static_cast<void>(saved(index, {.faces = large.view().faces})); });
+                 [&] { return saved(index, {.faces = large.view().faces}); });
 }
 
 TEST(SerializeEdges, AMappedIndexKeepsItsOwner) {
@@ -203,12 +200,11 @@ TEST(SerializeEdges, AMappedIndexKeepsItsOwner) {
 TEST(SerializeEdges, MapRejectsBytesThatAreNotAligned) {
   Mappable bytes(std::vector<std::byte>(256));
   expect_refused(ErrorCode::InvalidOption, "begin 8 bytes after a multiple of 64",
-                 [&] { static_cast<void>(map(bytes.bytes().subspan(8), nullptr)); });
+                 [&] { return map(bytes.bytes().subspan(8), nullptr); });
 }
 
 TEST(SerializeEdges, PassesOnExceptionsOfTheSink) {
-  const TestMesh mesh = make_grid(20, 20, false).finish(true);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(20, 20, false).finish(true));
   EXPECT_THROW(save(index, [](std::span<const std::byte>) { throw std::bad_alloc(); }), std::bad_alloc);
   EXPECT_THAT(index.check(mesh.view()), IsEmpty());
 }

@@ -71,22 +71,22 @@ TEST(Index, ThatHasBeenMovedFromIsRefusedByEveryCallAndCanBeAssigned) {
   const auto refuse = [&](const auto& call) {  // NOLINTBEGIN(bugprone-use-after-move): the subject of this test
     expect_refused(ErrorCode::InvalidOption, "has been moved from", call);
   };
-  refuse([&] { static_cast<void>(index.vertex_count()); });
-  refuse([&] { static_cast<void>(index.bytes()); });
-  refuse([&] { static_cast<void>(index.levels()); });
-  refuse([&] { static_cast<void>(index.positions()); });
-  refuse([&] { static_cast<void>(index.permutation()); });
-  refuse([&] { static_cast<void>(index.leaf_starts()); });
-  refuse([&] { static_cast<void>(index.faces()); });
-  refuse([&] { static_cast<void>(index.check(mesh.view())); });
+  refuse([&] { return index.vertex_count(); });
+  refuse([&] { return index.bytes(); });
+  refuse([&] { return index.levels(); });
+  refuse([&] { return index.positions(); });
+  refuse([&] { return index.permutation(); });
+  refuse([&] { return index.leaf_starts(); });
+  refuse([&] { return index.faces(); });
+  refuse([&] { return index.check(mesh.view()); });
   refuse([&] { index.refit_in_place(mesh.positions_view()); });
-  refuse([&] { static_cast<void>(refit(index, mesh.positions_view())); });
-  refuse([&] { static_cast<void>(Searcher(index)); });
-  refuse([&] { static_cast<void>(Searcher(index, Metric::Path)); });
-  refuse([&] { static_cast<void>(nearest(index, {0, 0, 0})); });
-  refuse([&] { static_cast<void>(counts(index, {.radius = 1.0})); });
-  refuse([&] { static_cast<void>(quality(index)); });
-  refuse([&] { static_cast<void>(saved(index)); });
+  refuse([&] { return refit(index, mesh.positions_view()); });
+  refuse([&] { return Searcher(index); });
+  refuse([&] { return Searcher(index, Metric::Path); });
+  refuse([&] { return nearest(index, {0, 0, 0}); });
+  refuse([&] { return counts(index, {.radius = 1.0}); });
+  refuse([&] { return quality(index); });
+  refuse([&] { return saved(index); });
   index = build(mesh.view());
   // NOLINTEND(bugprone-use-after-move)
   EXPECT_THAT(differences(index, taken), IsEmpty());

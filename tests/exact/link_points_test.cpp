@@ -44,7 +44,7 @@ std::size_t expect_scanned(const TestMesh& mesh, const Oracle& oracle, double li
   return found.neighbors.size() / 2;
 }
 
-class LinkedFamilies : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(LinkedFamilies);
 
 TEST_P(LinkedFamilies, JoinThePairsOfAScan) {
   std::size_t edges = 0;
@@ -61,8 +61,6 @@ TEST_P(LinkedFamilies, JoinThePairsOfAScan) {
   }
   std::printf("%s: %zu edges\n", std::string(GetParam().name).c_str(), edges);
 }
-
-INSTANTIATE_TEST_SUITE_P(All, LinkedFamilies, testing::ValuesIn(families()), family_name);
 
 TEST(LinkPoints, OfAClusterAndAnOutlierDoNotLookAtAllPairs) {
   std::vector<double> points;
@@ -123,17 +121,17 @@ TEST(LinkPoints, BuildTheIndexOfTheirGraph) {
 TEST(LinkPoints, RefuseWrongLinksAndTooManyEdges) {
   std::vector<float> points;
   for (int i = 0; i < 3000; ++i) points.insert(points.end(), {static_cast<float>(i % 10), 0, 0});
-  expect_refused(ErrorCode::InvalidOption, "link: -1", [&] { static_cast<void>(link_points(points, -1)); });
+  expect_refused(ErrorCode::InvalidOption, "link: -1", [&] { return link_points(points, -1); });
   expect_refused(ErrorCode::InvalidOption, "link: inf",
-                 [&] { static_cast<void>(link_points(points, std::numeric_limits<double>::infinity())); });
+                 [&] { return link_points(points, std::numeric_limits<double>::infinity()); });
   expect_refused(ErrorCode::TooLarge, "link: 20 joins the 3000 points by more than 1000 edges",
-                 [&] { static_cast<void>(link_points(points, 20, {.max_edges = 1000})); });
+                 [&] { return link_points(points, 20, {.max_edges = 1000}); });
   const std::size_t edges = std::size_t{3000} * 2999 / 2;
   EXPECT_EQ(link_points(points, 20, {.max_edges = edges}).neighbors.size(), 2 * edges);
   expect_refused(ErrorCode::TooLarge, "edges",
-                 [&] { static_cast<void>(link_points(points, 20, {.max_edges = edges - 1}, {.threads = 2})); });
+                 [&] { return link_points(points, 20, {.max_edges = edges - 1}, {.threads = 2}); });
   points[4] = std::numeric_limits<float>::quiet_NaN();
-  expect_refused(ErrorCode::InvalidMesh, "vertex 1", [&] { static_cast<void>(link_points(points, 1)); });
+  expect_refused(ErrorCode::InvalidMesh, "vertex 1", [&] { return link_points(points, 1); });
 }
 
 }  // namespace

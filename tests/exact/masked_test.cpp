@@ -24,6 +24,7 @@
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/limited_isa.h"
 #include "support/refusal.h"
 #include "support/scale.h"
@@ -140,7 +141,7 @@ void compare_batch(MaskedCase& scene, double radius, unsigned threads, Ways& way
   ways.rows += scene.size();
 }
 
-class MaskedFamily : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(MaskedFamily);
 
 TEST_P(MaskedFamily, GivesTheAnswersOfTheGraphWithoutWalls) {
   Random random(11);
@@ -163,8 +164,6 @@ TEST_P(MaskedFamily, GivesTheAnswersOfTheGraphWithoutWalls) {
   std::printf("%zu single queries, of which %zu by the outward search and %zu of walls; %zu rows\n", ways.queries,
               ways.reach, ways.walls, ways.rows);
 }
-
-INSTANTIATE_TEST_SUITE_P(Families, MaskedFamily, testing::ValuesIn(families()), family_name);
 
 /// Large enough for cores, whole nodes of several levels, and packets of one group with and without walls.
 TEST(Masked, GivesTheAnswersOfTheGraphWithoutWallsOnALargeSheet) {
@@ -204,8 +203,7 @@ TEST(Masked, GivesRowsWithRadiiOfTheirOwnAndOfChosenVertices) {
 }
 
 TEST(Masked, HasACopyOfTheMasks) {
-  const TestMesh mesh = bumpy_grid(60);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(60));
   std::vector<std::uint8_t> walls(mesh.size());
   for (std::size_t v = 0; v < mesh.size(); v += 7) walls[v] = 1;
   const Index searched = masked(index, {.walls = walls});
@@ -222,41 +220,35 @@ TEST(Masked, RefusesMasksOfAnotherSizeAndWhatWouldLoseThem) {
   const std::vector<std::uint8_t> short_mask(8);
   const std::vector<std::uint8_t> mask(16);
   expect_refused(ErrorCode::InvalidOption, "walls: 8 values, expected one for each of 16 vertices",
-                 [&] { static_cast<void>(masked(index, {.walls = short_mask})); });
-  expect_refused(ErrorCode::InvalidOption, "ignored: 8 values",
-                 [&] { static_cast<void>(masked(index, {.ignored = short_mask})); });
+                 [&] { return masked(index, {.walls = short_mask}); });
+  expect_refused(ErrorCode::InvalidOption, "ignored: 8 values", [&] { return masked(index, {.ignored = short_mask}); });
   for (const Masks& masks : {Masks{.walls = mask}, Masks{}}) {
     Index searched = masked(index, masks);
-    expect_refused(ErrorCode::InvalidOption, "masked again", [&] { static_cast<void>(masked(searched, masks)); });
+    expect_refused(ErrorCode::InvalidOption, "masked again", [&] { return masked(searched, masks); });
     expect_refused(ErrorCode::InvalidOption, "not saved", [&] { save(searched, [](std::span<const std::byte>) {}); });
-    expect_refused(ErrorCode::InvalidOption, "not checked", [&] { static_cast<void>(searched.check(mesh.view())); });
-    expect_refused(ErrorCode::InvalidOption, "not refitted",
-                   [&] { static_cast<void>(refit(searched, mesh.positions_view())); });
+    expect_refused(ErrorCode::InvalidOption, "not checked", [&] { return searched.check(mesh.view()); });
+    expect_refused(ErrorCode::InvalidOption, "not refitted", [&] { return refit(searched, mesh.positions_view()); });
     expect_refused(ErrorCode::InvalidOption, "not refitted", [&] { searched.refit_in_place(mesh.positions_view()); });
   }
   const Index searched = masked(index, {.walls = mask});
   index.refit_in_place(mesh.positions_view());
-  expect_refused(ErrorCode::InvalidOption, "refitted in place",
-                 [&] { static_cast<void>(counts(searched, {.radius = 1})); });
+  expect_refused(ErrorCode::InvalidOption, "refitted in place", [&] { return counts(searched, {.radius = 1}); });
 }
 
 TEST(Masked, SharesTheNormalsOfASurface) {
-  const TestMesh mesh = bumpy_grid(12);
-  const Index index = build(mesh.view());
+  const auto [mesh, index, surface] = with_surface(bumpy_grid(12));
   const std::vector<std::uint8_t> walls(mesh.size());
-  const Surface surface(index, mesh.view());
   const Surface same = surface.on(masked(index, {.walls = walls}));
   EXPECT_EQ(curvatures(same, {.radius = 3}).k1, curvatures(surface, {.radius = 3}).k1);
   const Index other = build(mesh.view());
-  expect_refused(ErrorCode::InvalidOption, "of another mesh", [&] { static_cast<void>(surface.on(other)); });
+  expect_refused(ErrorCode::InvalidOption, "of another mesh", [&] { return surface.on(other); });
 }
 
 /// Many vertices in one packet that no wall touches, beside one that loses all of its queries. Balls with the larger
 /// radius have whole leaves in common.
 TEST(Masked, AnswersWallsInTheMiddleOfALeaf) {
   Random random(9);
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(30));
   const IndexView& view = IndexAccess::view(index);
   for (LeafId leaf = 0; leaf < view.leaf_count(); ++leaf) {
     if (view.leaves[leaf].size == 0) continue;

@@ -10,6 +10,7 @@
 
 #include "exact/index_access.h"
 #include "support/families.h"
+#include "support/indexed.h"
 
 namespace meshhood::test {
 namespace {
@@ -22,8 +23,7 @@ std::size_t near(NearestPacket& packet, unsigned lane, double most) {
 }
 
 TEST(NearestPacket, StopsAtTheLimitAndKnowsWhatIsWhole) {
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(30));
   const IndexView& view = IndexAccess::view(index);
   const auto leaves = static_cast<std::size_t>(
       std::ranges::count_if(view.leaves.first(view.leaf_count()), [](const Leaf& leaf) { return leaf.size != 0; }));

@@ -9,6 +9,7 @@
 
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 
 namespace meshhood::test {
 namespace {
@@ -18,7 +19,7 @@ double real_gain(const Index& index, const TestMesh& mesh) {
   return index.levels()[0].mean_radius / build(mesh.view()).levels()[0].mean_radius;
 }
 
-class QualityFamilies : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(QualityFamilies);
 
 TEST_P(QualityFamilies, OfANewIndexIsGood) {
   // The sample is then the whole mesh.
@@ -28,8 +29,6 @@ TEST_P(QualityFamilies, OfANewIndexIsGood) {
   EXPECT_GT(found.gain, 0.8);
   EXPECT_LT(found.gain, 1.3);
 }
-
-INSTANTIATE_TEST_SUITE_P(All, QualityFamilies, testing::ValuesIn(families()), family_name);
 
 TEST(Quality, DoesNotChangeWithPositionAndSize) {
   TestMesh mesh = bumpy_grid(100);
@@ -43,8 +42,7 @@ TEST(Quality, DoesNotChangeWithPositionAndSize) {
 }
 
 TEST(Quality, PredictsTheGainOfABuildWhereLeavesAreStretchedOrTorn) {
-  const TestMesh mesh = bumpy_grid(150);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(150));
   for (const double stretch : {2.0, 4.0, 8.0}) {
     TestMesh moved = mesh;
     for (std::size_t i = 0; i < moved.positions.size(); i += 3) moved.positions[i] *= stretch;

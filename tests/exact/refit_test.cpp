@@ -20,14 +20,15 @@
 
 #include "meshhood/meshhood.h"
 
-#include "base/vector.h"
 #include "support/draw.h"
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/index_bytes.h"
+#include "support/indexed.h"
 #include "support/oracle.h"
 #include "support/refusal.h"
+#include "support/reports.h"
 #include "support/same_storage.h"
 #include "support/scale.h"
 #include "support/sorted.h"
@@ -105,13 +106,12 @@ std::size_t expect_right_answers(const Index& index, const TestMesh& mesh, Rando
   return queries;
 }
 
-class RefitFamilies : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(RefitFamilies);
 
 TEST_P(RefitFamilies, AnswersAreThoseOfTheOracle) {
   std::size_t queries = 0;
   for (const std::size_t vertices : {1U, 3U, 40U, 300U, 1500U}) {
-    const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
-    const Index index = build(mesh.view());
+    const auto [mesh, index] = indexed(make_mesh(GetParam(), vertices, vertices));
     for (const Deformation& deformation : deformations()) {
       SCOPED_TRACE(mesh.name + ", " + deformation.name);
       Random random(vertices);
@@ -127,8 +127,7 @@ TEST_P(RefitFamilies, AnswersAreThoseOfTheOracle) {
 
 TEST_P(RefitFamilies, WithTheSamePositionsGivesTheSameIndex) {
   for (const std::size_t vertices : {1U, 50U, 2000U}) {
-    const TestMesh mesh = make_mesh(GetParam(), 7, vertices);
-    const Index index = build(mesh.view());
+    const auto [mesh, index] = indexed(make_mesh(GetParam(), 7, vertices));
     EXPECT_THAT(differences(refit(index, mesh.positions_view()), index), IsEmpty());
     EXPECT_THAT(differences(refit(index, mesh.positions_view(), {.threads = 3}), index), IsEmpty());
     const ReorderedMesh reordered = reorder(mesh.view());
@@ -164,15 +163,15 @@ TEST_P(RefitFamilies, OfSomeVerticesGivesTheAnswersOfTheOracle) {
   std::printf("%zu queries\n", queries);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RefitFamilies, testing::ValuesIn(families()), family_name);
-
 /// Some vertices inside the bounding box of a grid, and the mesh in which they have moved inside it.
-struct Sculpted {
+class RefitOfGrid : public testing::Test {
+ protected:
   TestMesh mesh = bumpy_grid(60);
   TestMesh moved = mesh;
   std::vector<std::int64_t> changed;
+  Index index = build(mesh.view());
 
-  Sculpted() {
+  RefitOfGrid() {
     for (std::size_t v = 25 * 60 + 20; v < 35 * 60; v += v % 60 == 40 ? 40 : 1) {
       changed.push_back(static_cast<std::int64_t>(v));
       moved.positions[3 * v] += 0.3;
@@ -182,15 +181,13 @@ struct Sculpted {
   }
 };
 
-TEST(Refit, OfTheChangedVerticesHasTheNodesOfARefitOfAll) {
-  const Sculpted sculpted;
-  const Index index = build(sculpted.mesh.view());
-  const Index all = refit(index, sculpted.moved.positions_view());
-  const Index some = refit(index, sculpted.moved.positions_view(), sculpted.changed);
+TEST_F(RefitOfGrid, OfTheChangedVerticesHasTheNodesOfARefitOfAll) {
+  const Index all = refit(index, moved.positions_view());
+  const Index some = refit(index, moved.positions_view(), changed);
   EXPECT_FALSE(differences(all, index).empty());
   EXPECT_THAT(differences(some, all), IsEmpty());
-  EXPECT_THAT(some.check(sculpted.moved.view()), IsEmpty());
-  EXPECT_THAT(differences(index, build(sculpted.mesh.view())), IsEmpty());
+  EXPECT_THAT(some.check(moved.view()), IsEmpty());
+  EXPECT_THAT(differences(index, build(mesh.view())), IsEmpty());
 }
 
 /// The path distances of the vertices of the mesh from vertex 0, by their ids.
@@ -204,40 +201,34 @@ std::vector<double> path_distances(const Index& index) {
 }
 
 // The first search makes a graph with the lengths of the edges, which the index keeps.
-TEST(Refit, LengthsOfEdgesAreThoseOfTheNewPositions) {
-  const Sculpted sculpted;
-  Index index = build(sculpted.mesh.view());
+TEST_F(RefitOfGrid, LengthsOfEdgesAreThoseOfTheNewPositions) {
   const std::vector<double> before = path_distances(index);
-  const std::vector<double> expected = path_distances(build(sculpted.moved.view()));
+  const std::vector<double> expected = path_distances(build(moved.view()));
   ASSERT_NE(before, expected);
-  EXPECT_EQ(path_distances(refit(index, sculpted.moved.positions_view())), expected);
-  EXPECT_EQ(path_distances(refit(index, sculpted.moved.positions_view(), sculpted.changed)), expected);
+  EXPECT_EQ(path_distances(refit(index, moved.positions_view())), expected);
+  EXPECT_EQ(path_distances(refit(index, moved.positions_view(), changed)), expected);
   EXPECT_EQ(path_distances(index), before);
-  index.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
+  index.refit_in_place(moved.positions_view(), changed);
   EXPECT_EQ(path_distances(index), expected);
 }
 
-TEST(Refit, ReadsOnlyThePositionsOfTheChangedVertices) {
-  Sculpted sculpted;
-  const Index index = build(sculpted.mesh.view());
-  const Index expected = refit(index, sculpted.moved.positions_view(), sculpted.changed);
-  std::vector<float> poisoned(sculpted.moved.single_positions.size(), std::nanf(""));
-  for (const std::int64_t v : sculpted.changed) {
-    std::copy_n(&sculpted.moved.single_positions[3 * static_cast<std::size_t>(v)], 3,
+TEST_F(RefitOfGrid, ReadsOnlyThePositionsOfTheChangedVertices) {
+  const Index expected = refit(index, moved.positions_view(), changed);
+  std::vector<float> poisoned(moved.single_positions.size(), std::nanf(""));
+  for (const std::int64_t v : changed) {
+    std::copy_n(&moved.single_positions[3 * static_cast<std::size_t>(v)], 3,
                 &poisoned[3 * static_cast<std::size_t>(v)]);
   }
-  EXPECT_THAT(differences(refit(index, poisoned, sculpted.changed), expected), IsEmpty());
+  EXPECT_THAT(differences(refit(index, poisoned, changed), expected), IsEmpty());
 }
 
-TEST(Refit, OfVerticesThatLeaveTheFrameIsARefitOfAll) {
-  Sculpted sculpted;
-  const Index index = build(sculpted.mesh.view());
-  sculpted.moved.positions[3 * static_cast<std::size_t>(sculpted.changed[7])] = 1e6;
-  sculpted.moved.finish(true);
-  const Index all = refit(index, sculpted.moved.positions_view());
-  EXPECT_THAT(differences(refit(index, sculpted.moved.positions_view(), sculpted.changed), all), IsEmpty());
-  Index own = build(sculpted.mesh.view());
-  own.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
+TEST_F(RefitOfGrid, OfVerticesThatLeaveTheFrameIsARefitOfAll) {
+  moved.positions[3 * static_cast<std::size_t>(changed[7])] = 1e6;
+  moved.finish(true);
+  const Index all = refit(index, moved.positions_view());
+  EXPECT_THAT(differences(refit(index, moved.positions_view(), changed), all), IsEmpty());
+  Index own = build(mesh.view());
+  own.refit_in_place(moved.positions_view(), changed);
   EXPECT_THAT(differences(own, all), IsEmpty());
 }
 
@@ -274,11 +265,9 @@ TEST(Refit, TakesTheTypeOfTheNewPositions) {
   expect_right_answers(twice, mesh, random, 20);
 }
 
-TEST(Refit, HasTheFingerprintOfTheMovedMeshAndCanBeSavedAndLoaded) {
-  const Sculpted sculpted;
-  const Index index = build(sculpted.mesh.view());
+TEST_F(RefitOfGrid, HasTheFingerprintOfTheMovedMeshAndCanBeSavedAndLoaded) {
   // The frame is then larger than the positions need.
-  TestMesh smaller = sculpted.mesh;
+  TestMesh smaller = mesh;
   for (double& x : smaller.positions) x *= 0.125;
   smaller.finish(true);
   std::vector<std::uint32_t> every(smaller.size());
@@ -288,14 +277,13 @@ TEST(Refit, HasTheFingerprintOfTheMovedMeshAndCanBeSavedAndLoaded) {
   EXPECT_EQ(fingerprint(in_large_frame), fingerprint(smaller.view()));
 }
 
-TEST(Refit, OfALoadedIndexWorksAndLeavesItAsItIs) {
-  const Sculpted sculpted;
-  const std::vector<std::byte> file = saved(build(sculpted.mesh.view()));
+TEST_F(RefitOfGrid, OfALoadedIndexWorksAndLeavesItAsItIs) {
+  const std::vector<std::byte> file = saved(build(mesh.view()));
   Index loaded = load(file);
-  const Index expected = refit(build(sculpted.mesh.view()), sculpted.moved.positions_view(), sculpted.changed);
-  EXPECT_THAT(differences(refit(loaded, sculpted.moved.positions_view(), sculpted.changed), expected), IsEmpty());
+  const Index expected = refit(build(mesh.view()), moved.positions_view(), changed);
+  EXPECT_THAT(differences(refit(loaded, moved.positions_view(), changed), expected), IsEmpty());
   EXPECT_EQ(saved(loaded), file);
-  loaded.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
+  loaded.refit_in_place(moved.positions_view(), changed);
   EXPECT_THAT(differences(loaded, expected), IsEmpty());
 }
 
@@ -303,16 +291,14 @@ const float* positions_of(const Index& index) {
   return std::get<std::span<const float>>(IndexAccess::view(index).positions).data();
 }
 
-TEST(RefitInPlace, HasTheIndexOfARefitInTheSameMemory) {
-  const Sculpted sculpted;
-  Index index = build(sculpted.mesh.view());
+TEST_F(RefitOfGrid, InPlaceHasTheIndexOfARefitInTheSameMemory) {
   const Searcher searcher(index);
   const float* const before = positions_of(index);
-  index.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
+  index.refit_in_place(moved.positions_view(), changed);
   EXPECT_EQ(positions_of(index), before);
-  EXPECT_THAT(differences(index, refit(build(sculpted.mesh.view()), sculpted.moved.positions_view())), IsEmpty());
-  index.refit_in_place(sculpted.mesh.positions_view());
-  EXPECT_THAT(differences(index, build(sculpted.mesh.view())), IsEmpty());
+  EXPECT_THAT(differences(index, refit(build(mesh.view()), moved.positions_view())), IsEmpty());
+  index.refit_in_place(mesh.positions_view());
+  EXPECT_THAT(differences(index, build(mesh.view())), IsEmpty());
 }
 
 TEST(RefitInPlace, SearchersAskedForTheSameRadiusInAnotherFrameCompareWithItThere) {
@@ -400,14 +386,12 @@ TEST(Refit, OfSomeVerticesIsKnownToTheSearchForTheNearestVertex) {
 }
 
 // Each thread takes the present index, searches it while the next one is made from it, and releases it.
-TEST(Refit, LetsOtherThreadsSearchTheOldState) {
-  const Sculpted sculpted;
-  const Oracle even(sculpted.mesh);
-  const Oracle odd(sculpted.moved);
-  const auto center = static_cast<VertexId>(sculpted.changed[sculpted.changed.size() / 2]);
+TEST_F(RefitOfGrid, LetsOtherThreadsSearchTheOldState) {
+  const Oracle even(mesh);
+  const Oracle odd(moved);
+  const auto center = static_cast<VertexId>(changed[changed.size() / 2]);
   const std::array<std::vector<std::uint32_t>, 2> answers = {even.exact(center, 4), odd.exact(center, 4)};
   ASSERT_NE(answers[0], answers[1]);
-  Index index = build(sculpted.mesh.view());
   std::atomic<std::size_t> wrong = 0;
   std::atomic<std::size_t> searched = 0;
   for (std::size_t step = 0; step < scaled(200, 20); ++step) {
@@ -425,63 +409,54 @@ TEST(Refit, LetsOtherThreadsSearchTheOldState) {
       });
     }
     while (ready == 0) std::this_thread::yield();
-    const TestMesh& next = step % 2 == 0 ? sculpted.moved : sculpted.mesh;
-    index = refit(index, next.positions_view(), sculpted.changed);
+    const TestMesh& next = step % 2 == 0 ? moved : mesh;
+    index = refit(index, next.positions_view(), changed);
     for (std::thread& thread : threads) thread.join();
   }
   EXPECT_EQ(wrong, 0U);
   std::printf("%zu searches\n", searched.load());
 }
 
-TEST(Refit, RefusesPositionsByTheVertexAtFault) {
-  const Sculpted sculpted;
-  const Index index = build(sculpted.mesh.view());
-  std::vector<float> xyz = sculpted.moved.single_positions;
-  const auto bad = static_cast<std::size_t>(sculpted.changed[5]);
+TEST_F(RefitOfGrid, RefusesPositionsByTheVertexAtFault) {
+  std::vector<float> xyz = moved.single_positions;
+  const auto bad = static_cast<std::size_t>(changed[5]);
   xyz[3 * bad + 1] = std::nanf("");
   const std::string fault = "vertex " + std::to_string(bad) + ": y is nan, expected a finite number";
-  expect_refused(ErrorCode::InvalidMesh, fault, [&] { static_cast<void>(refit(index, xyz)); });
-  expect_refused(ErrorCode::InvalidMesh, fault, [&] { static_cast<void>(refit(index, xyz, sculpted.changed)); });
+  expect_refused(ErrorCode::InvalidMesh, fault, [&] { return refit(index, xyz); });
+  expect_refused(ErrorCode::InvalidMesh, fault, [&] { return refit(index, xyz, changed); });
   std::vector<double> large(xyz.size(), 0.5);
   large[3 * bad] = 0x1p501;
   expect_refused(ErrorCode::InvalidMesh, "vertex " + std::to_string(bad) + ": x is ",
-                 [&] { static_cast<void>(refit(index, large)); });
+                 [&] { return refit(index, large); });
   xyz.resize(xyz.size() - 3);
   const char* const size = "10797 coordinates, but the index has 3600 vertices";
-  expect_refused(ErrorCode::InvalidMesh, size, [&] { static_cast<void>(refit(index, xyz)); });
-  expect_refused(ErrorCode::InvalidMesh, size, [&] { static_cast<void>(refit(index, xyz, sculpted.changed)); });
+  expect_refused(ErrorCode::InvalidMesh, size, [&] { return refit(index, xyz); });
+  expect_refused(ErrorCode::InvalidMesh, size, [&] { return refit(index, xyz, changed); });
 }
 
-TEST(Refit, RefusesChangedVerticesByTheRowAtFault) {
-  const Sculpted sculpted;
-  const Index index = build(sculpted.mesh.view());
-  const auto expect = [&](const char* fault, const auto& changed) {
-    expect_refused(ErrorCode::VertexOutOfRange, fault,
-                   [&] { static_cast<void>(refit(index, sculpted.moved.positions_view(), changed)); });
+TEST_F(RefitOfGrid, RefusesChangedVerticesByTheRowAtFault) {
+  const auto expect = [&](const char* fault, const auto& wrong) {
+    expect_refused(ErrorCode::VertexOutOfRange, fault, [&] { return refit(index, moved.positions_view(), wrong); });
   };
   expect("changed: row 2: vertex 3600, but the mesh has 3600 vertices", std::vector<std::uint32_t>{0, 3599, 3600});
   expect("changed: row 0: vertex -1, but", std::vector<std::int32_t>{-1});
   expect("changed: row 1: vertex 4294967296, but", std::vector<std::uint64_t>{7, std::uint64_t{1} << 32});
 }
 
-TEST(Refit, RefusesToRoundDoublesToAnIndexInFloat) {
-  const Sculpted sculpted;
-  const Index index = build(sculpted.mesh.view());
+TEST_F(RefitOfGrid, RefusesToRoundDoublesToAnIndexInFloat) {
   expect_refused(ErrorCode::InvalidMesh, "the positions are double, but those of the index are float",
-                 [&] { static_cast<void>(refit(index, sculpted.moved.positions, sculpted.changed)); });
+                 [&] { return refit(index, moved.positions, changed); });
   // The reverse loses nothing.
-  const Index twice = build({sculpted.mesh.positions, sculpted.mesh.view().faces});
-  const Index refitted = refit(twice, sculpted.moved.single_positions, sculpted.changed);
-  EXPECT_THAT(refitted.check({sculpted.moved.positions, sculpted.moved.view().faces}), IsEmpty());
+  const Index twice = build({mesh.positions, mesh.view().faces});
+  const Index refitted = refit(twice, moved.single_positions, changed);
+  EXPECT_THAT(refitted.check({moved.positions, moved.view().faces}), IsEmpty());
 }
 
-TEST(Refit, LeavesTheIndexUnchangedIfItFails) {
-  Sculpted sculpted;
-  Index index = build(sculpted.mesh.view());
+TEST_F(RefitOfGrid, LeavesTheIndexUnchangedIfItFails) {
   const std::vector<std::byte> before = saved(index);
-  std::vector<float> xyz = sculpted.moved.single_positions;
-  xyz[3 * static_cast<std::size_t>(sculpted.changed.back())] = std::nanf("");
-  EXPECT_THROW(index.refit_in_place(xyz, sculpted.changed), Error);
+  std::vector<float> xyz = moved.single_positions;
+  xyz[3 * static_cast<std::size_t>(changed.back())] = std::nanf("");
+  EXPECT_THROW(index.refit_in_place(xyz, changed), Error);
   EXPECT_THROW(index.refit_in_place(xyz), Error);
   EXPECT_EQ(saved(index), before);
   std::size_t cancelled = 0;
@@ -489,7 +464,7 @@ TEST(Refit, LeavesTheIndexUnchangedIfItFails) {
     std::size_t reports = 0;
     const auto give_up = [&](std::size_t, std::size_t) { return ++reports < last; };
     try {
-      index.refit_in_place(sculpted.moved.positions_view(), sculpted.changed, {.progress = give_up});
+      index.refit_in_place(moved.positions_view(), changed, {.progress = give_up});
       break;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::Cancelled);
@@ -501,22 +476,17 @@ TEST(Refit, LeavesTheIndexUnchangedIfItFails) {
   EXPECT_NE(saved(index), before);
 }
 
-TEST(Refit, ReportsProgressFromZeroToTheTotal) {
-  const Sculpted sculpted;
-  const Index index = build(sculpted.mesh.view());
-  std::vector<std::size_t> done;
-  const auto record = [&](std::size_t parts, std::size_t total) {
-    EXPECT_EQ(total, 3U);
-    done.push_back(parts);
-    return true;
+TEST_F(RefitOfGrid, ReportsProgressFromZeroToTheTotal) {
+  const auto of_all = [&](const Progress& progress) {
+    static_cast<void>(refit(index, moved.positions_view(), {.progress = progress}));
   };
-  static_cast<void>(refit(index, sculpted.moved.positions_view(), {.progress = record}));
-  EXPECT_EQ(done.front(), 0U);
-  EXPECT_EQ(done.back(), 3U);
-  done.clear();
-  static_cast<void>(refit(index, sculpted.moved.positions_view(), sculpted.changed, {.progress = record}));
-  EXPECT_EQ(done.front(), 0U);
-  EXPECT_EQ(done.back(), 3U);
+  const auto of_some = [&](const Progress& progress) {
+    static_cast<void>(refit(index, moved.positions_view(), changed, {.progress = progress}));
+  };
+  for (const Reports& reports : {reports_of(of_all), reports_of(of_some)}) {
+    expect_from_nothing_to_all(reports);
+    EXPECT_EQ(reports.back().second, 3U);
+  }
 }
 
 }  // namespace

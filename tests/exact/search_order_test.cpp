@@ -21,6 +21,7 @@
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/oracle.h"
 #include "support/scale.h"
 #include "support/sheets.h"
@@ -254,8 +255,7 @@ TEST_P(OneOrder, OfNestedRadiiRingByRing) {
 INSTANTIATE_TEST_SUITE_P(Families, OneOrder, testing::ValuesIn(families()), family_name);
 
 TEST(SearchOrder, IsThatOfTheIndexInEveryWayToAnswer) {
-  const TestMesh mesh = folded();
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(folded());
   const Questions questions(mesh, index, 3, scaled(40, 10));
   using Way = SearcherAccess::State::Way;
   std::map<Way, std::size_t> ways;

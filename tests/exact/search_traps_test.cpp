@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "exact/query/single_queries.h"
+#include "support/indexed.h"
 #include "support/search_case.h"
 #include "support/sheets.h"
 
@@ -82,8 +83,7 @@ TEST(SearchTraps, PiecesThatTouchNodesOfAnotherComponentAreLeftOut) {
 
 // The surface of the ball reaches the fold; the upper half is connected there, or not at all.
 TEST(SearchTraps, AHalfIsUnitedOverTheFoldOrLeftOut) {
-  const TestMesh mesh = make_folded_sheet(160);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_folded_sheet(160));
   Searcher searcher(index);
   ReferenceSearcher reference(mesh.view());
   std::size_t outward = 0;

@@ -13,6 +13,7 @@
 #include "meshhood/meshhood.h"
 
 #include "support/families.h"
+#include "support/indexed.h"
 #include "support/same_storage.h"
 #include "support/scale.h"
 #include "support/sorted.h"
@@ -137,8 +138,7 @@ TEST(Threads, ManyThreadsMaySearchOneIndexWithEveryMethod) {
 
 // The mesh has more vertices than a thread takes at once. Two callers build from it, and one of them cancels.
 TEST(Threads, ManyThreadsBuildTheSameIndex) {
-  const TestMesh mesh = make_grid(250, 240, true).finish(true);
-  const Index expected = build(mesh.view());
+  const auto [mesh, expected] = indexed(make_grid(250, 240, true).finish(true));
   std::thread other([&] {
     std::size_t reports = 0;
     const auto give_up = [&](std::size_t, std::size_t) { return ++reports < 2; };

@@ -51,16 +51,15 @@ TEST(FreeSurfer, TruncationAtAnyByteIsRefused) {
 
 TEST(FreeSurfer, WrongNumbersAreRefusedByPlace) {
   const std::size_t corners = kHead.size() + 8 + kPositions.size();
-  expect_refused("lh.white", surface(2000000000, 1, ""), ErrorCode::MalformedFile, "2000000000 vertices and 1 faces",
-                 "bytes are left");
-  expect_refused("lh.white", surface(-1, 1, big(0, 1, 2)), ErrorCode::MalformedFile, "-1 vertices");
+  expect_malformed("lh.white", surface(2000000000, 1, ""), "2000000000 vertices and 1 faces", "bytes are left");
+  expect_malformed("lh.white", surface(-1, 1, big(0, 1, 2)), "-1 vertices");
   for (const int wrong : {-1, 3}) {
-    expect_refused("lh.white", surface(3, 1, big(0, 1, wrong)), ErrorCode::MalformedFile,
-                   "lh.white@" + std::to_string(corners + 8) + ": face 0, corner 2 = " + std::to_string(wrong) +
-                       ", but there are 3 vertices");
+    expect_malformed("lh.white", surface(3, 1, big(0, 1, wrong)),
+                     "lh.white@" + std::to_string(corners + 8) + ": face 0, corner 2 = " + std::to_string(wrong) +
+                         ", but there are 3 vertices");
   }
-  expect_refused("lh.white", kHead + big(1, 0, 0.F, std::numeric_limits<float>::infinity(), 0.F),
-                 ErrorCode::MalformedFile, "vertex 0, y is not finite");
+  expect_malformed("lh.white", kHead + big(1, 0, 0.F, std::numeric_limits<float>::infinity(), 0.F),
+                   "vertex 0, y is not finite");
 }
 
 }  // namespace

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Progress and cancellation of loading and saving an index.
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <iterator>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "meshhood/error.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/paper.h"
@@ -22,7 +18,7 @@
 
 #include "io/index_io.h"
 #include "support/index_bytes.h"
-#include "support/refusal.h"
+#include "support/reports.h"
 #include "support/scratch.h"
 #include "support/test_mesh.h"
 
@@ -37,38 +33,6 @@ TestMesh make_polygon() {
   for (std::uint32_t i = 0; i < kCorners; ++i) face.push_back(mesh.add_vertex(std::cos(i), std::sin(i), 0.001 * i));
   mesh.add_face(face);
   return mesh.finish(false);
-}
-
-using Reports = std::vector<std::pair<std::size_t, std::size_t>>;
-
-/// The reports of `call(progress)`.
-template <class F>
-Reports reports_of(F&& call) {
-  Reports reports;
-  call([&](std::size_t done, std::size_t total) {
-    reports.emplace_back(done, total);
-    return true;
-  });
-  return reports;
-}
-
-void expect_from_nothing_to_all(const Reports& reports) {
-  ASSERT_GE(reports.size(), 10U);
-  EXPECT_EQ(reports.front().first, 0U);
-  EXPECT_EQ(reports.back().first, reports.back().second);
-  EXPECT_GT(reports.back().second, 0U);
-  EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
-  for (const auto& [done, total] : reports) EXPECT_EQ(total, reports.back().second);
-  std::printf("%zu reports\n", reports.size());
-}
-
-/// Expects that `call(progress)` is cancelled at report `last`, counted from 0.
-template <class F>
-void expect_ended_after(std::size_t last, F&& call) {
-  std::size_t reports = 0;
-  expect_refused(ErrorCode::Cancelled, "cancelled",
-                 [&] { call([&](std::size_t, std::size_t) { return reports++ < last; }); });
-  EXPECT_EQ(reports, last + 1);
 }
 
 /// Every function that loads or maps an index with verification.
@@ -91,13 +55,13 @@ class IndexProgress : public testing::Test {
 };
 
 TEST_F(IndexProgress, ReportsFromZeroToTheTotal) {
-  for (const Load& load : loads()) expect_from_nothing_to_all(reports_of(load));
+  for (const Load& load : loads()) expect_from_nothing_to_all(reports_of(load), 10);
 }
 
 TEST_F(IndexProgress, CancelsLoadingAtAnyReport) {
   for (const Load& load : loads()) {
     const std::size_t all = reports_of(load).size();
-    for (std::size_t last = 0; last < all; ++last) expect_ended_after(last, load);
+    for (std::size_t last = 0; last < all; ++last) expect_cancelled_at(last, load);
   }
 }
 
@@ -129,20 +93,20 @@ class IndexSaveProgress : public testing::Test {
 };
 
 TEST_F(IndexSaveProgress, ReportsFromZeroToTheTotal) {
-  for (const Save& save : to_bytes()) expect_from_nothing_to_all(reports_of(save));
-  for (const Save& save : to_files()) expect_from_nothing_to_all(reports_of(save));
+  for (const Save& save : to_bytes()) expect_from_nothing_to_all(reports_of(save), 10);
+  for (const Save& save : to_files()) expect_from_nothing_to_all(reports_of(save), 10);
 }
 
 TEST_F(IndexSaveProgress, CancelsSavingAtAnyReport) {
   for (const Save& save : to_bytes()) {
-    for (std::size_t last = 0; last < kFewest; ++last) expect_ended_after(last, save);
+    for (std::size_t last = 0; last < kFewest; ++last) expect_cancelled_at(last, save);
   }
 }
 
 TEST_F(IndexSaveProgress, KeepsTheOldFileWhenCancelled) {
   for (const Save& save : to_files()) {
     for (std::size_t last = 0; last <= kFewest; ++last) {
-      expect_ended_after(last, save);
+      expect_cancelled_at(last, save);
       EXPECT_EQ(std::filesystem::file_size(path), 3U);
       EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.path()), {}), 1);
     }

@@ -84,18 +84,17 @@ TEST_F(IndexFile, ErrorsBeginWithTheFile) {
   io::save(file, index_of(20));
   std::filesystem::resize_file(file, 1000);
   const std::string name = file.string() + ": header, byte 16: expected ";
-  expect_refused(ErrorCode::MalformedIndex, name, [&] { static_cast<void>(io::load(file)); });
-  expect_refused(ErrorCode::MalformedIndex, name, [&] { static_cast<void>(io::map(file)); });
-  expect_refused(ErrorCode::MalformedIndex, name, [&] { static_cast<void>(io::read_header(file)); });
+  expect_refused(ErrorCode::MalformedIndex, name, [&] { return io::load(file); });
+  expect_refused(ErrorCode::MalformedIndex, name, [&] { return io::map(file); });
+  expect_refused(ErrorCode::MalformedIndex, name, [&] { return io::read_header(file); });
   const auto empty = scratch.write("empty.mhi", "");
   expect_refused(ErrorCode::MalformedIndex, "empty.mhi: header, byte 0: the end, expected 64 bytes",
-                 [&] { static_cast<void>(io::load(empty)); });
+                 [&] { return io::load(empty); });
   const auto missing = scratch.path() / "missing.mhi";
-  expect_refused(ErrorCode::IoFailure, "missing.mhi: No such file", [&] { static_cast<void>(io::load(missing)); });
-  expect_refused(ErrorCode::IoFailure, "missing.mhi: No such file", [&] { static_cast<void>(io::map(missing)); });
-  expect_refused(ErrorCode::IoFailure, "is a directory", [&] { static_cast<void>(io::load(scratch.path())); });
-  expect_refused(ErrorCode::IoFailure, "is a directory, expected a file",
-                 [&] { static_cast<void>(io::map(scratch.path())); });
+  expect_refused(ErrorCode::IoFailure, "missing.mhi: No such file", [&] { return io::load(missing); });
+  expect_refused(ErrorCode::IoFailure, "missing.mhi: No such file", [&] { return io::map(missing); });
+  expect_refused(ErrorCode::IoFailure, "is a directory", [&] { return io::load(scratch.path()); });
+  expect_refused(ErrorCode::IoFailure, "is a directory, expected a file", [&] { return io::map(scratch.path()); });
 }
 
 // F3
@@ -103,8 +102,8 @@ TEST_F(IndexFile, AGigabyteAppendedIsRefusedBeforeItIsRead) {
   io::save(file, index_of(20));
   // A sparse file, which needs no disk; reading it would need a gigabyte of memory.
   std::filesystem::resize_file(file, std::filesystem::file_size(file) + (std::uintmax_t{1} << 30U));
-  expect_refused(ErrorCode::MalformedIndex, "but there are 107", [&] { static_cast<void>(io::load(file)); });
-  expect_refused(ErrorCode::MalformedIndex, "but there are 107", [&] { static_cast<void>(io::map(file)); });
+  expect_refused(ErrorCode::MalformedIndex, "but there are 107", [&] { return io::load(file); });
+  expect_refused(ErrorCode::MalformedIndex, "but there are 107", [&] { return io::map(file); });
 }
 
 TEST_F(IndexFile, IsLoadedFromAPipe) {

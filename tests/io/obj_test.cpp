@@ -18,36 +18,35 @@ const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 // M3
 TEST(Obj, ATruncatedVertexOrIndexIsRefused) {
-  expect_refused("a.obj", kSquare + "v 1 2", ErrorCode::MalformedFile, "a.obj:5:6", "vertex 5 has no z");
-  expect_refused("a.obj", kSquare + "f 1 2 /", ErrorCode::MalformedFile, "a.obj:5:7", "corner 3", "'/'");
+  expect_malformed("a.obj", kSquare + "v 1 2", "a.obj:5:6", "vertex 5 has no z");
+  expect_malformed("a.obj", kSquare + "f 1 2 /", "a.obj:5:7", "corner 3", "'/'");
   EXPECT_EQ(face_count(read("a.obj", kSquare + "f 1 2 3")), 1U);  // no newline at the end
 }
 
 // M6
 TEST(Obj, IndicesOutOfRangeAreRefusedByFaceAndCorner) {
   for (const std::string index : {"5", "2147483648", "4294967295", "4294967296", "9223372036854775807"}) {
-    expect_refused("a.obj", kSquare + "f 1 2 3\nf 1 2 " + index + "\n", ErrorCode::MalformedFile,
-                   "a.obj:6:7: face 2, corner 3 = " + index + ", but there are 4 vertices");
+    expect_malformed("a.obj", kSquare + "f 1 2 3\nf 1 2 " + index + "\n",
+                     "a.obj:6:7: face 2, corner 3 = " + index + ", but there are 4 vertices");
   }
-  expect_refused("a.obj", kSquare + "f 1 2 99999999999999999999\n", ErrorCode::MalformedFile, "is not a vertex index");
+  expect_malformed("a.obj", kSquare + "f 1 2 99999999999999999999\n", "is not a vertex index");
   // A face may precede its vertices.
   EXPECT_THAT(read("a.obj", "f 1 2 4\n" + kSquare).corners, ElementsAre(0, 1, 3));
-  expect_refused("a.obj", "f 1 2 6\nf 1 2 5\n" + kSquare, ErrorCode::MalformedFile, "a.obj:1:7: face 1, corner 3 = 6");
+  expect_malformed("a.obj", "f 1 2 6\nf 1 2 5\n" + kSquare, "a.obj:1:7: face 1, corner 3 = 6");
 }
 
 // M7
 TEST(Obj, Index0IsRefused) {
-  expect_refused("a.obj", kSquare + "f 0 1 2\n", ErrorCode::MalformedFile, "a.obj:5:3: face 1, corner 1 = 0");
-  expect_refused("a.obj", kSquare + "f 1 -0 2\n", ErrorCode::MalformedFile, "corner 2 = 0");
+  expect_malformed("a.obj", kSquare + "f 0 1 2\n", "a.obj:5:3: face 1, corner 1 = 0");
+  expect_malformed("a.obj", kSquare + "f 1 -0 2\n", "corner 2 = 0");
 }
 
 // M8
 TEST(Obj, NegativeIndicesCountFromTheVerticesSoFar) {
   const auto mesh = read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -1 -2 -4\n");
   EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2, 3, 2, 0));
-  expect_refused("a.obj", "v 0 0 0\nv 1 0 0\nf -1 -2 -3\nv 0 1 0\n", ErrorCode::MalformedFile,
-                 "a.obj:3:9: face 1, corner 3 = -3");
-  expect_refused("a.obj", kSquare + "f -9223372036854775808 1 2\n", ErrorCode::MalformedFile, "-9223372036854775808");
+  expect_malformed("a.obj", "v 0 0 0\nv 1 0 0\nf -1 -2 -3\nv 0 1 0\n", "a.obj:3:9: face 1, corner 3 = -3");
+  expect_malformed("a.obj", kSquare + "f -9223372036854775808 1 2\n", "-9223372036854775808");
 }
 
 // M9
@@ -61,8 +60,7 @@ TEST(Obj, EveryFormOfACornerIsRead) {
     EXPECT_THAT(mesh.offsets, ElementsAre(0, 4)) << face;
   }
   for (const std::string corner : {"1/2/3/4", "1/x", "/1", "1.0", "1//1.5", "1,2"}) {
-    expect_refused("a.obj", kSquare + "f 1 2 " + corner + "\n", ErrorCode::MalformedFile, "a.obj:5:7",
-                   "'" + corner + "'");
+    expect_malformed("a.obj", kSquare + "f 1 2 " + corner + "\n", "a.obj:5:7", "'" + corner + "'");
   }
 }
 
@@ -74,9 +72,9 @@ TEST(Obj, ThreeToSevenNumbersMakeAVertex) {
     EXPECT_TRUE(mesh.warnings.empty()) << rest;
   }
   EXPECT_EQ(warned(read("a.obj", "v 1 2 3 0.5\nv 1 2 3 2 1 1 1\n"), "weights"), 2U);
-  expect_refused("a.obj", "v 1 2\n", ErrorCode::MalformedFile, "vertex 1 has no z, expected x y z");
-  expect_refused("a.obj", "v 1 2 3 4 5 6 7 8\n", ErrorCode::MalformedFile, "more than 7 numbers");
-  expect_refused("a.obj", "v 1 2 3 red\n", ErrorCode::MalformedFile, "'red'");
+  expect_malformed("a.obj", "v 1 2\n", "vertex 1 has no z, expected x y z");
+  expect_malformed("a.obj", "v 1 2 3 4 5 6 7 8\n", "more than 7 numbers");
+  expect_malformed("a.obj", "v 1 2 3 red\n", "'red'");
 }
 
 // M9
@@ -97,7 +95,7 @@ TEST(Obj, ALineOfAnyLengthUpTo64MiB) {
 
   const std::string comment(std::size_t{64} << 20, '#');
   EXPECT_EQ(vertex_count(read("a.obj", "v 1 2 3\n" + comment.substr(8) + "\nv 1 2 3\n")), 2U);
-  expect_refused("a.obj", "v 1 2 3\n" + comment + "#\n", ErrorCode::MalformedFile, "a.obj:2:", "67108864 bytes");
+  expect_malformed("a.obj", "v 1 2 3\n" + comment + "#\n", "a.obj:2:", "67108864 bytes");
 }
 
 // M9
@@ -112,7 +110,7 @@ TEST(Obj, OtherStatementsAreSkippedAndCounted) {
   EXPECT_EQ(warned(mesh, "'curv'"), 1U);
   EXPECT_EQ(warned(mesh, "unknown statements"), 2U);
   EXPECT_TRUE(refusal("a.obj", kSquare + "l 1 2\n", {.strict = true}).refused);
-  expect_refused("a.obj", "once upon a time\n", ErrorCode::MalformedFile, "no OBJ statement");
+  expect_malformed("a.obj", "once upon a time\n", "no OBJ statement");
 }
 
 // M9

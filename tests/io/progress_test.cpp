@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -14,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "support/hostile.h"
+#include "support/reports.h"
 #include "support/scratch.h"
 
 namespace meshhood::test {
@@ -27,8 +27,6 @@ std::string large_obj() {
   while (file.size() < 3U << 20) file += "v 1.25 2.5 3.75\n";
   return file;
 }
-
-using Reports = std::vector<std::pair<std::size_t, std::size_t>>;
 
 io::ReadOptions watching(Reports& reports) {
   return {.progress = [&reports](std::size_t done, std::size_t total) {

@@ -82,7 +82,7 @@ TEST(VertexWithoutPosition, IsAWallAtAnotherVertexWithOneWarning) {
 TEST(VertexWithoutPosition, OfAFaceIsRefusedWithFaceCornerVertexAndPlace) {
   for (const Scan& scan : scans(true)) {
     const std::string vertex = scan.first == "0" ? "vertex 2 has no position" : "vertex 3 has no position";
-    expect_refused(scan.name, scan.content, ErrorCode::MalformedFile, scan.place, vertex, scan.corner);
+    expect_malformed(scan.name, scan.content, scan.place, vertex, scan.corner);
   }
 }
 
@@ -125,7 +125,7 @@ TEST(VertexWithoutPosition, LeavesThePrecisionToTheOthers) {
 }
 
 TEST(VertexWithoutPosition, IsNoneThatIsInfinite) {
-  expect_refused("a.off", "OFF\n2 0 0\n0 0 0\nnan inf 0\n", ErrorCode::MalformedFile, "a.off:4:5", "is not finite");
+  expect_malformed("a.off", "OFF\n2 0 0\n0 0 0\nnan inf 0\n", "a.off:4:5", "is not finite");
 }
 
 TEST(VertexWithoutPosition, HasNoLocationIfThereAreTooMany) {
@@ -135,7 +135,7 @@ TEST(VertexWithoutPosition, HasNoLocationIfThereAreTooMany) {
   const std::string content = ply("binary_little_endian", kMost + 1, "float", rows + std::string(1, '\1'));
   EXPECT_EQ(refusal("a.ply", content + little(kMost)).message,
             "a.ply: vertex 262144 has no position (NaN), but face 0 has it as corner 0");
-  expect_refused("a.ply", content + little(kMost - 1), ErrorCode::MalformedFile, "a.ply@", "vertex 262143 has");
+  expect_malformed("a.ply", content + little(kMost - 1), "a.ply@", "vertex 262143 has");
 }
 
 TEST(VertexWithoutPosition, IsRefusedByWhatStoresNoWalls) {

@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <random>
 #include <span>
@@ -32,11 +30,6 @@ namespace {
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 template <class Real>
 std::vector<Real> random_positions(std::size_t vertices) {
@@ -119,7 +112,7 @@ TEST_F(WritePly, ColorsAndPropertiesAreWritten) {
   const io::PlyOptions options = {.colors = colors, .properties = {{"distance", distance}, {"level", level}}};
   io::write_ply(file, triangle, options);
   EXPECT_EQ(io::read_mesh(file, {.strict = true}).corners, (std::vector<std::uint32_t>{0, 1, 2}));
-  const auto binary = content_of(file);
+  const auto binary = read_file(file);
   EXPECT_THAT(binary, HasSubstr("property uchar red\nproperty uchar green\nproperty uchar blue\n"
                                 "property float distance\nproperty float level\nelement face 1\n"));
   EXPECT_THAT(binary, HasSubstr(little(1.F, 0.F, 0.F, std::uint8_t{0}, std::uint8_t{128}, std::uint8_t{0},
@@ -127,8 +120,8 @@ TEST_F(WritePly, ColorsAndPropertiesAreWritten) {
   auto text = options;
   text.ascii = true;
   io::write_ply(file, triangle, text);
-  EXPECT_THAT(content_of(file), HasSubstr("\nend_header\n0 0 0 255 0 0 0.5 1\n1 0 0 0 128 0 inf 2\n0 1 0 1 2 3 2 3\n"
-                                          "3 0 1 2\n"));
+  EXPECT_THAT(read_file(file), HasSubstr("\nend_header\n0 0 0 255 0 0 0.5 1\n1 0 0 0 128 0 inf 2\n0 1 0 1 2 3 2 3\n"
+                                         "3 0 1 2\n"));
   EXPECT_EQ(io::read_mesh(file, {.strict = true}).corners, (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
@@ -136,28 +129,28 @@ TEST_F(WritePly, VectorsAreThreeProperties) {
   const std::vector<float> normal = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   const std::vector<float> level = {10, 20, 30};
   io::write_ply(file, triangle, {.properties = {{"n", normal}, {"level", level}}, .ascii = true});
-  EXPECT_THAT(content_of(file), HasSubstr("property float n_x\nproperty float n_y\nproperty float n_z\n"
-                                          "property float level\n"));
-  EXPECT_THAT(content_of(file), HasSubstr("\n0 0 0 1 2 3 10\n1 0 0 4 5 6 20\n0 1 0 7 8 9 30\n"));
+  EXPECT_THAT(read_file(file), HasSubstr("property float n_x\nproperty float n_y\nproperty float n_z\n"
+                                         "property float level\n"));
+  EXPECT_THAT(read_file(file), HasSubstr("\n0 0 0 1 2 3 10\n1 0 0 4 5 6 20\n0 1 0 7 8 9 30\n"));
 }
 
 TEST_F(WritePly, VtkHasTheMeshAndItsValues) {
   const std::vector<float> normal = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   const std::vector<float> level = {10, 20, 30};
   io::write_vtk(file, triangle, {.properties = {{"level", level}, {"n", normal}}});
-  EXPECT_EQ(content_of(file), "# vtk DataFile Version 4.2\nmeshhood\nBINARY\nDATASET POLYDATA\nPOINTS 3 float\n" +
-                                  big(0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F) + "\nPOLYGONS 1 4\n" +
-                                  big(3, 0, 1, 2) + "\nPOINT_DATA 3\nSCALARS level float 1\nLOOKUP_TABLE default\n" +
-                                  big(10.F, 20.F, 30.F) + "\nFIELD FieldData 1\nn 3 3 float\n" +
-                                  big(1.F, 2.F, 3.F, 4.F, 5.F, 6.F, 7.F, 8.F, 9.F) + "\n");
+  EXPECT_EQ(read_file(file), "# vtk DataFile Version 4.2\nmeshhood\nBINARY\nDATASET POLYDATA\nPOINTS 3 float\n" +
+                                 big(0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F) + "\nPOLYGONS 1 4\n" +
+                                 big(3, 0, 1, 2) + "\nPOINT_DATA 3\nSCALARS level float 1\nLOOKUP_TABLE default\n" +
+                                 big(10.F, 20.F, 30.F) + "\nFIELD FieldData 1\nn 3 3 float\n" +
+                                 big(1.F, 2.F, 3.F, 4.F, 5.F, 6.F, 7.F, 8.F, 9.F) + "\n");
   io::write_vtk(file, triangle, {.properties = {{"n", normal}}});
-  EXPECT_THAT(content_of(file), HasSubstr("\nPOINT_DATA 3\nFIELD FieldData 1\nn 3 3 float\n"));
+  EXPECT_THAT(read_file(file), HasSubstr("\nPOINT_DATA 3\nFIELD FieldData 1\nn 3 3 float\n"));
   const std::vector<std::int32_t> records = {0, 1, 2, -1, 2, 1, 0, -1};
   io::write_vtk(file, {positions, FacesView::strided_triangles(records, 2, 4, 1)});
-  EXPECT_THAT(content_of(file), HasSubstr("\nPOLYGONS 2 8\n" + big(3, 0, 1, 2, 3, 2, 1, 0) + "\nPOINT_DATA 3\n"));
+  EXPECT_THAT(read_file(file), HasSubstr("\nPOLYGONS 2 8\n" + big(3, 0, 1, 2, 3, 2, 1, 0) + "\nPOINT_DATA 3\n"));
   const std::vector<double> none;
   io::write_vtk(file, {none, FacesView{}});
-  EXPECT_THAT(content_of(file), EndsWith("\nPOINTS 0 double\n\nPOLYGONS 0 0\n\nPOINT_DATA 0\n"));
+  EXPECT_THAT(read_file(file), EndsWith("\nPOINTS 0 double\n\nPOLYGONS 0 0\n\nPOINT_DATA 0\n"));
 }
 
 TEST_F(WritePly, VtkRefusesWhatDoesNotFit) {
@@ -319,7 +312,7 @@ TEST_F(WritePly, CancelledAtAnyReportKeepsTheOldFile) {
     }
     EXPECT_EQ(ended.code, ErrorCode::Cancelled);
     EXPECT_EQ(ended.message, file.string() + ": cancelled");
-    EXPECT_EQ(content_of(file), "old");
+    EXPECT_EQ(read_file(file), "old");
   }
   EXPECT_EQ(face_count(io::read_mesh(file)), 20000U);
   EXPECT_GE(last, 8U);

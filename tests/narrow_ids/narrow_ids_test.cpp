@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -55,8 +54,8 @@ TEST(NarrowIds, RefusesOneVertexMore) {
   const TestMesh mesh = polygon_on_line(kMaxVertices + 1, 3);
   const char* const cause = "65535 vertices, but the limit is 65534";
   expect_refused(ErrorCode::TooLarge, cause, [&] { validate(mesh.view()); });
-  expect_refused(ErrorCode::TooLarge, cause, [&] { static_cast<void>(adjacency(mesh.view())); });
-  expect_refused(ErrorCode::TooLarge, cause, [&] { static_cast<void>(paper::build(mesh.view())); });
+  expect_refused(ErrorCode::TooLarge, cause, [&] { return adjacency(mesh.view()); });
+  expect_refused(ErrorCode::TooLarge, cause, [&] { return paper::build(mesh.view()); });
   expect_refused(ErrorCode::TooLarge, cause, [&] { const ReferenceSearcher searcher(mesh.view()); });
 }
 
@@ -64,15 +63,15 @@ TEST(NarrowIds, RefusesOneCornerMore) {
   const TestMesh mesh = polygon_on_line(40'000, kMaxNeighbors / 2 + 1);
   const char* const cause = "32768 face corners, but the limit is 32767";
   EXPECT_NO_THROW(validate(mesh.view()));
-  expect_refused(ErrorCode::TooLarge, cause, [&] { static_cast<void>(adjacency(mesh.view())); });
-  expect_refused(ErrorCode::TooLarge, cause, [&] { static_cast<void>(paper::build(mesh.view())); });
+  expect_refused(ErrorCode::TooLarge, cause, [&] { return adjacency(mesh.view()); });
+  expect_refused(ErrorCode::TooLarge, cause, [&] { return paper::build(mesh.view()); });
 }
 
 TEST(NarrowIds, RefusesACornerThatNarrowingWouldHide) {
   TestMesh mesh = polygon_on_line(10, 3);
   mesh.add_face({0, 1, 65'536 + 2});
   expect_refused(ErrorCode::InvalidMesh, "face 1: corner 2 is vertex 65538, but the mesh has 10 vertices",
-                 [&] { static_cast<void>(adjacency(mesh.view())); });
+                 [&] { return adjacency(mesh.view()); });
 }
 
 TEST(NarrowIds, AnIndexIsSavedAndLoadedAtTheLimits) {
@@ -90,7 +89,7 @@ TEST(NarrowIds, AnIndexWithWideIdsIsRefused) {
   const std::vector<char> wide{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   ASSERT_FALSE(wide.empty());
   expect_refused(ErrorCode::MalformedIndex, "header, byte 49: vertex ids of 32 bits, expected 16",
-                 [&] { static_cast<void>(load(std::as_bytes(std::span(wide)))); });
+                 [&] { return load(std::as_bytes(std::span(wide))); });
 }
 
 }  // namespace

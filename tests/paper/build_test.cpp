@@ -15,6 +15,7 @@
 #include "paper/same_index.h"
 #include "support/families.h"
 #include "support/refusal.h"
+#include "support/reports.h"
 #include "support/scale.h"
 
 namespace meshhood::test {
@@ -76,24 +77,12 @@ TEST(Build, AllLevelsEndWithOneClusterForEachComponent) {
 TEST(Build, ProgressAscendsAndAnyReportCanCancel) {
   const TestMesh mesh = make_grid(60, 60, false);
   for (const int levels : {1, 5, BuildOptions::kAllLevels}) {
-    std::vector<std::pair<std::size_t, std::size_t>> reports;
-    const auto record = [&](std::size_t done, std::size_t total) {
-      reports.emplace_back(done, total);
-      return true;
+    const auto call = [&](const Progress& progress) {
+      static_cast<void>(paper::build(mesh.view(), {.levels = levels}, {.progress = progress}));
     };
-    static_cast<void>(paper::build(mesh.view(), {.levels = levels}, {.progress = record}));
-    ASSERT_GE(reports.size(), 3U);
-    EXPECT_EQ(reports.front().first, 0U);
-    EXPECT_EQ(reports.back().first, reports.back().second);
-    EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
-    for (const auto& report : reports) EXPECT_EQ(report.second, reports.back().second);
-    for (std::size_t last = 0; last < reports.size(); ++last) {
-      std::size_t calls = 0;
-      const auto stop = [&](std::size_t, std::size_t) { return calls++ < last; };
-      expect_refused(ErrorCode::Cancelled, "cancelled",
-                     [&] { static_cast<void>(paper::build(mesh.view(), {.levels = levels}, {.progress = stop})); });
-      EXPECT_EQ(calls, last + 1);
-    }
+    const Reports reports = reports_of(call);
+    expect_from_nothing_to_all(reports, 3);
+    for (std::size_t last = 0; last < reports.size(); ++last) expect_cancelled_at(last, call);
   }
 }
 
@@ -202,7 +191,7 @@ TEST(Build, FloatAndDoublePositionsGiveTheSameClusters) {
 TEST(Build, OptionsOutOfRangeAreRefused) {
   const TestMesh mesh = make_grid(3, 3, false);
   const auto refuse = [&](const BuildOptions& options, const char* cause) {
-    expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(paper::build(mesh.view(), options)); });
+    expect_refused(ErrorCode::InvalidOption, cause, [&] { return paper::build(mesh.view(), options); });
   };
   refuse({.levels = 0}, "levels is 0");
   refuse({.levels = -3}, "levels is -3");

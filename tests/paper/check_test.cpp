@@ -63,24 +63,15 @@ TEST(Check, FindsNoFaultInASoundIndex) {
   EXPECT_THAT(faults_after([](Hierarchy<float>&) {}), IsEmpty());
 }
 
-TEST(Check, FindsADuplicateVertex) {
+TEST(Check, FindsWrongVerticesAndPositions) {
   expect_found("occurs twice", [](Hierarchy<float>& h) {
     h.vertices[3] = h.vertices[4];
     std::copy_n(h.positions.begin() + 12, 3, h.positions.begin() + 9);
   });
-}
-
-TEST(Check, FindsAVertexOutOfRange) {
   expect_found("vertex 500 is out of range",
                [](Hierarchy<float>& h) { h.vertices[3] = static_cast<VertexId>(h.vertices.size()); });
-}
-
-TEST(Check, FindsExchangedVertices) {
   expect_found("its position differs from that of the mesh",
                [](Hierarchy<float>& h) { std::swap(h.vertices[0], h.vertices[200]); });
-}
-
-TEST(Check, FindsAMovedPosition) {
   expect_found("its position differs from that of the mesh", [](Hierarchy<float>& h) { h.positions[7] += 1; });
 }
 
@@ -91,35 +82,19 @@ TEST(Check, FindsAnotherMesh) {
 }
 
 // I1.
-TEST(Check, FindsAGapBetweenClusters) {
+TEST(Check, FindsAGapBetweenClustersAndAnEmptyOne) {
   expect_found_on_every_level("do not cover all vertices", [](Level<float>& level) { ++level.first_vertex.front(); });
   expect_found_on_every_level("do not cover all vertices", [](Level<float>& level) { --level.first_vertex.back(); });
-}
-
-// I1.
-TEST(Check, FindsAnEmptyCluster) {
   expect_found("no vertices", [](Hierarchy<float>& h) { h.levels[1].first_vertex[2] = h.levels[1].first_vertex[1]; });
 }
 
 // I2.
-TEST(Check, FindsAVertexThatRefersToAnotherCluster) {
+TEST(Check, FindsWrongParentsAndChildren) {
   expect_found("refers to another cluster", [](Hierarchy<float>& h) { h.lowest_cluster.set(h.vertices[0], 3); });
-}
-
-// I2.
-TEST(Check, FindsAWrongParent) {
   for (std::size_t l = 0; l < 3; ++l) {
     expect_found("refers to another parent", [&](Hierarchy<float>& h) { h.levels[l].parent[1] ^= 1U; });
   }
-}
-
-// I2.
-TEST(Check, FindsAChildTakenFromItsParent) {
   expect_found("its vertices are not those of its children", [](Hierarchy<float>& h) { --h.levels[1].first_child[1]; });
-}
-
-// I2.
-TEST(Check, FindsAMissingLevel) {
   expect_found("its children are not the clusters of the level below",
                [](Hierarchy<float>& h) { h.levels.erase(h.levels.begin() + 1); });
 }
@@ -151,31 +126,19 @@ TEST(Check, FindsADisconnectedCluster) {
 }
 
 // I4.
-TEST(Check, FindsASphereThatIsTooSmall) {
+TEST(Check, FindsWrongSpheres) {
   for (std::size_t l = 1; l < 4; ++l) {
     expect_found("lies outside its sphere", [&](Hierarchy<float>& h) {
       float& radius = h.levels[l].spheres.front().radius;
       radius = std::nextafter(radius, 0.0F);
     });
   }
-}
-
-// I4.
-TEST(Check, FindsABaseClusterWithARadius) {
   expect_found("1 vertices, but radius", [](Hierarchy<float>& h) { h.levels[0].spheres[5].radius = 1e-30F; });
-}
-
-// I4.
-TEST(Check, FindsARadiusThatIsNotFiniteOrNegative) {
   expect_found_on_every_level(
       "radius nan", [](Level<float>& level) { level.spheres[0].radius = std::numeric_limits<float>::quiet_NaN(); });
   expect_found_on_every_level(
       "radius inf", [](Level<float>& level) { level.spheres[0].radius = std::numeric_limits<float>::infinity(); });
   expect_found_on_every_level("radius -1", [](Level<float>& level) { level.spheres[0].radius = -1; });
-}
-
-// I4.
-TEST(Check, FindsAMissingSphere) {
   expect_found_on_every_level("the number of spheres differs", [](Level<float>& level) { level.spheres.pop_back(); });
 }
 
@@ -196,43 +159,24 @@ std::vector<ClusterId> first_row(const Adjacency& siblings) {
 constexpr const char* kWrongSiblings = "its siblings are not the clusters that an edge of the mesh joins to it";
 
 // I5.
-TEST(Check, FindsASiblingInOneDirectionOnly) {
-  expect_found_on_every_level(kWrongSiblings, [](Level<float>& level) {
-    std::vector<ClusterId> row = first_row(level.siblings);
-    if (row.empty()) {
-      row.push_back(1);
-    } else {
-      row.pop_back();
-    }
-    replace_first_row(level.siblings, row);
-  });
+TEST(Check, FindsASiblingInOneDirectionOnlyAnExtraOneAndTheClusterItself) {
+  const std::vector<std::function<void(std::vector<ClusterId>&, ClusterId)>> changes = {
+      [](std::vector<ClusterId>& row, ClusterId) { row.empty() ? row.push_back(1) : row.pop_back(); },
+      [](std::vector<ClusterId>& row, ClusterId last) { row.push_back(last); },
+      [](std::vector<ClusterId>& row, ClusterId) { row.insert(row.begin(), 0); },
+  };
+  for (const auto& change : changes) {
+    expect_found_on_every_level(kWrongSiblings, [&](Level<float>& level) {
+      std::vector<ClusterId> row = first_row(level.siblings);
+      change(row, static_cast<ClusterId>(level.size() - 1));
+      replace_first_row(level.siblings, row);
+    });
+  }
 }
 
 // I5.
-TEST(Check, FindsAnExtraSibling) {
-  expect_found_on_every_level(kWrongSiblings, [](Level<float>& level) {
-    std::vector<ClusterId> row = first_row(level.siblings);
-    row.push_back(static_cast<ClusterId>(level.size() - 1));
-    replace_first_row(level.siblings, row);
-  });
-}
-
-// I5.
-TEST(Check, FindsAClusterThatIsItsOwnSibling) {
-  expect_found_on_every_level(kWrongSiblings, [](Level<float>& level) {
-    std::vector<ClusterId> row = first_row(level.siblings);
-    row.insert(row.begin(), 0);
-    replace_first_row(level.siblings, row);
-  });
-}
-
-// I5.
-TEST(Check, FindsMissingSiblingRows) {
+TEST(Check, FindsSiblingRowsThatAreMissingOrOutOfOrder) {
   expect_found_on_every_level("the number of sibling rows differs", [](Level<float>& level) { level.siblings = {}; });
-}
-
-// I5.
-TEST(Check, FindsRowsOutOfOrder) {
   expect_found("the sibling rows are not in order", [](Hierarchy<float>& h) {
     std::swap(h.levels[1].siblings.offsets[3], h.levels[1].siblings.offsets[5]);
   });

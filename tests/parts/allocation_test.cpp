@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every allocation of a partition fails once (R2 of docs/reliability.md), and of reading its files. The run throws or
 // succeeds without the memory; no temporary file stays, and the next run completes the folder.
-#include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

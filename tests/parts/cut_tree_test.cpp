@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "parts/cut_tree.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -5,7 +5,6 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "parts/folder_lock.h"
@@ -153,8 +152,7 @@ TEST_F(Folder, IsRefusedIfItsManifestHasBeenChanged) {
     changed[i] = changed[i] == '7' ? '8' : '7';
     for (const std::string& bytes : {changed, text.substr(0, i)}) {
       overwrite(file, bytes);
-      expect_refused(ErrorCode::MalformedIndex,
-                     "manifest.json: ", [&] { static_cast<void>(parts::read_manifest(folder)); });
+      expect_refused(ErrorCode::MalformedIndex, "manifest.json: ", [&] { return parts::read_manifest(folder); });
       ++changes;
     }
   }
@@ -171,8 +169,7 @@ TEST_F(Folder, IsRefusedIfItsManifestContradictsItself) {
     ASSERT_NE(rest.find(from), std::string::npos) << from;
     rest.replace(rest.find(from), from.size(), to);
     overwrite(file, sealed(rest));
-    expect_refused(ErrorCode::MalformedIndex, "manifest.json: " + cause,
-                   [&] { static_cast<void>(parts::read_manifest(folder)); });
+    expect_refused(ErrorCode::MalformedIndex, "manifest.json: " + cause, [&] { return parts::read_manifest(folder); });
   };
   refuses("no JSON at byte", "{", "<\x9b\x7f");
   refuses("more than 8 levels", "{", "[[[[[[[[[");

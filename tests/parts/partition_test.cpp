@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -158,7 +157,7 @@ std::size_t check_parts(const TestMesh& mesh, const PartitionOptions& options, R
   return Checker(mesh, scratch.path() / "parts", manifest).check(random, 4);
 }
 
-class Partition : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(Partition);
 
 TEST_P(Partition, AnswersAreThoseOfTheWholeMesh) {
   std::size_t queries = 0;
@@ -179,8 +178,6 @@ TEST_P(Partition, AnswersAreThoseOfTheWholeMesh) {
   }
   std::printf("%s: %zu folders, %zu queries\n", std::string(GetParam().name).c_str(), folders, queries);
 }
-
-INSTANTIATE_TEST_SUITE_P(All, Partition, testing::ValuesIn(families()), family_name);
 
 // Many vertices at one position, and several positions on every cut.
 TEST(PartitionOfDuplicates, AreSeparatedByIdAndAnsweredExactly) {

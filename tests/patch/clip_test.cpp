@@ -165,7 +165,7 @@ struct Whole {
   std::map<Side, int> sides;
 };
 
-class ClippedFamilies : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(ClippedFamilies);
 
 TEST_P(ClippedFamilies, EndAtTheSphere) {
   std::size_t count = 0;
@@ -187,13 +187,6 @@ TEST_P(ClippedFamilies, EndAtTheSphere) {
   }
   std::printf("%s: %zu triangles\n", std::string(GetParam().name).c_str(), count);
 }
-
-INSTANTIATE_TEST_SUITE_P(Surfaces, ClippedFamilies,
-                         testing::ValuesIn(surface_families().begin(), surface_families().end()), family_name);
-INSTANTIATE_TEST_SUITE_P(Extremes, ClippedFamilies,
-                         testing::ValuesIn(extreme_families().begin(), extreme_families().end()), family_name);
-INSTANTIATE_TEST_SUITE_P(Traps, ClippedFamilies, testing::ValuesIn(trap_families().begin(), trap_families().end()),
-                         family_name);
 
 TestMesh triangle_of(const Point& a, const Point& b, const Point& c) {
   TestMesh mesh;
@@ -383,13 +376,11 @@ TEST(Clip, DependsOnItsStartAndRadiusAlone) {
 TEST(Clip, RefusesWhatIsWrong) {
   Whole whole(make_grid(3, 3, true));
   for (const double tolerance : {0.0, 1.5, -1.0, std::nan("")}) {
-    expect_refused(ErrorCode::InvalidOption, "tolerance",
-                   [&] { static_cast<void>(whole.searcher.clip(0, 1, tolerance)); });
+    expect_refused(ErrorCode::InvalidOption, "tolerance", [&] { return whole.searcher.clip(0, 1, tolerance); });
   }
-  expect_refused(ErrorCode::VertexOutOfRange, "vertex 9", [&] { static_cast<void>(whole.searcher.clip(9, 1)); });
-  expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { static_cast<void>(whole.searcher.clip(0, -1)); });
-  expect_refused(ErrorCode::InvalidOption, "face 4",
-                 [&] { static_cast<void>(whole.searcher.clip({4, {0, 0, 0}}, 1)); });
+  expect_refused(ErrorCode::VertexOutOfRange, "vertex 9", [&] { return whole.searcher.clip(9, 1); });
+  expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { return whole.searcher.clip(0, -1); });
+  expect_refused(ErrorCode::InvalidOption, "face 4", [&] { return whole.searcher.clip({4, {0, 0, 0}}, 1); });
 }
 
 }  // namespace

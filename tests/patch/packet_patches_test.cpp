@@ -23,6 +23,7 @@
 #include "shared/parallel.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/random.h"
 #include "support/scale.h"
 #include "support/test_triangles.h"
@@ -151,9 +152,7 @@ TestMesh make_needles(std::size_t count) {
 
 TEST(PacketPatches, FollowSidesThatDipIntoTheBall) {
   for (const std::size_t count : {20UL, 60UL, 2000UL}) {
-    const TestMesh mesh = make_needles(count);
-    const Index index = build(mesh.view());
-    const Surface surface(index, mesh.view().faces);
+    const auto [mesh, index, surface] = with_surface(make_needles(count));
     TaskContext alone;
     const PatchState& state = SurfaceAccess::state(surface).patches(alone);
     PacketPatches packets(state);
@@ -174,8 +173,7 @@ TEST(PacketPatches, FollowSidesThatDipIntoTheBall) {
 
 /// A wall has no patch, whatever the other rows.
 TEST(PacketPatches, OfWallsAreEmpty) {
-  const TestMesh mesh = make_grid(20, 20, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(20, 20, false));
   const std::vector<VertexId> ids{5, 44, 230};
   std::vector<std::uint8_t> walls(mesh.size());
   for (const VertexId v : ids) walls[v] = 1;

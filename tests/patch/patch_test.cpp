@@ -25,6 +25,7 @@
 
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/patch_reference.h"
 #include "support/random.h"
 #include "support/refusal.h"
@@ -119,7 +120,7 @@ bool is_within_reach(const TestMesh& mesh, double radius) {
   return radius > 1e-100 && radius < 1e100 && std::abs(farthest) < 1e6 * radius;
 }
 
-class PatchFamilies : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(PatchFamilies);
 
 TEST_P(PatchFamilies, AreThoseOfTheReference) {
   for (std::uint64_t seed = 0; seed < scaled(20, 2); ++seed) {
@@ -141,13 +142,6 @@ TEST_P(PatchFamilies, AreThoseOfTheReference) {
     }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Surfaces, PatchFamilies,
-                         testing::ValuesIn(surface_families().begin(), surface_families().end()), family_name);
-INSTANTIATE_TEST_SUITE_P(Extremes, PatchFamilies,
-                         testing::ValuesIn(extreme_families().begin(), extreme_families().end()), family_name);
-INSTANTIATE_TEST_SUITE_P(Traps, PatchFamilies, testing::ValuesIn(trap_families().begin(), trap_families().end()),
-                         family_name);
 
 /// A box whose sides are grids of squares, cut into triangles; outward normals.
 TestMesh make_box(std::array<std::uint32_t, 3> cells, double edge) {
@@ -481,9 +475,7 @@ TEST(Patch, DoesNotChangeWhereFacesAreDivided) {
 }
 
 TEST(Patch, TakesTheMemoryThatTheHeaderSays) {
-  const TestMesh ball = make_ball(5);
-  const Index index = build(ball.view());
-  const Surface surface(index, ball.view().faces);
+  const auto [ball, index, surface] = with_surface(make_ball(5));
   const std::size_t before = surface.bytes();
   const PatchSearcher searcher(surface);
   const auto made = static_cast<double>(surface.bytes() - before);
@@ -492,9 +484,7 @@ TEST(Patch, TakesTheMemoryThatTheHeaderSays) {
 
 /// Runs are numbered with 16 bits. The next one with the number of the first must not see what that one has left.
 TEST(Patch, IsTheSameAfterManyRuns) {
-  const TestMesh mesh = make_grid(20, 20, false);
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view().faces);
+  const auto [mesh, index, surface] = with_surface(make_grid(20, 20, false));
   PatchSearcher searcher(surface);
   const auto opposite = static_cast<VertexId>(mesh.size() - 1);
   const std::vector<std::size_t> first = searcher.patch(0, 2.5);
@@ -577,8 +567,7 @@ TEST(Patch, AtEdgesThatAreNotManifold) {
 
 /// As if the faces with a wall were not there.
 TEST(Patch, DoesNotHaveFacesWithAWall) {
-  const TestMesh mesh = make_ball(3);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_ball(3));
   std::vector<std::uint8_t> walls(mesh.size(), 0);
   Random random(5);
   for (std::uint8_t& wall : walls) wall = static_cast<std::uint8_t>(random.below(10) == 0);
@@ -700,20 +689,19 @@ TEST(PatchBatch, RefusesWhatIsWrong) {
   const TestMesh mesh = make_box({1, 1, 1}, 1);
   Case test(mesh);
   PatchSearcher& searcher = test.searcher;
-  expect_refused(ErrorCode::VertexOutOfRange, "vertex 8", [&] { static_cast<void>(searcher.patch(8, 1)); });
-  expect_refused(ErrorCode::InvalidRadius, "radius", [&] { static_cast<void>(searcher.measure(0, -1)); });
-  expect_refused(ErrorCode::InvalidOption, "face 12", [&] { static_cast<void>(searcher.gap({12, {0, 0, 0}}, 1)); });
+  expect_refused(ErrorCode::VertexOutOfRange, "vertex 8", [&] { return searcher.patch(8, 1); });
+  expect_refused(ErrorCode::InvalidRadius, "radius", [&] { return searcher.measure(0, -1); });
+  expect_refused(ErrorCode::InvalidOption, "face 12", [&] { return searcher.gap({12, {0, 0, 0}}, 1); });
   expect_refused(ErrorCode::InvalidOption, "point: coordinate 1",
-                 [&] { static_cast<void>(searcher.gap({0, {0, kInfinity, 0}}, 1)); });
+                 [&] { return searcher.gap({0, {0, kInfinity, 0}}, 1); });
   const std::vector<VertexId> vertices{0, 9};
   expect_refused(ErrorCode::VertexOutOfRange, "row 1",
-                 [&] { static_cast<void>(gaps(test.surface, {.vertices = vertices, .radius = 1})); });
-  expect_refused(ErrorCode::InvalidRadius, "", [&] { static_cast<void>(gaps(test.surface, {})); });
+                 [&] { return gaps(test.surface, {.vertices = vertices, .radius = 1}); });
+  expect_refused(ErrorCode::InvalidRadius, "", [&] { return gaps(test.surface, {}); });
   expect_refused(ErrorCode::InvalidOption, "metric",
-                 [&] { static_cast<void>(invariants(test.surface, {.radius = 1, .metric = Metric::Rings})); });
+                 [&] { return invariants(test.surface, {.radius = 1, .metric = Metric::Rings}); });
   expect_refused(ErrorCode::Cancelled, "", [&] {
-    static_cast<void>(
-        invariants(test.surface, {.radius = 1}, {.progress = [](std::size_t, std::size_t) { return false; }}));
+    return invariants(test.surface, {.radius = 1}, {.progress = [](std::size_t, std::size_t) { return false; }});
   });
   TestMesh edges;
   edges.add_vertex(0, 0, 0);
@@ -722,9 +710,9 @@ TEST(PatchBatch, RefusesWhatIsWrong) {
   edges.finish(true);
   const Index index = build(edges.view());
   expect_refused(ErrorCode::InvalidMesh, "no face of three corners",
-                 [&] { static_cast<void>(invariants(Surface(index, edges.view().faces), {.radius = 1})); });
+                 [&] { return invariants(Surface(index, edges.view().faces), {.radius = 1}); });
   test.index.refit_in_place(mesh.positions_view());
-  expect_refused(ErrorCode::InvalidOption, "", [&] { static_cast<void>(searcher.patch(0, 1)); });
+  expect_refused(ErrorCode::InvalidOption, "", [&] { return searcher.patch(0, 1); });
 }
 
 }  // namespace

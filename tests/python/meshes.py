@@ -20,6 +20,11 @@ def triangles(quads):
     return np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
 
 
+def soup(V, F):
+    """The same faces, each with vertices of its own."""
+    return V[F].reshape(-1, 3), np.arange(F.size).reshape(F.shape)
+
+
 def two_plates(side):
     """Two grids that nearly touch, so that every larger ball has vertices of both."""
     (low, quads), (high, _) = grid(side), grid(side, 0.25)

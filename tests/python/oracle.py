@@ -19,8 +19,10 @@ def triangle_graph(vertex_count, triangles):
     return coo_array((np.ones(len(rows)), (rows, columns)), shape=(vertex_count, vertex_count)).tocsr()
 
 
-def distances(V, v):
-    dx, dy, dz = (V.astype(np.float64) - V[v].astype(np.float64)).T
+def distances(V, center):
+    """From a vertex, or from a point."""
+    center = V[center] if np.ndim(center) == 0 else center
+    dx, dy, dz = (V.astype(np.float64) - np.asarray(center, np.float64)).T
     return np.sqrt((dx * dx + dy * dy) + dz * dz)
 
 

@@ -4,28 +4,19 @@ the arguments as they were when the call began; a thread that writes all the tim
 never ends the process. Each attack runs in a process of its own."""
 
 import inspect
-import subprocess
-import sys
 
 import meshes
 import meshhood
 import numpy as np
+import programs
 import pytest
 
 METHODS = ("exact", "paper", "bfs", "ball")
 TIMES = 20
 
-PREPARE = f"""
-import itertools, sys, threading, warnings
-sys.path.insert(0, {str(meshes.__file__.rsplit("/", 1)[0])!r})
-import meshes, meshhood, numpy as np
-index = meshhood.MeshIndex(*meshes.two_plates(30))
-"""
-
 
 def run(program):
-    done = subprocess.run([sys.executable, "-c", PREPARE + program], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
+    programs.run("import itertools\nindex = meshhood.MeshIndex(*meshes.two_plates(30))\n" + program)
 
 
 # Arguments by the names of parameters, and values that would be refused or change the result. There are enough channels,

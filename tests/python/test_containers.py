@@ -151,13 +151,9 @@ def test_a_memory_map_may_be_replaced_after_the_call(tmp_path):
     np.testing.assert_array_equal(index.neighborhoods(1.5, sort="id")[1], WANTED)
 
 
-def soup(V, F):
-    return V[F].reshape(-1, 3), np.arange(F.size).reshape(F.shape)
-
-
 @pytest.mark.parametrize("faces", (F, QUADS), ids=("triangles", "quads"))
 def test_an_unwelded_mesh_causes_a_warning_whose_advice_welds_it(faces):
-    apart, separate = soup(V, faces)
+    apart, separate = meshes.soup(V, faces)
     with pytest.warns(UserWarning, match="(100|150) vertices at 36 different positions.*meshhood.weld") as caught:
         meshhood.MeshIndex(apart, separate)
     assert caught[0].filename == __file__
@@ -169,7 +165,7 @@ def test_an_unwelded_mesh_causes_a_warning_whose_advice_welds_it(faces):
 
 
 def test_quads_that_are_split_but_not_welded_cause_a_warning():
-    apart, separate = soup(V, QUADS)
+    apart, separate = meshes.soup(V, QUADS)
     with pytest.warns(UserWarning, match="Weld"):
         meshhood.MeshIndex(apart, meshes.triangles(separate))
 

@@ -4,13 +4,13 @@
 import errno
 import os
 import resource
-import subprocess
 import sys
 from pathlib import Path
 
 import meshes
 import meshhood
 import numpy as np
+import programs
 import pytest
 from meshhood import _convert
 
@@ -112,10 +112,8 @@ def test_a_full_disk():
 
 def test_a_file_size_limit(tmp_path):
     """Under the default disposition of SIGXFSZ, in a process of its own."""
-    program = f"""
-import errno, pathlib, resource, signal, sys
-sys.path.insert(0, {os.path.dirname(meshes.__file__)!r})
-import meshes, meshhood
+    programs.run(f"""
+import errno, resource
 signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
 index = meshhood.MeshIndex(*meshes.two_plates(60))
 resource.setrlimit(resource.RLIMIT_FSIZE, (4096, {resource.RLIM_INFINITY}))
@@ -127,9 +125,7 @@ except OSError as error:
 else:
     raise AssertionError("saved")
 assert signal.getsignal(signal.SIGXFSZ) == signal.SIG_DFL
-"""
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, (done.returncode, done.stderr)
+""")
     assert list(tmp_path.iterdir()) == []
 
 

@@ -4,15 +4,12 @@ an error of a file or an argument that says so), and the process goes on. Each t
 on its address space."""
 
 import os
-import subprocess
-import sys
 
-import meshes
+import programs
 import pytest
 from scale import scaled
 
 TRIALS = scaled(60, least=8)
-SECONDS = 600
 
 CALLS = {
     "batch": "index.neighborhoods(2.0, workers=2)",
@@ -49,18 +46,8 @@ CALLS = {
     "partition": "meshhood.partition(arrays, folder / str(os.getpid()), parts=2, halo=1.0, workers=2)",
 }
 
-PROGRAM = """
-import errno, os, pathlib, resource, signal, sys, threading
-sys.path.insert(0, sys.argv[2])
-import meshes, meshhood
-import numpy as np
-folder = pathlib.Path(sys.argv[1])
-V, F = meshes.two_plates(120)
-index = meshhood.MeshIndex(V, F)
-values = np.ones((len(V), 20))
-walls, ignored = np.arange(len(V)) % 7 == 0, np.arange(len(V)) % 5 == 0
-arrays = folder / "V.npy", folder / "F.npy"
-np.save(arrays[0], V), np.save(arrays[1], F)
+PROGRAM = programs.SCENE.format(side=120) + """
+import errno, resource
 DONE, OUT_OF_MEMORY = 0, 3
 call = compile({call!r}, "call", "eval")
 def outcome(kilobytes):
@@ -104,8 +91,5 @@ print(codes.count(DONE), "done,", codes.count(OUT_OF_MEMORY), "out of memory")
 @pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="needs Linux")
 @pytest.mark.parametrize("call", CALLS)
 def test_memory_runs_out(call, tmp_path):
-    program = PROGRAM.format(call=CALLS[call], trials=TRIALS)
-    command = [sys.executable, "-W", "ignore", "-c", program, str(tmp_path), os.path.dirname(meshes.__file__)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=SECONDS)
-    assert done.returncode == 0, done.stdout + done.stderr
+    done = programs.run(PROGRAM.format(call=CALLS[call], trials=TRIALS), tmp_path)
     print(f"{call}: {done.stdout.strip()}")

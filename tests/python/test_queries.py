@@ -4,20 +4,10 @@ of all calls, and test_newcomer.py whole messages."""
 
 import numpy as np
 import pytest
-from meshes import folded, grid, two_plates
+from meshes import folded, grid
+from oracle import distances
 
 import meshhood
-
-
-@pytest.fixture(params=[two_plates, folded], ids=["plates", "folded"])
-def mesh(request):
-    V, F = request.param(12)
-    return V, F, meshhood.MeshIndex(V, F)
-
-
-def distances(V, p):
-    dx, dy, dz = (V.astype(np.float64) - np.asarray(p, np.float64)).T
-    return np.sqrt((dx * dx + dy * dy) + dz * dz)
 
 
 def test_nearest_is_that_of_a_scan(mesh):

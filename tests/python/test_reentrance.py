@@ -4,13 +4,12 @@
 import multiprocessing
 import os
 import signal
-import subprocess
-import sys
 import threading
 
 import meshes
 import meshhood
 import numpy as np
+import programs
 import pytest
 
 METHODS = ("exact", "paper", "bfs", "ball")
@@ -20,17 +19,10 @@ SUMS = {
     "curvature": "index.curvature(2.5, F=F, workers=2).k1",
 }
 COUNTS = [f"index.counts(3.0, range(20), method={method!r}, workers=2)" for method in METHODS]
-SECONDS = 120
 
 
-def run(program, times=1):
-    """Runs it in a process of its own, which must end."""
-    tests = os.path.dirname(meshes.__file__)
-    prepare = f"import sys; sys.path.insert(0, {tests!r})\nimport meshes, meshhood\n"
-    for _ in range(times):
-        command = [sys.executable, "-W", "ignore", "-c", prepare + program]
-        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=SECONDS)
-        assert done.returncode == 0, done.stdout + done.stderr
+def run(program):
+    programs.run(program, seconds=120)
 
 
 @pytest.mark.parametrize("made", ("paper", "bfs"))
@@ -38,7 +30,6 @@ def run(program, times=1):
 def test_a_signal_handler_may_use_any_method_while_its_thread_makes_one(made, other):
     """The signal arrives while the main thread holds the lock under which a method is made."""
     run(f"""
-import os, signal
 from meshhood import _core
 index = meshhood.MeshIndex(*meshes.two_plates(30))
 answers = []
@@ -59,7 +50,6 @@ assert len(answers) == 1 and answers[0] == index.count(0, 2.0, method={other!r})
 def test_a_fork_while_another_thread_makes_a_method_leaves_a_child_that_works(other):
     """The fork happens while another thread holds the lock, which the child's copy of the index must not wait for."""
     run(f"""
-import os, threading
 from meshhood import _core
 index = meshhood.MeshIndex(*meshes.two_plates(30))
 making, forked = threading.Event(), threading.Event()
@@ -95,7 +85,6 @@ assert os.waitpid(child, 0)[1] == 0
 def test_a_progress_function_that_forks_ends_the_call_in_the_child_alone(call):
     """The threads of the call are the parent's: the child must not wait for them."""
     run(f"""
-import os, signal
 index = meshhood.MeshIndex(*meshes.two_plates(60))
 children = []
 def progress(done, total):
@@ -121,7 +110,6 @@ for child in children:
 @pytest.mark.parametrize("call", [*SUMS.values(), *COUNTS])
 def test_a_fork_at_any_moment_of_other_threads_leaves_a_child_that_works(call):
     run(f"""
-import os, threading
 V, F = meshes.two_plates(20)
 index = meshhood.MeshIndex(V, F)
 wanted = {call}
@@ -239,7 +227,6 @@ assert counts[0] == counts[2] <= counts[1] <= counts[3]
 
 def test_a_child_that_was_forked_during_a_call_into_a_folder_does_not_keep_its_lock(tmp_path):
     run(f"""
-import os, signal
 from meshhood._result_files import result_folder
 with result_folder({str(tmp_path)!r}, {{}}):
     child = os.fork()

@@ -4,15 +4,12 @@ unwound when it takes the interpreter lock, which must not meet a noexcept funct
 must not look for it.)"""
 
 import os
-import subprocess
-import sys
 
-import meshes
+import programs
 import pytest
 from scale import scaled
 
 RUNS = scaled(100, least=4)
-SECONDS = 600
 
 # Each releases the interpreter lock.
 CALLS = {
@@ -85,20 +82,10 @@ CALLS = {
 }
 
 # The processes that end are children of one that has imported everything.
-PROGRAM = """
-import os, pathlib, pickle, random, sys, threading, time, warnings
-sys.path.insert(0, sys.argv[2])
-import meshes, meshhood
-import numpy as np
-folder = pathlib.Path(sys.argv[1])
-V, F = meshes.two_plates(40)
-index = meshhood.MeshIndex(V, F)
+PROGRAM = programs.SCENE.format(side=40) + """
+import pickle, random
 index.save(folder / "plates.index")
-arrays = folder / "V.npy", folder / "F.npy"
-np.save(arrays[0], V), np.save(arrays[1], F)
 meshhood.partition(arrays, folder / "parts", parts=2, halo=0.5)
-values = np.ones((len(V), 20))
-walls, ignored = np.arange(len(V)) % 7 == 0, np.arange(len(V)) % 5 == 0
 (folder / "mesh.off").write_text("OFF\\n2000 0 0\\n" + "0 1 2\\n" * 2000)
 def open_part(path):
     meshhood._open_part._opened.cache_clear()
@@ -148,10 +135,8 @@ assert code == 1, f"exit code {{code}}"
 
 
 def run(program, call, folder, **names):
-    whole = PROGRAM.format(call=CALLS[call]) + program.format(**names)
-    command = [sys.executable, "-W", "ignore", "-c", whole, str(folder), os.path.dirname(meshes.__file__)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=SECONDS)
-    assert (done.returncode, done.stderr) == (0, "")
+    done = programs.run(PROGRAM.format(call=CALLS[call]) + program.format(**names), folder)
+    assert done.stderr == ""
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")

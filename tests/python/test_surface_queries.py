@@ -5,16 +5,10 @@ import warnings
 
 import numpy as np
 import pytest
-from meshes import folded, grid, triangles, two_plates
+from meshes import folded, grid, triangles
 from oracle import triangle_graph
 
 import meshhood
-
-
-@pytest.fixture(params=[two_plates, folded], ids=["plates", "folded"])
-def mesh(request):
-    V, F = request.param(12)
-    return V, F, meshhood.MeshIndex(V, F)
 
 
 def test_closest_point_lies_on_its_face(mesh):

@@ -3,16 +3,12 @@
 
 import numpy as np
 import pytest
-from meshes import grid, shared, triangles
+from meshes import grid, shared, soup, triangles
 
 import meshhood
 
 V, QUADS = grid(6)
 F = triangles(QUADS)
-
-
-def soup(V, F):
-    return V[F].reshape(-1, 3), np.arange(F.size).reshape(F.shape)
 
 
 @pytest.mark.parametrize("dtype", (np.float32, np.float64))

@@ -2,9 +2,7 @@
 #include "shared/distance.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <vector>

@@ -4,11 +4,8 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <new>
-#include <set>
 #include <stdexcept>
-#include <string>
 #include <thread>
 #include <utility>
 #include <vector>

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Every instruction set gives the same bits, also where single precision cannot decide.
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <span>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meshhood/kernel_target.h"

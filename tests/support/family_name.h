@@ -17,4 +17,11 @@ inline std::string family_name(const testing::TestParamInfo<Family>& family) {
   return name;
 }
 
+/// A suite whose tests run for each family.
+// NOLINTBEGIN(bugprone-macro-parentheses): the name of a class
+#define MESHHOOD_SUITE_OF_FAMILIES(suite)                                   \
+  class suite : public testing::TestWithParam<::meshhood::test::Family> {}; \
+  INSTANTIATE_TEST_SUITE_P(All, suite, testing::ValuesIn(::meshhood::test::families()), ::meshhood::test::family_name)
+// NOLINTEND(bugprone-macro-parentheses)
+
 }  // namespace meshhood::test

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -11,6 +12,9 @@
 #include <variant>
 #include <vector>
 
+#include <gmock/gmock.h>
+
+#include "meshhood/error.h"
 #include "meshhood/index.h"
 
 #include "exact/index_access.h"
@@ -69,6 +73,19 @@ inline void copy_array(OrderedPositions& to, const PositionsInOrder& from) {
 [[nodiscard]] inline bool names_a_place(std::string_view message) {
   const std::string_view where = message.substr(0, message.find(": "));
   return (where.starts_with("header, ") || where.starts_with("section ")) && where.find("byte ") != where.npos;
+}
+
+/// The error for bytes that `load` refuses; empty if they are accepted.
+template <class Load>
+[[nodiscard]] std::string refusal_by(Load&& load) {
+  try {
+    static_cast<void>(load());
+    return {};
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::MalformedIndex) << error.what();
+    EXPECT_TRUE(names_a_place(error.what())) << error.what();
+    return error.what();
+  }
 }
 
 /// Corrects the checksum of the header and the table.
@@ -145,5 +162,15 @@ class Forgery {
 
   std::vector<std::byte> bytes_;
 };
+
+/// Expects that `load` refuses the bytes of a saved index after `change`, although their checksums are right.
+template <class Load>
+void expect_refused_after(const char* cause, std::vector<std::byte> bytes, const std::function<void(Forgery&)>& change,
+                          Load&& load) {
+  Forgery forgery(std::move(bytes));
+  change(forgery);
+  seal(forgery.bytes());
+  EXPECT_THAT(refusal_by([&] { return load(forgery.bytes()); }), testing::HasSubstr(cause));
+}
 
 }  // namespace meshhood::test

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <ostream>
@@ -79,12 +80,28 @@ void expect_refused(const std::string& name, std::string_view content, ErrorCode
   EXPECT_EQ(result.message.find_first_of("\n\r\x1b"), std::string::npos) << "one line, no control codes";
 }
 
+template <class... Parts>
+void expect_malformed(const std::string& name, std::string_view content, const Parts&... parts) {
+  expect_refused(name, content, ErrorCode::MalformedFile, parts...);
+}
+
 [[nodiscard]] inline std::vector<float> floats(const io::Mesh& mesh) {
   return std::get<std::vector<float>>(mesh.positions);
 }
 
 [[nodiscard]] inline std::size_t vertex_count(const io::Mesh& mesh) { return mesh.view().positions.size(); }
 [[nodiscard]] inline std::size_t face_count(const io::Mesh& mesh) { return mesh.view().faces.size(); }
+
+/// Expects that `whole` has so many faces, and is refused if it ends earlier: anywhere but before the last `optional`
+/// bytes.
+inline void expect_truncations_refused(const std::string& name, const std::string& whole, std::size_t faces,
+                                       std::size_t optional = 0) {
+  EXPECT_EQ(face_count(read(name, whole)), faces);
+  for (std::size_t length = 0; length + optional < whole.size(); ++length) {
+    EXPECT_TRUE(refusal(name, whole.substr(0, length)).refused) << length;
+  }
+  std::printf("%s: %zu truncations refused\n", name.c_str(), whole.size() - optional);
+}
 
 /// The number of warnings whose text contains `what`.
 [[nodiscard]] inline std::uint64_t warned(const io::Mesh& mesh, std::string_view what) {

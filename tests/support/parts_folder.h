@@ -44,11 +44,6 @@ inline std::unique_ptr<parts::ChunkedMesh> chunked(const TestMesh& mesh) {
   return parts::chunked(as_file_mesh(mesh), mesh.name);
 }
 
-inline std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 template <class T>
 std::vector<T> read_array(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);

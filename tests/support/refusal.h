@@ -10,11 +10,11 @@
 
 namespace meshhood::test {
 
-/// Expects `call()` to throw `Error{code}` with a message that contains `cause`.
+/// Expects `call()` to throw `Error{code}` with a message that contains `cause`. What it returns is of no interest.
 template <class F>
 void expect_refused(ErrorCode code, const std::string& cause, F&& call) {
   try {
-    call();
+    static_cast<void>(call());
     ADD_FAILURE() << "accepted; expected: " << cause;
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), code) << error.what();

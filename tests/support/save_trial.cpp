@@ -2,19 +2,10 @@
 #include "support/save_trial.h"
 
 #include <fstream>
-#include <iterator>
 #include <ostream>
 #include <regex>
 
 namespace meshhood::test {
-namespace {
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-}  // namespace
 
 void PrintTo(const Saver& saver, std::ostream* out) { *out << saver.name; }
 
@@ -29,12 +20,12 @@ SaveTrial::SaveTrial()
 std::string SaveTrial::saved(Version version) const {
   const auto sample = scratch.path() / "sample";
   GetParam().save(sample, version);
-  return content_of(sample);
+  return read_file(sample);
 }
 
 Version SaveTrial::held() const {
   if (!std::filesystem::exists(file)) return Version::None;
-  const std::string found = content_of(file);
+  const std::string found = read_file(file);
   return found == old_ ? Version::Old : found == new_ ? Version::New : Version::Torn;
 }
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "support/system_calls.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdarg>
 #include <cstdint>
-#include <string>
 #include <utility>
 
 #include <fcntl.h>

@@ -23,6 +23,7 @@
 #include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/long_point.h"
 #include "support/random.h"
 #include "support/refusal.h"
@@ -67,18 +68,17 @@ Long distance_by_regions(const Point& q, const std::array<Point, 3>& corners) {
   return length_at(vb / (va + vb + vc), vc / (va + vb + vc));
 }
 
-class ClosestPointIn : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(ClosestPointIn);
 
 TEST_P(ClosestPointIn, FindsTheFirstOfAScan) {
   std::size_t points = 0;
   for (const std::size_t vertices : {1U, 2U, 40U, 300U, 2000U}) {
-    const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
-    const Index index = build(mesh.view());
+    const auto [mesh, index] = indexed(make_mesh(GetParam(), vertices, vertices));
     const double scale = IndexAccess::view(index).frame.scale;
     const TestTriangles triangles(mesh, scale);
     if (triangles.faces.empty()) {
       expect_refused(ErrorCode::InvalidMesh, "no face of three corners",
-                     [&] { static_cast<void>(Surface(index, mesh.view().faces).closest_point({0, 0, 0})); });
+                     [&] { return Surface(index, mesh.view().faces).closest_point({0, 0, 0}); });
       continue;
     }
     SCOPED_TRACE(mesh.name);
@@ -109,8 +109,6 @@ TEST_P(ClosestPointIn, FindsTheFirstOfAScan) {
   }
   std::printf("%s: %zu points\n", std::string(GetParam().name).c_str(), points);
 }
-
-INSTANTIATE_TEST_SUITE_P(All, ClosestPointIn, testing::ValuesIn(families()), family_name);
 
 TEST(TrianglePoint, HasTheDistanceOfTheRegionsAroundIt) {
   Random random(5);
@@ -185,9 +183,7 @@ TEST(TrianglePoint, WithoutAnAreaIsItsSides) {
 }
 
 TEST(ClosestPoint, OfFacesThatMeetFindsTheOneWithTheSmallestNumber) {
-  const TestMesh mesh = bumpy_grid(20);
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view().faces);
+  const auto [mesh, index, surface] = with_surface(bumpy_grid(20));
   for (std::uint32_t v = 0; v < mesh.size(); ++v) {
     const std::size_t first = first_face_of(mesh, v);
     const Point p = corner_of(mesh, v);
@@ -274,9 +270,7 @@ TEST(ClosestPoint, FindsFacesThatJoinComponents) {
 }
 
 TEST(ClosestPoint, AnswersManyPointsOnSeveralThreadsAsOneByOne) {
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view().faces);
+  const auto [mesh, index, surface] = with_surface(bumpy_grid(30));
   Random random(3);
   std::vector<SpacePoint> points(500);
   for (SpacePoint& p : points) p = {random.uniform(-5, 35), random.uniform(-5, 35), random.uniform(-5, 5)};
@@ -293,8 +287,7 @@ TEST(ClosestPoint, AnswersManyPointsOnSeveralThreadsAsOneByOne) {
 }
 
 TEST(ClosestPoint, GivesTheStartOfARegion) {
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(30));
   const SurfacePoint hit = Surface(index, mesh.view().faces).closest_point({10.3, 11.4, 2});
   Searcher searcher(index);
   EXPECT_EQ(searcher.neighborhood(hit.start(), 3), searcher.neighborhood(Start(hit.point, hit.vertices), 3));
@@ -307,15 +300,14 @@ TEST(ClosestPoint, RefusesWrongPointsWrongFacesAndAnIndexRefittedInPlace) {
   const Surface surface(index, mesh.view().faces);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_refused(ErrorCode::InvalidOption, "point: coordinate 1 is nan",
-                 [&] { static_cast<void>(surface.closest_point({0, nan, 0})); });
+                 [&] { return surface.closest_point({0, nan, 0}); });
   const std::vector<SpacePoint> points{{0, 0, 0}, {0, 0, 1e300}};
   expect_refused(ErrorCode::InvalidOption, "points: row 1: coordinate 2 is 1e+300",
-                 [&] { static_cast<void>(surface.closest_points(points)); });
+                 [&] { return surface.closest_points(points); });
   const std::vector<std::uint32_t> corners{0, 1, 9};
-  expect_refused(ErrorCode::InvalidMesh, "9",
-                 [&] { static_cast<void>(Surface(index, FacesView::triangles(corners))); });
+  expect_refused(ErrorCode::InvalidMesh, "9", [&] { return Surface(index, FacesView::triangles(corners)); });
   index.refit_in_place(mesh.positions_view());
-  expect_refused(ErrorCode::InvalidOption, "refit", [&] { static_cast<void>(surface.closest_point({0, 0, 0})); });
+  expect_refused(ErrorCode::InvalidOption, "refit", [&] { return surface.closest_point({0, 0, 0}); });
 }
 
 }  // namespace

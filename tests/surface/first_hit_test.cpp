@@ -24,6 +24,7 @@
 #include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/long_point.h"
 #include "support/random.h"
 #include "support/refusal.h"
@@ -104,21 +105,20 @@ DrawnRay draw_ray(Random& random, const TestMesh& mesh) {
 
 bool is_direction(const Point& d) { return squared_distance(d, {0, 0, 0}) > 0; }
 
-class FirstHitIn : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(FirstHitIn);
 
 TEST_P(FirstHitIn, IsTheFirstOfAScan) {
   std::size_t rays = 0;
   std::size_t hits = 0;
   for (const std::size_t vertices : {1U, 2U, 40U, 300U, 2000U}) {
-    const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
-    const Index index = build(mesh.view());
+    const auto [mesh, index] = indexed(make_mesh(GetParam(), vertices, vertices));
     TestMesh in_frame = mesh;  // in which squares of lengths are not 0, so that polygons are divided as they are
     for (double& x : in_frame.positions) x *= IndexAccess::view(index).frame.scale;
     const TestTriangles triangles(in_frame);
     const Surface surface(index, mesh.view().faces);
     if (triangles.faces.empty()) {
       expect_refused(ErrorCode::InvalidMesh, "no face of three corners",
-                     [&] { static_cast<void>(surface.first_hit({0, 0, 0}, {1, 0, 0})); });
+                     [&] { return surface.first_hit({0, 0, 0}, {1, 0, 0}); });
       continue;
     }
     SCOPED_TRACE(mesh.name);
@@ -144,8 +144,6 @@ TEST_P(FirstHitIn, IsTheFirstOfAScan) {
   }
   std::printf("%s: %zu rays, %zu hits\n", std::string(GetParam().name).c_str(), rays, hits);
 }
-
-INSTANTIATE_TEST_SUITE_P(All, FirstHitIn, testing::ValuesIn(families()), family_name);
 
 Point random_point(Random& random) { return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; }
 
@@ -225,9 +223,7 @@ TEST(Ray, OnASideMeetsBothTrianglesAtTheSameDistance) {
 
 /// From inside a closed surface there is no way out.
 TEST(FirstHit, FromInsideIsNeverNoneThroughCornersAndSides) {
-  const TestMesh mesh = ball(24, 31);
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view().faces);
+  const auto [mesh, index, surface] = with_surface(ball(24, 31));
   Random random(4);
   std::size_t exact = 0;
   for (std::size_t i = 0; i < scaled(200000, 20000); ++i) {
@@ -246,9 +242,7 @@ TEST(FirstHit, FromInsideIsNeverNoneThroughCornersAndSides) {
 }
 
 TEST(FirstHit, AlongAnAxisThroughAGridIsTheFaceWithTheSmallestNumber) {
-  const TestMesh mesh = make_grid(9, 7, false);
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view().faces);
+  const auto [mesh, index, surface] = with_surface(make_grid(9, 7, false));
   for (std::uint32_t v = 0; v < mesh.size(); ++v) {
     const std::size_t first = first_face_of(mesh, v);
     const Point p = corner_of(mesh, v);
@@ -330,9 +324,7 @@ TEST(FirstHit, FromFarAwayIsThatOfAScan) {
 class FirstHits : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(FirstHits, OnSeveralThreadsAreThoseOfEachRay) {
-  const TestMesh mesh = bumpy_grid(GetParam());
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view().faces);
+  const auto [mesh, index, surface] = with_surface(bumpy_grid(GetParam()));
   Random random(8);
   const double end = static_cast<double>(GetParam()) + 5;
   for (const std::size_t count : {1U, 3U, 8U, 1000U}) {
@@ -355,8 +347,7 @@ TEST_P(FirstHits, OnSeveralThreadsAreThoseOfEachRay) {
 INSTANTIATE_TEST_SUITE_P(Sides, FirstHits, testing::Values(30, 330));
 
 TEST(FirstHit, GivesTheStartOfARegion) {
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(30));
   const SurfacePoint hit = Surface(index, mesh.view().faces).first_hit({10.3, 11.4, 20}, {0.1, 0, -1});
   Searcher searcher(index);
   EXPECT_GT(searcher.count(hit.start(), 3), 10U);
@@ -368,20 +359,18 @@ TEST(FirstHit, RefusesWrongRaysAndAnIndexRefittedInPlace) {
   const Surface surface(index, mesh.view().faces);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refuse = [&](const char* message, const SpacePoint& origin, const SpacePoint& direction) {
-    expect_refused(ErrorCode::InvalidOption, message, [&] { static_cast<void>(surface.first_hit(origin, direction)); });
+    expect_refused(ErrorCode::InvalidOption, message, [&] { return surface.first_hit(origin, direction); });
   };
   refuse("origin: coordinate 1 is nan", {0, nan, 0}, {1, 0, 0});
   refuse("direction: coordinate 2 is inf", {0, 0, 0}, {1, 0, kInfinity});
   refuse("direction: it is 0", {0, 0, 0}, {0, -0.0, 0});
   const std::vector<SpacePoint> two{{0, 0, 0}, {0, 0, 1}};
   const std::vector<SpacePoint> one{{1, 0, 0}};
-  expect_refused(ErrorCode::InvalidOption, "directions: row 0: it is 0",
-                 [&] { static_cast<void>(surface.first_hits(two, two)); });
+  expect_refused(ErrorCode::InvalidOption, "directions: row 0: it is 0", [&] { return surface.first_hits(two, two); });
   expect_refused(ErrorCode::InvalidOption, "1 directions, expected one for each of 2 origins",
-                 [&] { static_cast<void>(surface.first_hits(two, one)); });
+                 [&] { return surface.first_hits(two, one); });
   index.refit_in_place(mesh.positions_view());
-  expect_refused(ErrorCode::InvalidOption, "refit",
-                 [&] { static_cast<void>(surface.first_hit({0, 0, 0}, {1, 0, 0})); });
+  expect_refused(ErrorCode::InvalidOption, "refit", [&] { return surface.first_hit({0, 0, 0}, {1, 0, 0}); });
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/random.h"
 #include "support/refusal.h"
 #include "support/round_meshes.h"
@@ -125,7 +126,7 @@ TestMesh in_triangles(TestMesh mesh) {
   return mesh;
 }
 
-class SurfacePathsOf : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(SurfacePathsOf);
 
 TEST_P(SurfacePathsOf, AreThoseOfAPlainSearch) {
   if (GetParam().name == "mixed scales") GTEST_SKIP() << "angles of its needles have no digits";
@@ -151,8 +152,6 @@ TEST_P(SurfacePathsOf, AreThoseOfAPlainSearch) {
     }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(All, SurfacePathsOf, testing::ValuesIn(families()), family_name);
 
 /// A square of two triangles in a plane, its second corner raised by the angle.
 TestMesh folded_square(double angle) {
@@ -217,8 +216,7 @@ double mean_excess(const TestMesh& mesh, const Index& index) {
 }
 
 TEST(SurfacePaths, AreNearerToGeodesicsThanPathsAlongEdges) {
-  const TestMesh mesh = ball(48, 63);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(ball(48, 63));
   const double by_edges = mean_excess(mesh, index);
   const double by_lines = mean_excess(mesh, surface_paths(Surface(index, mesh.view())));
   std::printf("longer than great circles: %.2f %% by edges, %.2f %% by lines\n", 100 * by_edges, 100 * by_lines);
@@ -226,8 +224,7 @@ TEST(SurfacePaths, AreNearerToGeodesicsThanPathsAlongEdges) {
 }
 
 TEST(SurfacePaths, HaveRowsOfTheirOwnInEveryBatch) {
-  const TestMesh mesh = ball(20, 31);
-  const Index whole = build(mesh.view());
+  const auto [mesh, whole] = indexed(ball(20, 31));
   const Surface surface(whole, mesh.view());
   const Index index = surface_paths(surface);
   const BatchQuery query{.radius = 0.6, .metric = Metric::Path};
@@ -248,20 +245,18 @@ TEST(SurfacePaths, RefuseWhatAMaskedIndexRefuses) {
   Index whole = build(mesh.view());
   const Surface surface(whole, mesh.view());
   Index index = surface_paths(surface);
-  expect_refused(ErrorCode::InvalidOption, "surface paths is not masked again",
-                 [&] { static_cast<void>(masked(index, {})); });
+  expect_refused(ErrorCode::InvalidOption, "surface paths is not masked again", [&] { return masked(index, {}); });
   expect_refused(ErrorCode::InvalidOption, "surface paths is not refitted",
                  [&] { index.refit_in_place(mesh.positions_view()); });
   whole.refit_in_place(mesh.positions_view());
-  expect_refused(ErrorCode::InvalidOption, "refitted in place",
-                 [&] { static_cast<void>(counts(index, {.radius = 1})); });
-  expect_refused(ErrorCode::InvalidOption, "refitted in place", [&] { static_cast<void>(surface_paths(surface)); });
+  expect_refused(ErrorCode::InvalidOption, "refitted in place", [&] { return counts(index, {.radius = 1}); });
+  expect_refused(ErrorCode::InvalidOption, "refitted in place", [&] { return surface_paths(surface); });
 }
 
 TEST(SurfacePaths, NeedFaces) {
   const TestMesh mesh = ball(6, 9);
   const Surface none = Surface(build(mesh.view()), FacesView());
-  expect_refused(ErrorCode::InvalidMesh, "no face", [&] { static_cast<void>(surface_paths(none)); });
+  expect_refused(ErrorCode::InvalidMesh, "no face", [&] { return surface_paths(none); });
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // A surface that follows the refits of its index is one that is made anew.
 #include "meshhood/surface.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -46,7 +45,7 @@ std::vector<double> answers(const Surface& surface, std::span<const SpacePoint> 
   return all;
 }
 
-class SurfaceOf : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(SurfaceOf);
 
 TEST_P(SurfaceOf, FollowsRefits) {
   TestMesh mesh = make_mesh(GetParam(), 9, 400);
@@ -77,7 +76,7 @@ TEST_P(SurfaceOf, FollowsRefits) {
     } else {
       index.refit_in_place(mesh.positions_view(), changed);
     }
-    expect_refused(ErrorCode::InvalidOption, "refitted in place", [&] { (void)surface.closest_point({0, 0, 0}); });
+    expect_refused(ErrorCode::InvalidOption, "refitted in place", [&] { return surface.closest_point({0, 0, 0}); });
     if (round % 3 == 0) {
       surface.refit_in_place(index);
     } else {
@@ -86,8 +85,6 @@ TEST_P(SurfaceOf, FollowsRefits) {
     ASSERT_EQ(answers(surface, points), answers(Surface(index, mesh.view().faces), points)) << "round " << round;
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(All, SurfaceOf, testing::ValuesIn(families()), family_name);
 
 class OneSurface : public testing::Test {
  protected:

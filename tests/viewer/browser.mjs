@@ -67,6 +67,12 @@ export async function drop(page, name, content) {
   }, { name, base64: content.toString('base64') });
 }
 
+/** Drops a mesh, and waits until it is shown. */
+export async function show(page, name, content) {
+  await drop(page, name, content);
+  await waitForMesh(page, name);
+}
+
 /** The last answer of a method on the page, ascending. */
 export async function idsOf(page, method) {
   return page.evaluate((method) => [...window.meshhoodPage.ids(method)], method);

@@ -4,14 +4,15 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after } from 'node:test';
+import { after, afterEach } from 'node:test';
 
 import { launch } from './browser.mjs';
 
-/** A browser, and a folder. Both are gone after the last test of the file. */
+/** A browser, and a folder. Both are gone after the last test of the file, pages after the test that opened them. */
 export async function launchWithFolder() {
   const folder = mkdtempSync(join(tmpdir(), 'meshhood-'));
   const browser = await launch();
+  afterEach(() => Promise.all(browser.contexts().map((context) => context.close())));
   after(async () => {
     await browser.close();
     rmSync(folder, { recursive: true });

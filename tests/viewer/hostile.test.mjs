@@ -7,7 +7,7 @@ import { readFileSync, renameSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 
-import { drop, idsOf, openPage, waitForAnswers, waitForMesh, waitForPixels } from './browser.mjs';
+import { drop, idsOf, openPage, show, waitForAnswers, waitForPixels } from './browser.mjs';
 import { launchWithFolder } from './fixture.mjs';
 
 const { browser, folder } = await launchWithFolder();
@@ -51,8 +51,7 @@ const textPly = (heats, property = 'double heat') => lines('\n', 'ply', 'format 
 
 /** Drops a file, and returns what the page shows as the colors of its own property. */
 async function valuesOf(page, name, content) {
-  await drop(page, name, content);
-  await waitForMesh(page, name);
+  await show(page, name, content);
   const option = page.locator('#own-colors option');
   assert.equal(await option.count(), 1, `${name} has a property`);
   await page.selectOption('#color', await option.getAttribute('value'));
@@ -72,7 +71,6 @@ test('the properties of a file are read as the library reads its header', async 
     assert.deepEqual(await valuesOf(page, `${name}.ply`, binaryPly(options)), [10, 20, 30], name);
   }
   await expectNoMarkup(page);
-  await page.close();
 });
 
 test('values that are huge, denormal or not numbers have the right colors, or none', async () => {
@@ -90,7 +88,6 @@ test('values that are huge, denormal or not numbers have the right colors, or no
     const [low, , high] = await legend();
     assert.deepEqual([low, high], range, name);
   }
-  await page.close();
 });
 
 /** A bumpy grid whose edges have about the length `size`. */
@@ -112,14 +109,12 @@ for (const size of [1e-300, 1e-40, 1e-20, 1, 1e20, 1e38, 1e149]) {
   test(`a mesh with edges of ${size} is seen`, async () => {
     const page = await openBuilt();
     const name = `size${size}.ply`;
-    await drop(page, name, bumpyGrid(size));
-    await waitForMesh(page, name);
+    await show(page, name, bumpyGrid(size));
     await page.locator('#canvas').press('a');
     assert.equal((await idsOf(page, 'exact')).length, 144);
     await waitForPixels(page, [0, 150, 110], 10_000);
     const camera = await page.evaluate(() => window.meshhoodPage.view.cameraState);
     assert.ok(camera.every(Number.isFinite) && Math.hypot(...camera) > size, `${camera}`);
-    await page.close();
   });
 }
 
@@ -131,8 +126,7 @@ const NAMES = [
 for (const name of NAMES) {
   test(`the name ${JSON.stringify(name.slice(0, 40))} is shown as it is, and takes no more than its place`, async () => {
     const page = await openBuilt();
-    await drop(page, name, Buffer.from('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'));
-    await waitForMesh(page, name);
+    await show(page, name, Buffer.from('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'));
     assert.equal(await page.textContent('#name'), name);
     await expectNoMarkup(page);
     const isSeen = async (selector) => {
@@ -147,7 +141,6 @@ for (const name of NAMES) {
     await expectNoMarkup(page);
     const [saved] = await Promise.all([page.waitForEvent('download'), page.click('#save-ids')]);
     assert.doesNotMatch(saved.suggestedFilename(), /[/\\<>]/);
-    await page.close();
   });
 }
 
@@ -164,7 +157,6 @@ test('the file that was dropped last is shown, whatever takes longer to load', a
     return document.getElementById('name').textContent;
   }, 'v 0 0 0\nv 1 0 0\nf 1 2\n');
   assert.equal(shown, 'second.obj');
-  await page.close();
 });
 
 test('a link that says anything shows something', async () => {
@@ -199,5 +191,4 @@ test('a page of the command line holds hostile names, comments and values as the
   assert.deepEqual(await idsOf(page, 'exact'), [0, 1, 2]);
   assert.equal((await page.locator('#legend span').allTextContents())[1], `<b>'"&`);
   await expectNoMarkup(page);
-  await page.close();
 });

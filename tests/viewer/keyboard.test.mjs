@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The page without a mouse. The variables of the environment are those of viewer.test.mjs.
 import assert from 'node:assert/strict';
-import { after, test } from 'node:test';
+import { test } from 'node:test';
 
-import { launch, openPage, waitForAnswers } from './browser.mjs';
+import { openPage, waitForAnswers } from './browser.mjs';
+import { launchWithFolder } from './fixture.mjs';
 
-const browser = await launch();
-after(() => browser.close());
+const { browser } = await launchWithFolder();
 const open = () => openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=15100&radius=10' });
 const vertexOf = async (page) => Number(await page.inputValue('#vertex'));
 
@@ -20,7 +20,6 @@ test('the keyboard reaches the mesh, and a ring shows it', async () => {
   await page.keyboard.press('Tab');
   assert.equal(await page.evaluate(() => document.activeElement.id), 'canvas');
   assert.ok(await outline() >= 2);
-  await page.close();
 });
 
 test('keys zoom', async () => {
@@ -35,7 +34,6 @@ test('keys zoom', async () => {
   assert.ok(nearer < 0.95 * first);
   await page.keyboard.press('x');
   assert.ok(Math.abs(await distance() - first) < 1e-3 * first);
-  await page.close();
 });
 
 test('Shift and an arrow walk from vertex to neighbor, in the direction of the arrow', async () => {
@@ -59,7 +57,6 @@ test('Shift and an arrow walk from vertex to neighbor, in the direction of the a
     }
   }
   assert.ok(visited.size > 6);
-  await page.close();
 });
 
 test('shortcuts work after a checkbox, a button or a slider was used', async () => {
@@ -87,5 +84,4 @@ test('shortcuts work after a checkbox, a button or a slider was used', async () 
   before = await isBall();
   await page.keyboard.press('b');
   assert.equal(await isBall(), before, 'a field of text keeps its keys');
-  await page.close();
 });

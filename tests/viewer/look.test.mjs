@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 
-import { colorsAt, countPixels, drop, idsOf, openPage, placeOf, setVertex, waitForMesh } from './browser.mjs';
+import { colorsAt, countPixels, idsOf, openPage, placeOf, setVertex, show } from './browser.mjs';
 import { commandLine, launchWithFolder } from './fixture.mjs';
 
 const { browser, folder } = await launchWithFolder();
@@ -40,7 +40,6 @@ test('the page says what it is, and over the mesh what the colors mean', async (
   await page.click('#display summary');
   await page.selectOption('#color', 'count');
   assert.deepEqual(await keyOf(page), []);
-  await page.close();
 });
 
 test('the first sentence below the table is about wrong vertices, and screen readers say it', async () => {
@@ -55,7 +54,6 @@ test('the first sentence below the table is about wrong vertices, and screen rea
   await page.waitForFunction(() => /as fast/.test(document.getElementById('verdict').textContent));
   assert.match(await page.textContent('#verdict'),
     /^(The index is (about as fast|[\d.]+ times as fast) as breadth-first search|Breadth-first search is [\d.]+ times as fast as the index here)\.$/);
-  await page.close();
 });
 
 test('an answer that was passed has words of its own', async () => {
@@ -64,7 +62,6 @@ test('an answer that was passed has words of its own', async () => {
   meshhood('view', 'plates.ply', '--ids', 'few.txt', '-o', 'few.html');
   const page = await openPage(browser, join(folder, 'few.html'));
   assert.deepEqual(await keyOf(page), [['the vertices that were passed to the page', '3']]);
-  await page.close();
 });
 
 /** A flat grid with edges of length 1, around the origin. */
@@ -81,8 +78,7 @@ test('the border of a region is that of the ball, not of the triangles', async (
   const page = await open('#example=terrain&vertex=5&radius=3');
   const [side, radius] = [13, 3.3];
   const center = (side * side - 1) / 2;
-  await drop(page, 'grid.obj', grid(side));
-  await waitForMesh(page, 'grid.obj');
+  await show(page, 'grid.obj', grid(side));
   await page.locator('#canvas').press('b');
   await setVertex(page, center);
   await page.fill('#radius-units', String(radius));
@@ -103,14 +99,12 @@ test('the border of a region is that of the ball, not of the triangles', async (
   assert.ok(green >= 64);
   assert.equal(outer.filter(isGreen).length, 0);
   await page.screenshot({ path: join(pictures, 'border.png') });
-  await page.close();
 });
 
 test('the marker is dim where the mesh hides its vertex', async () => {
   meshhood('generate', 'plates', '--vertices', '800', '-o', 'plates.ply');
   const page = await open('#example=terrain&vertex=5&radius=3');
-  await drop(page, 'plates.ply', readFileSync(join(folder, 'plates.ply')));
-  await waitForMesh(page, 'plates.ply');
+  await show(page, 'plates.ply', readFileSync(join(folder, 'plates.ply')));
   await page.locator('#canvas').press('b');
   const orange = async (vertex, height) => {
     await setVertex(page, vertex);
@@ -123,7 +117,6 @@ test('the marker is dim where the mesh hides its vertex', async () => {
   console.log(`${seen.pixels} orange pixels, ${hidden.pixels} of the hidden one`);
   assert.ok(!seen.isHidden && seen.pixels > 100);
   assert.ok(hidden.isHidden && hidden.pixels < seen.pixels / 4);
-  await page.close();
 });
 
 /** Where the ball of the query is on the canvas, in pixels. */
@@ -159,7 +152,6 @@ for (const name of ['scroll', 'folds', 'knot', 'terrain']) {
       console.log(`${name}: ${green} green pixels, ${others} of other answers`);
       assert.ok(green > 500 && others > 500);
       await page.screenshot({ path: join(pictures, `${name}_${screen}.png`) });
-      await page.close();
     });
   }
 }
@@ -190,7 +182,6 @@ test('without WebGL there is a message and nothing else', async () => {
   assert.match(await page.textContent('#error p'), /^This browser has no WebGL 2, by which the page draws the mesh\. .*another browser/);
   for (const id of ['panel', 'canvas', 'about', 'hint']) assert.ok(await page.isHidden(`#${id}`), id);
   assert.deepEqual(errors, []);
-  await page.close();
 });
 
 /** The contrasts of texts and lines with what is behind them, by the formula of WCAG 2. */
@@ -229,7 +220,6 @@ for (const colorScheme of ['light', 'dark']) {
       assert.ok(contrast >= (/swatch|search/.test(name) ? 2 : 4.5), `${name}: ${contrast}`);
     }
     await page.screenshot({ path: join(pictures, `terrain_${colorScheme}.png`) });
-    await page.close();
   });
 }
 
@@ -249,15 +239,13 @@ test('on a phone the panel is one row at first, targets are large, and the pictu
   }
   console.log(`${await targets.count()} targets`);
   await page.screenshot({ path: join(pictures, 'phone_open.png') });
-  await page.close();
 });
 
 test('a warning is not shown as an error', async () => {
   const page = await open('#example=terrain&vertex=5&radius=3');
   const ply = ['ply', 'format ascii 1.0', 'element vertex 3', ...['x', 'y', 'z'].map((p) => `property float ${p}`),
     'element face 1', 'property list uchar int vertex_indices', 'end_header', '0 0 0', '1 0 0', '0 1 0', '3 0 1 2', '7 7 7', ''].join('\n');
-  await drop(page, 'more.ply', Buffer.from(ply));
-  await waitForMesh(page, 'more.ply');
+  await show(page, 'more.ply', Buffer.from(ply));
   assert.match(await page.textContent('#warning p'), /^more\.ply: accepted with a warning: .*data after the last element/);
   assert.ok(await page.isVisible('#warning'));
   assert.ok(await page.isHidden('#error'));
@@ -266,7 +254,6 @@ test('a warning is not shown as an error', async () => {
   assert.notEqual(await color('warning'), await color('error'));
   await page.click('#warning button');
   assert.ok(await page.isHidden('#warning'));
-  await page.close();
 });
 
 test('the address has no digits of rounding errors', async () => {

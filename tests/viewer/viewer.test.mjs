@@ -9,7 +9,7 @@ import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 
 import {
-  drop, idsOf, memoryOfPages, openPage, placeOf, setRadius, setVertex, waitForAnswers, waitForMesh, waitForPixels,
+  drop, idsOf, memoryOfPages, openPage, placeOf, setRadius, setVertex, show, waitForAnswers, waitForPixels,
 } from './browser.mjs';
 import { commandLine, launchWithFolder } from './fixture.mjs';
 import { arraysOf } from '../wasm/npz.mjs';
@@ -54,7 +54,6 @@ test('a page of the command line shows the query with the answers of the command
   }
   await setVertex(page, 123);
   await expectAnswers(page, 'scroll.ply', 123, 20);
-  await page.close();
 });
 
 test('a click on a vertex asks for it, and a drag of the marker takes it along', async () => {
@@ -79,7 +78,6 @@ test('a click on a vertex asks for it, and a drag of the marker takes it along',
   await page.waitForFunction(() => document.getElementById('vertex').value === '690');
   await waitForAnswers(page);
   await expectAnswers(page, 'plates.ply', 690, 3);
-  await page.close();
 });
 
 test('the slider and both numbers set the same radius', async () => {
@@ -101,7 +99,6 @@ test('the slider and both numbers set the same radius', async () => {
   await waitForAnswers(page);
   assert.deepEqual(await read(), [0, 0]);
   assert.deepEqual(await idsOf(page, 'exact'), [7000]);
-  await page.close();
 });
 
 test('keys do what their list says', async () => {
@@ -133,7 +130,6 @@ test('keys do what their list says', async () => {
   await page.waitForSelector('#keys[open]');
   await page.keyboard.press('Escape');
   await page.waitForSelector('#keys', { state: 'hidden' });
-  await page.close();
 });
 
 test('a finger chooses a vertex, and takes the marker along', async () => {
@@ -156,21 +152,18 @@ test('a finger chooses a vertex, and takes the marker along', async () => {
   await touch('touchEnd', []);
   await waitForAnswers(page);
   assert.equal(await page.inputValue('#vertex'), String(target));
-  await page.close();
 });
 
 test('files that are dropped are shown; broken ones get the words of the command line', async () => {
   const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
   assert.equal(await page.inputValue('#vertex'), '5');
-  await drop(page, 'scroll.ply', readFileSync(file('scroll.ply')));
-  await waitForMesh(page, 'scroll.ply');
+  await show(page, 'scroll.ply', readFileSync(file('scroll.ply')));
   await setRadius(page, 8);
   await setVertex(page, 4321);
   await expectAnswers(page, 'scroll.ply', 4321, 8);
 
   meshhood('build', 'scroll.ply', '-o', 'scroll.mhi');
-  await drop(page, 'scroll.mhi', readFileSync(file('scroll.mhi')));
-  await waitForMesh(page, 'scroll.mhi');
+  await show(page, 'scroll.mhi', readFileSync(file('scroll.mhi')));
   await setRadius(page, 8);
   await setVertex(page, 4321);
   await expectAnswers(page, 'scroll.ply', 4321, 8);
@@ -184,7 +177,6 @@ test('files that are dropped are shown; broken ones get the words of the command
 
   await drop(page, 'damaged.mhi', readFileSync(file('scroll.mhi')).fill(7, 5000, 5001));
   await page.waitForFunction(() => /checksum/.test(document.querySelector('#error p').textContent));
-  await page.close();
 });
 
 test('an index that the page saves is that of the command line', async () => {
@@ -196,7 +188,6 @@ test('an index that the page saves is that of the command line', async () => {
   assert.equal(readFileSync(await ids.path(), 'utf8'), meshhood('query', 'scroll.ply', '-v', '7000', '-r', '12'));
   const [picture] = await Promise.all([page.waitForEvent('download'), page.click('#save-picture')]);
   assert.equal(readFileSync(await picture.path()).subarray(1, 4).toString(), 'PNG');
-  await page.close();
 });
 
 test('an answer and values that are handed over are shown', async () => {
@@ -210,7 +201,6 @@ test('an answer and values that are handed over are shown', async () => {
   assert.equal(legend[1], 'heights');
   await page.selectOption('#color', 'count');
   await page.waitForFunction(() => document.querySelectorAll('#legend span')[1].textContent === 'vertices');
-  await page.close();
 });
 
 test('a page joins vertices as the command line does', async () => {
@@ -229,13 +219,11 @@ test('the properties of a PLY file are colors', async () => {
   const ply = ['ply', 'format ascii 1.0', 'element vertex 4', ...['x', 'y', 'z', 'heat'].map((p) => `property float ${p}`),
     'element face 1', 'property list uchar int vertex_indices', 'end_header', ...rows, '4 0 1 3 2', ''].join('\n');
   const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
-  await drop(page, 'heat.ply', Buffer.from(ply));
-  await waitForMesh(page, 'heat.ply');
+  await show(page, 'heat.ply', Buffer.from(ply));
   await page.click('#display summary');
   await page.selectOption('#color', { label: 'heat' });
   assert.deepEqual(await page.locator('#legend span').allTextContents(), ['0', 'heat', '30']);
   await expectColors(page, { violet: [68, 1, 84], teal: [33, 145, 140], yellow: [253, 231, 37] });
-  await page.close();
 });
 
 test('curvature of both signs is blue and red', async () => {
@@ -245,7 +233,6 @@ test('curvature of both signs is blue and red', async () => {
   await page.waitForSelector('#legend:not([hidden])');
   await expectColors(page, { blue: [33, 102, 172], white: [247, 247, 247], red: [178, 24, 43] });
   await page.screenshot({ path: join(pictures, 'curvature.png') });
-  await page.close();
 });
 
 /** Chooses what the colors show, and waits until they do. */
@@ -264,8 +251,7 @@ test('curvatures are those of the command line, where something could be fitted'
   const { k1, k2, state } = arraysOf(readFileSync(file('folds.npz')));
   const bent = k1.indexOf(Math.max(...k1));
   const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
-  await drop(page, 'folds.ply', readFileSync(file('folds.ply')));
-  await waitForMesh(page, 'folds.ply');
+  await show(page, 'folds.ply', readFileSync(file('folds.ply')));
   await setRadius(page, 3);
   await setVertex(page, bent);
   await page.click('#display summary');
@@ -298,7 +284,6 @@ test('curvatures are those of the command line, where something could be fitted'
   assert.ok(Math.abs(expected - definitions.shapeIndex(k1[bent], k2[bent])) > 1e-3);
   await page.waitForFunction(
     ([v, expected]) => Math.abs(window.meshhoodPage.values[v] - expected) < 1e-9, [bent, expected]);
-  await page.close();
 });
 
 test('a computation that is given up leaves neither colors nor a bar', async () => {
@@ -312,26 +297,21 @@ test('a computation that is given up leaves neither colors nor a bar', async () 
   await setVertex(page, 7000);
   assert.equal(await page.evaluate(() => window.meshhoodPage.values), null);
   assert.ok(await page.isHidden('#legend'));
-  await page.close();
 });
 
 test('an index file that holds faces opens as a surface', async () => {
   const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
   meshhood('build', 'scroll.ply', '--faces', '-o', 'faces.mhi');
-  await drop(page, 'faces.mhi', readFileSync(file('faces.mhi')));
-  await waitForMesh(page, 'faces.mhi');
+  await show(page, 'faces.mhi', readFileSync(file('faces.mhi')));
   assert.ok(await page.locator('#color option[value=mean]').isEnabled());
-  await page.close();
 });
 
 test('an index file without faces has no curvature', async () => {
   const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
   meshhood('build', 'scroll.ply', '-o', 'points.mhi');
-  await drop(page, 'points.mhi', readFileSync(file('points.mhi')));
-  await waitForMesh(page, 'points.mhi');
+  await show(page, 'points.mhi', readFileSync(file('points.mhi')));
   assert.ok(await page.locator('#color option[value=mean]').isDisabled());
   assert.ok(await page.locator('#color option[value=count]').isEnabled());
-  await page.close();
 });
 
 test('a link shows the same again', async () => {
@@ -354,7 +334,6 @@ test('a link shows the same again', async () => {
   const state = (p) => p.evaluate(() => window.meshhoodPage.view.cameraState);
   const [a, b] = [await state(page), await state(again)];
   a.forEach((x, i) => assert.ok(Math.abs(x - b[i]) < 1e-3 * (1 + Math.abs(x)), `${a} and ${b}`));
-  await Promise.all([page.close(), again.close()]);
 });
 
 test('another link in the address bar shows what it says, also the colors', async () => {
@@ -374,7 +353,6 @@ test('another link in the address bar shows what it says, also the colors', asyn
   await page.waitForFunction(() => document.body.dataset.mesh === 'terrain');
   await waitForAnswers(page);
   assert.equal(await page.inputValue('#vertex'), '45000');
-  await page.close();
 });
 
 test('a file that cannot be opened leaves the example and its link', async () => {
@@ -384,7 +362,6 @@ test('a file that cannot be opened leaves the example and its link', async () =>
   assert.equal(await page.inputValue('#example'), 'terrain');
   await setVertex(page, 45100);
   assert.match(await page.evaluate(() => location.hash), /example=terrain&vertex=45100/);
-  await page.close();
 });
 
 test('in the frame of a notebook the page answers, and offers no link', async () => {
@@ -399,7 +376,6 @@ test('in the frame of a notebook the page answers, and offers no link', async ()
   assert.deepEqual(await idsOf(frame, 'exact'), expected('scroll.ply', 7000, 12, 'exact'));
   assert.ok(await frame.isHidden('#copy-link'));
   assert.deepEqual(errors, []);
-  await page.close();
 });
 
 const SIZES = { wide: [1440, 900], tablet: [820, 1100], phone: [390, 844] };
@@ -416,7 +392,6 @@ for (const [name, [width, height]] of Object.entries(SIZES)) {
     assert.ok(overflow <= 0);
     const panel = await page.locator('#panel').boundingBox();
     assert.ok(panel.x >= 0 && panel.x + panel.width <= width && panel.y + panel.height <= height);
-    await page.close();
   });
 }
 
@@ -431,5 +406,4 @@ test('a mesh of a million vertices is shown and searched in less than 640 MB', {
   const most = await memoryOfPages(browser);
   console.log(`${most} bytes at most for a million vertices`);
   assert.ok(most < 640 * 2 ** 20);
-  await page.close();
 });

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Every allocation of each other public call fails once: the call throws, or gives what it gives with enough memory.
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>

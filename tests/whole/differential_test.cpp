@@ -102,7 +102,7 @@ class Comparison {
   std::vector<VertexId> answer_;
 };
 
-class Differential : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(Differential);
 
 TEST_P(Differential, AnswersAreThoseOfTheOracle) {
   Tally tally;
@@ -115,8 +115,6 @@ TEST_P(Differential, AnswersAreThoseOfTheOracle) {
   EXPECT_EQ(tally.mismatches, 0U);
   EXPECT_GT(tally.meshes, 0U);
 }
-
-INSTANTIATE_TEST_SUITE_P(Families, Differential, testing::ValuesIn(families()), family_name);
 
 /// A second oracle, in integers, so that the same wrong distance cannot be in both. Distinct integers below 2^46 have
 /// distinct square roots in double.

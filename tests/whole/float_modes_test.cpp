@@ -72,7 +72,7 @@ std::size_t count_changed(const TestMesh& mesh, const std::vector<ExpectedAnswer
   return changed;
 }
 
-class FloatModes : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(FloatModes);
 
 TEST_P(FloatModes, FlushingDenormalsChangesNoAnswer) {
   std::size_t queries = 0;
@@ -95,8 +95,6 @@ TEST(FlushedDenormals, AQueryOfRadiusZeroEnds) {
   const FlushDenormals flushed;
   EXPECT_EQ(exact_neighborhood(mesh.view(), 5, 0), std::vector<VertexId>{5});
 }
-
-INSTANTIATE_TEST_SUITE_P(All, FloatModes, testing::ValuesIn(families()), family_name);
 
 }  // namespace
 }  // namespace meshhood::test

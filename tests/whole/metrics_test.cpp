@@ -17,6 +17,7 @@
 #include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/random.h"
 #include "support/refusal.h"
 #include "support/region_oracle.h"
@@ -221,8 +222,7 @@ TEST_P(MetricsOfFamily, AnswerAsTheVerticesOfTheNeighborhood) {
 INSTANTIATE_TEST_SUITE_P(Surfaces, MetricsOfFamily, testing::ValuesIn(surface_families()), family_name);
 
 TEST(Metrics, InSpaceRefuseWhatAsksForConnections) {
-  const TestMesh mesh = make_grid(4, 4, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(4, 4, false));
   const std::vector<double> areas(mesh.size(), 1);
   const auto refuses = [](const auto& ask) { expect_refused(ErrorCode::InvalidOption, "nothing is connected", ask); };
   Ids ids{7};
@@ -230,9 +230,9 @@ TEST(Metrics, InSpaceRefuseWhatAsksForConnections) {
   refuses([&] { Searcher(index, Metric::Space).nearest_connected(0, 2, ids, radii); });
   EXPECT_EQ(ids, Ids{7});
   EXPECT_EQ(radii, std::vector<double>{7});
-  refuses([&] { static_cast<void>(k_nearest(index, {}, 2, {.metric = Metric::Space})); });
-  refuses([&] { static_cast<void>(discs(index, {}, 2, areas, {.metric = Metric::Space})); });
-  refuses([&] { static_cast<void>(nearest_unconnected(index, {.radius = 1, .metric = Metric::Space})); });
+  refuses([&] { return k_nearest(index, {}, 2, {.metric = Metric::Space}); });
+  refuses([&] { return discs(index, {}, 2, areas, {.metric = Metric::Space}); });
+  refuses([&] { return nearest_unconnected(index, {.radius = 1, .metric = Metric::Space}); });
 }
 
 TEST(Metrics, AreOfAnIndexAlone) {

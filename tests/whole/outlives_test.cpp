@@ -257,9 +257,9 @@ TEST(Rebind, RingsOfAHubAreThoseOfTheNewState) {
 TEST_F(Outlives, ASurfaceDoesNotTakeARefittedIndex) {
   const Surface surface(index, mesh.view());
   const Index other = refit(index, moved.positions_view());
-  expect_refused(ErrorCode::InvalidOption, "of another mesh", [&] { static_cast<void>(surface.on(other)); });
+  expect_refused(ErrorCode::InvalidOption, "of another mesh", [&] { return surface.on(other); });
   expect_refused(ErrorCode::InvalidOption, "of another mesh",
-                 [&] { static_cast<void>(surface.on(masked(other, {.walls = walls}))); });
+                 [&] { return surface.on(masked(other, {.walls = walls})); });
   static_cast<void>(surface.on(masked(index, {.walls = walls})));
 }
 
@@ -268,8 +268,7 @@ TEST_F(Outlives, AMethodByAMetricIsOneByAnother) {
   EXPECT_EQ(counts(paths.by(Metric::Straight), {.radius = kRadius}), counts(index, {.radius = kRadius}));
   EXPECT_NE(counts(paths, {.radius = kRadius}), counts(index, {.radius = kRadius}));
   expect_refused(ErrorCode::InvalidOption, "metric: expected Straight", [&] {
-    static_cast<void>(
-        counts(SearchMethod::ball_scan(mesh.view().positions), {.radius = kRadius, .metric = Metric::Path}));
+    return counts(SearchMethod::ball_scan(mesh.view().positions), {.radius = kRadius, .metric = Metric::Path});
   });
 }
 

@@ -18,6 +18,7 @@
 #include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/refusal.h"
 #include "support/region_oracle.h"
 #include "support/scale.h"
@@ -25,7 +26,7 @@
 namespace meshhood::test {
 namespace {
 
-class NearestIn : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(NearestIn);
 
 TEST_P(NearestIn, IsTheFirstOfAScan) {
   std::size_t points = 0;
@@ -56,11 +57,8 @@ TEST_P(NearestIn, IsTheFirstOfAScan) {
   std::printf("%s: %zu points\n", std::string(GetParam().name).c_str(), points);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, NearestIn, testing::ValuesIn(families()), family_name);
-
 TEST(Nearest, OfSeveralIsTheOneWithTheSmallestId) {
-  const TestMesh mesh = make_grid(9, 9, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(9, 9, false));
   EXPECT_EQ(nearest(index, {3.5, 3.5, 0}).vertex, 30U);
   EXPECT_EQ(nearest(index, {4, 4, 100}).vertex, 40U);
 }
@@ -76,22 +74,19 @@ TEST(Nearest, OfSeveralWhoseSquaredDistancesHaveOneRootIsTheOneWithTheSmallestId
 }
 
 TEST(Nearest, RefusesAPointThatIsNotFiniteAndAMeshWithoutVertices) {
-  const TestMesh mesh = make_grid(3, 3, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(3, 3, false));
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  expect_refused(ErrorCode::InvalidOption, "point: coordinate 0 is nan",
-                 [&] { static_cast<void>(nearest(index, {nan, 0, 0})); });
+  expect_refused(ErrorCode::InvalidOption, "point: coordinate 0 is nan", [&] { return nearest(index, {nan, 0, 0}); });
   const std::vector<SpacePoint> points{{0, 0, 0}, {0, 0, nan}};
   expect_refused(ErrorCode::InvalidOption, "points: row 1: coordinate 2 is nan",
-                 [&] { static_cast<void>(nearest(index, points)); });
+                 [&] { return nearest(index, points); });
   EXPECT_TRUE(nearest(index, std::vector<SpacePoint>{}).empty());
   const Index empty = build(TestMesh{}.finish(true).view());
-  expect_refused(ErrorCode::VertexOutOfRange, "no vertices", [&] { static_cast<void>(nearest(empty, {0, 0, 0})); });
+  expect_refused(ErrorCode::VertexOutOfRange, "no vertices", [&] { return nearest(empty, {0, 0, 0}); });
 }
 
 TEST(Nearest, IsNoWallButMayBeIgnored) {
-  const TestMesh mesh = make_grid(3, 3, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(3, 3, false));
   std::vector<std::uint8_t> some(9);
   some[0] = some[3] = 1;
   EXPECT_EQ(nearest(masked(index, {.walls = some}), {0, 0, 0}).vertex, 1U);
@@ -99,12 +94,11 @@ TEST(Nearest, IsNoWallButMayBeIgnored) {
   const std::vector<std::uint8_t> all(9, 1);
   const Index none = masked(index, {.walls = all});
   expect_refused(ErrorCode::VertexOutOfRange, "all vertices of the mesh are walls",
-                 [&] { static_cast<void>(nearest(none, {0, 0, 0})); });
+                 [&] { return nearest(none, {0, 0, 0}); });
 }
 
 TEST(StartNearest, HasTheNearestVertexAsItsOnlySeed) {
-  const TestMesh mesh = bumpy_grid(30);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(bumpy_grid(30));
   Searcher searcher(index);
   for (const SpacePoint& p : {SpacePoint{3.2, 4.1, 0.5}, SpacePoint{28, 28, -1}, SpacePoint{-50, 0, 0}}) {
     const std::array seed{nearest(index, p).vertex};
@@ -118,8 +112,7 @@ TEST(StartNearest, HasTheNearestVertexAsItsOnlySeed) {
 }
 
 TEST(PointOnFace, IsTheWeightedSumOfTheCorners) {
-  const TestMesh mesh = make_grid(3, 3, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(3, 3, false));
   const std::array<VertexId, 3> corners{0, 1, 3};
   const SpacePoint p = point_on_face(index, corners, std::array{0.5, 0.25, 0.25});
   const SpacePoint expected{0.25 * mesh.positions[3] + 0.25 * mesh.positions[9],
@@ -128,16 +121,15 @@ TEST(PointOnFace, IsTheWeightedSumOfTheCorners) {
 }
 
 TEST(PointOnFace, RefusesWeightsThatAreNotOneFiniteNumberForEachCorner) {
-  const TestMesh mesh = make_grid(3, 3, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(3, 3, false));
   const std::array<VertexId, 3> corners{0, 1, 99};
   expect_refused(ErrorCode::InvalidOption, "weights: 2 values",
-                 [&] { static_cast<void>(point_on_face(index, corners, std::array{0.5, 0.5})); });
+                 [&] { return point_on_face(index, corners, std::array{0.5, 0.5}); });
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_refused(ErrorCode::InvalidOption, "weights: value 1 is nan",
-                 [&] { static_cast<void>(point_on_face(index, corners, std::array{0.5, nan, 0.5})); });
+                 [&] { return point_on_face(index, corners, std::array{0.5, nan, 0.5}); });
   expect_refused(ErrorCode::VertexOutOfRange, "corner 2: vertex 99",
-                 [&] { static_cast<void>(point_on_face(index, corners, std::array{0.5, 0.25, 0.25})); });
+                 [&] { return point_on_face(index, corners, std::array{0.5, 0.25, 0.25}); });
 }
 
 }  // namespace

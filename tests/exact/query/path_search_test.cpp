@@ -16,6 +16,7 @@
 
 #include "exact/index_access.h"
 #include "support/draw_start.h"
+#include "support/indexed.h"
 #include "support/random.h"
 #include "support/region_oracle.h"
 
@@ -102,8 +103,7 @@ TEST(PathSearch, IsExactForEdgesOfLengthZeroAndDenormalPositions) {
 }
 
 TEST(PathSearch, SearchesAgainFromOtherVerticesAndBehindOtherWalls) {
-  const TestMesh line = make_line(10);
-  const Index built = build(line.view());
+  const auto [line, built] = indexed(make_line(10));
   const IndexView& index = IndexAccess::view(built);
   std::vector<std::uint8_t> walls(10);
   walls[4] = 1;
@@ -122,8 +122,7 @@ TEST(PathSearch, SearchesAgainFromOtherVerticesAndBehindOtherWalls) {
 }
 
 TEST(PathSearch, FindsTheShortestPathsFromAnyOfSeveralVertices) {
-  const TestMesh line = make_line(10);
-  const Index built = build(line.view());
+  const auto [line, built] = indexed(make_line(10));
   const IndexView& index = IndexAccess::view(built);
   PathSearch search(index, *IndexAccess::share_graph(built));
   const auto run = [&](std::vector<Path> starts) {  // of vertices

@@ -23,6 +23,7 @@
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/indexed.h"
 #include "support/refusal.h"
 #include "support/region_oracle.h"
 #include "support/scale.h"
@@ -244,8 +245,7 @@ TEST_P(SingleQueries, OfAStrokeAreTheirUnion) {
 INSTANTIATE_TEST_SUITE_P(All, SingleQueries, testing::ValuesIn(families()), family_name);
 
 TEST(Region, SaysWhetherASeedLiesInTheBall) {
-  const TestMesh mesh = make_grid(5, 5, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(5, 5, false));
   Searcher searcher(index);
   const SpacePoint above{2, 2, 3};
   const std::array<VertexId, 2> seeds{0, 12};  // 12 at exactly 3, and 0 farther
@@ -272,8 +272,7 @@ TEST(Region, SaysWhetherASeedLiesInTheBall) {
 }
 
 TEST(Region, WithoutSeedsIsEmptyButInSpace) {
-  const TestMesh mesh = make_grid(5, 5, false);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(5, 5, false));
   for (const Metric metric : {Metric::Straight, Metric::Path}) {
     Searcher searcher(index, metric);
     EXPECT_EQ(searcher.count({{1, 1, 0}, {}}, 10), 0U);
@@ -285,8 +284,7 @@ TEST(Region, WithoutSeedsIsEmptyButInSpace) {
 }
 
 TEST(Region, EndsAtWallsAndPassesIgnoredVertices) {
-  const TestMesh mesh = make_grid(9, 3, true);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(9, 3, true));
   std::vector<std::uint8_t> row(mesh.size());
   for (VertexId v = 12; v < 15; ++v) row[v] = 1;  // the fifth of nine rows of three
   const std::vector<bool> bits(row.begin(), row.end());
@@ -302,8 +300,7 @@ TEST(Region, EndsAtWallsAndPassesIgnoredVertices) {
 }
 
 TEST(Region, RefusesInvalidArguments) {
-  const TestMesh mesh = make_grid(3, 3, true);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(3, 3, true));
   Searcher searcher(index);
   std::vector<VertexId> ids{1, 2};
   std::vector<std::size_t> counts{5};
@@ -321,15 +318,13 @@ TEST(Region, RefusesInvalidArguments) {
                  [&] { searcher.nested(VertexId{0}, std::array{1.0, 1.0}, ids, counts); });
   expect_refused(ErrorCode::VertexOutOfRange, "dab 1: vertex 9",
                  [&] { searcher.stroke(std::array{Dab{VertexId{0}, 1}, Dab{VertexId{9}, 1}}, ids); });
-  expect_refused(ErrorCode::VertexOutOfRange, "vertex 77",
-                 [&] { static_cast<void>(searcher.contains(VertexId{0}, 77, 1)); });
+  expect_refused(ErrorCode::VertexOutOfRange, "vertex 77", [&] { return searcher.contains(VertexId{0}, 77, 1); });
   EXPECT_THAT(ids, ElementsAre(1, 2));
   EXPECT_THAT(counts, ElementsAre(5));
 }
 
 TEST(EdgeSearch, RefusesInvalidArguments) {
-  const TestMesh mesh = make_grid(3, 3, true);
-  const Index index = build(mesh.view());
+  const auto [mesh, index] = indexed(make_grid(3, 3, true));
   for (const Metric metric : {Metric::Path, Metric::Rings}) {
     Searcher searcher(index, metric);
     std::vector<VertexId> ids{7};

@@ -57,7 +57,7 @@ std::size_t for_each_outward_search(const Family& family, std::size_t meshes, st
   return searches;
 }
 
-class ComponentOnFamilies : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(ComponentOnFamilies);
 
 TEST_P(ComponentOnFamilies, HasTheVerticesOfTheAnswerInIndexOrder) {
   std::size_t vertices = 0;
@@ -90,8 +90,6 @@ TEST_P(ComponentOnFamilies, HasRunsThatDoNotTouchAndSubsetsThatAreNotWhole) {
     }
   });
 }
-
-INSTANTIATE_TEST_SUITE_P(Families, ComponentOnFamilies, testing::ValuesIn(families()), family_name);
 
 }  // namespace
 }  // namespace meshhood::test

@@ -67,7 +67,7 @@ void expect_answers(Searcher& searcher, const Oracle& oracle, VertexId v, double
   ASSERT_EQ(in_ranges, expected.size());
 }
 
-class VertexBfsOnFamilies : public testing::TestWithParam<Family> {};
+MESHHOOD_SUITE_OF_FAMILIES(VertexBfsOnFamilies);
 
 TEST_P(VertexBfsOnFamilies, FindsTheNeighborhoodInIndexOrder) {
   std::size_t queries = 0;
@@ -99,8 +99,6 @@ TEST_P(VertexBfsOnFamilies, FindsTheNeighborhoodInIndexOrder) {
   }
   std::printf("%zu queries\n", queries);
 }
-
-INSTANTIATE_TEST_SUITE_P(Families, VertexBfsOnFamilies, testing::ValuesIn(families()), family_name);
 
 TEST(VertexBfs, HubsAndRandomGraphsAreUnlikeASurface) {
   for (const std::size_t hubs : {1U, 20U, 60U}) EXPECT_TRUE(is_unlike(make_hubs(6000, hubs))) << hubs << " hubs";
