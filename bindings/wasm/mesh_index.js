@@ -481,8 +481,12 @@ export class MeshIndex extends Owner {
       this.instance.with([vertices], (ids) => this.instance.call('thickness', ids, vertices?.length ?? 0, place));
     } else {
       const spots = toReals(points, 'points');
+      if (spots.length !== 3 * face.length) {
+        throw new MeshhoodError('InvalidOption',
+          `points: ${spots.length} coordinates, expected three for each of ${face.length} faces`);
+      }
       this.instance.with([face, spots], (ids, list) =>
-        this.instance.call('thickness_of_points', ids, face.length, list, spots.length, place));
+        this.instance.call('thickness_of_points', ids, face.length, list, place));
     }
     return this.instance.takeAnswer().reals;
   }

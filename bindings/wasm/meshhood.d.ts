@@ -682,14 +682,14 @@ export class MeshIndex {
   features(r: Radii | null, options: FeatureOptions): Float64Array;
 
   /**
-   * The thickness of the wall at each vertex: the way against its normal to the surface, or, with the method 'sphere',
+   * The thickness of the wall at each vertex, or at points of faces: the way against its normal to the surface, or, with the method 'sphere',
    * the diameter of the largest ball that touches there from inside and has no point of an opposite face in it, one
    * whose normal turns from that of the vertex by more than 53 degrees. Faces are oriented counterclockwise, seen from
-   * outside. Infinity where nothing else is met, NaN for a vertex without a normal.
+   * outside. Infinity where nothing else is met, NaN for a vertex without a normal and a face without an area.
    *
    * @param options `faces` as for `closestPoint`. In place of vertices, `points`, #rows by 3, and `face`, the face of each:
    * then the point of the face nearest to each of them counts, with the normal of the face
-   * @throws MeshhoodError VertexOutOfRange, InvalidMesh, InvalidOption
+   * @throws MeshhoodError VertexOutOfRange, InvalidMesh, and InvalidOption, for a face that the mesh does not have, too
    */
   thickness(options: {
     faces: Faces;

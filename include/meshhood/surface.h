@@ -111,9 +111,10 @@ class Surface {
   [[nodiscard]] Surface on(const Index& index) const;
 
   /// Follows a refit of its index: answers are then those of a new surface. With `changed`, boxes, normals and what
-  /// patches of triangles need are renewed for the faces of these vertices alone, unless a vertex has left the frame of
-  /// the index. If another surface shares them (see `on`), boxes and normals are copied. All else is made again when it
-  /// is needed. No thread may use the surface meanwhile.
+  /// patches need are renewed for the faces of these vertices alone, unless a vertex has left the frame of the index.
+  /// They are copied if another surface shares them (see `on`), or a searcher that was made before. All else is made
+  /// again when it is needed: so are patches where faces have more than three corners, or the index has walls. No
+  /// thread may use the surface meanwhile.
   ///
   /// index    refitted in place, or a refitted copy.
   /// changed  ids of the vertices that have moved since, at least.
@@ -253,8 +254,9 @@ enum class ThicknessMethod : std::uint8_t {
 };
 
 /// The thickness at each of `vertices`, in the unit of the positions. Faces with the vertex as a corner do not count,
-/// nor does what lies at the same place. Infinite where nothing else is met, for the sphere within the extent of the
-/// mesh; NaN for a vertex without a normal.
+/// nor does what lies at the same place: nearer than 2^-46 of the extent of the mesh and of its distance from the
+/// origin. Infinite where nothing else is met, for the sphere within the extent of the mesh; NaN for a vertex without a
+/// normal.
 ///
 /// Masks have no effect. A row depends on the surface, its vertex and the method alone, bit for bit. O(log #V) a row on
 /// most surfaces; for a ball, O(#F) where the whole surface is nearly a ball, all faces of which it touches. 16 bytes a
@@ -265,11 +267,11 @@ enum class ThicknessMethod : std::uint8_t {
                                             ThicknessMethod method = ThicknessMethod::Ray, const Run& run = {});
 
 /// The same at points of faces, against the normals of these; of a polygon, that of its vector area. A face does not
-/// count for its own points, nor does what a ray meets nearer than 2^-40 of the extent of the mesh. NaN for a face
-/// without an area.
+/// count for its own points, nor do other faces for points on their sides, up to rounding. NaN for a face without an
+/// area.
 ///
 /// faces   #rows numbers.
-/// points  #rows. The point of the face nearest to each of them counts.
+/// points  #rows. The point of the face nearest to each of them counts, in O(#corners of the face).
 /// Throws as above, and Error{InvalidOption}, naming the row, for a face that the mesh does not have, or a coordinate
 /// that is not finite or beyond 2^500; and if the numbers of rows differ. 16 bytes a row.
 [[nodiscard]] std::vector<double> thickness(const Surface& surface, const IndicesView& faces,

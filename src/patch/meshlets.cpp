@@ -326,8 +326,15 @@ PatchState::PatchState(const Index& given, const StoredFaces& all, TaskContext& 
     : searched(without_ignored(given)),
       index(&IndexAccess::view(searched)),
       faces(&all),
-      triangles(*index, all, task),
+      kept_triangles(std::make_shared<const Triangles>(*index, all, task)),
       meshlets(*index, triangles, task) {}
+
+PatchState::PatchState(const PatchState& other)
+    : searched(IndexAccess::alias(other.searched)),
+      index(&IndexAccess::view(searched)),
+      faces(other.faces),
+      kept_triangles(other.kept_triangles),
+      meshlets(other.meshlets) {}
 
 void PatchState::renew(const Index& refitted, std::span<const VertexId> changed) {
   searched = without_ignored(refitted);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <ranges>
 #include <span>
 #include <vector>
@@ -161,13 +162,21 @@ struct PatchState {
   /// Borrows the faces. Throws as `Triangles`.
   PatchState(const Index& given, const StoredFaces& all, TaskContext& task);
 
+  /// Shares the triangles.
+  PatchState(const PatchState& other);
+  PatchState(PatchState&&) = default;
+  PatchState& operator=(const PatchState&) = delete;
+  PatchState& operator=(PatchState&&) = delete;
+  ~PatchState() = default;
+
   /// Follows a refit, in the same frame, in which the vertices `changed` have moved. All faces have three corners.
   void renew(const Index& refitted, std::span<const VertexId> changed);
 
   Index searched;  // answers with ignored vertices, too, which are on the surface as others are
   const IndexView* index;
   const StoredFaces* faces;
-  Triangles triangles;
+  std::shared_ptr<const Triangles> kept_triangles;
+  const Triangles& triangles = *kept_triangles;
   Meshlets meshlets;
 
   /// Whether the vertices of a patch that are in its ball are the neighborhood of its center, but for loose edges,

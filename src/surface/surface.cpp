@@ -74,6 +74,7 @@ std::shared_ptr<SurfaceGeometry> SurfaceGeometry::copy() const {
   auto all = std::make_shared<SurfaceGeometry>();
   if (const Normals* const made = normals.made()) static_cast<void>(all->normals.get([&] { return *made; }));
   if (const FaceTree* const made = tree.made()) static_cast<void>(all->tree.get([&] { return *made; }));
+  if (const PatchState* const made = patches.made()) static_cast<void>(all->patches.get([&] { return *made; }));
   return all;
 }
 

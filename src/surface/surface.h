@@ -56,7 +56,7 @@ struct SurfaceGeometry {
   Kept<std::vector<double>> areas;
   Kept<PatchState> patches;  // without walls
 
-  /// Of what a refit renews, but patches.
+  /// Of what a refit renews.
   [[nodiscard]] std::shared_ptr<SurfaceGeometry> copy() const;
 };
 

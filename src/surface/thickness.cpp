@@ -31,15 +31,15 @@ constexpr std::size_t kRowsOfTask = 256;
 // The first ball reaches as far as the frame.
 constexpr double kFirstRadius = 4;
 
-// In the frame. Faces beside that of a point are as near as rounding makes them.
-constexpr double kSamePlace = 0x1p-40;
+// Of what is about as large as coordinates: what is not farther is at the same place, up to their rounding.
+constexpr double kSamePlace = 0x1p-46;
 
-/// A ball that touches a vertex from inside, and shrinks while a search goes through boxes. It stays inside of what it
-/// was, so a box that it once did not meet is left out for good.
+/// A ball that touches a spot from inside, in the frame, and shrinks while a search goes through boxes. It stays inside
+/// of what it was, so a box that it once did not meet is left out for good.
 class TouchingBall {
  public:
-  TouchingBall(const IndexView& index, const Point& vertex, const Point& inward, double radius)
-      : index_(&index), vertex_(vertex), inward_(inward), radius_(radius), reach_(reach()), boxes_(center(), reach_) {}
+  TouchingBall(const IndexView& index, const Point& at, const Point& inward, double radius)
+      : index_(&index), at_(at), inward_(inward), radius_(radius), reach_(reach()), boxes_(center(), reach_) {}
   TouchingBall(const TouchingBall&) = delete;
   TouchingBall& operator=(const TouchingBall&) = delete;
 
@@ -70,15 +70,15 @@ class TouchingBall {
     double operator()() const { return distance; }
   };
 
-  [[nodiscard]] Point center() const { return index_->frame.to_frame(vertex_ + radius_ * inward_); }
+  [[nodiscard]] Point center() const { return at_ + radius_ * inward_; }
 
-  [[nodiscard]] Reach reach() const { return {reach_of(radius_ * index_->frame.scale, index_->frame.scale)}; }
+  [[nodiscard]] Reach reach() const { return {reach_of(radius_, index_->frame.scale)}; }
 
   const IndexView* index_;
-  Point vertex_;
+  Point at_;
   Point inward_;
   double radius_;
-  Reach reach_;                 // in the frame
+  Reach reach_;
   BoxTree::Ball<Reach> boxes_;  // within that reach of the center
 };
 
@@ -90,14 +90,19 @@ struct Spot {
   Point normal;                   // a unit vector; NaN without one
   std::uint32_t place = kAbsent;  // of the vertex that it is
   std::uint32_t face = kAbsent;   // whose point it is
-  double same = 0;                // what is not farther is at the same place
 };
 
 /// What is opposite to a spot.
 class OppositeSide {
  public:
   OppositeSide(const IndexView& index, const FaceTree& tree, const Spot& spot)
-      : index_(&index), tree_(&tree), spot_(spot), inward_(-1.0 * spot.normal) {}
+      : index_(&index),
+        tree_(&tree),
+        spot_(spot),
+        inward_(-1.0 * spot.normal),
+        at_(index.frame.to_frame(spot.at)),
+        same_(kSamePlace * std::max({std::abs(spot.at.x) * index.frame.scale, std::abs(spot.at.y) * index.frame.scale,
+                                     std::abs(spot.at.z) * index.frame.scale, 1.0})) {}
 
   [[nodiscard]] double by_ray() const {
     return has_normal() ? way_to_first([](std::size_t) { return true; }) : kNan;
@@ -105,9 +110,10 @@ class OppositeSide {
 
   [[nodiscard]] double by_sphere(const NormalCones& cones) const {
     if (!has_normal()) return kNan;
+    const double scale = index_->frame.scale;
     const double way = way_to_first([&](std::size_t i) { return opposes(i); });
-    const double first = std::min(way / 2, kFirstRadius / index_->frame.scale);
-    TouchingBall ball(*index_, spot_.at, inward_, first);
+    const double first = std::min(scale * way / 2, kFirstRadius);
+    TouchingBall ball(*index_, at_, inward_, first);
     BoxTree::Walk walk(tree_->boxes(), ball);
     const auto shrink = [&](std::size_t i) {
       if (touches(i) || !ball.may_contain(corners(i)) || !opposes(i)) return;
@@ -119,7 +125,7 @@ class OppositeSide {
     while (walk.advance(shrink, [](std::size_t) {}, enters)) {
     }
     const bool is_met = way < kInfinity || ball.radius() < first;
-    return is_met ? 2 * ball.radius() : kInfinity;
+    return is_met ? 2 * ball.radius() / scale : kInfinity;
   }
 
  private:
@@ -138,7 +144,7 @@ class OppositeSide {
   template <class IsCounted>
   [[nodiscard]] double way_to_first(IsCounted&& is_counted) const {
     const auto counts = [&](std::size_t i, const TrianglePoint& at) {
-      return at.distance > spot_.same && !touches(i) && is_counted(i);
+      return at.distance * index_->frame.scale > same_ && !touches(i) && is_counted(i);
     };
     return find_first_hit(*index_, *tree_, spot_.at, inward_, counts).at.distance;
   }
@@ -147,17 +153,16 @@ class OppositeSide {
     return tree_->triangles()[i].corners;
   }
 
-  /// The radius of the largest ball beside a triangle, which shrinks from `radius` until the nearest point of the
-  /// triangle is not in it. So it depends on no other triangle.
+  /// The radius, in the frame, of the largest ball beside a triangle, which shrinks from `radius` until the nearest
+  /// point of the triangle is not in it. So it depends on no other triangle.
   [[nodiscard]] double largest_beside(std::size_t i, double radius) const {
-    const double scale = index_->frame.scale;
-    const std::array<Point, 3> positions = corners_of(*index_, corners(i));
+    const auto [a, b, c] = corners_in_frame(*index_, corners(i));
+    const std::array<Point, 3> from_spot{a - at_, b - at_, c - at_};
     for (;;) {
-      const TrianglePoint nearest = nearest_in_triangle(spot_.at + radius * inward_, positions, scale);
-      const Point offset = scale * (nearest.point - spot_.at);
-      const double along = dot(inward_, offset);
-      const bool is_inside = nearest.distance < radius && along > 0;
-      const double smaller = is_inside ? dot(offset, offset) / (2 * along) / scale : radius;
+      const TrianglePoint nearest = nearest_in_triangle(radius * inward_, from_spot, 1);
+      const double along = dot(inward_, nearest.point);
+      const bool is_inside = nearest.distance < radius && along > same_;
+      const double smaller = is_inside ? dot(nearest.point, nearest.point) / (2 * along) : radius;
       if (!(smaller > 0 && smaller < radius)) return radius;
       radius = smaller;
     }
@@ -167,6 +172,8 @@ class OppositeSide {
   const FaceTree* tree_;
   Spot spot_;
   Point inward_;
+  Point at_;     // in the frame
+  double same_;  // likewise
 };
 
 /// The point of a face nearest to `q`, and the normal of the face.
@@ -174,7 +181,7 @@ Spot spot_on_face(const SurfaceState& state, const FaceTree& tree, std::size_t f
   const IndexView& index = *state.index;
   const double scale = index.frame.scale;
   const std::span<const VertexId> corners = state.faces()[face];
-  Spot spot{q, {kNan, kNan, kNan}, kAbsent, static_cast<std::uint32_t>(face), kSamePlace / scale};
+  Spot spot{q, {kNan, kNan, kNan}, kAbsent, static_cast<std::uint32_t>(face)};
   Point area{0, 0, 0};
   double least = kInfinity;
   for (const Triangle& triangle : tree.triangles_of(face, corners.size())) {

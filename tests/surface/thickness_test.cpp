@@ -316,6 +316,39 @@ TEST(Thickness, OfPointsOfAPlateIsThatOfThePlateAtCornersAndSidesToo) {
   }
 }
 
+/// An L of walls 1 thick, 10 high, turned and far from the origin. Faces that meet in its inner side touch the balls
+/// there, whatever rounding makes of it.
+TEST(Thickness, OfPointsAtAnInnerSideIsThatOfTheWall) {
+  constexpr std::array<std::array<double, 2>, 6> kOutline{{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}};
+  const auto turned = [](double x, double y, double z) {
+    const double c = std::cos(0.7);
+    const double s = std::sin(0.7);
+    return SpacePoint{c * x - s * y + 100, c * (s * x + c * y) - s * z, s * (s * x + c * y) + c * z};
+  };
+  TestMesh mesh;
+  for (const double z : {-5.0, 5.0}) {
+    for (const auto& [x, y] : kOutline) {
+      const SpacePoint p = turned(x, y, z);
+      mesh.add_vertex(p[0], p[1], p[2]);
+    }
+  }
+  for (std::uint32_t i = 0; i < 6; ++i) mesh.add_face({i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6});
+  mesh.add_face({6, 7, 8, 9, 10, 11});
+  mesh.add_face({5, 4, 3, 2, 1, 0});
+  mesh.finish(false);
+  const Index index = build(mesh.view());
+  const Surface surface(index, mesh.view().faces);
+  std::vector<SpacePoint> points;
+  for (const double off : {0.0, 1e-15, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-3, 0.1}) {
+    for (int z = -2; z <= 2; ++z) points.push_back(turned(1 + off, 1, 0.37 * z));
+  }
+  const std::vector<std::size_t> faces(points.size(), 2);
+  for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
+    const std::vector<double> found = thickness(surface, faces, points, method);
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], 1, 1e-12) << i;
+  }
+}
+
 TEST(Thickness, OfSomeVerticesIsThatOfAll) {
   const TestMesh mesh = ball(9, 11);
   const Index index = build(mesh.view());
@@ -346,17 +379,17 @@ TEST(Thickness, RefusesWrongVerticesAndMeshesWithoutFaces) {
   const Index index = build(mesh.view());
   const std::vector<VertexId> wrong{0, 1000};
   expect_refused(ErrorCode::VertexOutOfRange,
-                 "row 1: ", [&] { static_cast<void>(thickness(Surface(index, mesh.view().faces), wrong)); });
+                 "row 1: ", [&] { return thickness(Surface(index, mesh.view().faces), wrong); });
   const Surface surface(index, mesh.view().faces);
   const std::vector<std::size_t> faces{0, mesh.face_count()};
   const std::vector<SpacePoint> points{{0, 0, 1}, {0, 0, kInfinity}};
   const auto refuse = [&](const std::string& with, std::span<const std::size_t> some, std::span<const SpacePoint> at) {
-    expect_refused(ErrorCode::InvalidOption, with.c_str(), [&] { static_cast<void>(thickness(surface, some, at)); });
+    expect_refused(ErrorCode::InvalidOption, with, [&] { return thickness(surface, some, at); });
   };
   refuse("faces: row 1: face " + std::to_string(mesh.face_count()), faces, points);
   refuse("points: row 1: coordinate 2 is inf", std::vector<std::size_t>{0, 0}, points);
   refuse("2 points, expected one for each of 1 faces", std::vector<std::size_t>{0}, points);
-  expect_refused(ErrorCode::InvalidMesh, "face", [&] { static_cast<void>(thickness(Surface(index, FacesView{}))); });
+  expect_refused(ErrorCode::InvalidMesh, "face", [&] { return thickness(Surface(index, FacesView{})); });
 }
 
 }  // namespace

@@ -356,6 +356,9 @@ test('the thickness of a folded sheet is that between its halves', () => {
     const spots = { faces: sheet, points: Float64Array.from(point), face: Uint32Array.of(face), method };
     assert.deepEqual(folded.thickness(spots), Float64Array.of(2));
     assert.throws(() => folded.thickness({ ...spots, vertices: some }), { code: 'InvalidOption', message: /^points: expected/ });
+    assert.throws(() => folded.thickness({ ...spots, points: new Float64Array(4) }), {
+      code: 'InvalidOption', message: /^points: 4 coordinates, expected three for each of 1 faces/,
+    });
     assert.throws(() => folded.thickness({ ...spots, face: null }), { code: 'InvalidOption', message: /^points: expected/ });
     assert.throws(() => folded.thickness({ ...spots, face: Uint32Array.of(9999) }), {
       code: 'InvalidOption', message: /^faces: row 0: face 9999/,

@@ -253,15 +253,15 @@ class SurfaceQueries(Held):
             point of the face nearest to each of them counts, with the normal of the face.
         method : "ray", the way against the normal of the vertex to the surface; or "sphere", the diameter of the
             largest ball that touches the surface there from inside and has no point of an opposite face in it, one
-            whose normal turns from that of the vertex by more than 53 degrees (by a shrinking ball; Ma, Bae, Choi
+            whose normal turns from that one by more than 53 degrees (by a shrinking ball; Ma, Bae, Choi
             2012).
         F : other faces than those that the index keeps. They are oriented counterclockwise, seen from outside.
 
         The normal is that of the faces of the vertex, weighted by their areas. With other normals, such as that of one of
         the faces, which trimesh takes unless given some, the values of uneven meshes differ.
 
-        Faces with the vertex as a corner do not count, nor does the face of a point, and what a ray meets nearer to it
-        than 2^-40 of the extent of the mesh. It is inf where nothing else is met, and NaN for a vertex without a normal,
+        Faces with the vertex as a corner do not count, nor does the face of a point, nor do others for points on their
+        sides, up to rounding: so at a sharp edge a ball is as large as the rest of the surface lets it be. It is inf where nothing else is met, and NaN for a vertex without a normal,
         or a face without an area. A call for several rows warns if more than half are inf.
 
         >>> across = meshhood.MeshIndex(V, F).thickness()

@@ -54,13 +54,12 @@ extern "C" {
   answer.reals = meshhood::thickness(workspace.surface(), view_vertices(vertices, vertex_count), method);
 }
 
-/// Three coordinates for each face.
+/// A point for each face.
 [[clang::export_name("thickness_of_points")]] void thickness_of_points(const VertexId* faces, std::size_t face_count,
                                                                        const SpacePoint* points,
-                                                                       std::size_t coordinates,
                                                                        ThicknessMethod method) {
   const std::span numbers(faces, face_count);
-  answer.reals = meshhood::thickness(workspace.surface(), numbers, {points, coordinates / 3}, method);
+  answer.reals = meshhood::thickness(workspace.surface(), numbers, {points, face_count}, method);
 }
 
 }  // extern "C"
