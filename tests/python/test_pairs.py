@@ -620,6 +620,8 @@ HOW_ELSE = ("F", "workers", "progress", "max_edges", "keep_faces", "mmap", "trus
             "vertices_per_part", "parts")  # fmt: skip
 OPTIONS_ELSE = {
     "vertices": {"some": np.array([7, 3, 7, 40], np.int32)},
+    "points": {"centers": V[F[:40]].mean(axis=1)},
+    "face": {"first": np.arange(40)},
     "method": {"sphere": "sphere"},
     "F": {"faces": F, "polygons": POLYGONS},
     "workers": {"3": 3},
@@ -685,7 +687,9 @@ CALLS_ELSE = {
     meshhood.MeshIndex.refit: lambda folder, **words: counts_of(INDEX.refit(V + np.float32(1), **words)),
     meshhood.MeshIndex.closest_point: lambda folder, **words: INDEX.closest_point(V + np.float32(0.02), **words),
     meshhood.MeshIndex.first_hit: lambda folder, **words: INDEX.first_hit(V + np.float32(9), -np.ones_like(V), **words),
-    meshhood.MeshIndex.thickness: lambda folder, **words: INDEX.thickness(**words),
+    meshhood.MeshIndex.thickness: lambda folder, face=None, **words: INDEX.thickness(
+        face=np.arange(40) if "points" in words else face, **words
+    ),
     meshhood.MeshIndex.submesh: lambda folder, **words: INDEX.submesh(REGION, **words)[::2],  # positions and vertices
     meshhood.MeshIndex.rim: lambda folder, **words: [line.points for line in INDEX.rim(REGION, 4711, 3.0, **words)],
     meshhood.MeshIndex.save: saved,
