@@ -352,7 +352,7 @@ class Session {
     return polygons;
   }
 
-  /// Invariants, gaps, and walls at vertices and at the first corners of faces.
+  /// Invariants, gaps, and walls at vertices and at the points of faces nearest to the origin.
   static std::vector<double> surface_numbers(const Surface& surface, const BatchQuery& query, unsigned threads) {
     Invariants found = invariants(surface, query, {.threads = threads});
     std::vector<double> all = std::move(found.area);
@@ -360,7 +360,7 @@ class Session {
     for (const SurfacePoint& gap : gaps(surface, query, {.threads = threads})) all.push_back(gap.distance);
     std::vector<std::size_t> faces(surface.face_count());
     std::iota(faces.begin(), faces.end(), std::size_t{0});
-    const std::vector<SpacePoint> points(faces.size());  // the nearest points of the faces count
+    const std::vector<SpacePoint> points(faces.size());
     for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
       for (const std::vector<double>& walls : {thickness(surface, query.vertices, method, {.threads = threads}),
                                                thickness(surface, faces, points, method, {.threads = threads})}) {

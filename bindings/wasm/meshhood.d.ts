@@ -682,14 +682,15 @@ export class MeshIndex {
   features(r: Radii | null, options: FeatureOptions): Float64Array;
 
   /**
-   * The thickness of the wall at each vertex, or at points of faces: the way against its normal to the surface, or, with the method 'sphere',
-   * the diameter of the largest ball that touches there from inside and has no point of an opposite face in it, one
-   * whose normal turns from that of the vertex by more than 53 degrees. Faces are oriented counterclockwise, seen from
-   * outside. Infinity where nothing else is met, NaN for a vertex without a normal and a face without an area.
+   * The thickness of the wall at each vertex, or at points of faces: the way against the normal to the surface, or, with
+   * the method 'sphere', the diameter of the largest ball that touches there from inside and has no point of an opposite
+   * face in it, one whose normal turns from that normal by more than 53 degrees. The normal of a point is that of its
+   * face, which does not count, nor does another face that has the point on a side. Faces are oriented counterclockwise,
+   * seen from outside. Infinity where nothing else is met, NaN for a vertex without a normal or a face without an area.
    *
-   * @param options `faces` as for `closestPoint`. In place of vertices, `points`, #rows by 3, and `face`, the face of each:
-   * then the point of the face nearest to each of them counts, with the normal of the face
-   * @throws MeshhoodError VertexOutOfRange, InvalidMesh, and InvalidOption, for a face that the mesh does not have, too
+   * @param options `faces` as for `closestPoint`. In place of vertices, `points`, #rows by 3, and `face`, the face of
+   * each: the point of that face nearest to each of them counts
+   * @throws MeshhoodError VertexOutOfRange, InvalidMesh; InvalidOption, also for a face that the mesh does not have
    */
   thickness(options: {
     faces: Faces;

@@ -45,11 +45,11 @@ class FaceTree {
   BoxTree boxes_;
 };
 
-/// The cosine of the angle between the normals of a vertex and of a face from which on this is opposite. Common angles
-/// of parts, as 90 and 120 degrees between sides, are far from it, so that rounding does not decide.
+/// The cosine of the angle between a normal and that of a face from which on the face is opposite. Common angles of
+/// parts, as 90 and 120 degrees between sides, are far from it, so that rounding does not decide.
 inline constexpr double kOpposite = 0.6;
 
-/// Whether a face with this vector area is opposite to a vertex with this normal.
+/// Whether a face with this vector area is opposite to a normal.
 [[nodiscard]] inline bool is_opposite(const Point& area, const Point& normal) {
   return dot(area, normal) < kOpposite * length(area);
 }
@@ -61,8 +61,8 @@ inline constexpr double kOpposite = 0.6;
   return doubled_vector_area(scale * a, scale * b, scale * c);
 }
 
-/// Its triangles are opposite to no vertex whose normal is so near the axis that the cosine of the angle between them
-/// is at least `cosine`. As it stands: to none.
+/// Its triangles are opposite to no normal that is so near the axis that the cosine of the angle between them is at
+/// least `cosine`. As it stands: to none.
 struct NormalCone {
   float x = 0;
   float y = 0;
@@ -76,7 +76,7 @@ class NormalCones {
  public:
   NormalCones(const IndexView& index, const FaceTree& tree);
 
-  /// Whether a triangle of the group may be opposite to a vertex with this normal.
+  /// Whether a triangle of the group may be opposite to a normal.
   [[nodiscard]] bool may_oppose(std::size_t level, std::size_t group, const Point& normal) const {
     const NormalCone& cone = levels_[level][group];
     const Point axis{static_cast<double>(cone.x), static_cast<double>(cone.y), static_cast<double>(cone.z)};

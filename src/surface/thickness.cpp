@@ -31,7 +31,7 @@ constexpr std::size_t kRowsOfTask = 256;
 // The first ball reaches as far as the frame.
 constexpr double kFirstRadius = 4;
 
-// Of what is about as large as coordinates: what is not farther is at the same place, up to their rounding.
+// Times the largest coordinate, or the extent of the mesh: what is not farther is at the same place, up to rounding.
 constexpr double kSamePlace = 0x1p-46;
 
 /// A ball that touches a spot from inside, in the frame, and shrinks while a search goes through boxes. It stays inside
@@ -59,10 +59,10 @@ class TouchingBall {
 
   unsigned compare(const BoxGroup& group, BoxGroup::Row& squares) const { return boxes_.compare(group, squares); }
 
-  /// Distances of boxes from centers of larger balls tell nothing.
+  /// Distances of boxes from the centers of larger balls exclude none.
   [[nodiscard]] static float limit() { return std::numeric_limits<float>::infinity(); }
 
-  void update() {}
+  void update() {}  // `limit_to` does so
 
  private:
   struct Reach {
@@ -101,8 +101,9 @@ class OppositeSide {
         spot_(spot),
         inward_(-1.0 * spot.normal),
         at_(index.frame.to_frame(spot.at)),
-        same_(kSamePlace * std::max({std::abs(spot.at.x) * index.frame.scale, std::abs(spot.at.y) * index.frame.scale,
-                                     std::abs(spot.at.z) * index.frame.scale, 1.0})) {}
+        same_(kSamePlace *
+              std::max(index.frame.scale * std::max({std::abs(spot.at.x), std::abs(spot.at.y), std::abs(spot.at.z)}),
+                       1.0)) {}
 
   [[nodiscard]] double by_ray() const {
     return has_normal() ? way_to_first([](std::size_t) { return true; }) : kNan;
@@ -194,7 +195,7 @@ Spot spot_on_face(const SurfaceState& state, const FaceTree& tree, std::size_t f
   return spot;
 }
 
-/// Measures at `spot_of(row)`. `slot_of(row)` leads rows that are near each other to each other.
+/// Measures at `spot_of(row)`, in the order of `slot_of(row)`, so that spots near each other follow each other.
 template <class SlotOf, class SpotOf>
 std::vector<double> measure_rows(const SurfaceState& state, std::size_t rows, ThicknessMethod method, TaskContext& task,
                                  SlotOf&& slot_of, SpotOf&& spot_of) {

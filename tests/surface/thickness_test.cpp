@@ -19,6 +19,7 @@
 #include "meshhood/index.h"
 #include "meshhood/surface.h"
 
+#include "support/indexed.h"
 #include "support/long_point.h"
 #include "support/random.h"
 #include "support/refusal.h"
@@ -265,8 +266,7 @@ TEST(Thickness, OfPointsIsThatOfAScanOfAllFaces) {
   TestMesh mesh = ball(14, 17);
   for (double& x : mesh.positions) x *= 1 + 0.04 * random.uniform(-1, 1);
   mesh.finish(false);
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view().faces);
+  const Surface surface = with_surface(mesh).surface;
   const Scan scan(mesh);
   std::vector<std::size_t> faces;
   std::vector<SpacePoint> points;
@@ -295,8 +295,7 @@ TEST(Thickness, OfPointsOfAPlateIsThatOfThePlateAtCornersAndSidesToo) {
   const auto needle = mesh.add_vertex(0, 0, 9);
   mesh.add_face({needle, needle, 0});
   mesh.finish(false);
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view().faces);
+  const Surface surface = with_surface(mesh).surface;
   const Scan scan(mesh);
   std::vector<std::size_t> faces;
   std::vector<SpacePoint> points;
@@ -336,8 +335,7 @@ TEST(Thickness, OfPointsAtAnInnerSideIsThatOfTheWall) {
   mesh.add_face({6, 7, 8, 9, 10, 11});
   mesh.add_face({5, 4, 3, 2, 1, 0});
   mesh.finish(false);
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view().faces);
+  const Surface surface = with_surface(mesh).surface;
   std::vector<SpacePoint> points;
   for (const double off : {0.0, 1e-15, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-3, 0.1}) {
     for (int z = -2; z <= 2; ++z) points.push_back(turned(1 + off, 1, 0.37 * z));
@@ -351,8 +349,7 @@ TEST(Thickness, OfPointsAtAnInnerSideIsThatOfTheWall) {
 
 TEST(Thickness, OfSomeVerticesIsThatOfAll) {
   const TestMesh mesh = ball(9, 11);
-  const Index index = build(mesh.view());
-  const Surface surface(index, mesh.view().faces);
+  const Surface surface = with_surface(mesh).surface;
   const std::vector<VertexId> some{7, 3, 7, 40};
   for (const ThicknessMethod method : {ThicknessMethod::Ray, ThicknessMethod::Sphere}) {
     const std::vector<double> all = thickness(surface, {}, method);

@@ -39,6 +39,14 @@ def faces(f, count, name):
     return _numbers_of(f, count, name, "face", "faces").astype(np.int64, copy=False)
 
 
+def faces_of_points(face, points, count):
+    """The same, one for each of the points; a single one may be an integer."""
+    numbered = faces([face] if np.ndim(face) == 0 else face, count, "face")
+    if len(numbered) != points:
+        raise ValueError(f"face: expected one for each of {points} points, not {len(numbered)}")
+    return numbered
+
+
 def numbers(values, name, kinds="iuf"):
     """`values` as an array of numbers, not copied."""
     array = as_array(values, name)

@@ -398,9 +398,7 @@ class Queries(Held):
             raise ValueError("seeds: expected None, because the face is given")
         corners, offsets = self._own_faces("face: given, but")
         count = len(corners) // 3 if offsets is None else len(offsets) - 1
-        faces = _convert.faces([face] if np.ndim(face) == 0 else face, count, "face")
-        if len(faces) != rows:
-            raise ValueError(f"face: expected one for each of {rows} points, not {len(faces)}")
+        faces = _convert.faces_of_points(face, rows, count)
         if offsets is None:
             return corners.reshape(-1, 3)[faces]
         begin, sizes = offsets[faces], offsets[faces + 1] - offsets[faces]

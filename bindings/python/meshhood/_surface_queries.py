@@ -251,18 +251,19 @@ class SurfaceQueries(Held):
         vertices, workers, progress : see `MeshIndex`.
         points, face : in place of vertices, 3 numbers and the face, or (n, 3) and (n,), as `closest_point` has them. The
             point of the face nearest to each of them counts, with the normal of the face.
-        method : "ray", the way against the normal of the vertex to the surface; or "sphere", the diameter of the
-            largest ball that touches the surface there from inside and has no point of an opposite face in it, one
-            whose normal turns from that one by more than 53 degrees (by a shrinking ball; Ma, Bae, Choi
-            2012).
+        method : "ray", the way against the normal of the vertex or of the face to the surface; or "sphere", the diameter
+            of the largest ball that touches the surface there from inside and has no point of an opposite face in it. A
+            face is opposite if its normal turns from that of the vertex, or of the face of the point, by more than 53
+            degrees (by a shrinking ball; Ma, Bae, Choi 2012).
         F : other faces than those that the index keeps. They are oriented counterclockwise, seen from outside.
 
         The normal is that of the faces of the vertex, weighted by their areas. With other normals, such as that of one of
         the faces, which trimesh takes unless given some, the values of uneven meshes differ.
 
-        Faces with the vertex as a corner do not count, nor does the face of a point, nor do others for points on their
-        sides, up to rounding: so at a sharp edge a ball is as large as the rest of the surface lets it be. It is inf where nothing else is met, and NaN for a vertex without a normal,
-        or a face without an area. A call for several rows warns if more than half are inf.
+        Faces with the vertex as a corner do not count. For a point, its face does not count, nor does another face that
+        has the point on a side, up to rounding: at a sharp edge, the ball is as large as the rest of the surface allows.
+        The thickness is inf where nothing else is met, and NaN for a vertex without a normal or a face without an area.
+        A call for several rows warns if more than half are inf.
 
         >>> across = meshhood.MeshIndex(V, F).thickness()
         >>> bool((abs(across - 2) < 0.02).all())  # of the unit sphere
@@ -291,9 +292,7 @@ class SurfaceQueries(Held):
         self, points: Any, face: Any, by_sphere: bool, F: Any, workers: int, progress: Progress
     ) -> Reals:
         spots, surface = _convert.points(points, "points"), self._surface(F)
-        faces = _convert.faces([face] if np.ndim(face) == 0 else face, surface.face_count, "face")
-        if len(faces) != len(spots):
-            raise ValueError(f"face: expected one for each of {len(spots)} points, not {len(faces)}")
+        faces = _convert.faces_of_points(face, len(spots), surface.face_count)
         with reporter(progress, "thickness", "points", len(spots)) as report:
             return surface.thickness_of_points(
                 faces, spots, by_sphere=by_sphere, threads=_convert.threads(workers), progress=report
