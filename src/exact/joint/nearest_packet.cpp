@@ -53,7 +53,7 @@ void NearestPacket::list_edges() {
   }
 }
 
-/// By distance, with its square.
+/// Those but the center, by distance, with its square.
 std::span<const Path> NearestPacket::vertices_in_ball(unsigned lane, double radius) {
   const Point center = index_->position(entries_.front().leaf, lane);
   const LeafBall ball(center, LeafBounds(radius));
@@ -69,28 +69,38 @@ std::span<const Path> NearestPacket::vertices_in_ball(unsigned lane, double radi
     if (i == 0) inside &= ~(LaneMask{1} << lane);
     for_each_lane(inside, [&](unsigned other) { in_ball_[count++] = {squares[other], kLeafCapacity * i + other}; });
   }
-  return order_.sorted({0, lane}, std::span(in_ball_).first(count));
+  return order_.sorted({0, lane}, std::span(in_ball_).first(count)).subspan(1);
 }
 
-/// Reaches a vertex that is touched, and the waiting ones that it touches.
+bool NearestPacket::has_reached_neighbor(std::uint32_t at) const {
+  const std::uint32_t leaf = leaf_of(at);
+  if ((index_->adjacency[entries_[leaf].first + lane_of(at)] & states_[leaf].reached) != 0) return true;
+  for (std::uint32_t i = last_edge_[at]; i != kNone; i = edges_[i].before) {
+    const std::uint32_t to = edges_[i].to;
+    if ((states_[leaf_of(to)].reached >> lane_of(to) & 1U) != 0) return true;
+  }
+  return false;
+}
+
+/// Reaches a vertex, and the waiting ones that it connects. Few vertices ever wait.
 void NearestPacket::reach(std::uint32_t at) {
   std::size_t head = reached_.size();
   for (reached_.push_back(at); head < reached_.size(); ++head) {
     const std::uint32_t from = reached_[head];
-    const std::uint32_t first = from - lane_of(from);
     State& state = states_[leaf_of(from)];
+    state.reached |= LaneMask{1} << lane_of(from);
+    if (waiting_count_ == 0) continue;
+    const auto connect = [&](State& other, std::uint32_t to) {
+      other.waiting &= ~(LaneMask{1} << lane_of(to));
+      --waiting_count_;
+      reached_.push_back(to);
+    };
     const LaneMask neighbors = index_->adjacency[entries_[leaf_of(from)].first + lane_of(from)];
-    state.touched |= neighbors;
-    for_each_lane(state.waiting & neighbors, [&](unsigned lane) { reached_.push_back(first + lane); });
-    state.waiting &= ~neighbors;
+    for_each_lane(state.waiting & neighbors, [&](unsigned lane) { connect(state, from - lane_of(from) + lane); });
     for (std::uint32_t i = last_edge_[from]; i != kNone; i = edges_[i].before) {
       const std::uint32_t to = edges_[i].to;
-      const LaneMask bit = LaneMask{1} << lane_of(to);
       State& other = states_[leaf_of(to)];
-      other.touched |= bit;
-      if ((other.waiting & bit) == 0) continue;
-      other.waiting &= ~bit;
-      reached_.push_back(to);
+      if ((other.waiting >> lane_of(to) & 1U) != 0) connect(other, to);
     }
   }
 }
@@ -105,8 +115,10 @@ std::span<const Path> NearestPacket::take_ring() {
     ring_.push_back({squares_[leaf_of(at)][lane_of(at)], index_->id(entry.first + lane_of(at))});
   }
   reached_.clear();
-  // Different squares may have one root.
-  std::ranges::sort(ring_, {}, [](const Path& path) { return std::pair(std::sqrt(path.length), path.end); });
+  if (ring_.size() > 1) {
+    // Different squares may have one root.
+    std::ranges::sort(ring_, {}, [](const Path& path) { return std::pair(std::sqrt(path.length), path.end); });
+  }
   return ring_;
 }
 

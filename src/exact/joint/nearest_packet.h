@@ -53,8 +53,8 @@ class NearestPacket {
 
   /// The vertices of an entry in one search.
   struct State {
-    LaneMask touched = 0;  // with a reached neighbor
-    LaneMask waiting = 0;  // taken, but not touched
+    LaneMask reached = 0;
+    LaneMask waiting = 0;  // taken, but without a reached neighbor
   };
 
   /// An edge to a vertex of another leaf.
@@ -68,6 +68,7 @@ class NearestPacket {
   void add(LeafId leaf);
   void list_edges();
   std::span<const Path> vertices_in_ball(unsigned lane, double radius);
+  [[nodiscard]] bool has_reached_neighbor(std::uint32_t at) const;
   void reach(std::uint32_t at);
   std::span<const Path> take_ring();
 
@@ -84,6 +85,7 @@ class NearestPacket {
   std::vector<Path> in_ball_;             // the vertices in the ball, with these
   PathOrder order_;
   std::vector<State> states_;
+  std::size_t waiting_count_ = 0;
   std::vector<std::uint32_t> reached_;  // vertices of the same connecting radius, not passed on yet
   std::vector<Path> ring_;              // the same by id, sorted
 };
@@ -92,8 +94,9 @@ template <class F>
 bool NearestPacket::for_each_near(unsigned lane, double most, F&& f) {
   if ((entries_.front().open >> lane & 1U) == 0) return true;
   states_.assign(entries_.size(), {});
-  states_.front().touched = LaneMask{1} << lane;
+  waiting_count_ = 0;
   reached_.clear();
+  reach(lane);
   double radius = 0;
   const auto pass_on = [&] {
     for (const Path& next : take_ring()) {
@@ -104,9 +107,9 @@ bool NearestPacket::for_each_near(unsigned lane, double most, F&& f) {
   for (const auto& [square, at] : vertices_in_ball(lane, most)) {
     const double distance = std::sqrt(square);  // different squares may have one root
     if (distance > radius && !reached_.empty() && !pass_on()) return false;
-    State& state = states_[leaf_of(at)];
-    if ((state.touched >> lane_of(at) & 1U) == 0) {
-      state.waiting |= LaneMask{1} << lane_of(at);
+    if (!has_reached_neighbor(at)) {
+      states_[leaf_of(at)].waiting |= LaneMask{1} << lane_of(at);
+      ++waiting_count_;
       continue;
     }
     radius = distance;
