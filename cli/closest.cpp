@@ -52,11 +52,7 @@ void print(bool json, const std::vector<SurfacePoint>& found) {
   Json documents = Json::array();
   std::string text;
   for (const SurfacePoint& one : found) {
-    documents.push_back({{"face", one.face},
-                         {"vertices", one.vertices},
-                         {"barycentric", one.barycentric},
-                         {"point", one.point},
-                         {"distance", one.distance}});
+    documents.push_back(json_of(one));
     text += fmt::format("{} {} {}\n", one.face, fmt::join(one.point, " "), one.distance);
   }
   print_result(json, documents, text);

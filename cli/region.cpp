@@ -86,25 +86,26 @@ void clip(const RegionCommand& options, const QueryStart& start, double radius, 
   PatchSearcher searcher(surface);
   const ClippedMesh part = searcher.clip(from, radius, options.tolerance.value_or(1e-3));
   const double volume = searcher.measure(from, radius).volume;
-  const double gap = searcher.gap(from, radius).distance;
+  const SurfacePoint gap = searcher.gap(from, radius);
   write_ply(options.output, part.view());
   if (!options.arrays.empty()) {
     io::NpzWriter npz(path_of(options.arrays));
     add_rows<std::int64_t>(npz, "vertices", part.vertices);
     add_rows<double>(npz, "weights", part.weights);
     npz.add_converted<std::int64_t>("faces", part.faces);
+    npz.add_converted<std::int64_t>("patch", searcher.patch(from, radius));
     npz.commit();
   }
-  print_result(
-      options.json,
-      {{"output", options.output},
-       {"vertices", part.points.size()},
-       {"faces", part.triangles.size()},
-       {"area", part.area},
-       {"volume", volume},
-       {"gap", gap}},
-      fmt::format("{}: {} vertices, {} triangles; area {:.6g}, volume {:.6g}, gap {:.6g}\n",
-                  printable_name(options.output), part.points.size(), part.triangles.size(), part.area, volume, gap));
+  print_result(options.json,
+               {{"output", options.output},
+                {"vertices", part.points.size()},
+                {"faces", part.triangles.size()},
+                {"area", part.area},
+                {"volume", volume},
+                {"gap", gap.face == kNoFace ? Json() : json_of(gap)}},
+               fmt::format("{}: {} vertices, {} triangles; area {:.6g}, volume {:.6g}, gap {:.6g}\n",
+                           printable_name(options.output), part.points.size(), part.triangles.size(), part.area, volume,
+                           gap.distance));
 }
 
 void region(const RegionCommand& options) {
@@ -160,7 +161,8 @@ void add_region(CLI::App& program) {
   add_output(command, ".ply", "mesh file to write", options.output)->required();
   add_output(command, ".npz",
              "also write the number in MESH of each vertex and face of the output, and the rim: the lines where the "
-             "surface leaves the ball; with --faces clip three vertices and weights for each vertex, and no rim",
+             "surface leaves the ball; with --faces clip three vertices and weights for each vertex, the faces of the "
+             "patch, and no rim",
              options.arrays, "--arrays");
   add_json(command, options.json);
 }

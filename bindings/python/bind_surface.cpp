@@ -126,8 +126,8 @@ Output<double> measure_thickness(const Surface& surface, const Call& call, bool 
 }
 
 Output<double> measure_thickness_of_points(const Surface& surface, const Input& faces, const Points& points,
-                                           bool by_sphere, unsigned threads, nb::handle progress) {
-  const Run run{.threads = threads, .progress = progress_to(progress)};
+                                           const Call& call, bool by_sphere) {
+  const Run run = call.run();
   const ThicknessMethod method = by_sphere ? ThicknessMethod::Sphere : ThicknessMethod::Ray;
   const IndicesView numbers = indices_of(faces, "face");
   return owned<double>(without_lock([&] { return thickness(surface, numbers, points_of(points), method, run); }));
@@ -166,13 +166,23 @@ class Patches {
                            [&](PatchSearcher& searcher) { return f(searcher, start); });
   }
 
+  static auto columns_of(Invariants found) {
+    return std::pair(owned<double>(std::move(found.area)), owned<double>(std::move(found.volume)));
+  }
+
  public:
   explicit Patches(Surface surface) : surface_(std::move(surface)) {}
 
   [[nodiscard]] auto measure_rows(const Call& call) const {
     const Run run = call.run();
-    Invariants found = without_lock([&] { return invariants(surface_, call.query(), run); });
-    return std::pair(owned<double>(std::move(found.area)), owned<double>(std::move(found.volume)));
+    return columns_of(without_lock([&] { return invariants(surface_, call.query(), run); }));
+  }
+
+  [[nodiscard]] auto measure_points(const Input& faces, const Points& points, const Call& call) const {
+    const Run run = call.run();
+    const IndicesView numbers = indices_of(faces, "face");
+    return columns_of(
+        without_lock([&] { return invariants(surface_, numbers, points_of(points), call.query().radius, run); }));
   }
 
   [[nodiscard]] auto find_gaps(const Call& call) const {
@@ -183,6 +193,16 @@ class Patches {
       const auto set = [&](std::size_t row, const SurfacePoint& gap) { columns.set(row, gap, gap.vertices); };
       for_each_gap(surface_, query, set, run);
     });
+    return columns.arrays();
+  }
+
+  [[nodiscard]] auto find_gaps_of_points(const Input& faces, const Points& points, const Call& call) const {
+    const Run run = call.run();
+    const IndicesView numbers = indices_of(faces, "face");
+    const std::vector<SurfacePoint> found =
+        without_lock([&] { return gaps(surface_, numbers, points_of(points), call.query().radius, run); });
+    SurfaceColumns columns(found.size());
+    for (std::size_t row = 0; row < found.size(); ++row) columns.set(row, found[row], found[row].vertices);
     return columns.arrays();
   }
 
@@ -247,14 +267,15 @@ nb::class_<Surface> bind_surface(nb::module_& module) {
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("first_hits", &first_hits, nb::arg(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("thickness", &measure_thickness, nb::arg(), nb::arg("by_sphere"))
-      .def("thickness_of_points", &measure_thickness_of_points, nb::arg(), nb::arg(), nb::arg("by_sphere"),
-           nb::arg("threads"), nb::arg("progress").none())
+      .def("thickness", &measure_thickness_of_points, nb::arg(), nb::arg(), nb::arg(), nb::arg("by_sphere"))
       .def("faces", &faces)
       .def("submesh", &submesh)
       .def("rim", &rim);
   nb::class_<Patches>(module, "Patches")
       .def("invariants", &Patches::measure_rows)
+      .def("invariants", &Patches::measure_points)
       .def("gaps", &Patches::find_gaps)
+      .def("gaps", &Patches::find_gaps_of_points)
       .def("faces", &Patches::faces)
       .def("clip", &Patches::clip)
       .def("measure", &Patches::measure)

@@ -36,12 +36,13 @@ const DISCS = { ...NEAREST, weights: 'area' };
 const SMOOTHING = { weights: null, nan: 'propagate', ...ROWS };
 const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, q: 0.5, ...SMOOTHING, scales: null };
 const CURVATURE = { ...SCALED_ROWS, normals: null, like: null, fit: 'quadric', filter: true };
-const PATCHES = { vertices: null, faces: null, ...MASKS, unit: 'mesh', scales: null };
+const SPOTS = { vertices: null, points: null, face: null, faces: null };
+const PATCHES = { ...SPOTS, ...MASKS, unit: 'mesh', scales: null };
 const PATCH = { face: null, faces: null, walls: null, unit: 'mesh' };
 const CLIP = { ...PATCH, tolerance: 1e-3 };
 const FEATURES = { ...SCALED_ROWS, kinds: 'crease', filter: true };
 const ON_FACES = { faces: null };
-const THICKNESS = { vertices: null, points: null, face: null, method: 'ray', ...ON_FACES };
+const THICKNESS = { ...SPOTS, method: 'ray' };
 
 function chooseMethod({ method, metric }) {
   const place = choose(METHODS, method, 'method');
@@ -49,6 +50,20 @@ function chooseMethod({ method, metric }) {
     throw new MeshhoodError('InvalidOption', `method: '${method}', expected 'exact' with metric '${metric}'`);
   }
   return place;
+}
+
+/** The coordinates of points of faces; null if vertices are asked for. */
+function readPoints({ vertices, points, face }) {
+  expectVertices(vertices, 'vertices');
+  expectVertices(face, 'face');
+  if ((points === null) !== (face === null) || (points !== null && vertices !== null)) {
+    throw new MeshhoodError('InvalidOption', 'points: expected points and the face of each, or vertices');
+  }
+  if (points === null) return null;
+  const coordinates = toReals(points, 'points');
+  if (coordinates.length === 3 * face.length) return coordinates;
+  throw new MeshhoodError('InvalidOption',
+    `points: ${coordinates.length} coordinates, expected three for each of ${face.length} faces`);
 }
 
 /** Of rows of seven numbers. */
@@ -357,8 +372,16 @@ export class MeshIndex extends Owner {
   }
 
   #askSurface(name, r, given) {
+    const points = readPoints(given);
     useFaces(this.instance, given.faces);
-    return this.#askRows(r, given, () => this.instance.call(name));
+    return this.#askRows(r, given, () => this.#callOnPoints(name, given.face, points));
+  }
+
+  /** Calls the function of this name, or that for points of faces. */
+  #callOnPoints(name, face, points, ...more) {
+    if (points === null) return this.instance.call(name, ...more);
+    return this.instance.with([face, points], (faces, list) =>
+      this.instance.call(`${name}_of_points`, faces, face.length, list, ...more));
   }
 
   patch(start, r, options = {}) {
@@ -469,25 +492,14 @@ export class MeshIndex extends Owner {
   }
 
   thickness(options = {}) {
-    const { vertices, points, face, method, faces } = withDefaults(options, THICKNESS);
+    const given = withDefaults(options, THICKNESS);
+    const { vertices, face, method, faces } = given;
     const place = choose(THICKNESSES, method, 'method');
-    expectVertices(vertices, 'vertices');
-    expectVertices(face, 'face');
-    if ((points === null) !== (face === null) || (points !== null && vertices !== null)) {
-      throw new MeshhoodError('InvalidOption', 'points: expected points and the face of each, or vertices');
-    }
+    const points = readPoints(given);
     useFaces(this.instance, faces);
-    if (points === null) {
-      this.instance.with([vertices], (ids) => this.instance.call('thickness', ids, vertices?.length ?? 0, place));
-    } else {
-      const spots = toReals(points, 'points');
-      if (spots.length !== 3 * face.length) {
-        throw new MeshhoodError('InvalidOption',
-          `points: ${spots.length} coordinates, expected three for each of ${face.length} faces`);
-      }
-      this.instance.with([face, spots], (ids, list) =>
-        this.instance.call('thickness_of_points', ids, face.length, list, place));
-    }
+    this.instance.with([vertices], (ids) => points === null
+      ? this.instance.call('thickness', ids, vertices?.length ?? 0, place)
+      : this.#callOnPoints('thickness', face, points, place));
     return this.instance.takeAnswer().reals;
   }
 

@@ -363,6 +363,12 @@ export interface SurfaceOptions extends Omit<RowOptions, 'metric'> {
   faces: Faces;
 }
 
+/** In place of vertices, `points`, #rows by 3, and `face`, the face of each. */
+export interface PointOptions {
+  points?: Float64Array | null;
+  face?: Uint32Array | null;
+}
+
 /** The nearest points of the surface that are not of the patch, one for each row; with scales, for each at each. */
 export interface Gaps {
   /** 2^32 - 1 where there is none. */
@@ -611,10 +617,13 @@ export class MeshIndex {
    * @param r the radius, or one for each row; null with `scales`, which make the arrays #scales by #rows
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh
    */
-  invariants(r: Radii | null, options: SurfaceOptions & Scales): { area: Float64Array; volume: Float64Array };
+  invariants(r: Radii | null, options: SurfaceOptions & PointOptions & Scales): {
+    area: Float64Array;
+    volume: Float64Array;
+  };
 
   /** The gap of each vertex: the nearest point of the surface within r that is not of its patch. Throws likewise. */
-  gaps(r: Radii | null, options: SurfaceOptions & Scales): Gaps;
+  gaps(r: Radii | null, options: SurfaceOptions & PointOptions & Scales): Gaps;
 
   /**
    * The numbers of the faces of a patch, ascending. Throws likewise.
@@ -692,11 +701,9 @@ export class MeshIndex {
    * each: the point of that face nearest to each of them counts
    * @throws MeshhoodError VertexOutOfRange, InvalidMesh; InvalidOption, also for a face that the mesh does not have
    */
-  thickness(options: {
+  thickness(options: PointOptions & {
     faces: Faces;
     vertices?: Uint32Array | null;
-    points?: Float64Array | null;
-    face?: Uint32Array | null;
     method?: 'ray' | 'sphere';
   }): Float64Array;
 

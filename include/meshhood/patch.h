@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "meshhood/batch.h"
@@ -144,9 +145,23 @@ struct Invariants {
 /// Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run = {});
 
+/// `PatchSearcher::measure` of many points of faces, bit for bit: each is searched alone, in O(k).
+///
+/// faces, points  #rows: the numbers of the faces, and a point of each (see `PatchStart`).
+/// radius         one, one for each row, or scales.
+/// Throws Error{InvalidRadius, InvalidOption, Cancelled}, naming the row; InvalidOption also if the numbers of rows
+/// differ, and after a refit in place. 48 bytes a row and the result, and a `PatchSearcher` for each thread.
+[[nodiscard]] Invariants invariants(const Surface& surface, const IndicesView& faces,
+                                    std::span<const SpacePoint> points, const BatchRadius& radius, const Run& run = {});
+
 /// `PatchSearcher::gap` of many vertices, one for each row; #radii by #rows if the query has scales. Throws as
 /// `invariants`.
 [[nodiscard]] std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, const Run& run = {});
+
+/// `PatchSearcher::gap` of many points of faces, as `invariants`.
+[[nodiscard]] std::vector<SurfacePoint> gaps(const Surface& surface, const IndicesView& faces,
+                                             std::span<const SpacePoint> points, const BatchRadius& radius,
+                                             const Run& run = {});
 
 /// Calls `visit(row, gap)` once for each row instead, in any order and on the threads of the call, several at a time:
 /// for a caller that keeps only a part of each gap. An exception of `visit` ends the call, and is passed on.

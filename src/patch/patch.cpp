@@ -8,17 +8,22 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "meshhood/error.h"
 
 #include "base/validate.h"
 #include "batch/packets.h"
+#include "batch/position_sort.h"
+#include "batch/rows.h"
 #include "exact/query/arguments.h"
 #include "patch/meshlets.h"
 #include "patch/packet_patches.h"
 #include "patch/search.h"
 #include "shared/parallel.h"
+#include "shared/raw_vector.h"
 #include "shared/text.h"
+#include "surface/face_points.h"
 #include "surface/face_triangles.h"
 #include "surface/surface.h"
 
@@ -161,6 +166,36 @@ void for_each_patch(const Surface& surface, const BatchQuery& query, PatchParts 
   for_each_packet(state.searched, query, make_visitor, run);
 }
 
+/// Calls `visit(searcher, start, radius, row)` for points of faces, on any thread; near ones follow each other.
+template <class Visit>
+void for_each_point(const Surface& surface, const IndicesView& faces, std::span<const SpacePoint> points,
+                    const BatchRadius& radius, const Run& run, const Visit& visit) {
+  constexpr std::size_t kPointsOfTask = 16;
+  const SurfaceState& state = SurfaceAccess::state(surface);
+  const FacePoints starts(state.faces(), faces, points);
+  std::vector<Rows> passes;
+  for (const BatchRadius& pass : radius_of_passes(radius)) {
+    passes.emplace_back(BatchQuery{.vertices = starts.corners(), .radius = pass}, surface.vertex_count());
+  }
+  TaskContext task(run.threads, run.progress, passes.size() * starts.size());
+  static_cast<void>(state.patches(task));  // before the threads begin: each of them would make it
+  const RawVector<std::size_t> in_order =
+      rows_by_position(starts.size(), [&](std::size_t row) { return state.index->slot[starts.corners()[row]]; }, task);
+  std::vector<std::optional<PatchSearcher>> searchers(task.threads());
+  task.parallel_for(starts.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
+    if (!searchers[thread]) searchers[thread].emplace(surface);
+    for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
+      const std::size_t row = in_order[i];
+      const PatchStart start(starts.face(row), starts.point(row));
+      for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+        visit(*searchers[thread], start, passes[pass].radius(row), pass * starts.size() + row);
+      }
+      task.advance(thread, passes.size());
+    }
+  });
+  task.finish();
+}
+
 }  // namespace
 
 PacketVisitor patch_visitor(const PatchState& state, PatchParts parts, RowPatchVisitor visit) {
@@ -178,9 +213,32 @@ Invariants invariants(const Surface& surface, const BatchQuery& query, const Run
   return result;
 }
 
+Invariants invariants(const Surface& surface, const IndicesView& faces, std::span<const SpacePoint> points,
+                      const BatchRadius& radius, const Run& run) {
+  const std::size_t size = BatchQuery{.radius = radius}.result_rows(points.size());
+  Invariants result{std::vector<double>(size), std::vector<double>(size)};
+  for_each_point(surface, faces, points, radius, run,
+                 [&](PatchSearcher& searcher, const PatchStart& start, double r, std::size_t row) {
+                   const PatchMeasure found = searcher.measure(start, r);
+                   result.area[row] = found.area;
+                   result.volume[row] = found.volume;
+                 });
+  return result;
+}
+
 std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, const Run& run) {
   std::vector<SurfacePoint> result(query.result_rows(surface.vertex_count()));
   for_each_gap(surface, query, [&](std::size_t row, const SurfacePoint& gap) { result[row] = gap; }, run);
+  return result;
+}
+
+std::vector<SurfacePoint> gaps(const Surface& surface, const IndicesView& faces, std::span<const SpacePoint> points,
+                               const BatchRadius& radius, const Run& run) {
+  std::vector<SurfacePoint> result(BatchQuery{.radius = radius}.result_rows(points.size()));
+  for_each_point(surface, faces, points, radius, run,
+                 [&](PatchSearcher& searcher, const PatchStart& start, double r, std::size_t row) {
+                   result[row] = searcher.gap(start, r);
+                 });
   return result;
 }
 

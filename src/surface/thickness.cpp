@@ -18,6 +18,7 @@
 #include "batch/rows.h"
 #include "exact/query/arguments.h"
 #include "shared/parallel.h"
+#include "surface/face_points.h"
 #include "surface/face_tree.h"
 #include "surface/face_triangles.h"
 #include "surface/first_hit.h"
@@ -234,24 +235,15 @@ std::vector<double> thickness(const Surface& surface, const BatchVertices& verti
 std::vector<double> thickness(const Surface& surface, const IndicesView& faces, std::span<const SpacePoint> points,
                               ThicknessMethod method, const Run& run) {
   const SurfaceState& state = SurfaceAccess::state(surface);
-  if (points.size() != faces.size()) {
-    raise(ErrorCode::InvalidOption, std::to_string(points.size()) + " points, expected one for each of " +
-                                        std::to_string(faces.size()) + " faces");
-  }
-  for (std::size_t row = 0; row < faces.size(); ++row) {
-    if (faces[row] >= surface.face_count()) raise_no_such_face(faces[row], surface.face_count(), named("faces", row));
-  }
-  check_points(points, "points");
-  TaskContext task(run.threads, run.progress, points.size());
-  const auto slot_of = [&](std::size_t row) {
-    const std::span<const VertexId> corners = state.faces()[faces[row]];
-    return corners.empty() ? 0 : state.index->slot[corners[0]];
-  };
+  const FacePoints rows(state.faces(), faces, points);
+  TaskContext task(run.threads, run.progress, rows.size());
   const FaceTree& tree = state.tree(task);
-  return measure_rows(state, points.size(), method, task, slot_of, [&](std::size_t row) {
-    const auto& [x, y, z] = points[row];
-    return spot_on_face(state, tree, faces[row], {x, y, z});
-  });
+  return measure_rows(
+      state, rows.size(), method, task, [&](std::size_t row) { return state.index->slot[rows.corners()[row]]; },
+      [&](std::size_t row) {
+        const auto& [x, y, z] = rows.point(row);
+        return spot_on_face(state, tree, rows.face(row), {x, y, z});
+      });
 }
 
 }  // namespace meshhood::inline v0_1

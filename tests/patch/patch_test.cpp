@@ -685,6 +685,40 @@ TEST(PatchBatch, HasTheSameBitsForAnyThreadsAndRows) {
   for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(visited[i], nearest[i].distance);
 }
 
+TEST(PatchBatch, OfPointsOfFacesHasThoseOfSingleSearches) {
+  Case test(make_ball(4));
+  Random random(5);
+  std::vector<std::size_t> faces;
+  std::vector<SpacePoint> points;
+  std::vector<double> radii;
+  for (int i = 0; i < 40; ++i) {
+    const SurfacePoint on =
+        test.surface.closest_point({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+    faces.push_back(on.face);
+    points.push_back(on.point);
+    radii.push_back(random.uniform(0, 1));
+  }
+  const std::vector<double> scales{0.3, 0, 2.5};
+  const std::size_t rows = faces.size();
+  for (const unsigned threads : {1U, 3U}) {
+    const Run run{.threads = threads};
+    const Invariants each = invariants(test.surface, faces, points, radii, run);
+    const Invariants of_scales = invariants(test.surface, faces, points, BatchRadius::scales(scales), run);
+    const std::vector<SurfacePoint> nearest = gaps(test.surface, faces, points, radii, run);
+    ASSERT_EQ(of_scales.volume.size(), scales.size() * rows);
+    for (std::size_t i = 0; i < rows; ++i) {
+      const PatchStart start(faces[i], points[i]);
+      const PatchMeasure one = test.searcher.measure(start, radii[i]);
+      ASSERT_EQ(std::pair(each.area[i], each.volume[i]), std::pair(one.area, one.volume));
+      ASSERT_EQ(nearest[i].distance, test.searcher.gap(start, radii[i]).distance);
+      for (std::size_t s = 0; s < scales.size(); ++s) {
+        ASSERT_EQ(of_scales.volume[s * rows + i], test.searcher.measure(start, scales[s]).volume);
+      }
+    }
+  }
+  EXPECT_TRUE(gaps(test.surface, std::vector<std::size_t>(), std::vector<SpacePoint>(), 1).empty());
+}
+
 TEST(PatchBatch, RefusesWhatIsWrong) {
   const TestMesh mesh = make_box({1, 1, 1}, 1);
   Case test(mesh);
@@ -703,6 +737,26 @@ TEST(PatchBatch, RefusesWhatIsWrong) {
   expect_refused(ErrorCode::Cancelled, "", [&] {
     return invariants(test.surface, {.radius = 1}, {.progress = [](std::size_t, std::size_t) { return false; }});
   });
+  const std::vector<std::size_t> faces{0, 12};
+  const std::vector<SpacePoint> points{{0, 0, 0}, {0, 0, kInfinity}};
+  const auto refuse = [&](ErrorCode code, const char* text, std::size_t face_rows, const BatchRadius& radius) {
+    const std::span<const std::size_t> some(faces.data(), face_rows);
+    expect_refused(code, text, [&] { return invariants(test.surface, some, points, radius); });
+    expect_refused(code, text, [&] { return gaps(test.surface, some, points, radius); });
+  };
+  refuse(ErrorCode::InvalidOption, "2 points, expected one for each of 1 faces", 1, 1);
+  refuse(ErrorCode::InvalidOption, "faces: row 1: face 12", 2, 1);
+  const std::vector<std::size_t> known{0, 11};
+  expect_refused(ErrorCode::InvalidOption, "points: row 1: coordinate 2 is inf",
+                 [&] { return gaps(test.surface, known, points, 1); });
+  const std::vector<SpacePoint> corners{{0, 0, 0}, {1, 1, 1}};
+  const std::vector<double> radii{1, -1};
+  expect_refused(ErrorCode::InvalidRadius, "row 1", [&] { return invariants(test.surface, known, corners, radii); });
+  expect_refused(ErrorCode::InvalidRadius, "radius 1",
+                 [&] { return gaps(test.surface, known, corners, BatchRadius::scales(radii)); });
+  expect_refused(ErrorCode::Cancelled, "", [&] {
+    return gaps(test.surface, known, corners, 1, {.progress = [](std::size_t, std::size_t) { return false; }});
+  });
   TestMesh edges;
   edges.add_vertex(0, 0, 0);
   edges.add_vertex(1, 0, 0);
@@ -713,6 +767,7 @@ TEST(PatchBatch, RefusesWhatIsWrong) {
                  [&] { return invariants(Surface(index, edges.view().faces), {.radius = 1}); });
   test.index.refit_in_place(mesh.positions_view());
   expect_refused(ErrorCode::InvalidOption, "", [&] { return searcher.patch(0, 1); });
+  expect_refused(ErrorCode::InvalidOption, "", [&] { return gaps(test.surface, known, corners, 1); });
 }
 
 }  // namespace

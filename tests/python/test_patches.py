@@ -148,6 +148,27 @@ def test_a_clip_around_a_point_of_a_face_that_has_no_vertex_in_the_ball():
     np.testing.assert_array_equal(index.clip(40, 2, unit="edge").V, index.clip(40, 2 * index.mean_edge_length).V)
 
 
+def test_rows_of_points_are_those_of_single_calls():
+    index = meshhood.MeshIndex(*box((5, 5, 1)))
+    face, _, points, _ = index.closest_point(np.random.default_rng(4).normal(size=(30, 3)))
+    radii, walls = np.linspace(0, 1.2, 30), [3, 70]
+    rows, gaps = (
+        call(radii, points=points, face=face, walls=walls, unit="edge", workers=3) for call in (index.invariants, index.gaps)
+    )
+    for i, (start, r) in enumerate(zip(points, radii)):
+        one, gap = (call(start, r, face=face[i], walls=walls, unit="edge") for call in (index.measure, index.gap))
+        np.testing.assert_array_equal((rows.area[i], rows.volume[i]), one)
+        for column, value in zip(gaps, gap):
+            np.testing.assert_array_equal(column[i], value)
+    calls = []
+    scales = index.gaps(scales=[0.2, 0.4], points=points, face=face, progress=lambda *done: calls.append(done))
+    assert scales.point.shape == (2, 30, 3) and calls[-1] == (60, 60)
+    single = index.invariants(0.4, points=points[7], face=face[7])
+    assert single.area.shape == () and single == index.measure(points[7], 0.4, face=face[7])
+    assert index.gaps(scales=[0.2, 0.4], points=points[7], face=face[7]).point.shape == (2, 3)
+    np.testing.assert_array_equal(scales.distance, np.stack([index.gaps(r, points=points, face=face).distance for r in (0.2, 0.4)]))
+
+
 # The outward faces of elements of the package overlap.
 ELEMENTS = {
     "Tetrahedron": [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
@@ -214,6 +235,11 @@ def test_areas_of_facets_and_volumes_of_convex_pieces_are_those_of_overlap(kind)
         (lambda index: index.gaps(1, F=[[0, 1, 99]]), ValueError, "F"),
         (lambda index: index.features(1, kinds=("crease", "gap"), metric="path"), ValueError, "expected the straight metric"),
         (lambda index: index.invariants(1, unit="m"), ValueError, "unit"),
+        (lambda index: index.invariants(1, points=np.zeros((2, 3))), ValueError, "points: expected points and the face of"),
+        (lambda index: index.gaps(1, 0, points=np.zeros((1, 3)), face=[0]), ValueError, "points: .* or vertices"),
+        (lambda index: index.gaps(1, points=np.zeros((2, 3)), face=[0]), ValueError, "face: expected one for each of 2"),
+        (lambda index: index.gaps(1, points=np.zeros((2, 3)), face=[0, 12]), ValueError, "face: row 1: face 12"),
+        (lambda index: index.gaps([1, -1], points=np.zeros((2, 3)), face=[0, 1]), ValueError, "r: row 1"),
     ],
 )
 def test_arguments_that_are_wrong_are_named(call, error, cause):

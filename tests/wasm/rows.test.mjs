@@ -192,6 +192,12 @@ test('areas, volumes and gaps are those of the command line', () => {
   assert.ok(gaps.distance.includes(Infinity) && gaps.distance.some(Number.isFinite));
   const rows = two.invariants(Float64Array.of(0.4, 0.1), { ...options, scales: null, vertices: Uint32Array.of(4, 0) });
   assert.deepEqual(rows.area, Float64Array.of(area[12], area[0]));
+  const spots = { faces: corners, points: Float64Array.of(0.3, 0.3, 0.2, 0, 0, 0), face: Uint32Array.of(4, 0) };
+  const one = two.measure([0.3, 0.3, 0.2], 0.4, { faces: corners, face: 4 });
+  assert.deepEqual(two.invariants(0.4, spots).volume[0], one.volume);
+  assert.deepEqual(two.invariants(null, { ...spots, scales: Float64Array.of(0.1, 0.4) }).area[2], one.area);
+  assert.equal(two.gaps(Float64Array.of(0.4, 0.1), spots).distance.length, 2);
+  assert.throws(() => two.gaps(1, { ...spots, vertices: Uint32Array.of(0) }), { message: /^points: expected points and/ });
   two.dispose();
 });
 

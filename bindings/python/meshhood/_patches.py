@@ -110,6 +110,8 @@ class Patches(Held):
         r: Optional[Radii] = None,
         vertices: AnyVertices = None,
         *,
+        points: Optional[ArrayLike] = None,
+        face: Optional[ArrayLike] = None,
         scales: Optional[Scales] = None,
         F: Any = None,
         walls: Mask = None,
@@ -125,17 +127,25 @@ class Patches(Held):
 
         r : one radius, or one for each row. A point at exactly `r` counts.
         vertices, scales, F, walls, ignored, unit, workers, progress : see `MeshIndex`. Ignored vertices have no effect.
+        points, face : in place of vertices, 3 numbers and the face, or (n, 3) and (n,), as `closest_point` has them. Each
+            is searched alone, as `measure` and `gap` do. There is no patch if a point is farther than `r` from its face.
         metric : "straight" alone, as a patch is in a ball.
 
-        Returns `Invariants`: area, volume. A row depends on the index, the faces, its vertex and the radius alone.
+        Returns `Invariants`: area, volume. A row depends on the index, the faces, its vertex or point
+        and the radius alone.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> area, volume = index.invariants(0.5)
         >>> index.invariants(scales=[0.2, 0.4]).volume.shape
         (2, 642)
+        >>> face, _, points, _ = index.closest_point(1.1 * V[:5])
+        >>> index.invariants(0.5, points=points, face=face).area.shape
+        (5,)
         """
         metric = _convert.choice(metric, "metric", ("straight",))
-        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
+        rows = read_rows(
+            self, vertices, r, scales, metric, walls, ignored, unit, workers, progress, points, face, F
+        )
         return Invariants(*map(rows.shaped, rows.ask(rows.index._patches(F).invariants)))
 
     def gaps(
@@ -143,6 +153,8 @@ class Patches(Held):
         r: Optional[Radii] = None,
         vertices: AnyVertices = None,
         *,
+        points: Optional[ArrayLike] = None,
+        face: Optional[ArrayLike] = None,
         scales: Optional[Scales] = None,
         F: Any = None,
         walls: Mask = None,
@@ -163,7 +175,9 @@ class Patches(Held):
         True
         """
         metric = _convert.choice(metric, "metric", ("straight",))
-        rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
+        rows = read_rows(
+            self, vertices, r, scales, metric, walls, ignored, unit, workers, progress, points, face, F
+        )
         return Gaps(*map(rows.shaped, rows.ask(rows.index._patches(F).gaps)))
 
     def patch(

@@ -270,14 +270,11 @@ class SurfaceQueries(Held):
         True
         """
         by_sphere = _convert.choice(method, "method", ("ray", "sphere")) == "sphere"
-        if points is None and face is None:
-            rows = read_rows(self, vertices, 0.0, None, "straight", None, None, "mesh", workers, progress)
-            found, is_one = rows.ask(self._surface(F).thickness, by_sphere=by_sphere), rows.shape == ()
-        elif points is None or face is None or vertices is not None:
-            raise ValueError("points: expected points and the face of each, or vertices")
-        else:
-            found, is_one = self._thickness_of_points(points, face, by_sphere, F, workers, progress), np.ndim(face) == 0
-        if is_one:
+        rows = read_rows(
+            self, vertices, 0.0, None, "straight", None, None, "mesh", workers, progress, points, face, F
+        )
+        found = rows.ask(self._surface(F).thickness, by_sphere=by_sphere)
+        if rows.shape == ():
             return float(found[0])
         open_rows, measured = np.count_nonzero(np.isinf(found)), np.count_nonzero(~np.isnan(found))
         if len(found) > 1 and 2 * open_rows > measured:
@@ -287,16 +284,6 @@ class SurfaceQueries(Held):
                 stacklevel=2,
             )
         return found
-
-    def _thickness_of_points(
-        self, points: Any, face: Any, by_sphere: bool, F: Any, workers: int, progress: Progress
-    ) -> Reals:
-        spots, surface = _convert.points(points, "points"), self._surface(F)
-        faces = _convert.faces_of_points(face, len(spots), surface.face_count)
-        with reporter(progress, "thickness", "points", len(spots)) as report:
-            return surface.thickness_of_points(
-                faces, spots, by_sphere=by_sphere, threads=_convert.threads(workers), progress=report
-            )
 
     def k_nearest(
         self,
