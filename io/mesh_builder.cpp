@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/mesh_builder.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -97,15 +96,6 @@ std::optional<std::string_view> Positions::append(std::string_view token) {
 }
 
 template std::optional<std::string_view> Positions::append_as(double source);
-
-template <class Real>
-void Positions::append(const PlainBlock<Real>& block) {
-  append(std::span<const Real>(block.positions));
-  note(block.float_keeps);
-}
-
-template void Positions::append(const PlainBlock<float>& block);
-template void Positions::append(const PlainBlock<double>& block);
 
 void Positions::end_vertex(const Location& location) {
   constexpr std::size_t kMost = std::size_t{1} << 18U;  // little memory

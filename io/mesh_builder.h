@@ -104,7 +104,10 @@ class Positions {
   }
 
   template <class Real>
-  void append(const PlainBlock<Real>& block);
+  void append(const PlainBlock<Real>& block) {
+    append(std::span<const Real>(block.positions));
+    note(block.float_keeps);
+  }
 
   /// Ends a vertex whose coordinates were appended one by one, the last of them at `location`.
   void end_vertex(const Location& location);

@@ -17,25 +17,25 @@
 namespace meshhood::inline v0_1::io {
 namespace {
 
+void check_threads(const ReadOptions& options) {
+  if (options.threads <= kMaxThreads) return;
+  raise(ErrorCode::InvalidOption, fmt::format("threads is {}, expected at most {}", options.threads, kMaxThreads));
+}
+
+[[noreturn, maybe_unused]] void refuse_memory(const InputBuffer& input) {
+  raise(ErrorCode::TooLarge, input.name() + ": not enough memory for this mesh");
+}
+
 Mesh read_whole(ByteSource& source, InputBuffer& input, const std::string& name, const ReadOptions& options) {
   Mesh mesh = read_format(detect_format(input, name), input, {options});
   source.finish();
   return mesh;
 }
 
-void check_threads(const ReadOptions& options) {
-  if (options.threads <= kMaxThreads) return;
-  raise(ErrorCode::InvalidOption, fmt::format("threads is {}, expected at most {}", options.threads, kMaxThreads));
-}
-
-#if defined(__cpp_exceptions)
-[[noreturn]] void refuse_memory(const InputBuffer& input) {
-  raise(ErrorCode::TooLarge, input.name() + ": not enough memory for this mesh");
-}
-
 Mesh read(ByteSource& source, const std::string& name, const ReadOptions& options) {
   check_threads(options);
   InputBuffer input(source, name, options.max_bytes);
+#if defined(__cpp_exceptions)
   try {
     return read_whole(source, input, name, options);
   } catch (const std::bad_alloc&) {
@@ -43,14 +43,10 @@ Mesh read(ByteSource& source, const std::string& name, const ReadOptions& option
   } catch (const std::length_error&) {
     refuse_memory(input);
   }
-}
 #else
-Mesh read(ByteSource& source, const std::string& name, const ReadOptions& options) {
-  check_threads(options);
-  InputBuffer input(source, name, options.max_bytes);
   return read_whole(source, input, name, options);
-}
 #endif
+}
 
 }  // namespace
 

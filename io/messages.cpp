@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/messages.h"
 
-#include <cstddef>
 #include <system_error>
 
 #include <fmt/format.h>

@@ -4,19 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <numeric>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include "io/npy.h"
 
 namespace meshhood::inline v0_1::io {
 
@@ -29,23 +21,22 @@ void NpzWriter::begin_member(std::string_view name, std::string_view type, std::
   bytes_left_ = bytes;
 }
 
-template <class T>
-void NpzWriter::begin(std::string_view name, std::span<const std::uint64_t> shape) {
+void NpzWriter::begin_array(std::string_view name, std::string_view type, std::span<const std::uint64_t> shape,
+                            std::size_t item) {
   const std::uint64_t count = std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
   const std::string lengths = fmt::format("({}{})", fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
-  begin_member(name, npy_type<T>(), lengths, count * sizeof(T));
+  begin_member(name, type, lengths, count * item);
 }
 
-template <class T>
-void NpzWriter::append(std::span<const T> values) {
-  assert(values.size_bytes() <= bytes_left_);
-  bytes_left_ -= values.size_bytes();
-  zip_.write({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+void NpzWriter::write(std::string_view bytes) {
+  assert(bytes.size() <= bytes_left_);
+  bytes_left_ -= bytes.size();
+  zip_.write(bytes);
 }
 
 void NpzWriter::add_text(std::string_view name, std::string_view text) {
   begin_member(name, fmt::format("|S{}", text.size()), "()", text.size());
-  append(std::span<const char>(text));
+  write(text);
 }
 
 void NpzWriter::add_texts(std::string_view name, std::span<const std::string> texts) {
@@ -71,14 +62,5 @@ void NpzWriter::commit() {
   assert(bytes_left_ == 0);
   zip_.commit();
 }
-
-template void NpzWriter::begin<std::int32_t>(std::string_view, std::span<const std::uint64_t>);
-template void NpzWriter::begin<std::int64_t>(std::string_view, std::span<const std::uint64_t>);
-template void NpzWriter::begin<std::uint64_t>(std::string_view, std::span<const std::uint64_t>);
-template void NpzWriter::begin<double>(std::string_view, std::span<const std::uint64_t>);
-template void NpzWriter::append<std::int32_t>(std::span<const std::int32_t>);
-template void NpzWriter::append<std::int64_t>(std::span<const std::int64_t>);
-template void NpzWriter::append<std::uint64_t>(std::span<const std::uint64_t>);
-template void NpzWriter::append<double>(std::span<const double>);
 
 }  // namespace meshhood::inline v0_1::io

@@ -9,13 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "io/npy.h"
 #include "io/zip_writer.h"
 
 namespace meshhood::inline v0_1::io {
 
-/// Writes named arrays to a file for `numpy.load`, atomically (see `FileWriter`).
-///
-/// T: std::int32_t, std::int64_t, std::uint64_t or double. All errors are Error{IoFailure}.
+/// Writes named arrays to a file for `numpy.load`, atomically (see `FileWriter`). All errors are Error{IoFailure}.
 class NpzWriter {
  public:
   explicit NpzWriter(const std::filesystem::path& path) : zip_(path) {}
@@ -28,10 +27,14 @@ class NpzWriter {
 
   /// The same for an array of several dimensions, whose values follow row by row.
   template <class T>
-  void begin(std::string_view name, std::span<const std::uint64_t> shape);
+  void begin(std::string_view name, std::span<const std::uint64_t> shape) {
+    begin_array(name, npy_type<T>(), shape, sizeof(T));
+  }
 
   template <class T>
-  void append(std::span<const T> values);
+  void append(std::span<const T> values) {
+    write({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+  }
 
   template <class T>
   void add(std::string_view name, std::span<const T> values) {
@@ -58,7 +61,10 @@ class NpzWriter {
   void commit();
 
  private:
+  void begin_array(std::string_view name, std::string_view type, std::span<const std::uint64_t> shape,
+                   std::size_t item);
   void begin_member(std::string_view name, std::string_view type, std::string_view shape, std::uint64_t bytes);
+  void write(std::string_view bytes);
 
   ZipWriter zip_;
   std::uint64_t bytes_left_ = 0;  // of the current array

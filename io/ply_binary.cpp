@@ -86,14 +86,10 @@ template <class Real>
 PlyRows binary_vertices(InputBuffer& input, const ReaderOptions& options, const PlyElement& element,
                         const std::array<std::size_t, 3>& axes, Positions& positions) {
   constexpr PlyType kType = std::is_same_v<Real, float> ? PlyType::Float32 : PlyType::Float64;
-  std::array<std::size_t, 3> offsets = {};
-  std::size_t stride = 0;
-  for (std::size_t i = 0; i < element.properties.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (axes[axis] == i) offsets[axis] = stride;
-    }
-    stride += size_of(element.properties[i].type);
-  }
+  const std::span<const PlyProperty> properties = element.properties;
+  const std::size_t stride = bytes_of(properties);
+  const std::array offsets{bytes_of(properties.first(axes[0])), bytes_of(properties.first(axes[1])),
+                           bytes_of(properties.first(axes[2]))};
   const auto is_other = [&](std::size_t axis) { return element.properties[axis].type != kType; };
   if (std::any_of(axes.begin(), axes.end(), is_other)) return {};
   const auto take_some = [=, &positions, xyz = std::vector<Real>()](std::string_view bytes, uint64_t most) mutable {
@@ -146,9 +142,7 @@ class BinaryValues final : public PlyValues {
     begin_ = input_.offset();
     return with_type(type, [&](auto example) -> Problem {
       if (!load(input_, order_, example)) return std::string(kFileEnds);
-      const auto problem = positions.append(static_cast<double>(example));
-      if (!problem) return std::nullopt;
-      return std::string(*problem);
+      return Problem(positions.append(static_cast<double>(example)));
     });
   }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/ply_header.h"
 
-#include <algorithm>
 #include <array>
 #include <set>
 #include <utility>
@@ -15,24 +14,21 @@ namespace {
 // Keeps a forged header from filling the memory with properties.
 constexpr std::uint64_t kLongestHeader = std::uint64_t{16} << 20;
 
-constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypeNames = {{
-    {"char", PlyType::Int8},
-    {"int8", PlyType::Int8},
-    {"uchar", PlyType::Uint8},
-    {"uint8", PlyType::Uint8},
-    {"short", PlyType::Int16},
-    {"int16", PlyType::Int16},
-    {"ushort", PlyType::Uint16},
-    {"uint16", PlyType::Uint16},
-    {"int", PlyType::Int32},
-    {"int32", PlyType::Int32},
-    {"uint", PlyType::Uint32},
-    {"uint32", PlyType::Uint32},
-    {"float", PlyType::Float32},
-    {"float32", PlyType::Float32},
-    {"double", PlyType::Float64},
-    {"float64", PlyType::Float64},
-}};
+/// A type by its two names.
+struct NamedType {
+  std::string_view name;
+  std::string_view name_with_bits;
+  PlyType type;
+};
+
+constexpr std::array<NamedType, 8> kTypes = {{{"char", "int8", PlyType::Int8},
+                                              {"uchar", "uint8", PlyType::Uint8},
+                                              {"short", "int16", PlyType::Int16},
+                                              {"ushort", "uint16", PlyType::Uint16},
+                                              {"int", "int32", PlyType::Int32},
+                                              {"uint", "uint32", PlyType::Uint32},
+                                              {"float", "float32", PlyType::Float32},
+                                              {"double", "float64", PlyType::Float64}}};
 
 // The byte that ends the header lines. A CR before an LF counts as a blank.
 char line_end_of(InputBuffer& input) {
@@ -127,11 +123,10 @@ class HeaderParser {
   }
 
   PlyType type(std::string_view name) {
-    const auto known =  // NOLINT(readability-qualified-auto): a pointer in one library only
-
-        std::find_if(kTypeNames.begin(), kTypeNames.end(), [name](const auto& entry) { return entry.first == name; });
-    if (known == kTypeNames.end()) unsupported("property type", name);
-    return known->second;
+    for (const NamedType& known : kTypes) {
+      if (name == known.name || name == known.name_with_bits) return known.type;
+    }
+    unsupported("property type", name);
   }
 
   [[noreturn]] void unsupported(std::string_view what, std::string_view found) {

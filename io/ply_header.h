@@ -65,14 +65,18 @@ struct PlyProperty {
   PlyType type = PlyType::Float32;  ///< of the value, or of the values of a list
   bool is_list = false;
   PlyType count_type = PlyType::Uint8;  ///< of the length of a list; an integer type
-
-  /// The type of the first value of the property in a row.
-  [[nodiscard]] PlyType first_type() const { return is_list ? count_type : type; }
 };
 
 /// Whether none is a list.
 [[nodiscard]] inline bool are_single(std::span<const PlyProperty> properties) {
   return std::ranges::none_of(properties, &PlyProperty::is_list);
+}
+
+/// In a binary file, of properties that are single.
+[[nodiscard]] inline std::size_t bytes_of(std::span<const PlyProperty> properties) {
+  std::size_t sum = 0;
+  for (const PlyProperty& property : properties) sum += size_of(property.type);
+  return sum;
 }
 
 struct PlyElement {
@@ -85,6 +89,16 @@ struct PlyElement {
   [[nodiscard]] bool has_corners(const PlyProperty& property) const {
     const bool is_kept = name == "face" || name == "tristrips";
     return is_kept && (property.name == "vertex_indices" || property.name == "vertex_index");
+  }
+
+  /// Which properties these are: those for which `is_it` holds.
+  template <class Predicate>
+  [[nodiscard]] std::vector<std::size_t> find(Predicate&& is_it) const {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < properties.size(); ++i) {
+      if (is_it(properties[i])) found.push_back(i);
+    }
+    return found;
   }
 };
 

@@ -46,14 +46,6 @@ enum class PlyLayout {
   Running,    ///< line ends are blanks
 };
 
-/// Rows that must follow, and the text that does.
-struct PlyRest {
-  std::string_view text;  ///< up to the end of the file
-  const PlyHeader& header;
-  const PlyElement& element;  ///< of the header
-  std::uint64_t row;          ///< of the element, the first that follows
-};
-
 constexpr std::string_view kLineBreaks = kBlanks.substr(4);
 constexpr std::string_view kBlanksInLine = kBlanks.substr(0, 4);
 
@@ -120,13 +112,15 @@ class RowWalk {
   bool is_further_known_ = false;  // else the next row tells
 };
 
-/// Whether the text consists of exactly these rows. With `Lines`, each must have a line of its own. A writer that adds
-/// numbers to a row adds as many to each row of the element, so that one row with more numbers proves nothing.
-bool fits(const PlyRest& rest, PlyLayout layout) {
-  RowWalk walk(rest.text, layout);
-  const PlyElement* const end = rest.header.elements.data() + rest.header.elements.size();
-  for (const PlyElement* element = &rest.element; element != end; ++element) {
-    if (!walk.pass_rows(*element, element == &rest.element ? rest.row : 0)) return false;
+/// Whether the text, up to the end of the file, consists of exactly the rows from row `row` of `element` on, which is
+/// in the header. With `Lines`, each must have a line of its own. A writer that adds numbers to a row adds as many to
+/// each row of the element, so that one row with more numbers proves nothing.
+bool fits(std::string_view text, const PlyHeader& header, const PlyElement& element, std::uint64_t row,
+          PlyLayout layout) {
+  RowWalk walk(text, layout);
+  const PlyElement* const end = header.elements.data() + header.elements.size();
+  for (const PlyElement* next = &element; next != end; ++next) {
+    if (!walk.pass_rows(*next, next == &element ? row : 0)) return false;
   }
   return walk.is_over();
 }
@@ -233,10 +227,10 @@ class TextValues final : public PlyValues {
     if (text.size() == kFarthest) return were_lines ? PlyLayout::Lines : PlyLayout::Running;
     // If rows are lines, one that is too short has taken numbers from the line of the next.
     const bool may_be_short = long_row_.line + 1 == text_.location().line;
-    const PlyRest lines{text, header_, element, were_lines ? row : row + 1};
-    const bool are_lines = (were_lines || may_be_short) && fits(lines, PlyLayout::Lines);
-    const PlyRest running{text.substr(text_.bytes_read()), header_, element, row + 1};
-    if (!are_lines && fits(running, PlyLayout::Running)) return PlyLayout::Running;
+    const bool are_lines =
+        (were_lines || may_be_short) && fits(text, header_, element, were_lines ? row : row + 1, PlyLayout::Lines);
+    const auto rest = text.substr(text_.bytes_read());
+    if (!are_lines && fits(rest, header_, element, row + 1, PlyLayout::Running)) return PlyLayout::Running;
     if (were_lines) return PlyLayout::Lines;
     fail_at(text_.input().name(), {.line = long_row_.line, .column = 1}, ErrorCode::MalformedFile,
             fmt::format("{} has fewer numbers in its line than the header declares", long_row_.name));

@@ -22,22 +22,12 @@ using std::uint64_t;
 template <class Predicate>
 std::optional<std::size_t> find_property(const InputBuffer& input, const PlyElement& element, std::string_view name,
                                          Predicate&& is_it) {
-  std::optional<std::size_t> found;
-  for (std::size_t i = 0; i < element.properties.size(); ++i) {
-    if (!is_it(element.properties[i])) continue;
-    if (found) {
-      fail_at(input.name(), element.location, ErrorCode::MalformedFile,
-              fmt::format("element {} has the property {} twice", element.name, name));
-    }
-    found = i;
+  const std::vector<std::size_t> found = element.find(is_it);
+  if (found.size() > 1) {
+    fail_at(input.name(), element.location, ErrorCode::MalformedFile,
+            fmt::format("element {} has the property {} twice", element.name, name));
   }
-  return found;
-}
-
-const PlyElement* find_element(const PlyHeader& header, std::string_view name) {
-  const auto found = std::find_if(header.elements.begin(), header.elements.end(),
-                                  [name](const PlyElement& element) { return element.name == name; });
-  return found == header.elements.end() ? nullptr : &*found;
+  return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 // The indices of x, y and z among the properties of a vertex.
@@ -62,12 +52,11 @@ bool has_double_axis(const PlyElement& vertex, const Axes& axes) {
 }
 
 const PlyElement& vertex_element(const InputBuffer& input, const PlyHeader& header) {
-  const auto* const vertex = find_element(header, "vertex");
-  if (vertex == nullptr) {
-    fail_at(input.name(), {.line = header.lines, .column = 1}, ErrorCode::MalformedFile,
-            "the header has no element vertex");
+  for (const PlyElement& element : header.elements) {
+    if (element.name == "vertex") return element;
   }
-  return *vertex;
+  fail_at(input.name(), {.line = header.lines, .column = 1}, ErrorCode::MalformedFile,
+          "the header has no element vertex");
 }
 
 class PlyReader {
@@ -121,7 +110,9 @@ class PlyReader {
 
   [[nodiscard]] uint64_t least_bytes(const PlyElement& element) const {
     uint64_t sum = 0;
-    for (const auto& property : element.properties) sum += values_->least_bytes(property.first_type());
+    for (const auto& property : element.properties) {
+      sum += values_->least_bytes(property.is_list ? property.count_type : property.type);
+    }
     return sum;
   }
 
@@ -135,22 +126,22 @@ class PlyReader {
 
   void read_vertices() {
     if (values_->bytes_left()) builder_.positions.reserve(vertex_.count);
-    Axes sorted = axes_;
-    std::sort(sorted.begin(), sorted.end());
-    read_rows(values_->vertex_rows(vertex_, axes_, builder_.positions), [&] { read_vertex(sorted); });
+    read_rows(values_->vertex_rows(vertex_, axes_, builder_.positions), [&] { read_vertex(); });
   }
 
-  void read_vertex(const Axes& sorted) {
-    std::size_t next = 0;
-    for (const auto axis_property : sorted) {
-      skip_properties(next, axis_property);
-      property_ = &vertex_.properties[axis_property];
+  void read_vertex() {
+    Location last;
+    for (std::size_t i = 0; i < vertex_.properties.size(); ++i) {
+      if (std::ranges::find(axes_, i) == axes_.end()) {
+        skip_properties(i, i + 1);
+        continue;
+      }
+      property_ = &vertex_.properties[i];
       require(values_->take_coordinate(property_->type, builder_.positions));
-      next = axis_property + 1;
+      last = values_->location();
     }
-    builder_.positions.end_vertex(values_->location());
-    skip_properties(next, vertex_.properties.size());
-    if (sorted != axes_) builder_.positions.reorder_last(axes_);
+    builder_.positions.end_vertex(last);
+    if (!std::ranges::is_sorted(axes_)) builder_.positions.reorder_last(axes_);
   }
 
   // The rows of the element: those that `plain` takes, and `read_row` for each of the others.

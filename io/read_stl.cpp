@@ -3,16 +3,19 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
-#include <type_traits>
 
 #include <fmt/format.h>
 
 #include "io/binary.h"
+#include "io/float_keeps.h"
 #include "io/mesh_builder.h"
+#include "io/plain_rows.h"
+#include "io/plain_text.h"
 #include "io/readers.h"
-#include "io/stl_text.h"
+#include "io/text.h"
 #include "io/welder.h"
 
 // A file of the size of a binary STL is binary, even if it begins with "solid", as many do. In a longer one, each facet
@@ -56,6 +59,16 @@ std::string why_not_binary(InputBuffer& input) {
   if (header.size() < kHeaderBytes) return "it is not a binary STL, which has at least 84 bytes";
   return fmt::format("it is not a binary STL, which would have {} bytes for the {} facets of its header",
                      binary_size(header), facet_count(header));
+}
+
+// Appends a facet of an ASCII or binary file.
+template <class Real>
+void append_triangle(const std::array<std::array<Real, 3>, 3>& corners, const Location& location, MeshBuilder& builder,
+                     Welder<Real>& weld) {
+  const auto& [a, b, c] = corners;
+  if (a == b || b == c || c == a) builder.warnings.add("facets in which two corners coincide", location);
+  for (const auto& corner : corners) weld.append(corner);
+  builder.faces.end_face(3);
 }
 
 template <class Real>
@@ -144,6 +157,165 @@ class BinaryStl {
   bool has_payload_ = false;   // a facet says so, or has a color
 };
 
+bool is_word(std::string_view token, std::string_view lower_case) {
+  return std::equal(token.begin(), token.end(), lower_case.begin(), lower_case.end(),
+                    [](char a, char b) { return (('A' <= a && a <= 'Z') ? a - 'A' + 'a' : a) == b; });
+}
+
+// A plain facet: seven lines of lower-case words and single blanks, three corners at different positions.
+struct FacetRow {
+  static constexpr uint64_t kLines = 7;
+  static constexpr std::string_view kInLastLine = "endfacet";
+
+  template <class Real>
+  const char* take(const char* at, const char* end, PlainBlock<Real>& block) const {
+    std::array<typename Welder<Real>::Point, 3> facet = {};
+    at = take_words(at, end, "facet normal ");
+    for (int i = 0; i < 3; ++i) at = plain::skip_token(at);
+    at = take_line(plain::take_line_end(at), end, "outer loop");
+    for (auto& corner : facet) {
+      at = take_words(at, end, "vertex ");
+      for (Real& coordinate : corner) at = plain::take_coordinate(at, end, coordinate, block.float_keeps);
+      at = plain::take_line_end(at);
+      block.positions.insert(block.positions.end(), corner.begin(), corner.end());
+    }
+    at = take_line(take_line(at, end, "endloop"), end, "endfacet");
+    const auto& [a, b, c] = facet;
+    return at == nullptr || a == b || b == c || c == a ? nullptr : at;
+  }
+
+ private:
+  static const char* take_words(const char* at, const char* end, std::string_view words) {
+    if (at == nullptr || at == end) return nullptr;
+    at = plain::skip_blanks(at);
+    const std::string_view rest(at, static_cast<std::size_t>(end - at));
+    return rest.starts_with(words) ? at + words.size() : nullptr;
+  }
+
+  static const char* take_line(const char* at, const char* end, std::string_view words) {
+    return plain::take_line_end(take_words(at, end, words));
+  }
+};
+
+// All facets of a text, of any number of solids and in any letter case. A solid may be empty. `end facet` as two words
+// is read with a warning. The format allows only triangles: a facet of more vertices is kept as a polygon, so that no
+// vertex is lost, and one of fewer is left out, both with a warning.
+template <class Real>
+class StlText {
+ public:
+  StlText(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder, Welder<Real>& weld)
+      : text_(input, {}), plain_(text_, options, {}, builder.positions.are_open()), builder_(builder), weld_(weld) {}
+
+  void read() {
+    if (!is_word(text_.token(), "solid")) text_.malformed("expected 'solid'");
+    text_.skip_line();
+    for (;;) {
+      take_plain_facets();
+      const auto token = keyword();
+      if (token.empty()) break;
+      read_item(token);
+    }
+    // A text that only begins with "solid" is not an empty mesh.
+    if (in_solid_ && facets_ == 0) text_.malformed("expected 'facet' or 'endsolid', but the file ends");
+    if (in_solid_) builder_.warnings.add("no 'endsolid' at the end", text_.location());
+  }
+
+ private:
+  void take_plain_facets() {
+    plain_.take(std::numeric_limits<uint64_t>::max(), [this](const PlainBlock<Real>& block) {
+      const auto& xyz = block.positions;
+      for (std::size_t i = 0; i < xyz.size(); i += 3) weld_.append({xyz[i], xyz[i + 1], xyz[i + 2]});
+      for (std::size_t i = 0; i < block.rows; ++i) builder_.faces.end_face(3);
+      builder_.positions.note(block.float_keeps);
+      facets_ += block.rows;
+      return true;
+    });
+  }
+
+  // The next token, with `end loop` as `endloop`.
+  std::string_view keyword() {
+    const auto token = text_.token();
+    if (!is_word(token, "end")) return token;
+    builder_.warnings.add("'end' is a word of its own", text_.location());
+    const auto word = text_.token();
+    for (const std::string_view known : {"endloop", "endfacet", "endsolid"}) {
+      if (is_word(word, known.substr(3))) return known;
+    }
+    text_.malformed("expected 'loop', 'facet' or 'solid' after 'end', found {}", quote(word));
+  }
+
+  void read_item(std::string_view token) {
+    if (is_word(token, "facet")) return read_facet();
+    in_solid_ = is_word(token, "solid");
+    if (!in_solid_ && !is_word(token, "endsolid")) {
+      text_.malformed("expected 'facet', 'endsolid' or 'solid', found {}", quote(token));
+    }
+    text_.skip_line();  // the name
+  }
+
+  void read_facet() {
+    const Location location = text_.location();
+    auto token = text_.token();
+    if (is_word(token, "normal")) {
+      for (int i = 0; i < 3; ++i) text_.token();
+      token = text_.token();
+    }
+    check(token, "outer");
+    check(text_.token(), "loop");
+    read_loop(location);
+    check(keyword(), "endfacet");
+    ++facets_;
+  }
+
+  void read_loop(const Location& location) {
+    uint64_t count = 0;
+    for (auto token = keyword(); !is_word(token, "endloop"); token = keyword()) {
+      check(token, "vertex");
+      const auto corner = read_corner(count);
+      if (count == 3) append_first_three();
+      if (count >= 3) weld_.append(corner);
+      if (count < 3) first_[count] = corner;
+      ++count;
+    }
+    if (count == 3) return append_triangle(first_, location, builder_, weld_);
+    builder_.warnings.add(
+        count < 3 ? "facets of fewer than three vertices are left out" : "facets of more than three vertices",
+        location);
+    if (count > 3) builder_.faces.end_face(count);
+  }
+
+  // Not before there is a fourth: a facet of fewer than three vertices is left out.
+  void append_first_three() {
+    for (const auto& corner : first_) weld_.append(corner);
+  }
+
+  typename Welder<Real>::Point read_corner(uint64_t count) {
+    typename Welder<Real>::Point corner;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto token = text_.token();
+      if (const auto problem = to_coordinate(token, corner[i])) {
+        text_.malformed("facet {}, vertex {}, {} = {} {}", facets_, count, axis(i), quote(token), *problem);
+      }
+      if (builder_.positions.are_open()) builder_.positions.note(float_keeps(token, corner[i]));
+    }
+    return corner;
+  }
+
+  void check(std::string_view token, std::string_view expected) const {
+    if (is_word(token, expected)) return;
+    if (token.empty()) text_.malformed("facet {}: expected '{}', but the file ends", facets_, expected);
+    text_.malformed("facet {}: expected '{}', found {}", facets_, expected, quote(token));
+  }
+
+  Text text_;
+  PlainRows<Real, FacetRow> plain_;
+  MeshBuilder& builder_;
+  Welder<Real>& weld_;
+  std::array<typename Welder<Real>::Point, 3> first_ = {};
+  uint64_t facets_ = 0;
+  bool in_solid_ = true;
+};
+
 // Reserves memory for the largest possible number of corners, each with its own vertex.
 void reserve(MeshBuilder& builder, const InputBuffer& input, bool binary) {
   constexpr uint64_t kLeastTextOfVertex = 13;  // "vertex 0 0 0 "
@@ -152,17 +324,6 @@ void reserve(MeshBuilder& builder, const InputBuffer& input, bool binary) {
   const auto corners = binary ? 3 * (*left / kFacetBytes) : *left / kLeastTextOfVertex;
   builder.positions.reserve(corners);
   builder.faces.reserve_corners(corners);
-}
-
-template <class Real>
-void read_soup(InputBuffer& input, const ReaderOptions& options, bool binary, MeshBuilder& builder,
-               std::vector<Real>& positions) {
-  Welder<Real> welder(positions, builder.faces.corners(), input.name());
-  if (binary) {
-    BinaryStl<Real>(input, builder, welder).read();
-  } else {
-    read_stl_text(input, options, builder, welder);
-  }
 }
 
 // Whether vertices at different positions are so as floats.
@@ -207,10 +368,11 @@ Mesh read_stl(InputBuffer& input, const ReaderOptions& options) {
   const std::string not_binary = binary ? "" : why_not_binary(input);
   MeshBuilder builder(input, options, binary ? Declared::Float : Declared::Nothing);
   reserve(builder, input, binary);
-  read_or_explain(may_be_either, not_binary, [&] {
-    std::visit([&](auto& positions) { read_soup(input, options, binary, builder, positions); },
-               builder.positions.values());
-  });
+  const auto read_soup = [&]<class Real>(std::vector<Real>& positions) {
+    Welder<Real> welder(positions, builder.faces.corners(), input.name());
+    binary ? BinaryStl<Real>(input, builder, welder).read() : StlText<Real>(input, options, builder, welder).read();
+  };
+  read_or_explain(may_be_either, not_binary, [&] { std::visit(read_soup, builder.positions.values()); });
   if (builder.positions.are_open()) {
     builder.positions.note(differ_as_floats(std::get<std::vector<double>>(builder.positions.values()), input.name()));
   }

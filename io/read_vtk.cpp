@@ -22,8 +22,6 @@ namespace {
 
 using std::uint64_t;
 
-enum class Encoding { Text, Binary };
-
 /// The size of a number by the name of its type; 0 if it is none.
 std::size_t size_of_type(std::string_view type) {
   using Size = std::pair<std::string_view, std::size_t>;
@@ -44,7 +42,7 @@ class VtkValues {
  public:
   explicit VtkValues(InputBuffer& input) : text_(input, {.line_end = '\n'}) {}
 
-  void set_encoding(Encoding encoding) { is_binary_ = encoding == Encoding::Binary; }
+  void set_binary(bool is_binary) { is_binary_ = is_binary; }
   [[nodiscard]] bool are_binary() const { return is_binary_; }
 
   /// The next word in lower case; empty at the end of the file.
@@ -89,10 +87,7 @@ class VtkValues {
   /// Appends a coordinate of the type `Real`; or returns the problem.
   template <class Real>
   [[nodiscard]] std::optional<std::string> append_to(Positions& positions) {
-    if (is_binary_) {
-      const auto problem = positions.append(double{binary<Real>()});
-      return problem ? std::optional(std::string(*problem)) : std::nullopt;
-    }
+    if (is_binary_) return std::optional<std::string>(positions.append(double{binary<Real>()}));
     const std::string token(text());
     const auto problem = positions.append(token);
     return problem ? std::optional(fmt::format("= {} {}", quote(token), *problem)) : std::nullopt;
@@ -190,7 +185,7 @@ class VtkReader {
       values_.fail(ErrorCode::UnsupportedFormat,
                    fmt::format("{} is not supported, expected POLYDATA or UNSTRUCTURED_GRID", quote(set)));
     }
-    values_.set_encoding(encoding == "binary" ? Encoding::Binary : Encoding::Text);
+    values_.set_binary(encoding == "binary");
     return version.starts_with('5');
   }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/text.h"
 
-#include <algorithm>
-
 namespace meshhood::inline v0_1::io {
 namespace {
 

@@ -2,7 +2,6 @@
 #include "io/vertex_properties.h"
 
 #include <algorithm>
-#include <string>
 
 #include <fmt/format.h>
 

@@ -140,7 +140,7 @@ void Welder<Real>::list(std::uint32_t id) {
 // The old table is freed before there is a new one, so that both are never in memory.
 template <class Real>
 void Welder<Real>::resize(std::size_t buckets) {
-  newest_ = {};
+  std::vector<std::uint32_t>().swap(newest_);
   newest_.resize(buckets, kEnd);
   for (std::uint32_t id = 0; id < older_.size(); ++id) list(id);
 }

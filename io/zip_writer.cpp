@@ -5,10 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "io/waiting.h"

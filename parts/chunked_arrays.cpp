@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <limits>
 #include <string_view>
 
@@ -109,48 +108,36 @@ class Arrays final : public ChunkedMesh {
     });
   }
 
-  void check_unchanged() const {
+  void check_unchanged() const override {
     positions_.check_unchanged();
     faces_.check_unchanged();
   }
 
-  void load_first_face() override {
-    check_unchanged();
-    face_ = 0;
-    ahead_.clear();
-    taken_ = 0;
-  }
+  void load_first_face() override { left_ = {}; }
 
-  bool load_face(std::vector<std::uint64_t>& corners) override {
-    if (face_ == faces_.rows()) {
-      check_unchanged();
-      return false;
-    }
+  bool load_face(std::uint64_t face, std::vector<std::uint64_t>& corners) override {
+    if (face == faces_.rows()) return false;
     check_degree(faces_.columns());
-    const auto degree = static_cast<std::ptrdiff_t>(faces_.columns());
-    if (taken_ == ahead_.size()) load_ahead();
-    const auto begin = ahead_.begin() + static_cast<std::ptrdiff_t>(taken_);
-    corners.insert(corners.end(), begin, begin + degree);
-    taken_ += faces_.columns();
-    ++face_;
+    if (left_.empty()) load_ahead(face);
+    const auto next = left_.first(static_cast<std::size_t>(faces_.columns()));
+    corners.insert(corners.end(), next.begin(), next.end());
+    left_ = left_.subspan(next.size());
     return true;
   }
 
-  void load_ahead() {
-    const std::uint64_t rows =
-        std::min(std::max<std::uint64_t>(1, Rows::kBufferBytes / 8 / std::max<std::uint64_t>(1, faces_.columns())),
-                 faces_.rows() - face_);
+  void load_ahead(std::uint64_t face) {
+    const std::uint64_t columns = faces_.columns();
+    const std::uint64_t rows = std::max<std::uint64_t>(1, Rows::kBufferBytes / 8 / columns);
     ahead_.clear();
-    taken_ = 0;
-    faces_.read<std::int32_t, std::int64_t>(face_ * faces_.columns(), rows * faces_.columns(),
+    faces_.read<std::int32_t, std::int64_t>(face * columns, std::min(rows, faces_.rows() - face) * columns,
                                             [&](auto id) { ahead_.push_back(static_cast<std::uint64_t>(id)); });
+    left_ = ahead_;
   }
 
   Rows positions_;
   Rows faces_;
-  std::uint64_t face_ = 0;
-  std::vector<std::uint64_t> ahead_;  // corners of the faces from `face_` on; the first `taken_` have been read
-  std::size_t taken_ = 0;
+  std::vector<std::uint64_t> ahead_;     // corners of some faces
+  std::span<const std::uint64_t> left_;  // of these
 };
 
 }  // namespace

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "parts/chunked_mesh.h"
 
-#include <algorithm>
 #include <cmath>
 #include <system_error>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -23,6 +23,34 @@ std::string index_text(std::uint64_t index) {
   return value < 0 ? std::to_string(value) : std::to_string(index);
 }
 
+class MeshInMemory final : public ChunkedMesh {
+ public:
+  MeshInMemory(io::Mesh mesh, const std::string& name)
+      : ChunkedMesh(name, mesh.view().positions.size(), std::holds_alternative<std::vector<double>>(mesh.positions)),
+        mesh_(std::move(mesh)) {}
+
+ private:
+  void load_positions(std::uint64_t first, std::span<Point> out) override {
+    std::visit(
+        [&](const auto& xyz) {
+          for (std::size_t i = 0; i < out.size(); ++i) out[i] = point(std::span(xyz), first + i);
+        },
+        mesh_.positions);
+  }
+
+  bool load_face(std::uint64_t face, std::vector<std::uint64_t>& corners) override {
+    if (face == faces_.size()) return false;
+    faces_.for_each(face, face + 1, [&](std::size_t, std::span<const VertexId> ids) {
+      check_degree(ids.size());
+      corners.insert(corners.end(), ids.begin(), ids.end());
+    });
+    return true;
+  }
+
+  io::Mesh mesh_;
+  FacesView faces_ = mesh_.view().faces;
+};
+
 }  // namespace
 
 void ChunkedMesh::read_positions(std::uint64_t first, std::span<Point> out) {
@@ -41,6 +69,7 @@ void ChunkedMesh::read_positions(std::uint64_t first, std::span<Point> out) {
 }
 
 void ChunkedMesh::rewind_faces() {
+  check_unchanged();
   load_first_face();
   next_face_ = 0;
 }
@@ -51,7 +80,10 @@ bool ChunkedMesh::read_faces(std::size_t corners, FaceChunk& chunk) {
   chunk.ends.clear();
   while (chunk.corners.size() < corners && chunk.size() < corners) {
     const std::size_t begin = chunk.corners.size();
-    if (!load_face(chunk.corners)) break;
+    if (!load_face(next_face_, chunk.corners)) {
+      check_unchanged();
+      break;
+    }
     check_face(std::span(chunk.corners).subspan(begin));
     chunk.ends.push_back(chunk.corners.size());
     ++next_face_;
@@ -88,6 +120,11 @@ std::unique_ptr<ChunkedMesh> open_mesh(const std::filesystem::path& path, std::u
                       name, bytes, max_bytes));
   }
   return chunked(io::read_mesh(path, {.max_bytes = max_bytes, .progress = progress}), name);
+}
+
+std::unique_ptr<ChunkedMesh> chunked(io::Mesh mesh, const std::string& name) {
+  io::refuse_walls(mesh, name);
+  return std::make_unique<MeshInMemory>(std::move(mesh), name);
 }
 
 }  // namespace meshhood::parts

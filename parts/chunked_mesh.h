@@ -67,10 +67,15 @@ class ChunkedMesh {
 
  private:
   virtual void load_positions(std::uint64_t first, std::span<Point> out) = 0;
-  virtual void load_first_face() = 0;
 
-  /// Appends the corners of the next face; false if there is none.
-  virtual bool load_face(std::vector<std::uint64_t>& corners) = 0;
+  /// Moves to the first face.
+  virtual void load_first_face() {}
+
+  /// Appends the corners of the next face, which is number `face`; false if there is none.
+  virtual bool load_face(std::uint64_t face, std::vector<std::uint64_t>& corners) = 0;
+
+  /// Refuses files that have been written to since they were opened. Called before the first face and after the last.
+  virtual void check_unchanged() const {}
 
   void check_face(std::span<const std::uint64_t> corners) const;
 

@@ -3,6 +3,7 @@
 #include <bit>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -43,39 +44,24 @@ struct Layout {
   std::size_t corner_list = 0;            ///< its place among the properties of a face
 };
 
-std::optional<std::size_t> fixed_bytes(const io::PlyElement& element) {
-  std::size_t sum = 0;
-  for (const io::PlyProperty& property : element.properties) {
-    if (property.is_list) return std::nullopt;
-    sum += size_of(property.type);
-  }
-  return sum;
-}
-
+/// Nothing unless there is each of them once. No property is a list.
 std::optional<std::array<Coordinate, 3>> find_axes(const io::PlyElement& vertex) {
-  std::array<std::optional<Coordinate>, 3> found;
-  std::size_t offset = 0;
-  for (const io::PlyProperty& property : vertex.properties) {
-    const std::size_t axis = std::string_view("xyz").find(property.name);
-    if (property.name.size() == 1 && axis < 3) {
-      if (found[axis]) return std::nullopt;
-      found[axis] = {offset, property.type};
-    }
-    offset += size_of(property.type);
+  std::array<Coordinate, 3> axes{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto name = std::string_view("xyz").substr(axis, 1);
+    const auto found = vertex.find([&](const io::PlyProperty& property) { return property.name == name; });
+    if (found.size() != 1) return std::nullopt;
+    axes[axis] = {bytes_of(std::span(vertex.properties).first(found[0])), vertex.properties[found[0]].type};
   }
-  if (!found[0] || !found[1] || !found[2]) return std::nullopt;
-  return std::array{*found[0], *found[1], *found[2]};
+  return axes;
 }
 
+/// Nothing unless there is one.
 std::optional<std::size_t> find_corner_list(const io::PlyElement& face) {
-  std::optional<std::size_t> found;
-  for (std::size_t i = 0; i < face.properties.size(); ++i) {
-    const io::PlyProperty& property = face.properties[i];
-    if (!face.has_corners(property)) continue;
-    if (found || !property.is_list || !is_integer(property.type)) return std::nullopt;
-    found = i;
-  }
-  return found;
+  const auto found = face.find([&](const io::PlyProperty& property) { return face.has_corners(property); });
+  if (found.size() != 1) return std::nullopt;
+  const io::PlyProperty& list = face.properties[found[0]];
+  return list.is_list && is_integer(list.type) ? std::optional(found[0]) : std::nullopt;
 }
 
 /// Nothing if a row of a vertex has no fixed place, or if `io::read_ply` must judge the file. `header_bytes`: where the
@@ -94,18 +80,19 @@ std::optional<Layout> find_layout(io::PlyHeader header, std::uint64_t header_byt
       layout.corner_list = *list;
       break;
     }
-    const auto row = fixed_bytes(element);
-    if (!row || (*row != 0 && element.count > (kAnySize - offset) / *row)) return std::nullopt;
+    if (!are_single(element.properties)) return std::nullopt;
+    const std::size_t row = bytes_of(element.properties);
+    if (row != 0 && element.count > (kAnySize - offset) / row) return std::nullopt;
     if (element.name == "vertex") {
       const auto axes = find_axes(element);
       if (!axes) return std::nullopt;
       layout.axes = *axes;
       layout.vertices = element.count;
       layout.first_vertex = offset;
-      layout.row_bytes = *row;
+      layout.row_bytes = row;
       has_vertices = true;
     }
-    offset += element.count * *row;
+    offset += element.count * row;
   }
   if (!has_vertices) return std::nullopt;
   return layout;
@@ -135,11 +122,10 @@ class FaceReader {
     }
   }
 
-  [[nodiscard]] bool is_at_end() const { return layout_.faces == nullptr || face_ == layout_.faces->count; }
-
-  /// Appends the corners of the next face. Calls `check(number)` before they take memory.
+  /// Appends the corners of the next face, which is number `face`. Calls `check(number)` before they take memory.
   template <class Check>
-  void read(std::vector<std::uint64_t>& corners, Check&& check) {
+  void read(std::uint64_t face, std::vector<std::uint64_t>& corners, Check&& check) {
+    face_ = face;
     const auto& properties = layout_.faces->properties;
     for (std::size_t i = 0; i < properties.size(); ++i) {
       const io::PlyProperty& property = properties[i];
@@ -151,7 +137,6 @@ class FaceReader {
       check(count);
       for (std::uint64_t corner = 0; corner < count; ++corner) corners.push_back(take(property.type));
     }
-    ++face_;
   }
 
  private:
@@ -181,7 +166,7 @@ class FaceReader {
   io::InputBuffer input_;
   const Layout& layout_;
   std::unique_ptr<io::PlyValues> values_;
-  std::uint64_t face_ = 0;
+  std::uint64_t face_ = 0;  // for messages
 };
 
 class ChunkedPly final : public ChunkedMesh {
@@ -217,17 +202,13 @@ class ChunkedPly final : public ChunkedMesh {
     return {at(layout_.axes[0]), at(layout_.axes[1]), at(layout_.axes[2])};
   }
 
-  void load_first_face() override {
-    file_.check_unchanged();
-    faces_.emplace(file_, layout_);
-  }
+  void check_unchanged() const override { file_.check_unchanged(); }
 
-  bool load_face(std::vector<std::uint64_t>& corners) override {
-    if (faces_->is_at_end()) {
-      file_.check_unchanged();
-      return false;
-    }
-    faces_->read(corners, [this](std::uint64_t count) { check_degree(count); });
+  void load_first_face() override { faces_.emplace(file_, layout_); }
+
+  bool load_face(std::uint64_t face, std::vector<std::uint64_t>& corners) override {
+    if (layout_.faces == nullptr || face == layout_.faces->count) return false;
+    faces_->read(face, corners, [this](std::uint64_t count) { check_degree(count); });
     return true;
   }
 

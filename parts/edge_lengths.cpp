@@ -2,12 +2,9 @@
 #include "parts/edge_lengths.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <compare>
-#include <memory>
 #include <queue>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,8 +22,6 @@ struct Edge {
 
   [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> ends() const { return {a, b}; }
 };
-
-constexpr std::size_t kWords = 3;
 
 bool is_before(const Edge& e, const Edge& f) { return e.ends() < f.ends(); }
 bool is_same(const Edge& e, const Edge& f) { return e.ends() == f.ends(); }
@@ -49,29 +44,18 @@ std::vector<Edge> edges_of(const FaceChunk& chunk, const CornerPositions& vertic
 }
 
 /// A sorted run in a file, and its first edge that is left.
-class SortedRun {
- public:
-  SortedRun(const Spill& spill, std::size_t list, std::size_t buffer_bytes) : reader_(spill, list, buffer_bytes) {}
-
-  [[nodiscard]] const Edge& front() const { return front_; }
+struct SortedRun {
+  SpillReader rest;
+  Edge front = {};
 
   /// Moves to the next edge; false at the end.
-  bool pop() {
-    const auto words = reader_.next(kWords);
-    if (words.empty()) return false;
-    front_ = {words[0], words[1], std::bit_cast<double>(words[2])};
-    return true;
-  }
-
- private:
-  SpillReader reader_;
-  Edge front_;
+  bool pop() { return rest.next(front); }
 };
 
 /// Calls `f` with the distinct edges of all runs, in order.
 template <class F>
 void merge(std::vector<SortedRun> runs, F&& f) {
-  const auto is_later = [](const SortedRun* s, const SortedRun* t) { return is_before(t->front(), s->front()); };
+  const auto is_later = [](const SortedRun* s, const SortedRun* t) { return is_before(t->front, s->front); };
   std::priority_queue<SortedRun*, std::vector<SortedRun*>, decltype(is_later)> queue(is_later);
   for (SortedRun& run : runs) {
     if (run.pop()) queue.push(&run);
@@ -80,8 +64,8 @@ void merge(std::vector<SortedRun> runs, F&& f) {
   while (!queue.empty()) {
     SortedRun* const run = queue.top();
     queue.pop();
-    if (!is_same(run->front(), last)) f(run->front());
-    last = run->front();
+    if (!is_same(run->front, last)) f(run->front);
+    last = run->front;
     if (run->pop()) queue.push(run);
   }
 }
@@ -96,9 +80,7 @@ double mean_edge_length(ChunkedMesh& mesh, const std::filesystem::path& folder, 
   while (mesh.read_faces(corners, chunk)) {
     const CornerPositions vertices(mesh, chunk);
     Spill& spill = spills.emplace_back(folder, "edges" + std::to_string(spills.size()), 1, std::size_t{1} << 16);
-    for (const Edge& edge : edges_of(chunk, vertices)) {
-      spill.append(0, std::array{edge.a, edge.b, std::bit_cast<std::uint64_t>(edge.length)});
-    }
+    for (const Edge& edge : edges_of(chunk, vertices)) spill.append(0, edge);
     spill.flush();
     advance(chunk.corners.size());
   }
@@ -106,7 +88,7 @@ double mean_edge_length(ChunkedMesh& mesh, const std::filesystem::path& folder, 
   const std::size_t buffer = std::max<std::size_t>(1024, 32 * corners / std::max<std::size_t>(1, spills.size()));
   std::vector<SortedRun> runs;
   runs.reserve(spills.size());
-  for (const Spill& spill : spills) runs.emplace_back(spill, 0, std::min(buffer, std::size_t{1} << 22));
+  for (const Spill& spill : spills) runs.push_back({SpillReader(spill, 0, std::min(buffer, std::size_t{1} << 22))});
   double sum = 0;
   std::uint64_t count = 0;
   merge(std::move(runs), [&](const Edge& edge) {

@@ -39,15 +39,8 @@ class JsonValues::Reader {
     levels_.back().name = std::move(name);
     return true;
   }
-  bool end_object() {
-    levels_.pop_back();
-    return true;
-  }
-  bool end_array() {
-    const Length length{levels_.back().elements};
-    levels_.pop_back();
-    return set(length);
-  }
+  bool end_object() { return close(); }
+  bool end_array() { return close(); }
 
   bool parse_error(std::size_t byte, const std::string& last, const Json::exception& /*error*/) {
     fail(fmt::format("no JSON at byte {}: {}", byte, io::quote(last)));
@@ -56,40 +49,34 @@ class JsonValues::Reader {
  private:
   struct Level {
     std::string path;  // that of the object or array
-    bool is_array = false;
+    Length* array = nullptr;
     std::string name = {};  // of the next value of an object
-    std::size_t elements = 0;
   };
 
   bool open(bool is_array) {
     constexpr std::size_t kMostLevels = 8;
     if (levels_.size() == kMostLevels) fail(fmt::format("more than {} levels", kMostLevels));
-    count_element();
-    levels_.push_back({.path = path(), .is_array = is_array});
+    const std::string path = next_path();
+    levels_.push_back({.path = path, .array = is_array ? &values_[path].emplace<Length>() : nullptr});
+    return true;
+  }
+
+  bool close() {
+    levels_.pop_back();
     return true;
   }
 
   template <class T>
   bool keep(T value) {
-    count_element();
-    return set(std::move(value));
-  }
-
-  template <class T>
-  bool set(T value) {
-    values_[path()].template emplace<T>(std::move(value));
+    values_[next_path()].template emplace<T>(std::move(value));
     return true;
   }
 
-  void count_element() {
-    if (!levels_.empty()) ++levels_.back().elements;
-  }
-
-  /// The path of the value that was counted last.
-  [[nodiscard]] std::string path() const {
+  /// The path of the next value, which counts as an element of its array.
+  [[nodiscard]] std::string next_path() {
     if (levels_.empty()) return {};
     const Level& level = levels_.back();
-    const std::string last = level.is_array ? std::to_string(level.elements - 1) : level.name;
+    const std::string last = level.array != nullptr ? std::to_string(level.array->elements++) : level.name;
     return level.path.empty() ? last : fmt::format("{}/{}", level.path, last);
   }
 
@@ -121,39 +108,6 @@ const std::string& JsonValues::text(const std::string& path) const { return at<s
 
 std::size_t JsonValues::size(const std::string& path) const { return at<Length>(path, "an array").elements; }
 
-void JsonText::begin(std::string_view name, char bracket) {
-  add_literal(name, std::string(1, bracket));
-  ++level_;
-  is_first_ = true;
-}
-
-void JsonText::end(char bracket) {
-  --level_;
-  if (!is_first_) begin_line();
-  text_ += bracket;
-  is_first_ = false;
-}
-
-void JsonText::add(std::string_view name, double number) { add_literal(name, Json(number).dump()); }
-
-void JsonText::add(std::string_view name, std::string_view text) { add_literal(name, fmt::format("\"{}\"", text)); }
-
-std::string JsonText::take() {
-  end('}');
-  return std::move(text_);
-}
-
-void JsonText::add_literal(std::string_view name, std::string_view literal) {
-  if (!is_first_) text_ += ',';
-  if (!text_.empty()) begin_line();
-  if (!name.empty()) text_ += fmt::format("\"{}\": ", name);
-  text_ += literal;
-  is_first_ = false;
-}
-
-void JsonText::begin_line() {
-  text_ += '\n';
-  text_.append(level_, ' ');
-}
+std::string json_text(double number) { return Json(number).dump(); }
 
 }  // namespace meshhood::parts

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <variant>
 
-/// JSON documents without a tree of values. The tree of nlohmann_json allocates memory in its destructor, so the
+/// Reads JSON without a tree of values. The tree of nlohmann_json allocates memory in its destructor, so the
 /// process would end if memory ran out there.
 namespace meshhood::parts {
 
@@ -43,29 +43,7 @@ class JsonValues {
   std::map<std::string, Value> values_;
 };
 
-/// Writes a document, with a line for each value and an indentation of one blank for each level.
-class JsonText {
- public:
-  JsonText() { begin({}, '{'); }
-
-  /// Begins an object or an array: '{' or '['. In an array, names are empty. Names and texts must need no escapes.
-  void begin(std::string_view name, char bracket);
-  void end(char bracket);
-
-  void add(std::string_view name, std::uint64_t number) { add_literal(name, std::to_string(number)); }
-  void add(std::string_view name, double number);
-  void add(std::string_view name, std::string_view text);
-
-  /// Ends the document and returns it.
-  [[nodiscard]] std::string take();
-
- private:
-  void add_literal(std::string_view name, std::string_view literal);
-  void begin_line();
-
-  std::string text_;
-  std::size_t level_ = 0;
-  bool is_first_ = true;  // of its object or array
-};
+/// A number with a point or an exponent, as `JsonValues::number` reads it.
+[[nodiscard]] std::string json_text(double number);
 
 }  // namespace meshhood::parts

@@ -2,16 +2,12 @@
 #include "parts/manifest.h"
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <numeric>
-#include <span>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "meshhood/error.h"
 
@@ -28,7 +24,6 @@ namespace {
 
 constexpr std::string_view kFloat = "float";
 constexpr std::string_view kDouble = "double";
-constexpr std::array kPartFiles{kIndexFile, kVerticesFile, kOwnedFile, kCornersFile, kOffsetsFile};
 
 std::string hex(std::uint64_t number) { return fmt::format("{:016x}", number); }
 
@@ -53,23 +48,18 @@ std::string first_line(std::string_view rest) {
   raise(ErrorCode::MalformedIndex, fmt::format("{}: {}", io::printable_name(file.string()), reason));
 }
 
-void write_json(const std::filesystem::path& file, JsonText document) {
-  const std::string rest = document.take().substr(1) + "\n";  // without the brace, which the first line has
+/// `rest`: the document behind its brace, which the first line has.
+void write_json(const std::filesystem::path& file, const std::string& rest) {
   io::FileWriter writer(file);
   writer.write(first_line(rest) + rest);
   writer.commit();
 }
 
-std::string read_text(const std::filesystem::path& file) {
-  const io::MappedFile mapped(file);
-  const std::span<const std::byte> bytes = mapped.bytes();
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 /// Calls `read(values)`. Every fault of the text becomes an error that names the file.
 template <class F>
 auto read_json(const std::filesystem::path& file, F&& read) {
-  const std::string text = read_text(file);
+  const io::MappedFile mapped(file);
+  const std::string text(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
   const std::size_t line = std::min(text.find('\n'), text.size() - 1) + 1;
   const std::string rest = text.substr(line);
   if (text.empty() || text.substr(0, line) != first_line(rest)) {
@@ -82,17 +72,20 @@ auto read_json(const std::filesystem::path& file, F&& read) {
   }
 }
 
-void add_plan(JsonText& json, const Plan& plan) {
-  json.begin("plan", '{');
-  json.add("format", std::uint64_t{kFormat});
-  json.add("vertices", plan.vertices);
-  json.add("faces", plan.faces);
-  json.add("precision", plan.is_double ? kDouble : kFloat);
-  json.add("content_hash", to_text(plan.content_hash));
-  json.add("mean_edge_length", plan.mean_edge_length);
-  json.add("halo", plan.halo);
-  json.add("parts", std::uint64_t{plan.parts});
-  json.end('}');
+std::string json_of(const Plan& plan) {
+  return fmt::format(R"(
+ "plan": {{
+  "format": {},
+  "vertices": {},
+  "faces": {},
+  "precision": "{}",
+  "content_hash": "{}",
+  "mean_edge_length": {},
+  "halo": {},
+  "parts": {}
+ }})",
+                     kFormat, plan.vertices, plan.faces, plan.is_double ? kDouble : kFloat, to_text(plan.content_hash),
+                     json_text(plan.mean_edge_length), json_text(plan.halo), plan.parts);
 }
 
 /// A finite number >= 0.
@@ -127,21 +120,27 @@ Plan plan_from(const JsonValues& json) {
           .parts = static_cast<std::size_t>(json.count("plan/parts"))};
 }
 
-/// `name` is empty in an array.
-void add_part(JsonText& json, std::string_view name, const Part& part) {
-  json.begin(name, '{');
-  json.add("vertices", part.vertices);
-  json.add("owned", part.owned);
-  json.add("faces", part.faces);
-  json.begin("files", '{');
-  for (const PartFile& file : part.files) {
-    json.begin(file.name, '{');
-    json.add("bytes", file.bytes);
-    json.add("checksum", hex(file.checksum));
-    json.end('}');
-  }
-  json.end('}');
-  json.end('}');
+std::string json_of(const PartFile& file, std::string_view indent) {
+  return fmt::format(R"(
+{0}"{1}": {{
+{0} "bytes": {2},
+{0} "checksum": "{3}"
+{0}}})",
+                     indent, file.name, file.bytes, hex(file.checksum));
+}
+
+std::string json_of(const Part& part, const std::string& indent) {
+  std::vector<std::string> files;
+  files.reserve(part.files.size());
+  for (const PartFile& file : part.files) files.push_back(json_of(file, indent + "  "));
+  return fmt::format(R"({{
+{0} "vertices": {1},
+{0} "owned": {2},
+{0} "faces": {3},
+{0} "files": {{{4}
+{0} }}
+{0}}})",
+                     indent, part.vertices, part.owned, part.faces, fmt::join(files, ","));
 }
 
 Part part_from(const JsonValues& json, const std::string& path) {
@@ -163,8 +162,8 @@ void check_counts(const Manifest& manifest) {
   if (manifest.parts.size() != manifest.plan.parts) {
     raise(ErrorCode::MalformedIndex, fmt::format("lists {} parts of {}", manifest.parts.size(), manifest.plan.parts));
   }
-  const std::uint64_t owned = std::accumulate(manifest.parts.begin(), manifest.parts.end(), std::uint64_t{0},
-                                              [](std::uint64_t sum, const Part& part) { return sum + part.owned; });
+  std::uint64_t owned = 0;
+  for (const Part& part : manifest.parts) owned += part.owned;
   if (owned != manifest.plan.vertices) {
     raise(ErrorCode::MalformedIndex, fmt::format("the parts own {} vertices of {}", owned, manifest.plan.vertices));
   }
@@ -195,11 +194,8 @@ void verify_file(const std::filesystem::path& file, std::span<const std::byte> c
 }
 
 void write_part(const std::filesystem::path& part_folder, const Plan& plan, std::size_t number, const Part& part) {
-  JsonText json;
-  add_plan(json, plan);
-  json.add("number", std::uint64_t{number});
-  add_part(json, "part", part);
-  write_json(part_folder / kPartFile, std::move(json));
+  write_json(part_folder / kPartFile,
+             fmt::format("{},\n \"number\": {},\n \"part\": {}\n}}\n", json_of(plan), number, json_of(part, " ")));
 }
 
 std::optional<Part> read_part(const std::filesystem::path& part_folder, const Plan& plan, std::size_t number) {
@@ -222,12 +218,11 @@ void verify_part(const std::filesystem::path& part_folder, const Part& part) {
 }
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest) {
-  JsonText json;
-  add_plan(json, manifest.plan);
-  json.begin("parts", '[');
-  for (const Part& part : manifest.parts) add_part(json, {}, part);
-  json.end(']');
-  write_json(folder / kManifestFile, std::move(json));
+  std::vector<std::string> parts;
+  parts.reserve(manifest.parts.size());
+  for (const Part& part : manifest.parts) parts.push_back("\n  " + json_of(part, "  "));
+  write_json(folder / kManifestFile,
+             fmt::format("{},\n \"parts\": [{}\n ]\n}}\n", json_of(manifest.plan), fmt::join(parts, ",")));
 }
 
 Manifest read_manifest(const std::filesystem::path& folder) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -63,6 +64,7 @@ inline constexpr std::string_view kVerticesFile = "vertices.npy";
 inline constexpr std::string_view kOwnedFile = "owned.npy";
 inline constexpr std::string_view kCornersFile = "face_corners.npy";
 inline constexpr std::string_view kOffsetsFile = "face_offsets.npy";
+inline constexpr std::array kPartFiles{kIndexFile, kVerticesFile, kOwnedFile, kCornersFile, kOffsetsFile};
 inline constexpr std::string_view kPartFile = "part.json";
 
 /// Size and checksum of a file. Throws Error{IoFailure}.

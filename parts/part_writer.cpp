@@ -2,87 +2,62 @@
 #include "parts/part_writer.h"
 
 #include <algorithm>
-#include <bit>
-#include <iterator>
 #include <limits>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "meshhood/error.h"
-#include "meshhood/mesh.h"
+#include "meshhood/mesh_data.h"
 
 #include "io/file_writer.h"
 #include "io/index_io.h"
+#include "io/mesh_builder.h"
 #include "io/npy.h"
 
 namespace meshhood::parts {
 namespace {
 
 constexpr std::size_t kReadBuffer = std::size_t{1} << 20;
-constexpr std::size_t kVertexWords = 4;
 
 /// The vertices of a part, numbered in ascending order of their ids in the mesh.
 std::vector<Site> read_vertices(const Spill& spill, std::size_t number) {
   std::vector<Site> vertices;
-  vertices.reserve(static_cast<std::size_t>(spill.size(number) / kVertexWords));
+  vertices.reserve(static_cast<std::size_t>(spill.size(number) / sizeof(Site)));
   SpillReader reader(spill, number, kReadBuffer);
-  for (;;) {
-    const auto words = reader.next(kVertexWords);
-    if (words.empty()) break;
-    const auto coordinate = [&](std::size_t i) { return std::bit_cast<double>(words[i]); };
-    vertices.push_back({{coordinate(1), coordinate(2), coordinate(3)}, words[0]});
-  }
+  for (Site vertex = {}; reader.next(vertex);) vertices.push_back(vertex);
   std::sort(vertices.begin(), vertices.end(), [](const Site& a, const Site& b) { return a.id < b.id; });
   const auto same = [](const Site& a, const Site& b) { return a.id == b.id; };
   vertices.erase(std::unique(vertices.begin(), vertices.end(), same), vertices.end());
   return vertices;
 }
 
-/// The faces of a part, as a view for `build`.
-struct Faces {
-  std::vector<std::int32_t> corners;  ///< numbers of the part
-  std::vector<std::int64_t> offsets;  ///< #F + 1; empty if all faces are triangles
-  std::uint64_t count = 0;
-
-  [[nodiscard]] FacesView view() const {
-    return offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(offsets, corners);
-  }
-};
-
-Faces read_faces(const Spill& spill, std::size_t number, std::span<const std::int64_t> ids) {
-  Faces faces;
-  std::vector<std::int64_t> ends{0};
+/// The faces of a part, by the places of their corners in `ids`.
+io::Faces read_faces(const Spill& spill, std::size_t number, std::span<const std::int64_t> ids) {
+  io::Faces faces;
   SpillReader reader(spill, number, kReadBuffer);
-  bool are_triangles = true;
-  for (;;) {
-    const auto degree = reader.next(1);
-    if (degree.empty()) break;
-    const std::uint64_t corners = degree[0];
+  for (std::uint64_t corners = 0; reader.next(corners);) {
     for (std::uint64_t i = 0; i < corners; ++i) {
-      const auto id = static_cast<std::int64_t>(reader.next(1)[0]);
-      const auto place = std::lower_bound(ids.begin(), ids.end(), id);
-      faces.corners.push_back(static_cast<std::int32_t>(place - ids.begin()));
+      std::int64_t id = 0;
+      static_cast<void>(reader.next(id));
+      faces.append_corner(static_cast<std::uint32_t>(std::ranges::lower_bound(ids, id) - ids.begin()));
     }
-    ++faces.count;
-    // Offsets are stored from the first face on that is not a triangle.
-    if (are_triangles && corners != 3) {
-      for (std::uint64_t face = 1; face < faces.count; ++face) ends.push_back(static_cast<std::int64_t>(3 * face));
-      are_triangles = false;
-    }
-    if (!are_triangles) ends.push_back(static_cast<std::int64_t>(faces.corners.size()));
+    faces.end_face(corners);
   }
-  if (!are_triangles) faces.offsets = std::move(ends);
   return faces;
 }
 
-template <class T>
-void write_array(const std::filesystem::path& file, std::span<const T> values) {
+/// Writes numbers, none of which is negative, as an array of the signed type `T`.
+template <class T, class Number>
+void write_array(const std::filesystem::path& file, const std::vector<Number>& values) {
+  static_assert(sizeof(T) == sizeof(Number));
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(values));
   io::FileWriter writer(file);
   writer.write(io::npy_header(io::npy_type<T>(), fmt::format("({},)", values.size())));
-  writer.write({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+  writer.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   writer.commit();
 }
 
@@ -113,10 +88,10 @@ Numbering number_vertices(std::span<const Site> vertices, const CutTree& tree, s
   return result;
 }
 
-template <class Real>
-void write_index(const std::filesystem::path& file, std::vector<Real> xyz, const Faces& faces, const Run& run) {
-  const Index index = build({PositionsView(xyz), faces.view()}, run);
-  std::vector<Real>().swap(xyz);
+/// Frees the positions, once the index has them.
+void write_index(const std::filesystem::path& file, MeshData& mesh, const Run& run) {
+  const Index index = build(mesh.view(), run);
+  mesh.positions.emplace<0>();
   io::save(file, index, {}, {.progress = run.progress});
 }
 
@@ -129,16 +104,10 @@ void check_count(std::size_t vertices, std::size_t part) {
 
 }  // namespace
 
-std::array<std::uint64_t, 4> vertex_words(const Site& vertex) {
-  return {vertex.id, std::bit_cast<std::uint64_t>(vertex.position.x), std::bit_cast<std::uint64_t>(vertex.position.y),
-          std::bit_cast<std::uint64_t>(vertex.position.z)};
-}
-
 std::uint64_t part_memory(const PartContents& contents, std::size_t part) {
-  // Measured on surfaces, and rounded up: tests/parts/memory_test.cpp.
+  // Measured on surfaces, and rounded up: tests/parts/memory_test.cpp. Faces take as many bytes as in their list.
   constexpr std::uint64_t kBytesPerVertex = 250;
-  constexpr std::uint64_t kBytesPerFaceWord = 8;
-  return contents.vertices.size(part) / kVertexWords * kBytesPerVertex + contents.faces.size(part) * kBytesPerFaceWord;
+  return contents.vertices.size(part) / sizeof(Site) * kBytesPerVertex + contents.faces.size(part);
 }
 
 Part write_part_files(const std::filesystem::path& folder, const PartContents& contents, std::size_t number,
@@ -146,20 +115,20 @@ Part write_part_files(const std::filesystem::path& folder, const PartContents& c
   std::vector<Site> vertices = read_vertices(contents.vertices, number);
   check_count(vertices.size(), number);
   const Numbering numbering = number_vertices(vertices, tree, number);
-  std::variant<std::vector<float>, std::vector<double>> xyz;
-  is_double ? xyz = positions_of<double>(vertices) : xyz = positions_of<float>(vertices);
+  MeshData mesh;
+  is_double ? mesh.positions = positions_of<double>(vertices) : mesh.positions = positions_of<float>(vertices);
   std::vector<Site>().swap(vertices);
-  const Faces faces = read_faces(contents.faces, number, numbering.ids);
+  io::Faces faces = read_faces(contents.faces, number, numbering.ids);
+  mesh.offsets = std::move(faces.offsets());
+  mesh.corners = std::move(faces.corners());
 
-  std::visit([&](auto& values) { write_index(folder / kIndexFile, std::move(values), faces, run); }, xyz);
+  write_index(folder / kIndexFile, mesh, run);
   write_array<std::int64_t>(folder / kVerticesFile, numbering.ids);
   write_array<std::int32_t>(folder / kOwnedFile, numbering.owned);
-  write_array<std::int32_t>(folder / kCornersFile, faces.corners);
-  write_array<std::int64_t>(folder / kOffsetsFile, faces.offsets);
-  Part part{.vertices = numbering.ids.size(), .owned = numbering.owned.size(), .faces = faces.count, .files = {}};
-  for (const std::string_view name : {kIndexFile, kVerticesFile, kOwnedFile, kCornersFile, kOffsetsFile}) {
-    part.files.push_back(describe_file(folder, name));
-  }
+  write_array<std::int32_t>(folder / kCornersFile, mesh.corners);
+  write_array<std::int64_t>(folder / kOffsetsFile, mesh.offsets);
+  Part part{.vertices = numbering.ids.size(), .owned = numbering.owned.size(), .faces = faces.size(), .files = {}};
+  for (const std::string_view name : kPartFiles) part.files.push_back(describe_file(folder, name));
   return part;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -16,12 +15,9 @@ namespace meshhood::parts {
 
 /// The vertices and faces of each part, in the order in which they were read.
 struct PartContents {
-  Spill vertices;  ///< per vertex four words: id and position; in any order, with repeats
-  Spill faces;     ///< per face: the number of corners and their ids
+  Spill vertices;  ///< each a `Site`, in any order, with repeats
+  Spill faces;     ///< 64-bit numbers: of each face the number of corners and their ids
 };
-
-/// The words of a vertex in `PartContents::vertices`.
-[[nodiscard]] std::array<std::uint64_t, 4> vertex_words(const Site& vertex);
 
 /// An upper bound of the memory that `write_part_files` takes.
 [[nodiscard]] std::uint64_t part_memory(const PartContents& contents, std::size_t part);

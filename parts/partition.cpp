@@ -17,13 +17,12 @@
 #include "parts/cut_tree.h"
 #include "parts/distribution.h"
 #include "parts/edge_lengths.h"
-#include "parts/folder_lock.h"
+#include "parts/folder.h"
 #include "parts/part_writer.h"
-#include "parts/stages.h"
+#include "parts/passes.h"
 #include "parts/survey.h"
-#include "parts/temporary_folder.h"
-#include "parts/vertex_chunks.h"
 #include "shared/coarse_float.h"
+#include "shared/distance.h"
 #include "shared/text.h"
 
 namespace meshhood::parts {
@@ -35,16 +34,11 @@ constexpr std::string_view kTemporaryFolder = ".partition.tmp";
 
 /// How the memory is divided. A chunk of faces takes about 100 bytes a corner, with all that is derived from it.
 struct Budget {
-  std::size_t corners;
-  std::size_t spill_bytes;
-  std::uint64_t part_bytes;
-  std::uint64_t sample_bytes;
-
-  explicit Budget(std::uint64_t memory)
-      : corners(static_cast<std::size_t>(memory / 256)),
-        spill_bytes(static_cast<std::size_t>(memory / 8)),
-        part_bytes(memory - memory / 4),
-        sample_bytes(memory / 4) {}
+  std::uint64_t memory;
+  std::size_t corners = static_cast<std::size_t>(memory / 256);
+  std::size_t spill_bytes = static_cast<std::size_t>(memory / 8);
+  std::uint64_t part_bytes = memory - memory / 4;
+  std::uint64_t sample_bytes = memory / 4;
 };
 
 std::uint64_t number_of_parts(const PartitionOptions& options, std::uint64_t vertices) {
@@ -78,7 +72,7 @@ class Partitioning {
       : mesh_(mesh),
         folder_(std::move(folder)),
         options_(options),
-        budget_(options.memory),
+        budget_{.memory = options.memory},
         threads_(run.threads),
         stages_(run.progress) {}
 
@@ -180,7 +174,7 @@ class Partitioning {
     for_each_vertex(mesh_, stages_, [&](const Site& vertex) { tree.add(vertex); });
     PartContents contents{.vertices = Spill(temporary, "vertices", plan().parts, budget_.spill_bytes / 2),
                           .faces = Spill(temporary, "faces", plan().parts, budget_.spill_bytes / 2)};
-    Distribution distribution(mesh_, tree, plan().halo, finished_, contents);
+    const Distribution distribution{mesh_, tree, squared_radius(plan().halo), finished_, contents};
     stages_.begin(0.25);
     warn_about(distribution.add_vertices(stages_));
     stages_.begin(0.4);
@@ -241,27 +235,19 @@ class Partitioning {
   std::vector<bool> finished_;
 };
 
-/// Calls `f`. Turns an error of the file system into an `Error` that names the file.
-template <class F>
-auto naming_file_errors(F&& f) {
-  try {
-    return f();
-  } catch (const fs::filesystem_error& error) {
-    io::raise_errno(error.path1(), error.code().value());
-  }
-}
-
 }  // namespace
 
 PartitionResult partition(ChunkedMesh& mesh, const fs::path& folder, const PartitionOptions& options, const Run& run) {
   check(options);
-  return naming_file_errors([&] {
+  try {
     std::error_code error;
     fs::create_directory(folder, error);
     // A file of this name is refused when the folder is opened.
     if (error && error != std::errc::file_exists) io::raise_errno(folder, error.value(), "create");
     return Partitioning(mesh, folder, options, run).run();
-  });
+  } catch (const fs::filesystem_error& error) {
+    io::raise_errno(error.path1(), error.code().value());
+  }
 }
 
 }  // namespace meshhood::parts

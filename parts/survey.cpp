@@ -7,7 +7,6 @@
 #include <limits>
 #include <span>
 
-#include "parts/vertex_chunks.h"
 #include "shared/checksum.h"
 
 namespace meshhood::parts {

@@ -8,7 +8,7 @@
 
 #include "parts/chunked_mesh.h"
 #include "parts/cut_tree.h"
-#include "parts/stages.h"
+#include "parts/passes.h"
 
 namespace meshhood::parts {
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A folder of parts under faults: runs that are cancelled, two runs at once, and files that have been changed.
+#include "parts/folder.h"
+
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -7,7 +9,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "parts/folder_lock.h"
 #include "parts/partition.h"
 #include "shared/checksum.h"
 #include "support/families.h"

@@ -7,13 +7,45 @@
 #include <span>
 #include <vector>
 
+#include "meshhood/error.h"
+#include "meshhood/run.h"
+
 #include "parts/chunked_mesh.h"
 #include "parts/cut_tree.h"
-#include "parts/stages.h"
 #include "shared/distance.h"
 
 /// Passes over the vertices of a chunked mesh, with progress.
 namespace meshhood::parts {
+
+/// The progress of a run in stages: each stage has a share of the whole.
+class Stages {
+ public:
+  explicit Stages(const Progress& progress) : progress_(progress) { report(0); }
+
+  /// Begins a stage, at whose end `share` of the whole is done.
+  void begin(double share) {
+    begin_ = end_;
+    end_ = share;
+    report(0);
+  }
+
+  void report(double fraction) {
+    done_ = std::max(done_, static_cast<std::size_t>(kTotal * (begin_ + (end_ - begin_) * std::min(1.0, fraction))));
+    if (progress_ && !progress_(done_, kTotal)) raise(ErrorCode::Cancelled, "cancelled");
+  }
+
+  void report(std::uint64_t done, std::uint64_t total) {
+    report(total == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total));
+  }
+
+ private:
+  static constexpr std::size_t kTotal = 10'000;
+
+  const Progress& progress_;
+  double begin_ = 0;
+  double end_ = 0;
+  std::size_t done_ = 0;
+};
 
 /// The number of vertices that are read at once. Fixed, because the content hash depends on it.
 inline constexpr std::size_t kVertexChunk = std::size_t{1} << 16;
