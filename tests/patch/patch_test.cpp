@@ -701,7 +701,7 @@ TEST(PatchBatch, OfPointsOfFacesHasThoseOfSingleSearches) {
   const std::vector<double> scales{0.3, 0, 2.5};
   const std::size_t rows = faces.size();
   for (const unsigned threads : {1U, 3U}) {
-    const Run run{.threads = threads};
+    const meshhood::Run run{.threads = threads};
     const Invariants each = invariants(test.surface, faces, points, radii, run);
     const Invariants of_scales = invariants(test.surface, faces, points, BatchRadius::scales(scales), run);
     const std::vector<SurfacePoint> nearest = gaps(test.surface, faces, points, radii, run);
@@ -716,7 +716,9 @@ TEST(PatchBatch, OfPointsOfFacesHasThoseOfSingleSearches) {
       }
     }
   }
-  EXPECT_TRUE(gaps(test.surface, std::vector<std::size_t>(), std::vector<SpacePoint>(), 1).empty());
+  faces.clear();
+  points.clear();
+  EXPECT_TRUE(gaps(test.surface, faces, points, 1).empty());
 }
 
 TEST(PatchBatch, RefusesWhatIsWrong) {
