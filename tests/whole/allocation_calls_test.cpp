@@ -249,11 +249,6 @@ TEST_F(AllocationInEachCall, OfTheIndexAndTheGraph) {
          const GraphData graph = extract_graph(index);
          return Numbers{mean_edge_length(index), mean_edge_length(graph.view())};
        }},
-      {"a reordering",
-       [&] {
-         const ReorderedMesh reordered = reorder(mesh.view(), run);
-         return numbers(Searcher(reordered.index).neighborhood(17, 2.5));
-       }},
       {"links", [&] { return numbers(link_points(mesh.positions_view(), 1.5, {}, run).neighbors); }},
       {"the paper's index",
        [&] {
