@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Each allocation fails once while a file is read or written (R2). The old file is kept, and no temporary file remains.
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -16,6 +17,7 @@
 
 #include "io/index_io.h"
 #include "io/mesh_io.h"
+#include "io/weld.h"
 #include "shapes/shapes.h"
 #include "support/failing_allocations.h"
 #include "support/hostile.h"
@@ -66,6 +68,21 @@ std::string stl_of_grid() {
     }
   }
   return binary_stl(triangles);
+}
+
+std::string vtk_of_grid() {
+  const std::size_t triangles = grid().corners.size() / 3;
+  return fmt::format("# vtk DataFile Version 3.0\ngrid\nASCII\nDATASET POLYDATA\nPOINTS {} float\n",
+                     grid().positions.size() / 3) +
+         vertices_of_grid("") + fmt::format("POLYGONS {} {}\n", triangles, 4 * triangles) + triangles_of_grid("3 ", 0);
+}
+
+std::string freesurfer_of_grid() {
+  std::string bytes = "\xff\xff\xfe\n\n" +
+                      big(static_cast<int>(grid().positions.size() / 3), static_cast<int>(grid().corners.size() / 3));
+  for (const float x : grid().positions) bytes += big(x);
+  for (const std::uint32_t corner : grid().corners) bytes += big(corner);
+  return bytes;
 }
 
 /// The result of reading a file: a mesh, or an error that is not about memory.
@@ -120,11 +137,29 @@ TEST_F(ReadAllocation, FailsInPly) {
 }
 
 TEST_F(ReadAllocation, FailsInOtherFormats) {
-  const std::map<std::string, std::string> files{
-      {"obj", obj_of_grid()}, {"off", off_of_grid()}, {"stl", stl_of_grid()}};
+  const std::map<std::string, std::string> files{{"obj", obj_of_grid()},
+                                                 {"off", off_of_grid()},
+                                                 {"stl", stl_of_grid()},
+                                                 {"vtk", vtk_of_grid()},
+                                                 {"freesurfer", freesurfer_of_grid()}};
   for (const auto& [format, content] : files) {
     read_corpus(format);
     read(scratch.write("grid." + format, content));
+  }
+  const auto binary = scratch.path() / "binary.vtk";
+  io::write_vtk(binary, grid().view());
+  read(binary);
+}
+
+TEST_F(ReadAllocation, FailsInWelding) {
+  for (const double eps : {0.0, 1e-3}) {
+    const auto weld = [eps] { return io::weld(grid().view(), eps).ids; };
+    const std::vector<std::uint32_t> expected = weld();
+    shortages.fail_each([] { return std::optional<std::vector<std::uint32_t>>(); }, [&](auto& ids) { ids = weld(); },
+                        [&](const auto& ids, Ending ending) {
+                          EXPECT_EQ(ids.has_value(), ending == Ending::Well);
+                          EXPECT_TRUE(!ids || *ids == expected);
+                        });
   }
 }
 

@@ -238,14 +238,19 @@ std::uint32_t find_vertex(const TestMesh& mesh, const std::array<double, 3>& p) 
 }
 
 TEST(Patch, OfACubeIsExact) {
-  Case cube(make_box({2, 2, 2}, 1));
-  // The sphere of radius 1 touches corners and sides.
-  for (const double r : {0.3, 0.9, 1.0}) {
+  Case fine(make_box({2, 2, 2}, 1));
+  Case coarse(make_box({1, 1, 1}, 2));
+  // The sphere of radius 1 touches corners of the fine cube, and sides of the coarse one inside; that of the root of
+  // 1/2 touches diagonals of the fine cube inside.
+  for (const double r : {0.3, std::sqrt(0.5), 0.9, 1.0}) {
     SCOPED_TRACE(r);
-    const auto expect = [&](const std::array<double, 3>& at, double area, double volume) {
-      const PatchMeasure found = cube.measure(find_vertex(cube.mesh, at), r);
-      EXPECT_NEAR(found.area, area * kPi * r * r, 1e-15 * 10 * r * r);
-      EXPECT_NEAR(found.volume, volume * kPi * r * r * r, 1e-15 * 10 * r * r * r);
+    const auto expect = [&](const SpacePoint& at, double area, double volume) {
+      const SurfacePoint on = coarse.surface.closest_point(at);
+      for (const PatchMeasure& found :
+           {fine.measure(find_vertex(fine.mesh, at), r), coarse.measure({on.face, on.point}, r)}) {
+        EXPECT_NEAR(found.area, area * kPi * r * r, 1e-15 * 10 * r * r);
+        EXPECT_NEAR(found.volume, volume * kPi * r * r * r, 1e-15 * 10 * r * r * r);
+      }
     };
     expect({0, 0, 0}, 3.0 / 4, 1.0 / 6);
     expect({1, 0, 0}, 1, 1.0 / 3);
@@ -457,20 +462,61 @@ TEST(Patch, OfTinyFacesAtTheRimIsThatOfLargeOnes) {
 }
 
 TEST(Patch, DoesNotChangeWhereFacesAreDivided) {
-  Random random(3);
-  TestMesh mesh = make_ball(2);
-  for (double& x : mesh.positions) x += random.uniform(-0.1, 0.1);
-  Case coarse(mesh.finish(false));
-  Case fine(divided(divided(mesh)));
-  for (std::uint32_t v = 0; v < coarse.mesh.size(); ++v) {
-    const double r = random.uniform(0.1, 1.5);
-    const PatchMeasure a = coarse.measure(v, r);
-    const PatchMeasure b = fine.measure(v, r);
-    EXPECT_NEAR(a.area, b.area, 1e-12 * kPi * r * r);
-    EXPECT_NEAR(a.volume, b.volume, 1e-12 * 4 * kPi / 3 * r * r * r);
-    const double gap = coarse.searcher.gap(v, 2 * r).distance;
-    const double other = fine.searcher.gap(v, 2 * r).distance;
-    EXPECT_TRUE(gap == other || std::abs(gap - other) < 1e-14) << gap << " and " << other;
+  for (const Family& family : surface_families()) {
+    for (std::uint64_t seed = 0; seed < scaled(10, 2); ++seed) {
+      TestMesh mesh = make_mesh(family, seed, 50);
+      const TestTriangles triangles(mesh);
+      mesh.offsets = {0};
+      mesh.corners.clear();
+      for (const auto& corners : triangles.corners) mesh.add_face(corners);
+      Case coarse(mesh.finish(true));  // in float, so that the middle of a side is on it
+      Case fine(divided(divided(mesh)));
+      Random random(seed);
+      for (std::size_t i = 0; i < 8; ++i) {
+        const auto v = static_cast<std::uint32_t>(random.below(mesh.size()));
+        const double r = mean_edge_length(coarse.index) * std::exp2(random.uniform(-3, 3));
+        if (!is_within_reach(mesh, r)) continue;
+        SCOPED_TRACE(testing::Message() << family.name << ", seed " << seed << ", vertex " << v << ", radius " << r);
+        const std::vector<std::size_t> faces = fine.searcher.patch(v, r);
+        std::set<std::size_t> whole;
+        for (const std::size_t face : faces) whole.insert(face / 16);
+        EXPECT_THAT(coarse.searcher.patch(v, r), testing::ElementsAreArray(whole));
+        const auto [area, volume] = coarse.searcher.measure(v, r);
+        fine.expect_same(v, {faces, area, volume, coarse.searcher.gap(v, r).distance}, r);
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(Patch, OfAPlaneHasTheGapToAParallelOne) {
+  Random random(8);
+  const auto vector = [&] { return Point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
+  for (std::size_t i = 0; i < scaled(20, 5); ++i) {
+    const Point across = vector();
+    const Point along = cross(across, vector());
+    const Point normal = cross(across, along);
+    const auto make_sheet = [&](double height) {
+      TestMesh sheet = make_grid(16, 16, false);
+      for (std::size_t v = 0; v < sheet.size(); ++v) {
+        const double x = sheet.positions[3 * v] + random.uniform(-0.3, 0.3);
+        const double y = sheet.positions[3 * v + 1] + random.uniform(-0.3, 0.3);
+        const Point p =
+            (x / length(across)) * across + (y / length(along)) * along + (height / length(normal)) * normal;
+        std::ranges::copy(std::array{p.x, p.y, p.z}, &sheet.positions[3 * v]);
+      }
+      return sheet.finish(false);
+    };
+    TestMesh mesh = make_sheet(0);
+    const double edge = mean_edge_length(build(mesh.view()));
+    for (const double height : {0.1, 0.44, 0.9, 2.0}) {
+      TestMesh both = mesh;
+      append(both, make_sheet(height * edge));
+      Case test(both.finish(false));
+      const std::uint32_t v = 16 * 7 + 8;  // in the middle
+      EXPECT_NEAR(test.searcher.gap(v, 2.5 * edge).distance, height * edge, 1e-14 * edge);
+      EXPECT_NEAR(gaps(test.surface, {.radius = 2.5 * edge})[v].distance, height * edge, 1e-14 * edge);
+    }
   }
 }
 

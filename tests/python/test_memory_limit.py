@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Memory runs out, in the calling thread or in a worker: each call that takes workers succeeds or raises MemoryError (or
-an error of a file or an argument that says so), and the process goes on. Each trial is a process of its own with a limit
-on its address space."""
+"""Memory runs out, in the calling thread or in a worker: each call succeeds or raises MemoryError (or an error of a
+file or an argument that says so), and the process goes on. Each trial is a process of its own with a limit on its
+address space."""
 
+import inspect
 import os
+import re
 
+import meshhood
 import programs
 import pytest
 from scale import scaled
@@ -44,15 +47,62 @@ CALLS = {
     "faces as vertices": "meshhood.MeshIndex.of_faces(V, F, workers=2)",
     "refit": "index.refit(V, workers=2)",
     "partition": "meshhood.partition(arrays, folder / str(os.getpid()), parts=2, halo=1.0, workers=2)",
+    "along the surface": "index.counts(1.0, range(500), metric='surface', workers=2)",
+    "in space": "index.neighborhoods(2.0, metric='space', workers=2)",
+    "one query": "index.neighborhood(0, 40.0, return_distance=True)",
+    "one count": "index.count(0, np.inf, walls=walls)",
+    "one along the surface": "index.neighborhood(0, 40.0, metric='surface')",
+    "nested": "index.nested(0, [10.0, 40.0])",
+    "stroke": "index.stroke(V[:240], 20.0)",
+    "contains": "index.contains(0, 14000, np.inf)",
+    "connecting radius": "index.connecting_radius(0, 14000)",
+    "nearest connected": "index.nearest_connected(0, 10000)",
+    "nearest": "index.nearest(V + 0.1, workers=2)",
+    "graph of neighbors": "index.radius_neighbors_graph(2.0, mode='distance', workers=2)",
+    "smoothing matrix": "index.smoothing_matrix(2.0, weights='area', F=F, workers=2)",
+    "invariants": "index.invariants(2.0, workers=2)",
+    "gaps": "index.gaps(2.0, range(2000), workers=2)",
+    "patch": "index.patch(0, 40.0)",
+    "clip": "index.clip(0, 40.0)",
+    "measure": "index.measure(0, 40.0)",
+    "gap": "index.gap(0, 40.0)",
+    "submesh": "index.submesh(range(9000))",
+    "rim": "index.rim(region, 0, 20.0)",
+    "faces of a region": "meshhood.RegionMesh(V, F).faces(range(9000))",
+    "masked": "index.masked(walls=walls, ignored=ignored)",
+    "quality": "index.quality()",
+    "save": "index.save(folder / f'{os.getpid()}.mhi')",
+    "load": "meshhood.load(folder / 'index.mhi')",
+    "map": "meshhood.load(folder / 'index.mhi', mmap=True)",
+    "read a mesh": "meshhood.read_mesh(folder / 'mesh.ply', workers=2)",
+    "write a mesh": "meshhood.write_mesh(folder / f'{os.getpid()}.ply', V, F)",
+    "weld": "meshhood.weld(V, F, eps=1e-3)",
+    "areas": "meshhood.vertex_areas(V, F)",
+    "padded": "meshhood.padded(np.arange(len(V) + 1) * 9, np.zeros(9 * len(V)))",
+    "a page": "meshhood.view(V, F)",
 }
+# They make a few numbers, or nothing; or a library beside this one does the work: Matplotlib and Dask.
+LIGHT = {"geometric_radii", "persistence", "show_config", "smoothing_radius", "open_parts", "plot_neighborhood"}
 
 PROGRAM = programs.SCENE.format(side=120) + """
 import errno, resource
+import scipy.sparse  # loading a library needs memory, too
+index.save(folder / "index.mhi")
+meshhood.write_mesh(folder / "mesh.ply", V, F)
+region = index.neighborhood(0, 20.0)
 DONE, OUT_OF_MEMORY = 0, 3
 call = compile({call!r}, "call", "eval")
 def outcome(kilobytes):
     # Of the call, with so much memory left.
     used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (used, -1))
+    held = []  # what was freed before, which would serve whatever the limit
+    for size in (2**20, 2**16, 2**12):
+        try:
+            while True:
+                held.append(bytearray(size))
+        except MemoryError:
+            pass
     resource.setrlimit(resource.RLIMIT_AS, (used + 1024 * kilobytes, -1))
     try:
         eval(call)
@@ -84,6 +134,7 @@ for trial in range({trials}):
     for work in (outcome, outcome_in_thread):
         codes.append(in_child(work, kilobytes))
         assert codes[-1] in (DONE, OUT_OF_MEMORY), f"{{work.__name__}} with {{kilobytes}} kB: exit code {{codes[-1]}}"
+assert OUT_OF_MEMORY in codes
 print(codes.count(DONE), "done,", codes.count(OUT_OF_MEMORY), "out of memory")
 """
 
@@ -93,3 +144,14 @@ print(codes.count(DONE), "done,", codes.count(OUT_OF_MEMORY), "out of memory")
 def test_memory_runs_out(call, tmp_path):
     done = programs.run(PROGRAM.format(call=CALLS[call], trials=TRIALS), tmp_path)
     print(f"{call}: {done.stdout.strip()}")
+
+
+def test_every_call_runs_out_of_memory():
+    called = {name for call in CALLS.values() for name in re.findall(r"\.(\w+)\(", call)} | LIGHT
+    places = [getattr(meshhood, name) for name in meshhood.__all__]
+    calls = {place.__name__ for place in places if inspect.isfunction(place)} | {"MeshIndex", "RegionMesh"}
+    for owner in (meshhood.MeshIndex, meshhood.RegionMesh):
+        calls |= {name for name in dir(owner) if callable(getattr(owner, name)) and not name.startswith("_")}
+    assert calls <= called, f"no call of {', '.join(sorted(calls - called))}"
+    metrics = {name for call in CALLS.values() for name in re.findall(r"metric='(\w+)'", call)}
+    assert metrics >= {"path", "surface", "space"}

@@ -35,6 +35,14 @@ Numbers areas_of(const Surface& surface) {
   return {areas.begin(), areas.end()};
 }
 
+/// What a call that takes a visitor, and gives it one point, passes to it.
+template <class Call>
+Numbers distances_of(Call&& call) {
+  Numbers distances(6);
+  call([&](std::size_t row, const SurfacePoint& point) { distances.at(row) = point.distance; });
+  return distances;
+}
+
 class AllocationInEachCall : public testing::Test {
  protected:
   void expect_each(const std::vector<Call>& calls) {
@@ -102,6 +110,20 @@ TEST_F(AllocationInEachCall, OfQueriesAndBatches) {
                        return numbers(discs(index, some, 20, ones, options, run).ids);
                      }});
   }
+  calls.push_back({"ids in memory of the caller", [&] {
+                     std::vector<VertexId> ids;
+                     Numbers distances;
+                     const auto allocate = [&](std::size_t count) {
+                       ids.resize(count);
+                       distances.resize(count);
+                       return BatchMemory{ids, distances};
+                     };
+                     const std::uint64_t count =
+                         neighborhoods(index, query(), allocate, {.distances = true}, run).back();
+                     const double last = ids[count - 1];
+                     k_nearest(index, some, 20, allocate, {}, run);
+                     return Numbers{last, static_cast<double>(ids.back())};
+                   }});
   calls.push_back({"nearest unconnected", [&] { return nearest_unconnected(index, query(), run).distance; }});
   calls.push_back({"nearest", [&] { return Numbers{nearest(index, points, run)[0].distance}; }});
   calls.push_back({"a searcher bound again", [&] {
@@ -134,6 +156,13 @@ TEST_F(AllocationInEachCall, OfShape) {
       {"features", [&] { return features(surface, scales, {.kinds = {Feature::Crease, Feature::Area}}, run); }},
       {"persistence", [&] { return persistence(Numbers{1, 2, 3, 4}, Numbers{1, 2}, 1).strength; }},
       {"radii", [&] { return geometric_radii(1, 8, 4); }},
+      {"curvature in memory of the caller",
+       [&] {
+         Curvatures made = curvatures(surface, query(), {}, run);
+         curvatures(surface, query(), {made.k1, made.k2, made.d1, made.d2, made.state, made.count}, {}, run);
+         return made.k1;
+       }},
+      {"the radius of libigl", [&] { return Numbers{libigl_radius(mesh.view(), 5)}; }},
       {"corrected curvature", [&] { return corrected_curvatures(surface, query(), run).measures; }},
       {"curvature", [&] { return curvatures(Surface(index, mesh.view()), query(), {}, run).d2; }},
       {"curvature by normals of the caller",
@@ -149,6 +178,8 @@ TEST_F(AllocationInEachCall, OfTheSurface) {
   expect_each({
       {"invariants", [&] { return invariants(surface, query(), run).area; }},
       {"gaps", [&] { return Numbers{gaps(surface, query(), run)[0].distance}; }},
+      {"gaps by a visitor",
+       [&] { return distances_of([&](const auto& visit) { for_each_gap(surface, query(), visit, run); }); }},
       {"a patch", [&] { return numbers(PatchSearcher(surface).patch(17, 2.5)); }},
       {"its measure", [&] { return Numbers{PatchSearcher(surface).measure(17, 2.5).area}; }},
       {"its gap", [&] { return Numbers{PatchSearcher(surface).gap(17, 2.5).distance}; }},
@@ -159,6 +190,18 @@ TEST_F(AllocationInEachCall, OfTheSurface) {
       {"its rim", [&] { return Numbers{surface.rim(near, points[0], kInfinity).points[0][0]}; }},
       {"closest points", [&] { return Numbers{Surface(index, mesh.view()).closest_points(points, run)[0].distance}; }},
       {"first hits", [&] { return Numbers{Surface(index, mesh.view()).first_hits(points, down, run)[0].distance}; }},
+      {"closest points by a visitor",
+       [&] {
+         const Surface fresh(index, mesh.view());
+         return distances_of([&](const auto& visit) { fresh.for_each_closest_point(points, visit, run); });
+       }},
+      {"first hits by a visitor",
+       [&] {
+         const Surface fresh(index, mesh.view());
+         return distances_of([&](const auto& visit) { fresh.for_each_first_hit(points, down, visit, run); });
+       }},
+      {"a closest point", [&] { return Numbers{Surface(index, mesh.view()).closest_point(points[0]).distance}; }},
+      {"a first hit", [&] { return Numbers{Surface(index, mesh.view()).first_hit(points[0], down[0]).distance}; }},
       {"paths over the surface",
        [&] {
          const Index along = surface_paths(Surface(index, mesh.view()), run);
@@ -201,12 +244,72 @@ TEST_F(AllocationInEachCall, OfTheIndexAndTheGraph) {
          return numbers(cut_edges(all.view(), cut).neighbors);
        }},
       {"faces as vertices", [&] { return numbers(face_graph(mesh.view()).adjacency.neighbors); }},
+      {"mean edges",
+       [&] {
+         const GraphData graph = extract_graph(index);
+         return Numbers{mean_edge_length(index), mean_edge_length(graph.view())};
+       }},
+      {"links", [&] { return numbers(link_points(mesh.positions_view(), 1.5, {}, run).neighbors); }},
+      {"the paper's index",
+       [&] {
+         const paper::Index other = paper::build(mesh.view(), {}, run);
+         return Numbers{static_cast<double>(other.levels().size()),
+                        static_cast<double>(other.check(mesh.view()).size())};
+       }},
       {"points that are linked",
        [&] {
          const Index linked = build_linked(mesh.positions_view(), 1.5, {}, run);
          return numbers(Searcher(linked).neighborhood(17, 2.5));
        }},
   });
+}
+
+/// What follows from the positions, the patches, the normals and the tree of a surface.
+Numbers answers_of(const Surface& surface) {
+  const meshhood::Run run{.threads = 1};
+  Numbers all = areas_of(surface);
+  const auto add = [&](const Numbers& more) { all.insert(all.end(), more.begin(), more.end()); };
+  add(invariants(surface, {.radius = 2.5}, run).area);
+  add(corrected_curvatures(surface, {.radius = 2.5}, run).measures);
+  for (double x = 0; x < 12; ++x) {
+    for (double y = 0; y < 12; ++y) all.push_back(surface.closest_point({x, y, 1}).distance);
+  }
+  return all;
+}
+
+TEST_F(AllocationInEachCall, LeavesWhatSharesASurfaceThatIsRefitted) {
+  TestMesh moved = mesh;
+  for (const VertexId v : some) moved.positions[3 * std::size_t{v} + 2] *= 0.5;  // within the frame
+  const Index refitted = refit(index, moved.positions_view(), some, run);
+  const Numbers before = answers_of(surface);
+  const Numbers after = answers_of(Surface(refitted, moved.view()));
+  const double area = PatchSearcher(surface).measure(17, 2.5).area;
+  struct Scene {
+    Surface follows;
+    std::optional<Surface> other;
+    std::optional<PatchSearcher> searcher;
+  };
+  for (const bool is_shared : {false, true}) {  // what is shared is copied before it is renewed
+    const auto prepare = [&] {
+      Scene scene{Surface(index, mesh.view()), {}, {}};
+      EXPECT_EQ(answers_of(scene.follows), before);
+      if (is_shared) scene.other = scene.follows.on(index);
+      if (is_shared) scene.searcher.emplace(scene.follows);
+      return scene;
+    };
+    shortages.fail_each(
+        prepare, [&](Scene& scene) { scene.follows.refit_in_place(refitted, some); },
+        [&](Scene& scene, Ending ending) {
+          if (is_shared) {
+            EXPECT_EQ(answers_of(*scene.other), before);
+            EXPECT_EQ(scene.searcher->measure(17, 2.5).area, area);
+          }
+          const Numbers now = answers_of(scene.follows);
+          EXPECT_TRUE(now == after || (now == before && ending == Ending::OutOfMemory));
+          scene.follows.refit_in_place(refitted, some);
+          EXPECT_EQ(answers_of(scene.follows), after);
+        });
+  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-# What is near each vertex, within 3 mm, but not connected with it there: the other bank of a sulcus.
+# The nearest unconnected vertex of each vertex, within 3 mm: on the other bank of a sulcus.
 import sys, meshhood  # noqa: E401
 V, F = meshhood.read_mesh(sys.argv[1])
 
