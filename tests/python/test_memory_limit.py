@@ -62,6 +62,7 @@ CALLS = {
     "smoothing matrix": "index.smoothing_matrix(2.0, weights='area', F=F, workers=2)",
     "invariants": "index.invariants(2.0, workers=2)",
     "gaps": "index.gaps(2.0, range(2000), workers=2)",
+    "invariants of points": "index.invariants(2.0, points=V[F[:, 0]], face=range(len(F)), workers=2)",
     "patch": "index.patch(0, 40.0)",
     "clip": "index.clip(0, 40.0)",
     "measure": "index.measure(0, 40.0)",

@@ -70,6 +70,7 @@ class AllocationInEachCall : public testing::Test {
   const Surface surface{index, mesh.view()};
   const std::vector<VertexId> some{0, 1, 2, 17, 90, 91};
   const std::vector<SpacePoint> points = std::vector<SpacePoint>(3, {3.1, 3.2, 9});
+  const std::vector<std::size_t> faces_of_points = std::vector<std::size_t>(3, 3);
   const std::vector<SpacePoint> down = std::vector<SpacePoint>(3, {0, 0, -1});
   std::vector<double> values = std::vector<double>(mesh.size());
   Shortages shortages;
@@ -180,6 +181,8 @@ TEST_F(AllocationInEachCall, OfTheSurface) {
       {"gaps", [&] { return Numbers{gaps(surface, query(), run)[0].distance}; }},
       {"gaps by a visitor",
        [&] { return distances_of([&](const auto& visit) { for_each_gap(surface, query(), visit, run); }); }},
+      {"invariants of points", [&] { return invariants(surface, faces_of_points, points, 20, run).area; }},
+      {"gaps of points", [&] { return Numbers{gaps(surface, faces_of_points, points, 20, run)[0].distance}; }},
       {"a patch", [&] { return numbers(PatchSearcher(surface).patch(17, 2.5)); }},
       {"its measure", [&] { return Numbers{PatchSearcher(surface).measure(17, 2.5).area}; }},
       {"its gap", [&] { return Numbers{PatchSearcher(surface).gap(17, 2.5).distance}; }},
@@ -213,10 +216,7 @@ TEST_F(AllocationInEachCall, OfTheSurface) {
       {"thickness by spheres",
        [&] { return thickness(Surface(index, mesh.view()), some, ThicknessMethod::Sphere, run); }},
       {"thickness of points",
-       [&] {
-         const std::vector<std::size_t> faces(points.size(), 3);
-         return thickness(Surface(index, mesh.view()), faces, points, ThicknessMethod::Sphere, run);
-       }},
+       [&] { return thickness(Surface(index, mesh.view()), faces_of_points, points, ThicknessMethod::Sphere, run); }},
       {"a refit in place",
        [&] {
          Index moving = build(mesh.view(), run);
