@@ -219,16 +219,21 @@ export class Instance {
     return this.view(Type, address, count).slice();
   }
 
+  /** A copy of the array `name`, whose functions in the module return its address and its size. */
+  takeArray(Type, name) {
+    return this.take(Type, this.call(name), this.call(`${name}_size`));
+  }
+
   takeIds() {
-    return this.take(Uint32Array, this.call('answer_ids'), this.call('answer_ids_size'));
+    return this.takeArray(Uint32Array, 'answer_ids');
   }
 
   takeReals() {
-    return this.take(Float64Array, this.call('answer_reals'), this.call('answer_reals_size'));
+    return this.takeArray(Float64Array, 'answer_reals');
   }
 
   takeCounts() {
-    return this.take(Uint32Array, this.call('answer_counts'), this.call('answer_counts_size'));
+    return this.takeArray(Uint32Array, 'answer_counts');
   }
 
   /** All of an answer that may be large, whose memory the module gives back. */

@@ -6,7 +6,7 @@
 #include "meshhood/meshhood.h"
 
 #include "answer.h"
-#include "rows.h"
+#include "arguments.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {

@@ -61,7 +61,7 @@ extern "C" {
   workspace.refit(given.positions, list);
 }
 
-/// Returns the bytes of the index file; `saved_size` has their number.
+/// Returns the bytes of the index file; `save_size` has their number.
 [[clang::export_name("save")]] const std::byte* save() {
   saved.clear();
   meshhood::save(workspace.index(),
@@ -69,7 +69,7 @@ extern "C" {
   return saved.data();
 }
 
-[[clang::export_name("saved_size")]] std::size_t saved_size() { return saved.size(); }
+[[clang::export_name("save_size")]] std::size_t save_size() { return saved.size(); }
 
 [[clang::export_name("release_saved")]] void release_saved() { saved = {}; }
 

@@ -14,7 +14,6 @@
 
 #include "answer.h"
 #include "arguments.h"
-#include "rows.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
