@@ -26,8 +26,6 @@ IndicesView view_indices(const void* indices, std::size_t count, bool is_signed)
 
 }  // namespace
 
-extern "C" {
-
 [[clang::export_name("take_positions")]] void take_positions(const void* xyz, std::size_t scalars, bool is_double) {
   if (is_double) {
     given.positions = std::span(static_cast<const double*>(xyz), scalars);
@@ -106,7 +104,5 @@ extern "C" {
   const Quality found = meshhood::quality(workspace.index());
   answer.reals = {found.mean_radius, found.rebuilt_radius, found.gain};
 }
-
-}  // extern "C"
 
 }  // namespace meshhood::wasm

@@ -17,8 +17,6 @@ namespace {
 
 }  // namespace
 
-extern "C" {
-
 /// To be called once, before all others.
 [[clang::export_name("start")]] void start() { std::set_new_handler(refuse_memory); }
 
@@ -44,7 +42,5 @@ extern "C" {
 
 /// Gives the memory of a large answer back.
 [[clang::export_name("release_answer")]] void release_answer() { answer = {}; }
-
-}  // extern "C"
 
 }  // namespace meshhood::wasm

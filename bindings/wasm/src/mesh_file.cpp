@@ -20,8 +20,6 @@ std::string warnings;
 
 }  // namespace
 
-extern "C" {
-
 /// The ids of the answer are the corners, and the counts the offsets of polygons; none if all faces are triangles.
 [[clang::export_name("read_mesh")]] void read_mesh(const void* file, std::size_t size, const char* name,
                                                    std::size_t name_size, io::Precision precision, bool strict) {
@@ -63,7 +61,5 @@ extern "C" {
   answer.ids.assign(welded.ids.begin(), welded.ids.end());
   answer.counts.assign(welded.corners.begin(), welded.corners.end());
 }
-
-}  // extern "C"
 
 }  // namespace meshhood::wasm

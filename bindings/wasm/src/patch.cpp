@@ -19,8 +19,6 @@ void answer_faces(const std::vector<std::size_t>& faces) { answer.counts.assign(
 
 }  // namespace
 
-extern "C" {
-
 /// The reals are all areas, and then all volumes.
 [[clang::export_name("invariants")]] void invariants() {
   Invariants found = meshhood::invariants(workspace.surface(), rows);
@@ -70,7 +68,5 @@ extern "C" {
   answer = {};
   append_point(workspace.patch_searcher().gap(patch_start, radius));
 }
-
-}  // extern "C"
 
 }  // namespace meshhood::wasm

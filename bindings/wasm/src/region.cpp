@@ -25,8 +25,6 @@ void answer_sizes() { answer.counts.assign(region_sizes.begin(), region_sizes.en
 
 }  // namespace
 
-extern "C" {
-
 [[clang::export_name("start_at_vertex")]] void start_at_vertex(VertexId v) { origin = v; }
 
 /// The vertex nearest to the point is the seed if `seeds` is null.
@@ -112,7 +110,5 @@ extern "C" {
   answer.reals = {found.distance};
   return found.vertex;
 }
-
-}  // extern "C"
 
 }  // namespace meshhood::wasm

@@ -33,8 +33,6 @@ Fingerprint hash_faces(const FacesView& faces) {
 
 }  // namespace
 
-extern "C" {
-
 [[clang::export_name("use_faces")]] void use_faces() { workspace.use_faces(given.faces, hash_faces(given.faces)); }
 
 /// See `append_point`.
@@ -95,7 +93,5 @@ extern "C" {
   answer.counts.assign(outline.offsets.begin(), outline.offsets.end());
   answer.counts.insert(answer.counts.end(), outline.closed.begin(), outline.closed.end());
 }
-
-}  // extern "C"
 
 }  // namespace meshhood::wasm
