@@ -364,6 +364,17 @@ def _meshio_block(block):
     return data
 
 
+def poly_data(pyvista, positions, corners, offsets):
+    """The other way: a pyvista.PolyData of what `mesh_arrays` returns. The module is an argument, because it may not be
+    installed."""
+    if offsets is None:
+        offsets = np.arange(0, len(corners) + 1, 3)
+    mesh = pyvista.PolyData()
+    mesh.points = positions
+    mesh.SetPolys(pyvista.CellArray.from_arrays(np.asarray(offsets, np.int64), np.asarray(corners, np.int64)))
+    return mesh
+
+
 def placed(mesh, stacklevel):
     """The mesh with the positions of vertices without one (NaN), in no face, at another vertex; and the mask of these, or
     None. Warns about them."""

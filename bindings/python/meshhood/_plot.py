@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike
 
 from . import _convert
 from ._index import MeshIndex
-from ._mesh import mesh_arrays
+from ._mesh import mesh_arrays, poly_data
 from ._optional import optional
-from ._poly_data import poly_data
 from ._types import Mask, Metric, Number, Unit, Vertex
 
 # A vertex that belongs to nothing, and to each layer of a plot, the last in front; the colors of the paper.
