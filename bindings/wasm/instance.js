@@ -115,7 +115,8 @@ export class Instance {
   #host() {
     return {
       keep_error: (code, message, size) => {
-        this.#error = new MeshhoodError(CODES[code], this.text(message, size));
+        const text = new TextDecoder().decode(this.view(Uint8Array, message, size));
+        this.#error = new MeshhoodError(CODES[code], text);
       },
       report_progress: (done, total) => {
         if (this.#progress === null) return 1;
@@ -241,10 +242,6 @@ export class Instance {
     const answer = { ids: this.takeIds(), reals: this.takeReals(), counts: this.takeCounts() };
     this.call('release_answer');
     return answer;
-  }
-
-  text(address, size) {
-    return new TextDecoder().decode(this.view(Uint8Array, address, size));
   }
 }
 

@@ -18,7 +18,8 @@
 
 namespace meshhood::wasm {
 
-/// The numbers are part of the interface with JavaScript. Of equal distances, the smaller id comes first.
+/// The numbers are part of the interface with JavaScript. Of equal distances, the smaller id comes first. Not in a
+/// namespace without a name: a function that takes it would not be exported.
 enum class VertexOrder : std::uint8_t { Index, Id, Distance };
 
 namespace {
