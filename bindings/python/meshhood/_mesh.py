@@ -254,7 +254,7 @@ def _parts(mesh):
     if hasattr(mesh, "GetPolys") and not hasattr(mesh, "n_points"):  # not PyVista's own class
         return _vtk_parts(mesh)
     if hasattr(mesh, "triangle") and hasattr(mesh, "vertex"):  # Open3D's tensors
-        return _open3d_array(mesh.vertex.positions), _open3d_array(mesh.triangle.indices)
+        return mesh.vertex.positions.cpu().numpy(), mesh.triangle.indices.cpu().numpy()
     if hasattr(mesh, "points") and isinstance(getattr(mesh, "cells", None), list):
         return mesh.points, _meshio_polygons(mesh)
     if hasattr(mesh, "points") and (hasattr(mesh, "GetPolys") or hasattr(mesh, "faces")):
@@ -323,10 +323,6 @@ def _vtk_parts(mesh):
     polygons = mesh.GetPolys()
     faces = vtk_to_numpy(polygons.GetOffsetsArray()), vtk_to_numpy(polygons.GetConnectivityArray())
     return vtk_to_numpy(mesh.GetPoints().GetData()), faces
-
-
-def _open3d_array(tensor):
-    return tensor.cpu().numpy()
 
 
 def _pyvista_faces(mesh):

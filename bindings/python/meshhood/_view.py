@@ -93,7 +93,9 @@ def view(
     built before this package was installed.
     """
     page = _built_page()
-    positions, corners, offsets = _surface(V, F)
+    if hasattr(F, "tocoo"):
+        raise TypeError("F: expected faces, not a graph")
+    positions, corners, offsets = placed(mesh_arrays(V, F), stacklevel=3)[0]
     settings = _settings(len(positions), v, r, unit, ids, values, name)
     script = json.dumps(settings).replace("<", "\\u003c")
     mesh = base64.b64encode(binary_ply(positions, corners, offsets)).decode("ascii")
@@ -116,12 +118,6 @@ def _built_page() -> str:
     if _PLACE not in text:
         raise ValueError(f"{path}: is not the page of the viewer")
     return text
-
-
-def _surface(V: Any, F: Any) -> Any:
-    if hasattr(F, "tocoo"):
-        raise TypeError("F: expected faces, not a graph")
-    return placed(mesh_arrays(V, F), stacklevel=4)[0]
 
 
 def _settings(count: int, v: Any, r: Any, unit: Any, ids: Any, values: Any, name: Any) -> dict[str, Any]:
