@@ -10,7 +10,7 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-from ._atomic_file import atomic_file
+from . import _core
 from ._curvature import BEYOND_HALO, FEWEST_POINTS, NO_NORMAL
 from ._files import load, read_mesh
 from ._index import MeshIndex
@@ -42,7 +42,7 @@ def on_mesh(function: Callable[[MeshIndex], Any], file: Optional[str], mesh: str
             error.add_note(f"in {mesh}")
         raise
     if file is not None:
-        with atomic_file(file) as target:
+        with _core.FileWriter(file) as target:
             np.save(target, np.asarray(result), allow_pickle=False)
     return result if file is None else None
 
@@ -140,7 +140,7 @@ def save_rows(function: PartFunction, path: str, part: OpenPart) -> None:
     rows = np.asarray(function(part, part.index, part.owned))
     if rows.shape[:1] != (len(part.owned),):
         raise ValueError(f"function: an array of shape {rows.shape} for part {part.number}, expected {len(part.owned)} rows")
-    with atomic_file(path) as target:
+    with _core.FileWriter(path) as target:
         np.save(target, rows, allow_pickle=False)
 
 

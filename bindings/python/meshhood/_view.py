@@ -13,8 +13,7 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from . import _convert
-from ._atomic_file import atomic_file
+from . import _convert, _core
 from ._mesh import mesh_arrays, placed
 from ._other_files import binary_ply
 from ._types import Number, Unit, Vertex, Vertices
@@ -41,7 +40,7 @@ class Page:
 
         >>> meshhood.view(V, F).save("hand.html")
         """
-        with atomic_file(path) as file:
+        with _core.FileWriter(_convert.path(path)) as file:
             file.write(self.html.encode())
 
     def open(self, path: Union[str, os.PathLike[str]]) -> None:
