@@ -129,7 +129,8 @@ Output<std::uint8_t> to_bytes(const ExactMethod& method) {
   return owned<std::uint8_t>(std::move(bytes));
 }
 
-/// A file that is written, until it is closed. NumPy and zipfile call `tell` and `flush`.
+/// A file that appears when the block of a `with` statement ends, as `MeshIndex.save` writes its file; after an
+/// exception an old file is unchanged. NumPy and zipfile call `tell` and `flush`.
 class OpenFile {
  public:
   explicit OpenFile(const std::filesystem::path& path) : writer_(std::make_unique<io::FileWriter>(path)) {}
@@ -142,10 +143,11 @@ class OpenFile {
     without_lock([&] { writer().write(text); });
     return text.size();
   }
-  void commit() {
-    without_lock([this] { writer().commit(); });
+  OpenFile& enter() { return *this; }
+  void exit(nb::handle exception, nb::handle, nb::handle) {
+    const std::unique_ptr<io::FileWriter> writer = std::move(writer_);
+    if (writer && exception.is_none()) without_lock([&] { writer->commit(); });
   }
-  void close() { writer_.reset(); }
 
  private:
   [[nodiscard]] io::FileWriter& writer() const {
@@ -178,9 +180,9 @@ void bind_files(nb::module_& module) {
       .def("tell", &OpenFile::position)
       .def("flush", [](const OpenFile&) {})
       .def("seek", &OpenFile::seek)
-      .def("write", &OpenFile::write)
-      .def("commit", &OpenFile::commit)
-      .def("close", &OpenFile::close);
+      .def("write", &OpenFile::write, nb::sig("def write(self, data: typing.Any, /) -> int"))
+      .def("__enter__", &OpenFile::enter, nb::rv_policy::reference)
+      .def("__exit__", &OpenFile::exit, nb::arg().none(), nb::arg().none(), nb::arg().none());
   module.def("from_bytes", &from_bytes);
 }
 

@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -31,12 +30,11 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// Returns the number of parts that an earlier run had finished, and the warnings.
-std::tuple<std::size_t, std::vector<std::string>> partition_file(const Path& mesh, const std::optional<Path>& faces,
-                                                                 const Path& folder, std::uint64_t parts,
-                                                                 std::uint64_t vertices_per_part, double halo,
-                                                                 bool halo_in_edges, std::uint64_t memory,
-                                                                 unsigned threads, bool resume, nb::handle progress) {
+/// Returns the warnings.
+std::vector<std::string> partition_file(const Path& mesh, const std::optional<Path>& faces, const Path& folder,
+                                        std::uint64_t parts, std::uint64_t vertices_per_part, double halo,
+                                        bool halo_in_edges, std::uint64_t memory, unsigned threads, bool resume,
+                                        nb::handle progress) {
   // A mesh that is read into memory takes several times the bytes of its file.
   constexpr std::uint64_t kMemoryPerByte = 4;
   const parts::PartitionOptions options{.parts = parts,
@@ -49,8 +47,7 @@ std::tuple<std::size_t, std::vector<std::string>> partition_file(const Path& mes
   return without_lock([&] {
     const auto opened =
         faces ? parts::open_arrays(mesh, *faces) : parts::open_mesh(mesh, memory / kMemoryPerByte, run.progress);
-    parts::PartitionResult result = parts::partition(*opened, folder, options, run);
-    return std::tuple(result.kept, std::move(result.warnings));
+    return parts::partition(*opened, folder, options, run).warnings;
   });
 }
 
@@ -63,7 +60,6 @@ nb::dict manifest_of(const Path& folder) {
   }
   nb::dict result;
   result["vertices"] = plan.vertices;
-  result["faces"] = plan.faces;
   result["mean_edge_length"] = plan.mean_edge_length;
   result["halo"] = plan.halo;
   result["parts"] = listed;

@@ -14,6 +14,7 @@
 #include "meshhood/patch.h"
 #include "meshhood/surface.h"
 
+#include "about.h"
 #include "arrays.h"
 #include "batch_query.h"
 #include "bindings.h"
@@ -87,7 +88,9 @@ Surface of_mesh(const Mesh& given) {
 
 Surface of_normals(const ExactMethod& method, const Reals& normals, const std::optional<Faces>& given) {
   const FacesView faces = given ? faces_of(*given) : FacesView{};
-  return without_lock([&] { return Surface::of_normals(method.index(), numbers_of(normals), faces); });
+  return without_lock([&] {
+    return about("normals", [&] { return Surface::of_normals(method.index(), numbers_of(normals), faces); });
+  });
 }
 
 /// The columns of the points that `find(visit)` visits, with the places of corners in the face.

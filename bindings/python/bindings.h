@@ -5,23 +5,18 @@
 
 #include "meshhood/surface.h"
 
-#include "methods.h"
-
 /// The extension module of the Python package: conversions, and the interpreter lock. Arguments have been checked and
 /// converted by meshhood/_mesh.py and meshhood/_convert.py.
 namespace meshhood::python {
 
-/// The methods that answer queries, and the nearest vertices of many: connected, and not connected.
-nanobind::class_<ExactMethod, Method> bind_methods(nanobind::module_& module);
+/// The methods that answer queries: neighborhoods, regions, connecting radii, rings and nearest vertices.
+void bind_methods(nanobind::module_& module);
 
 /// Sums and other properties of values over neighborhoods.
 void bind_aggregates(nanobind::module_& module);
 
 /// The functions that make an index, and the other methods from it.
 void bind_makers(nanobind::module_& module);
-
-/// Regions, connecting radii, rings and nearest vertices.
-void bind_queries(nanobind::class_<ExactMethod, Method>& exact);
 
 /// Surfaces: closest points, regions as meshes, and areas, volumes and gaps of the surface in a ball.
 nanobind::class_<Surface> bind_surface(nanobind::module_& module);

@@ -69,10 +69,9 @@ NB_MODULE(_core, module) {
   // A daemon thread that sleeps while the process ends keeps its objects.
   nb::set_leak_warnings(false);
   nb::register_exception_translator(meshhood::python::translate);
-  auto exact = meshhood::python::bind_methods(module);
+  meshhood::python::bind_methods(module);
   meshhood::python::bind_aggregates(module);
   meshhood::python::bind_makers(module);
-  meshhood::python::bind_queries(exact);
   auto surface = meshhood::python::bind_surface(module);
   meshhood::python::bind_curvature(module, surface);
   meshhood::python::bind_files(module);

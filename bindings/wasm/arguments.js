@@ -60,10 +60,6 @@ export function expectNumber(value, name) {
   if (typeof value !== 'number') throw new TypeError(`${name} ${String(value)}, expected a number`);
 }
 
-export function expectRadius(radius) {
-  expectNumber(radius, 'radius');
-}
-
 /** Of how many vertices. */
 export function expectSize(k, name) {
   if (!Number.isInteger(k) || k < 0) throw new TypeError(`${name}: ${String(k)}, expected a whole number >= 0`);

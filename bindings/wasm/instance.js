@@ -115,7 +115,8 @@ export class Instance {
   #host() {
     return {
       keep_error: (code, message, size) => {
-        this.#error = new MeshhoodError(CODES[code], this.text(message, size));
+        const text = new TextDecoder().decode(this.view(Uint8Array, message, size));
+        this.#error = new MeshhoodError(CODES[code], text);
       },
       report_progress: (done, total) => {
         if (this.#progress === null) return 1;
@@ -219,16 +220,21 @@ export class Instance {
     return this.view(Type, address, count).slice();
   }
 
+  /** A copy of the array `name`, whose functions in the module return its address and its size. */
+  takeArray(Type, name) {
+    return this.take(Type, this.call(name), this.call(`${name}_size`));
+  }
+
   takeIds() {
-    return this.take(Uint32Array, this.call('answer_ids'), this.call('answer_ids_size'));
+    return this.takeArray(Uint32Array, 'answer_ids');
   }
 
   takeReals() {
-    return this.take(Float64Array, this.call('answer_reals'), this.call('answer_reals_size'));
+    return this.takeArray(Float64Array, 'answer_reals');
   }
 
   takeCounts() {
-    return this.take(Uint32Array, this.call('answer_counts'), this.call('answer_counts_size'));
+    return this.takeArray(Uint32Array, 'answer_counts');
   }
 
   /** All of an answer that may be large, whose memory the module gives back. */
@@ -236,10 +242,6 @@ export class Instance {
     const answer = { ids: this.takeIds(), reals: this.takeReals(), counts: this.takeCounts() };
     this.call('release_answer');
     return answer;
-  }
-
-  text(address, size) {
-    return new TextDecoder().decode(this.view(Uint8Array, address, size));
   }
 }
 

@@ -23,17 +23,16 @@ export function readMesh(bytes, name, options = {}) {
 }
 
 function takeMesh(instance) {
-  const take = (Type, address, count) => instance.take(Type, instance.call(address), instance.call(count));
   const Reals = instance.call('mesh_is_double') ? Float64Array : Float32Array;
   const { ids, counts } = instance.takeAnswer();
-  const walls = take(Uint8Array, 'mesh_walls', 'mesh_wall_count');
-  const warnings = instance.call('mesh_warnings');
+  const walls = instance.takeArray(Uint8Array, 'mesh_walls');
+  const warnings = instance.takeArray(Uint8Array, 'mesh_warnings');
   return {
     format: FORMATS[instance.call('mesh_format')],
-    positions: take(Reals, 'mesh_positions', 'mesh_scalar_count'),
+    positions: instance.takeArray(Reals, 'mesh_positions'),
     corners: ids,
     offsets: counts.length === 0 ? null : counts,
     walls: walls.length === 0 ? null : walls,
-    warnings: instance.text(warnings, instance.call('warnings_size')).split('\n').filter((line) => line !== ''),
+    warnings: new TextDecoder().decode(warnings).split('\n').filter((line) => line !== ''),
   };
 }

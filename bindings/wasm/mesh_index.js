@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import {
-  choose, chooseSome, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectRadius, expectSize,
+  choose, chooseSome, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectSize,
   expectType, expectVertex, expectVertices, toReals, withDefaults, withFaces, withMesh, withPositions,
 } from './arguments.js';
 import { Curvature } from './curvature.js';
@@ -120,8 +120,7 @@ export class MeshIndex extends Owner {
   }
 
   save() {
-    const address = this.instance.call('save');
-    const bytes = this.instance.take(Uint8Array, address, this.instance.call('saved_size'));
+    const bytes = this.instance.takeArray(Uint8Array, 'save');
     this.instance.call('release_saved');
     return bytes;
   }
@@ -168,10 +167,6 @@ export class MeshIndex extends Owner {
     return { meanRadius, rebuiltRadius, gain };
   }
 
-  #expectVertex(v) {
-    expectVertex(v, this.#vertexCount);
-  }
-
   #scale(unit) {
     if (choose(UNITS, unit, 'unit') === 0) return 1;
     const length = this.meanEdgeLength;
@@ -199,14 +194,14 @@ export class MeshIndex extends Owner {
   count(start, r, options = {}) {
     const given = withDefaults(options, QUERY_OF_START);
     const place = chooseMethodFrom(start, given);
-    expectRadius(r);
+    expectNumber(r, 'radius');
     return this.#search(start, given, () => this.instance.call('count', place, this.#scale(given.unit) * r) >>> 0);
   }
 
   /** The answer is then in the memory of the module. Returns the number of its ids. */
   #find(start, r, given, distances) {
     const place = chooseMethodFrom(start, given);
-    expectRadius(r);
+    expectNumber(r, 'radius');
     return this.#search(start, given, () => {
       this.#warnUnless(this.instance.call('neighborhood', place, this.#scale(given.unit) * r, distances));
       return this.instance.call('answer_ids_size') >>> 0;
@@ -225,15 +220,15 @@ export class MeshIndex extends Owner {
 
   contains(start, w, r, options = {}) {
     const given = withDefaults(options, SCALED_SEARCH);
-    this.#expectVertex(w);
-    expectRadius(r);
+    expectVertex(w, this.#vertexCount);
+    expectNumber(r, 'radius');
     const radius = this.#scale(given.unit) * r;
     return this.#search(start, given, () => this.instance.call('contains', w, radius)) !== 0;
   }
 
   connectingRadius(start, w, options = {}) {
     const search = withDefaults(options, SEARCH);
-    this.#expectVertex(w);
+    expectVertex(w, this.#vertexCount);
     return this.#search(start, search, () => this.instance.call('connecting_radius', w));
   }
 
@@ -292,7 +287,7 @@ export class MeshIndex extends Owner {
   /** Calls `use` while the start and the masks are in the memory of the module, and returns its result. */
   #search(start, given, use) {
     const { seeds } = given;
-    if (isVertex(start)) this.#expectVertex(start);
+    if (isVertex(start)) expectVertex(start, this.#vertexCount);
     else expectPoint(start, 'start');
     if (seeds !== null && isVertex(start)) {
       throw new MeshhoodError('InvalidOption', 'seeds: expected null, for the start is a vertex');
@@ -334,7 +329,7 @@ export class MeshIndex extends Owner {
   kNearest(k, options = {}) {
     const given = withDefaults(options, NEAREST);
     expectSize(k, 'k');
-    expectRadius(given.r);
+    expectNumber(given.r, 'radius');
     const { ids, reals } = this.#askRows(given.r, given, () => this.instance.call('k_nearest', k));
     return { ids, distances: reals };
   }
@@ -344,7 +339,7 @@ export class MeshIndex extends Owner {
     expectNumber(area, 'area');
     const areas = this.#weights(given.weights, given.faces);
     if (areas === null) throw new TypeError("weights: null, expected 'area' or a typed array of numbers");
-    expectRadius(given.r);
+    expectNumber(given.r, 'radius');
     const { ids, reals, counts } = this.#askRows(given.r, given, () => this.instance.with([areas], (list) =>
       this.instance.call('discs', area, list, areas.length)));
     return { offsets: counts, ids, distances: reals };
@@ -414,9 +409,9 @@ export class MeshIndex extends Owner {
 
   #callOnPatch(name, start, r, given, ...values) {
     const { face, faces, walls, unit } = given;
-    expectRadius(r);
+    expectNumber(r, 'radius');
     if (isVertex(start)) {
-      expectVertex(start, this.vertexCount);
+      expectVertex(start, this.#vertexCount);
       if (face !== null) throw new MeshhoodError('InvalidOption', 'face: expected a point as start');
     } else {
       expectPoint(start, 'start');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import {
-  choose, expectMesh, expectPoint, expectRadius, expectType, expectVertex, withDefaults, withMesh,
+  choose, expectMesh, expectNumber, expectPoint, expectType, expectVertex, withDefaults, withMesh,
 } from './arguments.js';
 import { Owner, makeInstance } from './instance.js';
 
@@ -39,7 +39,7 @@ export class RegionMesh extends Owner {
   }
 
   rim(ids, start, r) {
-    expectRadius(r);
+    expectNumber(r, 'radius');
     this.#call('rim', ids, ...this.#center(start), r);
     const points = this.instance.takeReals();
     const edges = this.instance.takeIds();

@@ -27,18 +27,18 @@ The calls, by what they answer; those without a dot are of `MeshIndex`, and help
 
 from . import _core
 from ._aggregate import smoothing_radius, vertex_areas
-from ._curvature import Curvature
-from ._files import Mesh, load, read_mesh, write_mesh
-from ._index import Chunk, MeshIndex, Quality
-from ._libigl import principal_curvature
-from ._methods import Paper
-from ._moments import (
+from ._curvature import (
     CorrectedCurvature,
+    Curvature,
     Persistence,
     PrincipalComponents,
     geometric_radii,
     persistence,
 )
+from ._files import Mesh, load, read_mesh, write_mesh
+from ._index import Chunk, MeshIndex, Quality
+from ._libigl import principal_curvature
+from ._methods import Paper
 from ._padded import padded
 from ._partition import partition
 from ._patches import Gap, Gaps, Invariants, Measure

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _convert, _core
-from ._atomic_file import atomic_file
 from ._index import MeshIndex
 from ._mesh import face_arrays, kept_faces, mesh_arrays, text_of_unplaced, warn_if_coarse, without_them
 from ._other_files import WRITERS, Writing, bytes_of, read_other
@@ -128,7 +127,7 @@ def write_mesh(
         if extension != ".vtp" and not os.fsdecode(path).lower().endswith((".shape.gii", ".func.gii")):
             warn_if_coarse((np.asarray(positions, np.float32), *mesh[1:]), 3)
         content = bytes_of(extension, Writing(*mesh, named, colors), os.fsdecode(path))
-        with atomic_file(path) as file:
+        with _core.FileWriter(path) as file:
             file.write(content)
         return
     _core.write_mesh(path, whole, values=named, colors=colors, walls=walls, vtk=extension == ".vtk")

@@ -174,11 +174,7 @@ class Held:
             if F is not None and not needs_faces:
                 raise ValueError("F: expected None, because the normals are given")
             arrays = self._face_arrays(F) if needs_faces else None
-            values = normals_of(normals, self._count)
-            try:
-                return _core.surface_of_normals(self._exact, values, arrays)
-            except ValueError as error:
-                raise ValueError(f"normals: {error}") from None
+            return _core.surface_of_normals(self._exact, normals_of(normals, self._count), arrays)
         return self._surface_of(*self._keyed_faces(F))
 
     def _surface_of(self, key: bytes, arrays: tuple[Any, Any]) -> Any:

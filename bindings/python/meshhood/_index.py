@@ -523,9 +523,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
             raise ValueError(f"V: {len(positions)} positions, but the index has {self._count} vertices")
         positions = _copied(positions, moved)
         with reporter(progress, "refit") as report:
-            exact = _core.refit(
-                whole, positions, changed=moved, threads=_convert.threads(workers), progress=report
-            )
+            exact = _core.refit(whole, positions, changed=moved, threads=_convert.threads(workers), progress=report)
         index = type(self)._holding(exact, self._faces)
         if moved is not None:
             index._follow(self, moved)
@@ -544,9 +542,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         """
         return Quality(*self._exact.quality())
 
-    def save(
-        self, path: Union[str, os.PathLike[str]], *, faces: bool = False, progress: Progress = None
-    ) -> None:
+    def save(self, path: Union[str, os.PathLike[str]], *, faces: bool = False, progress: Progress = None) -> None:
         """Writes the index to a file for `load`. The same mesh gives the same bytes on every machine.
 
         faces : also write the faces that the index keeps, so that the loaded index has them: 4 bytes for each corner
@@ -564,6 +560,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         exact = self._placed("saved")
         with reporter(progress, "save", "bytes") as report:
             _core.save(exact, path, faces=arrays, progress=report)
+
 
 def _copied(positions: Any, rows: Any) -> Any:
     """A copy, because another thread may write to `positions` once they are checked. With `rows`, only these are set:

@@ -16,9 +16,7 @@ from ._index import MeshIndex
 
 def principal_curvature(
     V: Any, F: Any, radius: int = 5, useKring: bool = False, *, workers: int = -1
-) -> tuple[
-    NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]
-]:
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]:
     """As `igl.principal_curvature` of libigl, with the same results: PD1, PD2 (#V, 3), PV1, PV2 (#V,), and the vertices
     without a result. libigl's default is useKring=True.
 

@@ -254,7 +254,7 @@ def _parts(mesh):
     if hasattr(mesh, "GetPolys") and not hasattr(mesh, "n_points"):  # not PyVista's own class
         return _vtk_parts(mesh)
     if hasattr(mesh, "triangle") and hasattr(mesh, "vertex"):  # Open3D's tensors
-        return _open3d_array(mesh.vertex.positions), _open3d_array(mesh.triangle.indices)
+        return mesh.vertex.positions.cpu().numpy(), mesh.triangle.indices.cpu().numpy()
     if hasattr(mesh, "points") and isinstance(getattr(mesh, "cells", None), list):
         return mesh.points, _meshio_polygons(mesh)
     if hasattr(mesh, "points") and (hasattr(mesh, "GetPolys") or hasattr(mesh, "faces")):
@@ -325,10 +325,6 @@ def _vtk_parts(mesh):
     return vtk_to_numpy(mesh.GetPoints().GetData()), faces
 
 
-def _open3d_array(tensor):
-    return tensor.cpu().numpy()
-
-
 def _pyvista_faces(mesh):
     """The offsets and corners that VTK stores. To make the padded array `faces` of them, PyVista trusts the offsets and
     may read beyond the corners."""
@@ -362,6 +358,17 @@ def _meshio_block(block):
     if data.ndim != 2 or sides not in (None, data.shape[1]):
         raise ValueError(f"V: has cells of type {block.type!r} in an array of shape {data.shape}")
     return data
+
+
+def poly_data(pyvista, positions, corners, offsets):
+    """The other way: a pyvista.PolyData of what `mesh_arrays` returns. The module is an argument, because it may not be
+    installed."""
+    if offsets is None:
+        offsets = np.arange(0, len(corners) + 1, 3)
+    mesh = pyvista.PolyData()
+    mesh.points = positions
+    mesh.SetPolys(pyvista.CellArray.from_arrays(np.asarray(offsets, np.int64), np.asarray(corners, np.int64)))
+    return mesh
 
 
 def placed(mesh, stacklevel):

@@ -12,9 +12,8 @@ from typing import Any, Callable, NamedTuple, Optional
 import numpy as np
 
 from . import _core
-from ._mesh import face_arrays, mesh_arrays, text_of_walls
+from ._mesh import face_arrays, mesh_arrays, poly_data, text_of_walls
 from ._optional import optional
-from ._poly_data import poly_data
 
 # Positions, faces, and what the reader has to say. Of a library, any form that `mesh_arrays` takes.
 _Read = tuple[Any, Any, list[str]]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The tasks of `distributed`: functions of one part, or of one mesh, which run on a worker."""
+"""The tasks of `distributed`: functions of one part, or of one mesh, which run on a worker; and what runs them, on the
+threads of this machine or on the cluster of the current `dask.distributed.Client`."""
 
 from __future__ import annotations
 
@@ -9,11 +10,13 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-from ._atomic_file import atomic_file
+from . import _core
 from ._curvature import BEYOND_HALO, FEWEST_POINTS, NO_NORMAL
 from ._files import load, read_mesh
 from ._index import MeshIndex
 from ._open_part import OpenPart, PartName
+from ._optional import optional
+from ._progress import Progress, reporter
 from ._result_files import SAVERS
 
 _ROWS = 4096  # searched at once, so that a part of any size takes little memory
@@ -39,7 +42,7 @@ def on_mesh(function: Callable[[MeshIndex], Any], file: Optional[str], mesh: str
             error.add_note(f"in {mesh}")
         raise
     if file is not None:
-        with atomic_file(file) as target:
+        with _core.FileWriter(file) as target:
             np.save(target, np.asarray(result), allow_pickle=False)
     return result if file is None else None
 
@@ -137,7 +140,7 @@ def save_rows(function: PartFunction, path: str, part: OpenPart) -> None:
     rows = np.asarray(function(part, part.index, part.owned))
     if rows.shape[:1] != (len(part.owned),):
         raise ValueError(f"function: an array of shape {rows.shape} for part {part.number}, expected {len(part.owned)} rows")
-    with atomic_file(path) as target:
+    with _core.FileWriter(path) as target:
         np.save(target, rows, allow_pickle=False)
 
 
@@ -159,3 +162,54 @@ def save_neighborhoods(radius: float, format: str, distances: bool, path: str, p
     if distances:
         arrays.append(("distances", np.float64, int(indptr[-1]), lambda: chunks(True)))
     SAVERS[format](path, arrays)
+
+
+def run_all(tasks: list[tuple[Callable[[Any], Any], Any]], progress: Progress) -> list[Any]:
+    """The results of `function(argument)` for all tasks: on the cluster of the current client, else on threads."""
+    client = _client()
+    with reporter(progress, "parts", "tasks") as report:
+        if report:
+            report(0, len(tasks))
+        if client is None:
+            return _run_here(tasks, report)
+        return _run_on(client, tasks, report)
+
+
+def _client() -> Any:
+    try:
+        from distributed import get_client
+    except ImportError:
+        return None
+    try:
+        return get_client()
+    except ValueError:
+        return None
+
+
+def _run_here(tasks: Any, report: Any) -> list[Any]:
+    dask = optional("dask", "a task for each part")
+    from dask.callbacks import Callback
+
+    class Count(Callback):
+        done = 0
+
+        def _posttask(self, *_: Any) -> None:
+            Count.done += 1
+            if report:
+                report(min(Count.done, len(tasks)), len(tasks))
+
+    with Count():
+        return list(dask.compute(*(dask.delayed(function)(argument) for function, argument in tasks)))
+
+
+def _run_on(client: Any, tasks: Any, report: Any) -> list[Any]:
+    from distributed import as_completed
+
+    futures = [client.submit(function, argument, pure=False) for function, argument in tasks]
+    try:
+        for done, _ in enumerate(as_completed(futures), 1):
+            if report:
+                report(done, len(tasks))
+        return list(client.gather(futures))
+    finally:
+        client.cancel(futures)

@@ -6,13 +6,11 @@ from __future__ import annotations
 import os
 import re
 import warnings
-from typing import TYPE_CHECKING, Literal, Optional, Union
+from typing import Literal, Optional, Union
 
 from . import _convert, _core
 from ._progress import Progress, reporter
-
-if TYPE_CHECKING:
-    from .distributed import Parts
+from .distributed import Parts
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -58,8 +56,6 @@ def partition(
     >>> meshhood.partition(("V.npy", "F.npy"), "parts", parts=2, halo=0.3)
     <meshhood.distributed.Parts: 642 vertices in 2 parts, halo 0.3>
     """
-    from .distributed import open_parts
-
     vertices, faces = mesh if isinstance(mesh, tuple) else (mesh, None)
     folder = _convert.path(folder)
     options = {
@@ -74,12 +70,12 @@ def partition(
     if (parts is None) == (vertices_per_part is None):
         raise ValueError("parts, vertices_per_part: expected one of them")
     with reporter(progress, "partition") as report:
-        _, notes = _core.partition(
+        notes = _core.partition(
             _convert.path(vertices), None if faces is None else _convert.path(faces), folder, **options, progress=report
         )
     for note in notes:
         warnings.warn(note, stacklevel=2)
-    return open_parts(folder)
+    return Parts(folder)
 
 
 def _bytes(memory):

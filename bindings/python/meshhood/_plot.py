@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike
 
 from . import _convert
 from ._index import MeshIndex
-from ._mesh import mesh_arrays
+from ._mesh import mesh_arrays, poly_data
 from ._optional import optional
-from ._poly_data import poly_data
 from ._types import Mask, Metric, Number, Unit, Vertex
 
 # A vertex that belongs to nothing, and to each layer of a plot, the last in front; the colors of the paper.
@@ -71,7 +70,8 @@ def plot_neighborhood(
     labels = np.zeros(len(index), np.uint8)
     for label, found in enumerate(layers.values(), start=len(_COLORS) - len(layers)):
         labels[found] = label
-    mesh = poly_data(pyvista, *_mesh_of(index, V, F))
+    arrays = (index.positions, *index._face_arrays(F)) if V is None else mesh_arrays(V, F)
+    mesh = poly_data(pyvista, *arrays)
     if mesh.n_points != len(index):
         raise ValueError(f"V: {mesh.n_points} vertices, but the index has {len(index)}")
     drawn = pyvista.Plotter() if plotter is None else plotter
@@ -98,12 +98,6 @@ def _layers(index: MeshIndex, v: int, r: Any, words: Any, unit: Unit) -> dict[st
     if words["metric"] == "straight" and words["walls"] is None and words["ignored"] is None:
         return {"ball": ball, "paper": index.neighborhood(v, r, unit=unit, method="paper"), "exact": exact}
     return {"ball": ball, "straight": exact, "asked": index.neighborhood(v, r, unit=unit, **words)}
-
-
-def _mesh_of(index: MeshIndex, V: Any, F: Any) -> Any:
-    if V is not None:
-        return mesh_arrays(V, F)
-    return index.positions, *index._face_arrays(F)
 
 
 def _add_dot(plotter, point):

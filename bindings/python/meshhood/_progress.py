@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import warnings
 from collections.abc import Callable, Iterator
 from typing import Any, Optional, Union
@@ -29,15 +30,11 @@ def in_parts(report: Report, count: int) -> list[Report]:
     """A function for each of `count` calls that follow each other: together they report from 0 to the end once."""
     if report is None or count == 1:
         return [report] * count
-    return [_Part(report, number, count) for number in range(count)]
+    return [functools.partial(_report_part, report, number, count) for number in range(count)]
 
 
-class _Part:
-    def __init__(self, report: Callable[[int, int], object], number: int, count: int) -> None:
-        self._report, self._number, self._count = report, number, count
-
-    def __call__(self, done: int, total: int) -> None:
-        self._report(self._number * total + done, self._count * total)
+def _report_part(report: Callable[[int, int], object], number: int, count: int, done: int, total: int) -> None:
+    report(number * total + done, count * total)
 
 
 @contextlib.contextmanager

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union, ove
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _convert, _core
+from . import _convert
 from ._held import Held
 from ._methods import Method, core_metric
 from ._progress import Progress, reporter

@@ -11,9 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._aggregate import vertex_areas
 from ._held import Held
-from ._mesh import whole_mesh_arrays
+from ._mesh import poly_data, whole_mesh_arrays
 from ._optional import optional
-from ._poly_data import poly_data
 from ._repr import shown_in_a_line
 from ._types import Ids
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ._atomic_file import atomic_file
+from . import _core
 
 try:
     import fcntl
@@ -36,7 +36,7 @@ def result_folder(folder: str, described: dict[str, Any]) -> Iterator[None]:
         elif os.listdir(folder):
             raise ValueError(f"{folder}: expected an empty folder, or one with results of the same call")
         else:
-            with atomic_file(path) as target:
+            with _core.FileWriter(path) as target:
                 target.write(json.dumps(described, indent=1).encode())
         for left in Path(folder).glob(".*.tmp"):  # of a worker that was killed
             shutil.rmtree(left) if left.is_dir() else left.unlink()
@@ -77,7 +77,7 @@ def _check_same(path: str, described: dict[str, Any]) -> None:
 def _save_npz(path: str, arrays: Any) -> None:
     import zipfile
 
-    with atomic_file(path) as target, zipfile.ZipFile(target, "w", zipfile.ZIP_STORED) as archive:
+    with _core.FileWriter(path) as target, zipfile.ZipFile(target, "w", zipfile.ZIP_STORED) as archive:
         for name, dtype, count, pieces in arrays:
             header = {"descr": np.dtype(dtype).str, "fortran_order": False, "shape": (count,)}
             with archive.open(f"{name}.npy", "w", force_zip64=True) as member:

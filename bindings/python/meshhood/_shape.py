@@ -10,9 +10,8 @@ import numpy as np
 
 from . import _convert, _core
 from ._aggregate import area_weights
-from ._curvature import Curvature
+from ._curvature import CorrectedCurvature, Curvature, PrincipalComponents
 from ._held import Held
-from ._moments import CorrectedCurvature, PrincipalComponents
 from ._progress import Progress
 from ._rows import read_rows, result_dtype
 from ._types import AnyVertices, Floats, Mask, Metric, Radii, Scales, Unit, Weights

@@ -227,9 +227,7 @@ class SurfaceQueries(Held):
         """Faces, barycentric coordinates in them, points and distances, as a call of the surface of `F` finds them."""
         key, (corners, offsets) = self._keyed_faces(F)
         find = getattr(self._surface_of(key, (corners, offsets)), name)
-        distances, faces, places, weights, found = find(
-            *points, threads=_convert.threads(workers), progress=report
-        )
+        distances, faces, places, weights, found = find(*points, threads=_convert.threads(workers), progress=report)
         if offsets is not None:
             weights = _of_polygons(places, weights, int(np.diff(offsets).max()))
         return faces, weights, found, distances

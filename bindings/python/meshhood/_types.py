@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal, Optional, Union, get_args
+from typing import Any, Literal, Union, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray

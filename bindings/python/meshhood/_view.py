@@ -13,8 +13,7 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from . import _convert
-from ._atomic_file import atomic_file
+from . import _convert, _core
 from ._mesh import mesh_arrays, placed
 from ._other_files import binary_ply
 from ._types import Number, Unit, Vertex, Vertices
@@ -41,7 +40,7 @@ class Page:
 
         >>> meshhood.view(V, F).save("hand.html")
         """
-        with atomic_file(path) as file:
+        with _core.FileWriter(_convert.path(path)) as file:
             file.write(self.html.encode())
 
     def open(self, path: Union[str, os.PathLike[str]]) -> None:
@@ -93,7 +92,9 @@ def view(
     built before this package was installed.
     """
     page = _built_page()
-    positions, corners, offsets = _surface(V, F)
+    if hasattr(F, "tocoo"):
+        raise TypeError("F: expected faces, not a graph")
+    positions, corners, offsets = placed(mesh_arrays(V, F), stacklevel=3)[0]
     settings = _settings(len(positions), v, r, unit, ids, values, name)
     script = json.dumps(settings).replace("<", "\\u003c")
     mesh = base64.b64encode(binary_ply(positions, corners, offsets)).decode("ascii")
@@ -116,12 +117,6 @@ def _built_page() -> str:
     if _PLACE not in text:
         raise ValueError(f"{path}: is not the page of the viewer")
     return text
-
-
-def _surface(V: Any, F: Any) -> Any:
-    if hasattr(F, "tocoo"):
-        raise TypeError("F: expected faces, not a graph")
-    return placed(mesh_arrays(V, F), stacklevel=4)[0]
 
 
 def _settings(count: int, v: Any, r: Any, unit: Any, ids: Any, values: Any, name: Any) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Optional, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike
 
 from . import _convert, _core
 from ._aggregate import Kernel, Reductions, read_reductions
@@ -36,6 +36,7 @@ from ._part_tasks import (
     on_part,
     owned_ids,
     result_rows,
+    run_all,
     save_neighborhoods,
     save_rows,
     shape_of,
@@ -43,7 +44,6 @@ from ._part_tasks import (
 from ._optional import optional
 from ._progress import Progress
 from ._result_files import result_folder
-from ._run_tasks import run_all
 from ._types import Unit
 
 if TYPE_CHECKING:

@@ -7,12 +7,9 @@
 
 #include "answer.h"
 #include "arguments.h"
-#include "rows.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
-
-extern "C" {
 
 [[clang::export_name("aggregate")]] void aggregate(const double* values, std::size_t value_count, std::size_t channels,
                                                    const double* weights, std::size_t weight_count,
@@ -41,7 +38,5 @@ extern "C" {
 [[clang::export_name("areas")]] void areas() {
   answer.reals = vertex_areas({workspace.graph().view().positions, given.faces});
 }
-
-}  // extern "C"
 
 }  // namespace meshhood::wasm

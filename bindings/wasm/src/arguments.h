@@ -20,6 +20,10 @@ inline std::span<const std::byte> view_bytes(const void* data, std::size_t size)
 /// Borrows the arrays.
 inline MeshView given;
 
+/// The rows of a call on many vertices, their radii and metric. `search_by` sets the metric, and `use_rows` the rest,
+/// which borrows its arrays for the call that follows.
+inline BatchQuery rows;
+
 /// All vertices if `vertices` is null.
 inline BatchVertices view_vertices(const VertexId* vertices, std::size_t count) {
   if (vertices == nullptr) return {};

@@ -6,12 +6,10 @@
 #include "meshhood/meshhood.h"
 
 #include "answer.h"
-#include "rows.h"
+#include "arguments.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
-
-extern "C" {
 
 [[clang::export_name("use_normals")]] void use_normals(const double* normals, std::size_t scalars) {
   workspace.use_normals({normals, scalars});
@@ -34,7 +32,5 @@ extern "C" {
   answer.reals =
       meshhood::features(workspace.surface(), rows, {.kinds = {kinds, kinds + kind_count}, .filter = filter});
 }
-
-}  // extern "C"
 
 }  // namespace meshhood::wasm

@@ -26,8 +26,6 @@ IndicesView view_indices(const void* indices, std::size_t count, bool is_signed)
 
 }  // namespace
 
-extern "C" {
-
 [[clang::export_name("take_positions")]] void take_positions(const void* xyz, std::size_t scalars, bool is_double) {
   if (is_double) {
     given.positions = std::span(static_cast<const double*>(xyz), scalars);
@@ -61,7 +59,7 @@ extern "C" {
   workspace.refit(given.positions, list);
 }
 
-/// Returns the bytes of the index file; `saved_size` has their number.
+/// Returns the bytes of the index file; `save_size` has their number.
 [[clang::export_name("save")]] const std::byte* save() {
   saved.clear();
   meshhood::save(workspace.index(),
@@ -69,7 +67,7 @@ extern "C" {
   return saved.data();
 }
 
-[[clang::export_name("saved_size")]] std::size_t saved_size() { return saved.size(); }
+[[clang::export_name("save_size")]] std::size_t save_size() { return saved.size(); }
 
 [[clang::export_name("release_saved")]] void release_saved() { saved = {}; }
 
@@ -106,7 +104,5 @@ extern "C" {
   const Quality found = meshhood::quality(workspace.index());
   answer.reals = {found.mean_radius, found.rebuilt_radius, found.gain};
 }
-
-}  // extern "C"
 
 }  // namespace meshhood::wasm

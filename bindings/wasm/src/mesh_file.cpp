@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mesh files: JavaScript copies the arrays of the mesh, and drops the instance.
+// Mesh files, and welding: JavaScript copies the arrays of the mesh, and drops the instance.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -10,6 +10,7 @@
 #include "arguments.h"
 #include "host.h"
 #include "io/mesh_io.h"
+#include "io/weld.h"
 
 namespace meshhood::wasm {
 namespace {
@@ -18,8 +19,6 @@ io::Mesh file_mesh;
 std::string warnings;
 
 }  // namespace
-
-extern "C" {
 
 /// The ids of the answer are the corners, and the counts the offsets of polygons; none if all faces are triangles.
 [[clang::export_name("read_mesh")]] void read_mesh(const void* file, std::size_t size, const char* name,
@@ -38,24 +37,29 @@ extern "C" {
   return std::visit([](const auto& xyz) { return static_cast<const void*>(xyz.data()); }, file_mesh.positions);
 }
 
-[[clang::export_name("mesh_scalar_count")]] std::size_t mesh_scalar_count() {
+[[clang::export_name("mesh_positions_size")]] std::size_t mesh_positions_size() {
   return std::visit([](const auto& xyz) { return xyz.size(); }, file_mesh.positions);
 }
 
 /// Null if there are none.
 [[clang::export_name("mesh_walls")]] const std::uint8_t* mesh_walls() { return file_mesh.walls.data(); }
 
-[[clang::export_name("mesh_wall_count")]] std::size_t mesh_wall_count() { return file_mesh.walls.size(); }
+[[clang::export_name("mesh_walls_size")]] std::size_t mesh_walls_size() { return file_mesh.walls.size(); }
 
-/// One line for each warning, and their length.
+/// One line for each warning.
 [[clang::export_name("mesh_warnings")]] const char* mesh_warnings() {
   warnings.clear();
   for (const io::Warning& warning : file_mesh.warnings) warnings += warning.text() + '\n';
   return warnings.data();
 }
 
-[[clang::export_name("warnings_size")]] std::size_t warnings_size() { return warnings.size(); }
+[[clang::export_name("mesh_warnings_size")]] std::size_t mesh_warnings_size() { return warnings.size(); }
 
-}  // extern "C"
+/// The ids of the answer are those that the vertices get, the counts the new corners. The faces keep their offsets.
+[[clang::export_name("weld")]] void weld(double eps) {
+  const io::WeldedMesh welded = io::weld(given, eps);
+  answer.ids.assign(welded.ids.begin(), welded.ids.end());
+  answer.counts.assign(welded.corners.begin(), welded.corners.end());
+}
 
 }  // namespace meshhood::wasm

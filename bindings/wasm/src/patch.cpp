@@ -9,7 +9,6 @@
 
 #include "answer.h"
 #include "arguments.h"
-#include "rows.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
@@ -31,8 +30,6 @@ void answer_gaps(const std::vector<SurfacePoint>& gaps) {
 void answer_faces(const std::vector<std::size_t>& faces) { answer.counts.assign(faces.begin(), faces.end()); }
 
 }  // namespace
-
-extern "C" {
 
 /// See `answer_invariants`.
 [[clang::export_name("invariants")]] void invariants() {
@@ -92,7 +89,5 @@ extern "C" {
   answer = {};
   append_point(workspace.patch_searcher().gap(patch_start, radius));
 }
-
-}  // extern "C"
 
 }  // namespace meshhood::wasm

@@ -14,14 +14,15 @@
 
 #include "answer.h"
 #include "arguments.h"
-#include "rows.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
-namespace {
 
-/// The numbers are part of the interface with JavaScript. Of equal distances, the smaller id comes first.
+/// The numbers are part of the interface with JavaScript. Of equal distances, the smaller id comes first. Not in a
+/// namespace without a name: a function that takes it would not be exported.
 enum class VertexOrder : std::uint8_t { Index, Id, Distance };
+
+namespace {
 
 /// Of each vertex in index order.
 std::vector<std::uint32_t> places() {
@@ -63,8 +64,6 @@ void sort_rows(VertexOrder order, std::span<const std::uint32_t> offsets) {
 NearestOptions nearest_options() { return {.metric = rows.metric, .radius = rows.radius.common()}; }
 
 }  // namespace
-
-extern "C" {
 
 /// Puts the ids of the answer, and the distances, if there are any, into an order: each row by itself if the counts are
 /// its offsets.
@@ -109,7 +108,5 @@ extern "C" {
   answer.ids = std::move(found.ids);
   answer.reals = std::move(found.distances);
 }
-
-}  // extern "C"
 
 }  // namespace meshhood::wasm

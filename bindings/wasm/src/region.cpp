@@ -12,7 +12,6 @@
 
 #include "answer.h"
 #include "arguments.h"
-#include "rows.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
@@ -25,8 +24,6 @@ std::vector<std::size_t> region_sizes;
 void answer_sizes() { answer.counts.assign(region_sizes.begin(), region_sizes.end()); }
 
 }  // namespace
-
-extern "C" {
 
 [[clang::export_name("start_at_vertex")]] void start_at_vertex(VertexId v) { origin = v; }
 
@@ -113,7 +110,5 @@ extern "C" {
   answer.reals = {found.distance};
   return found.vertex;
 }
-
-}  // extern "C"
 
 }  // namespace meshhood::wasm

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The surface: its faces, points on them, and the thickness of its walls. `use_faces` comes first.
+// The surface: its faces, points on them, the thickness of its walls, and regions as meshes. `use_faces` or
+// `prepare_regions` comes first.
 #include <cstddef>
 
 #define XXH_INLINE_ALL  // NOLINT(readability-identifier-naming): the library's own
@@ -32,8 +33,6 @@ Fingerprint hash_faces(const FacesView& faces) {
 
 }  // namespace
 
-extern "C" {
-
 [[clang::export_name("use_faces")]] void use_faces() { workspace.use_faces(given.faces, hash_faces(given.faces)); }
 
 /// See `append_point`.
@@ -62,6 +61,37 @@ extern "C" {
   answer.reals = meshhood::thickness(workspace.surface(), numbers, {points, face_count}, method);
 }
 
-}  // extern "C"
+// Regions as meshes.
+
+[[clang::export_name("prepare_regions")]] void prepare_regions() {
+  workspace.build(given, {}, {});
+  workspace.use_faces(given.faces, {});
+}
+
+/// The counts of the answer are faces.
+[[clang::export_name("faces")]] void faces(const VertexId* ids, std::size_t count, Corners corners) {
+  const auto found = workspace.surface().faces({ids, count}, corners);
+  answer.counts.assign(found.begin(), found.end());
+}
+
+/// The ids of the answer are the vertices, and the counts first the offsets of the faces, then the corners.
+[[clang::export_name("submesh")]] void submesh(const VertexId* ids, std::size_t count, Corners corners) {
+  const Submesh part = workspace.surface().submesh({ids, count}, corners);
+  answer.ids.assign(part.vertices.begin(), part.vertices.end());
+  answer.counts.assign(part.offsets.begin(), part.offsets.end());
+  answer.counts.insert(answer.counts.end(), part.corners.begin(), part.corners.end());
+}
+
+/// The reals of the answer are the points, the ids the ends of their edges, and the counts first the offsets, then
+/// whether each polyline is closed.
+[[clang::export_name("rim")]] void rim(const VertexId* ids, std::size_t count, double x, double y, double z,
+                                       double radius) {
+  const Rim outline = workspace.surface().rim({ids, count}, {x, y, z}, radius);
+  answer = {};
+  append_rows(answer.reals, outline.points);
+  append_rows(answer.ids, outline.edges);
+  answer.counts.assign(outline.offsets.begin(), outline.offsets.end());
+  answer.counts.insert(answer.counts.end(), outline.closed.begin(), outline.closed.end());
+}
 
 }  // namespace meshhood::wasm
