@@ -91,7 +91,7 @@ struct PlyElement {
     return is_kept && (property.name == "vertex_indices" || property.name == "vertex_index");
   }
 
-  /// Which properties these are: those for which `is_it` holds.
+  /// The places of the properties for which `is_it` holds.
   template <class Predicate>
   [[nodiscard]] std::vector<std::size_t> find(Predicate&& is_it) const {
     std::vector<std::size_t> found;

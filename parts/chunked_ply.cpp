@@ -44,7 +44,7 @@ struct Layout {
   std::size_t corner_list = 0;            ///< its place among the properties of a face
 };
 
-/// Nothing unless there is each of them once. No property is a list.
+/// Nothing unless each of them occurs exactly once. No property is a list.
 std::optional<std::array<Coordinate, 3>> find_axes(const io::PlyElement& vertex) {
   std::array<Coordinate, 3> axes{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -56,7 +56,7 @@ std::optional<std::array<Coordinate, 3>> find_axes(const io::PlyElement& vertex)
   return axes;
 }
 
-/// Nothing unless there is one.
+/// Nothing unless there is exactly one, of integers.
 std::optional<std::size_t> find_corner_list(const io::PlyElement& face) {
   const auto found = face.find([&](const io::PlyProperty& property) { return face.has_corners(property); });
   if (found.size() != 1) return std::nullopt;

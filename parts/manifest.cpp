@@ -48,7 +48,7 @@ std::string first_line(std::string_view rest) {
   raise(ErrorCode::MalformedIndex, fmt::format("{}: {}", io::printable_name(file.string()), reason));
 }
 
-/// `rest`: the document behind its brace, which the first line has.
+/// `rest`: the document after its opening brace, which the first line has.
 void write_json(const std::filesystem::path& file, const std::string& rest) {
   io::FileWriter writer(file);
   writer.write(first_line(rest) + rest);

@@ -2,6 +2,7 @@
 #include "parts/part_writer.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -42,7 +43,8 @@ io::Faces read_faces(const Spill& spill, std::size_t number, std::span<const std
   for (std::uint64_t corners = 0; reader.next(corners);) {
     for (std::uint64_t i = 0; i < corners; ++i) {
       std::int64_t id = 0;
-      static_cast<void>(reader.next(id));
+      [[maybe_unused]] const bool has_all = reader.next(id);
+      assert(has_all);
       faces.append_corner(static_cast<std::uint32_t>(std::ranges::lower_bound(ids, id) - ids.begin()));
     }
     faces.end_face(corners);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -68,6 +69,7 @@ class SpillReader {
     static_assert(std::is_trivially_copyable_v<Record>);
     if (buffer_.size() - taken_ < sizeof(record)) fill();
     if (buffer_.size() == taken_) return false;
+    assert(buffer_.size() - taken_ >= sizeof(record));
     std::memcpy(&record, buffer_.data() + taken_, sizeof(record));
     taken_ += sizeof(record);
     return true;

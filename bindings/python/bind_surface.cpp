@@ -202,10 +202,12 @@ class Patches {
   [[nodiscard]] auto find_gaps_of_points(const Input& faces, const Points& points, const Call& call) const {
     const Run run = call.run();
     const IndicesView numbers = indices_of(faces, "face");
-    const std::vector<SurfacePoint> found =
-        without_lock([&] { return gaps(surface_, numbers, points_of(points), call.query().radius, run); });
-    SurfaceColumns columns(found.size());
-    for (std::size_t row = 0; row < found.size(); ++row) columns.set(row, found[row], found[row].vertices);
+    const BatchRadius radius = call.query().radius;
+    SurfaceColumns columns(BatchQuery{.radius = radius}.result_rows(points.shape(0)));
+    without_lock([&] {
+      const std::vector<SurfacePoint> found = gaps(surface_, numbers, points_of(points), radius, run);
+      for (std::size_t row = 0; row < found.size(); ++row) columns.set(row, found[row], found[row].vertices);
+    });
     return columns.arrays();
   }
 

@@ -36,13 +36,13 @@ const DISCS = { ...NEAREST, weights: 'area' };
 const SMOOTHING = { weights: null, nan: 'propagate', ...ROWS };
 const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, q: 0.5, ...SMOOTHING, scales: null };
 const CURVATURE = { ...SCALED_ROWS, normals: null, like: null, fit: 'quadric', filter: true };
-const SPOTS = { vertices: null, points: null, face: null, faces: null };
-const PATCHES = { ...SPOTS, ...MASKS, unit: 'mesh', scales: null };
+const VERTICES_OR_POINTS = { vertices: null, points: null, face: null, faces: null };
+const PATCHES = { ...VERTICES_OR_POINTS, ...MASKS, unit: 'mesh', scales: null };
 const PATCH = { face: null, faces: null, walls: null, unit: 'mesh' };
 const CLIP = { ...PATCH, tolerance: 1e-3 };
 const FEATURES = { ...SCALED_ROWS, kinds: 'crease', filter: true };
 const ON_FACES = { faces: null };
-const THICKNESS = { ...SPOTS, method: 'ray' };
+const THICKNESS = { ...VERTICES_OR_POINTS, method: 'ray' };
 
 function chooseMethod({ method, metric }) {
   const place = choose(METHODS, method, 'method');

@@ -611,8 +611,9 @@ export class MeshIndex {
   nearestUnconnected(r: Radii, options?: RowOptions): { vertex: Uint32Array; distance: Float64Array };
 
   /**
-   * The area of the patch of each vertex, the connected surface in the ball, and the volume of the part of the ball
-   * behind it, NaN where a border lies in the patch or where there is none. A point at exactly r counts.
+   * The area of the patch of each vertex or point, the connected surface in the ball, and the volume of the part of the
+   * ball behind it, NaN where a border lies in the patch or where there is none, as of a point farther than r from its
+   * face. A point at exactly r counts.
    *
    * @param r the radius, or one for each row; null with `scales`, which make the arrays #scales by #rows
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh
@@ -622,7 +623,7 @@ export class MeshIndex {
     volume: Float64Array;
   };
 
-  /** The gap of each vertex: the nearest point of the surface within r that is not of its patch. Throws likewise. */
+  /** The gap of each vertex or point: the nearest of the surface within r that is not of its patch. Throws likewise. */
   gaps(r: Radii | null, options: SurfaceOptions & PointOptions & Scales): Gaps;
 
   /**
@@ -697,8 +698,7 @@ export class MeshIndex {
    * face, which does not count, nor does another face that has the point on a side. Faces are oriented counterclockwise,
    * seen from outside. Infinity where nothing else is met, NaN for a vertex without a normal or a face without an area.
    *
-   * @param options `faces` as for `closestPoint`. In place of vertices, `points`, #rows by 3, and `face`, the face of
-   * each: the point of that face nearest to each of them counts
+   * @param options `faces` as for `closestPoint`. Of the face of each of `points`, the nearest point counts
    * @throws MeshhoodError VertexOutOfRange, InvalidMesh; InvalidOption, also for a face that the mesh does not have
    */
   thickness(options: PointOptions & {

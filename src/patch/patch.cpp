@@ -173,12 +173,10 @@ void for_each_point(const Surface& surface, const IndicesView& faces, std::span<
   constexpr std::size_t kPointsOfTask = 16;
   const SurfaceState& state = SurfaceAccess::state(surface);
   const FacePoints starts(state.faces(), faces, points);
-  std::vector<Rows> passes;
-  for (const BatchRadius& pass : radius_of_passes(radius)) {
-    passes.emplace_back(BatchQuery{.vertices = starts.corners(), .radius = pass}, surface.vertex_count());
-  }
+  const std::vector<BatchRadius> passes = radius_of_passes(radius);
   TaskContext task(run.threads, run.progress, passes.size() * starts.size());
   static_cast<void>(state.patches(task));  // before the threads begin: each of them would make it
+  const Rows rows({.vertices = starts.corners(), .radius = passes.front()}, surface.vertex_count());
   const RawVector<std::size_t> in_order =
       rows_by_position(starts.size(), [&](std::size_t row) { return state.index->slot[starts.corners()[row]]; }, task);
   std::vector<std::optional<PatchSearcher>> searchers(task.threads());
@@ -188,7 +186,8 @@ void for_each_point(const Surface& surface, const IndicesView& faces, std::span<
       const std::size_t row = in_order[i];
       const PatchStart start(starts.face(row), starts.point(row));
       for (std::size_t pass = 0; pass < passes.size(); ++pass) {
-        visit(*searchers[thread], start, passes[pass].radius(row), pass * starts.size() + row);
+        const double r = passes.size() == 1 ? rows.radius(row) : passes[pass].common();
+        visit(*searchers[thread], start, r, pass * starts.size() + row);
       }
       task.advance(thread, passes.size());
     }

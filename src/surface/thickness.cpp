@@ -7,16 +7,13 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "meshhood/error.h"
 #include "meshhood/surface.h"
 
 #include "base/vector.h"
 #include "batch/position_sort.h"
 #include "batch/rows.h"
-#include "exact/query/arguments.h"
 #include "shared/parallel.h"
 #include "surface/face_points.h"
 #include "surface/face_tree.h"

@@ -275,7 +275,7 @@ def clip(run, wrong):
         area, volume, gap = (document[name] for name in ("area", "volume", "gap"))
         expect(wrong, "area of chords", bool(0.9 * area < chords < area * (1 + 1e-12)), True)
         expect(wrong, "volume in the ball", volume is None or 0 <= volume <= 4 / 3 * math.pi * r**3 * (1 + 1e-12), True)
-        expect(wrong, "gap in the ball", gap is None or 0 <= gap["distance"] <= r, True)
+        expect(wrong, "gap in the ball", gap is None or 0 <= gap <= r, True)
     if start is None:
         return 1
     whole = (vertices == vertices[:, :1]).all(axis=1)

@@ -163,6 +163,9 @@ def test_rows_of_points_are_those_of_single_calls():
     calls = []
     scales = index.gaps(scales=[0.2, 0.4], points=points, face=face, progress=lambda *done: calls.append(done))
     assert scales.point.shape == (2, 30, 3) and calls[-1] == (60, 60)
+    of_all = index.closest_point(1.01 * np.arange(3 * len(index)).reshape(-1, 3) % 5)  # as many as vertices
+    for row in (index.invariants, index.gaps, lambda _, **points: (index.thickness(**points),)):
+        assert row(0.4, points=of_all.point, face=of_all.face)[0].shape == (len(index),)
     single = index.invariants(0.4, points=points[7], face=face[7])
     assert single.area.shape == () and single == index.measure(points[7], 0.4, face=face[7])
     assert index.gaps(scales=[0.2, 0.4], points=points[7], face=face[7]).point.shape == (2, 3)

@@ -361,7 +361,7 @@ def _meshio_block(block):
 
 
 def poly_data(pyvista, positions, corners, offsets):
-    """The other way: a pyvista.PolyData of what `mesh_arrays` returns. The module is an argument, because it may not be
+    """A pyvista.PolyData of what `mesh_arrays` returns. The module is an argument, because it may not be
     installed."""
     if offsets is None:
         offsets = np.arange(0, len(corners) + 1, 3)

@@ -131,8 +131,8 @@ class Patches(Held):
             is searched alone, as `measure` and `gap` do. There is no patch if a point is farther than `r` from its face.
         metric : "straight" alone, as a patch is in a ball.
 
-        Returns `Invariants`: area, volume. A row depends on the index, the faces, its vertex or point
-        and the radius alone.
+        Returns `Invariants`: area, volume. A row depends on the index, the faces, its vertex or point and the
+        radius alone.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> area, volume = index.invariants(0.5)
@@ -144,8 +144,9 @@ class Patches(Held):
         """
         metric = _convert.choice(metric, "metric", ("straight",))
         rows = read_rows(
-            self, vertices, r, scales, metric, walls, ignored, unit, workers, progress, points, face, F
-        )
+            self, vertices, r, scales, metric, walls, ignored, unit, workers, progress,
+            points=points, face=face, surface=None if face is None else self._surface(F),
+        )  # fmt: skip
         return Invariants(*map(rows.shaped, rows.ask(rows.index._patches(F).invariants)))
 
     def gaps(
@@ -164,8 +165,9 @@ class Patches(Held):
         workers: int = -1,
         progress: Progress = None,
     ) -> Gaps:
-        """The nearest point of the surface within `r` of each vertex that is not of its patch: the gap between sheets,
-        folds and parts, whatever the triangles. A point to which only a way outside the ball leads counts, too.
+        """The nearest point of the surface within `r` of each vertex, or point of a face, that is not of its patch: the gap
+        between sheets, folds and parts, whatever the triangles. A point to which only a way outside the ball leads counts,
+        too.
 
         The arguments are those of `invariants`. Returns `Gaps`: distance, face, vertices, barycentric, point. Of several
         faces at the same distance, it is the one with the smallest number.
@@ -176,8 +178,9 @@ class Patches(Held):
         """
         metric = _convert.choice(metric, "metric", ("straight",))
         rows = read_rows(
-            self, vertices, r, scales, metric, walls, ignored, unit, workers, progress, points, face, F
-        )
+            self, vertices, r, scales, metric, walls, ignored, unit, workers, progress,
+            points=points, face=face, surface=None if face is None else self._surface(F),
+        )  # fmt: skip
         return Gaps(*map(rows.shaped, rows.ask(rows.index._patches(F).gaps)))
 
     def patch(

@@ -26,7 +26,7 @@ class Rows:
 
     count: int
     vertices: Optional[Ids]  # None for all
-    spots: tuple[Any, ...]  # in place of vertices: the faces and the points of a call on points of faces
+    face_points: tuple[Any, ...]  # in place of vertices: faces, and a point of each
     radii: list[Union[float, Reals]]  # of each scale, in the unit of the positions
     has_scales: bool
     shape: tuple[int, ...]  # the leading axes of the result
@@ -36,7 +36,7 @@ class Rows:
     progress: Progress
 
     def reporter(self, title: str) -> AbstractContextManager[Report]:
-        what = "points" if self.spots else "vertices"
+        what = "points" if self.face_points else "vertices"
         return reporter(self.progress, title, what, self.count * len(self.radii))
 
     def call(self, report: Report, radius: Any, max_bytes: int = 2**64 - 1) -> Any:
@@ -47,7 +47,7 @@ class Rows:
         """What a call of the library returns for these rows."""
         radius = self.radii if self.has_scales else self.radii[0]
         with self.reporter(call.__name__) as report:
-            return call(*self.spots, *first, self.call(report, radius, max_bytes), **options)
+            return call(*self.face_points, *first, self.call(report, radius, max_bytes), **options)
 
     def shaped(self, array: Any) -> Any:
         """A result with a row for each vertex, of one scale after the other."""
@@ -56,20 +56,19 @@ class Rows:
 
 def read_rows(
     index: Held, vertices: Any, r: Any, scales: Any, metric: Any, walls: Any, ignored: Any, unit: Any, workers: Any,
-    progress: Any, points: Any = None, face: Any = None, F: Any = None,
+    progress: Any, *, points: Any = None, face: Any = None, surface: Any = None,
 ) -> Rows:  # fmt: skip
-    """points, face, F: of a call on points of faces."""
-    spots: tuple[Any, ...] = ()
+    """points, face, surface: of a call that takes points of faces in place of vertices."""
+    face_points: tuple[Any, ...] = ()
+    is_one, ids, count = False, None, index._count
     if points is not None or face is not None:
         if points is None or face is None or vertices is not None:
             raise ValueError("points: expected points and the face of each, or vertices")
         array = _convert.points(points, "points")
-        spots = (_convert.faces_of_points(face, len(array), index._surface(F).face_count), array)
-        vertices = 0 if np.ndim(face) == 0 else np.zeros(len(array), np.int32)  # these stand for the points
-    is_one = vertices is not None and _convert.is_single(vertices)
-    if vertices is None:
-        ids, count = None, index._count
-    else:
+        face_points = (_convert.faces_of_points(face, len(array), surface.face_count), array)
+        is_one, count = np.ndim(face) == 0, len(array)
+    elif vertices is not None:
+        is_one = _convert.is_single(vertices)
         one = np.array([_convert.vertex(vertices, index._count)], np.int32) if is_one else None
         ids = _convert.vertices(vertices, index._count) if one is None else one
         count = len(ids)
@@ -79,7 +78,7 @@ def read_rows(
     return Rows(
         count,
         ids,
-        spots,
+        face_points,
         radii,
         scales is not None,
         shape if is_one else (*shape, count),

@@ -268,10 +268,12 @@ class SurfaceQueries(Held):
         True
         """
         by_sphere = _convert.choice(method, "method", ("ray", "sphere")) == "sphere"
+        surface = self._surface(F)
         rows = read_rows(
-            self, vertices, 0.0, None, "straight", None, None, "mesh", workers, progress, points, face, F
-        )
-        found = rows.ask(self._surface(F).thickness, by_sphere=by_sphere)
+            self, vertices, 0.0, None, "straight", None, None, "mesh", workers, progress,
+            points=points, face=face, surface=surface,
+        )  # fmt: skip
+        found = rows.ask(surface.thickness, by_sphere=by_sphere)
         if rows.shape == ():
             return float(found[0])
         open_rows, measured = np.count_nonzero(np.isinf(found)), np.count_nonzero(~np.isnan(found))

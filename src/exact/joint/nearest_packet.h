@@ -87,7 +87,7 @@ class NearestPacket {
   std::vector<State> states_;
   std::size_t waiting_count_ = 0;
   std::vector<std::uint32_t> reached_;  // vertices of the same connecting radius, not passed on yet
-  std::vector<Path> ring_;              // the same by id, sorted
+  std::vector<Path> ring_;              // the same with their ids, by distance, then by id
 };
 
 template <class F>
