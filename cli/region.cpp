@@ -21,6 +21,7 @@
 #include "mesh_file.h"
 #include "options.h"
 #include "output.h"
+#include "row_table.h"
 #include "start.h"
 #include "system.h"
 

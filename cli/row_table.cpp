@@ -286,6 +286,14 @@ std::vector<Column> columns_of(const std::vector<SurfacePoint>& points, const st
   return columns;
 }
 
+Json json_of(const SurfacePoint& point) {
+  return {{"face", point.face},
+          {"vertices", point.vertices},
+          {"barycentric", point.barycentric},
+          {"point", point.point},
+          {"distance", point.distance}};
+}
+
 void write_table(const TableFile& file, const RowTable& table) {
   file.is_csv() ? write_csv(file.name, table) : write_npz(file.name, table);
 }

@@ -118,6 +118,9 @@ struct Column {
 [[nodiscard]] std::vector<Column> columns_of(const std::vector<SurfacePoint>& points, const std::string& vertices,
                                              std::size_t scales = 0);
 
+/// The same of one point, as JSON has it.
+[[nodiscard]] Json json_of(const SurfacePoint& point);
+
 /// One number of each row, or a vector of three: of a table of text, and unless its numbers have 64 bits, which float
 /// does not keep, of a mesh.
 struct Property {

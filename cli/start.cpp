@@ -51,14 +51,6 @@ SpacePoint parse_point(const std::vector<std::string>& point) {
   return p;
 }
 
-Json json_of(const SurfacePoint& point) {
-  return {{"face", point.face},
-          {"vertices", point.vertices},
-          {"barycentric", point.barycentric},
-          {"point", point.point},
-          {"distance", point.distance}};
-}
-
 CLI::Option* add_point(CLI::App& command, const std::string& description, std::vector<std::string>& point) {
   return command.add_option("--point", point, description)->delimiter(',')->allow_extra_args(false)->type_name("X,Y,Z");
 }

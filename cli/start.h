@@ -11,10 +11,8 @@
 #include <CLI/CLI.hpp>
 
 #include "meshhood/start.h"
-#include "meshhood/surface.h"
 
 #include "input.h"
-#include "output.h"
 #include "vertex_files.h"
 
 /// The options of a query beyond vertex and radius: where it starts, and what it may pass.
@@ -25,9 +23,6 @@ CLI::Option* add_point(CLI::App& command, const std::string& description, std::v
 
 /// What was typed. Throws Error{InvalidOption}.
 [[nodiscard]] SpacePoint parse_point(const std::vector<std::string>& point);
-
-/// A point of the surface as JSON has it.
-[[nodiscard]] Json json_of(const SurfacePoint& point);
 
 struct StartOptions {
   std::vector<std::string> vertices;  ///< numbers; or the name of standard input, for those that it lists

@@ -150,7 +150,7 @@ struct Invariants {
 /// faces, points  #rows: the numbers of the faces, and a point of each (see `PatchStart`).
 /// radius         one, one for each row, or scales.
 /// Throws Error{InvalidRadius, InvalidOption, Cancelled}, naming the row; InvalidOption also if the numbers of rows
-/// differ, and after a refit in place. 64 bytes a row and the result, and a `PatchSearcher` for each thread.
+/// differ, and after a refit in place. At most 72 bytes a row and the result, and a `PatchSearcher` for each thread.
 [[nodiscard]] Invariants invariants(const Surface& surface, const IndicesView& faces,
                                     std::span<const SpacePoint> points, const BatchRadius& radius, const Run& run = {});
 

@@ -24,9 +24,10 @@ np.save(arrays[0], V), np.save(arrays[1], F)
 """
 
 
-def run(program, *arguments, seconds=600):
-    """The process, which has ended without an error."""
+def run(program, *arguments, seconds=600, environment=None):
+    """The process, which has ended without an error. `environment`: what it has in addition."""
     command = [sys.executable, "-W", "ignore", "-c", PREPARE + program, *map(str, arguments)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=seconds)
+    variables = {**os.environ, **(environment or {})}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=seconds, env=variables)
     assert done.returncode == 0, done.stdout + done.stderr
     return done

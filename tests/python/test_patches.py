@@ -152,9 +152,8 @@ def test_rows_of_points_are_those_of_single_calls():
     index = meshhood.MeshIndex(*box((5, 5, 1)))
     face, _, points, _ = index.closest_point(np.random.default_rng(4).normal(size=(30, 3)))
     radii, walls = np.linspace(0, 1.2, 30), [3, 70]
-    rows, gaps = (
-        call(radii, points=points, face=face, walls=walls, unit="edge", workers=3) for call in (index.invariants, index.gaps)
-    )
+    words = {"points": points, "face": face, "walls": walls, "unit": "edge", "workers": 3}
+    rows, gaps = index.invariants(radii, **words), index.gaps(radii, **words)
     for i, (start, r) in enumerate(zip(points, radii)):
         one, gap = (call(start, r, face=face[i], walls=walls, unit="edge") for call in (index.measure, index.gap))
         np.testing.assert_array_equal((rows.area[i], rows.volume[i]), one)
@@ -164,12 +163,14 @@ def test_rows_of_points_are_those_of_single_calls():
     scales = index.gaps(scales=[0.2, 0.4], points=points, face=face, progress=lambda *done: calls.append(done))
     assert scales.point.shape == (2, 30, 3) and calls[-1] == (60, 60)
     of_all = index.closest_point(1.01 * np.arange(3 * len(index)).reshape(-1, 3) % 5)  # as many as vertices
-    for row in (index.invariants, index.gaps, lambda _, **points: (index.thickness(**points),)):
-        assert row(0.4, points=of_all.point, face=of_all.face)[0].shape == (len(index),)
+    words = {"points": of_all.point, "face": of_all.face}
+    for rows in (index.invariants(0.4, **words).area, index.gaps(0.4, **words).face, index.thickness(**words)):
+        assert rows.shape == (len(index),)
     single = index.invariants(0.4, points=points[7], face=face[7])
     assert single.area.shape == () and single == index.measure(points[7], 0.4, face=face[7])
     assert index.gaps(scales=[0.2, 0.4], points=points[7], face=face[7]).point.shape == (2, 3)
-    np.testing.assert_array_equal(scales.distance, np.stack([index.gaps(r, points=points, face=face).distance for r in (0.2, 0.4)]))
+    for r, distance in zip((0.2, 0.4), scales.distance):
+        np.testing.assert_array_equal(distance, index.gaps(r, points=points, face=face).distance)
 
 
 # The outward faces of elements of the package overlap.
