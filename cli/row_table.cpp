@@ -37,6 +37,11 @@ BatchVertices rows_of(const std::optional<std::vector<VertexId>>& list, const In
   return input.welding().count() > 0 ? BatchVertices(input.welding().kept()) : BatchVertices();
 }
 
+std::optional<std::vector<SpacePoint>> points_of(const std::string& file) {
+  if (file.empty()) return std::nullopt;
+  return read_points(file);
+}
+
 std::vector<double> radii_of(const RowOptions& options, std::size_t rows, Input& input) {
   if (options.row_radii.empty()) return resolve(options.radii, input);
   std::vector<double> radii = read_channel(options.row_radii, rows, "radii");
@@ -69,6 +74,16 @@ void add_files(CLI::App& command, ValueFiles& files, const std::string& shown) {
       ->excludes("--vertices");
   add_output(command, ".vtk", fmt::format("{}; ParaView and PyVista show {}", mesh, shown), files.vtk, "--vtk")
       ->excludes("--vertices");
+}
+
+/// --points, which a mesh has no values of.
+void add_points(CLI::App& command, std::string& points) {
+  CLI::Option* const option =
+      add_file_option(command, "--points",
+                      "instead of vertices, the points of the surface nearest to these: text with X Y Z on each line, "
+                      "or an array of NumPy (.npy)",
+                      points);
+  for (const char* other : {"--vertices", "--ply", "--vtk"}) option->excludes(other);
 }
 
 void write_column(io::NpzWriter& npz, const Column& column, std::size_t rows) {
@@ -238,9 +253,10 @@ void need_radii(const RowOptions& options) {
 
 RowQuery::RowQuery(const RowOptions& options, Input& input)
     : list_(list_of(options.vertices, input)),
+      points_(points_of(options.points)),
       rows_(rows_of(list_, input)),
       metric_(choose_metric(options.metric, input)),
-      size_(rows_.count(input.vertex_count())),
+      size_(points_ ? points_->size() : rows_.count(input.vertex_count())),
       are_of_rows_(!options.row_radii.empty()),
       radii_(radii_of(options, size_, input)) {
   check_metric(options.metric, options.radii.unit);
@@ -310,9 +326,11 @@ void write_rows(const TableFile& file, RowTable table, const BatchVertices& list
     table.columns.push_back({.name = name, .numbers = std::move(numbers)});
   };
   if (radius.list()) add_first("radius", std::vector<double>(radius.list()->begin(), radius.list()->end()));
-  std::vector<std::int64_t> vertices(table.rows);
-  for (std::size_t row = 0; row < table.rows; ++row) vertices[row] = listed[row];
-  add_first("vertex", std::move(vertices));
+  if (table.of_vertices) {
+    std::vector<std::int64_t> vertices(table.rows);
+    for (std::size_t row = 0; row < table.rows; ++row) vertices[row] = listed[row];
+    add_first("vertex", std::move(vertices));
+  }
   write_csv(file.name, table);
 }
 
@@ -349,9 +367,10 @@ void add_quantity(CLI::App& program, const QuantityName& name, const std::shared
   options.quantity = quantity;
   name.needs_faces ? add_surface(command, options.reading) : add_file(command, options.reading);
   add_rows(command, options.rows);
-  if (name.has_metric) add_metric(command, options.rows.metric);
+  if (!name.of_patch) add_metric(command, options.rows.metric);
   quantity->add_options(command);
   add_files(command, options.files, name.shown);
+  if (name.of_patch) add_points(command, options.rows.points);
   add_json(command, options.json);
 }
 

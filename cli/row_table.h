@@ -33,6 +33,7 @@ namespace meshhood::cli {
 /// pass.
 struct RowOptions {
   std::string vertices;  ///< a file with a list; empty for all
+  std::string points;    ///< a file with points in space, instead of vertices
   Radii radii;
   std::string row_radii;  ///< a file with a radius for each row, instead
   MaskFiles masks;
@@ -65,9 +66,13 @@ class RowQuery {
   /// The number of rows. A row of a vertex that was welded is that of the one that it has become.
   [[nodiscard]] std::size_t size() const { return size_; }
 
+  /// Those of --points, if it is given. Each is a row, of the point of the surface nearest to it.
+  [[nodiscard]] const std::optional<std::vector<SpacePoint>>& points() const { return points_; }
+
   /// The query of all scales, for calls whose results have a leading axis for them; of the first of them; or of another
   /// radius. Borrows from this object.
-  [[nodiscard]] BatchQuery query() const { return query(are_of_rows_ ? of_rows() : BatchRadius::scales(radii_)); }
+  [[nodiscard]] BatchRadius all_radii() const { return are_of_rows_ ? of_rows() : BatchRadius::scales(radii_); }
+  [[nodiscard]] BatchQuery query() const { return query(all_radii()); }
   [[nodiscard]] BatchQuery query_of_first() const { return query(are_of_rows_ ? of_rows() : radii_[0]); }
   [[nodiscard]] BatchQuery query(BatchRadius radius) const;
 
@@ -78,6 +83,7 @@ class RowQuery {
   [[nodiscard]] BatchRadius of_rows() const { return radii_; }
 
   std::optional<std::vector<VertexId>> list_;
+  std::optional<std::vector<SpacePoint>> points_;
   BatchVertices rows_;
   Metric metric_;
   std::size_t size_;
@@ -145,6 +151,7 @@ struct RowTable {
   std::vector<std::uint8_t> colors = {};        ///< #V by 3 for PLY, or empty
   Json summary = {};                            ///< what JSON says beside the files, rows and radii
   std::string text = {};                        ///< the same for people
+  bool of_vertices = true;                      ///< otherwise columns say of what the rows are
   std::optional<std::uint64_t> max_bytes = {};  ///< of a table of text
 
   /// A property of a channel of the column of this name, at a scale; of three channels with `width` 3.
@@ -208,7 +215,7 @@ struct QuantityName {
   std::string description;
   std::string shown;        ///< the value that programs show at once, for the help
   bool needs_faces = true;  ///< otherwise edges
-  bool has_metric = true;   ///< --metric; otherwise straight lines
+  bool of_patch = false;    ///< not of a set of vertices: --points, and no --metric
 };
 
 /// Adds the command `name`.
