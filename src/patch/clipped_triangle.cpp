@@ -64,9 +64,11 @@ bool ClippedTriangle::may_dip(std::size_t i) const {
          dot(a, a) * square - along * along <= (1 + kTouchSlack) * square;
 }
 
-/// From the same end for all triangles that have the side.
+/// From the same end for all triangles that have the side: the one in the ball, if the other is not.
 void ClippedTriangle::find_nearest(std::size_t i) {
-  const bool is_reversed = triangle_->places[after(i)] < triangle_->places[i];
+  const bool begins = triangle_->inside[i];
+  const bool ends = triangle_->inside[after(i)];
+  const bool is_reversed = begins == ends ? triangle_->places[after(i)] < triangle_->places[i] : ends;
   const std::size_t begin = is_reversed ? after(i) : i;
   const std::size_t end = is_reversed ? i : after(i);
   const double sign = is_reversed ? -1 : 1;
@@ -210,7 +212,7 @@ ClippedTriangle::Measure ClippedTriangle::measure(RimArcs& rim) {
 
 void ClippedTriangle::add_to(PatchSums& sums) {
   const auto [area, distance] = measure(sums.rim());
-  sums.add_cut(area, distance, *ball_);
+  sums.add_cut(area, distance);
 }
 
 }  // namespace meshhood::inline v0_1

@@ -107,14 +107,16 @@ void PacketPatches::add_meshlet(MeshletId meshlet) {
   met_ |= some;
   const Meshlet& sums = state_->meshlets.meshlets[meshlet];
   if (sums.has_border) for_each_query(all, [&](std::size_t q) { sums_[q].meet_border(); });
-  if (all != 0) {
-    add_whole({.area = sums.area, .vector = sums.vector_area, .point = sums.center(), .moment = sums.moment}, all);
+  inside_.clear();
+  if (all != 0) inside_.push_back({sums.area, sums.vector_area, sums.moment, all});
+  if (some != all) {
+    for (const TriangleId t : state_->triangles.of_meshlet(meshlet)) add_triangle(t, sums.center(), some & ~all);
   }
-  if (some == all) return;
-  for (const TriangleId t : state_->triangles.of_meshlet(meshlet)) add_triangle(t, some & ~all);
+  if (measures_) kernels_->add_whole(inside_, sums.center(), centers_, state_->index->frame.scale, whole_);
 }
 
-void PacketPatches::add_triangle(TriangleId t, QueryWord queries) {
+/// Moments are seen from `point`.
+void PacketPatches::add_triangle(TriangleId t, const Point& point, QueryWord queries) {
   auto [a, b, c] = words_of(t);
   a &= queries;
   b &= queries;
@@ -126,14 +128,14 @@ void PacketPatches::add_triangle(TriangleId t, QueryWord queries) {
     leave_at_diagonals(t, {a, b, c});
   }
   const std::array<Point, 3> corners = corners_of(*state_->index, state_->triangles.corners[t]);
-  if (whole != 0) {
+  if (whole != 0 && measures_) {
     const double scale = state_->index->frame.scale;
     const Point vector = 0.5 * cross(scale * (corners[1] - corners[0]), scale * (corners[2] - corners[0]));
-    add_whole({.area = length(vector), .vector = vector, .point = corners[0], .moment = 0}, whole);
+    inside_.push_back({length(vector), vector, dot(vector, scale * (corners[0] - point)), whole});
   }
-  add_cut(t, corners, 0, (a & ~b & ~c) | (~a & b & c));
-  add_cut(t, corners, 1, (b & ~c & ~a) | (~b & c & a));
-  add_cut(t, corners, 2, (c & ~a & ~b) | (~c & a & b));
+  // If two corners are in a ball, no side dips.
+  const QueryWord cut = (measures_ ? a | b | c : a ^ b ^ c) & ~whole;
+  if (cut != 0) add_cut(t, corners, {a, b, c}, cut);
 }
 
 void PacketPatches::meet_borders(TriangleId t, const std::array<QueryWord, 3>& words) {
@@ -155,32 +157,33 @@ void PacketPatches::leave_at_diagonals(TriangleId t, const std::array<QueryWord,
   }
 }
 
-void PacketPatches::add_whole(const WholeTriangles& triangles, QueryWord queries) {
-  if (measures_) kernels_->add_whole(triangles, queries, centers_, state_->index->frame.scale, whole_);
-}
+namespace {
 
-/// Corner `first` is alone inside or outside.
-void PacketPatches::add_cut(TriangleId t, const std::array<Point, 3>& corners, std::size_t first, QueryWord queries) {
-  const std::array<std::uint32_t, 3>& places = state_->triangles.corners[t];
-  const QueryWord inside = words_[places[first]];
-  if (!measures_) queries &= inside;  // if two corners are in a ball, no side dips
-  if (queries == 0) return;
-  const std::array<std::size_t, 4> order{first, after(first), after(after(first)), first};
-  const auto direction = [&](std::size_t k) { return places[order[k + 1]] < places[order[k]] ? -1.0 : 1.0; };
-  const std::array directions{direction(0), direction(1), direction(2)};
+/// Which corner is alone inside or outside, and 1 if it is inside, else -1, by the corners inside: corner i is bit i.
+struct CutKind {
+  std::size_t first;
+  double inside;
+};
+constexpr std::array<CutKind, 8> kCutKinds{{{}, {0, 1}, {1, 1}, {2, -1}, {2, 1}, {1, -1}, {0, -1}, {}}};
+
+}  // namespace
+
+/// Of queries that have one corner or two. From any corner on, three follow each other in the list of five.
+void PacketPatches::add_cut(TriangleId t, const std::array<Point, 3>& corners, const std::array<QueryWord, 3>& words,
+                            QueryWord queries) {
+  const std::array around{corners[0], corners[1], corners[2], corners[0], corners[1]};
   for_each_query(queries, [&](std::size_t q) {
     if (cut_count_ == kPacketCapacity) measure_cut();
-    const std::size_t i = cut_count_++;
-    cut_triangles_[i] = t;
-    cut_queries_[i] = q;
-    for (std::size_t k = 0; k < 3; ++k) {
-      cut_.corners[k].set(i, corners[order[k]]);
-      cut_.directions[k][i] = directions[k];
-    }
-    cut_.insides[i] = (inside >> q & 1U) != 0 ? 1 : -1;
-    cut_.centers.set(i, balls_[q].center);
-    cut_.units[i] = balls_[q].unit;
-    cut_.poles.set(i, sums_[q].rim().pole());
+    const std::size_t lane = cut_count_++;
+    const auto has = [q](QueryWord word) { return word >> q & 1U; };
+    const CutKind kind = kCutKinds[has(words[0]) | has(words[1]) << 1U | has(words[2]) << 2U];
+    cut_triangles_[lane] = t;
+    cut_queries_[lane] = q;
+    for (std::size_t corner = 0; corner < 3; ++corner) cut_.corners[corner].set(lane, around[kind.first + corner]);
+    cut_.insides[lane] = kind.inside;
+    cut_.centers.set(lane, balls_[q].center);
+    cut_.units[lane] = balls_[q].unit;
+    cut_.poles.set(lane, sums_[q].rim().pole());
   });
 }
 
@@ -194,10 +197,8 @@ void PacketPatches::measure_cut() {
     if ((left >> i & 1U) != 0) {
       add_clipped(cut_triangles_[i], q);
     } else if (measures_) {
-      sums_[q].add_cut(clipped_.area[i], clipped_.distance[i], balls_[q]);
-      sums_[q].rim().add_measured(clipped_.turn[i], {clipped_.real[i], clipped_.imaginary[i]},
-                                  {clipped_.real_from_pole[i], clipped_.imaginary_from_pole[i]}, clipped_.from.at(i),
-                                  clipped_.to.at(i));
+      sums_[q].add_cut(clipped_.area[i], clipped_.distance[i]);
+      sums_[q].rim().add_measured(clipped_.turn[i], {clipped_.real[i], clipped_.imaginary[i]});
     }
   }
 }

@@ -70,11 +70,11 @@ class PacketPatches {
   void leave_loose();
   void touch(LeafId leaf);
   void add_meshlet(MeshletId meshlet);
-  void add_triangle(TriangleId t, QueryWord queries);
+  void add_triangle(TriangleId t, const Point& point, QueryWord queries);
   void meet_borders(TriangleId t, const std::array<QueryWord, 3>& words);
   void leave_at_diagonals(TriangleId t, const std::array<QueryWord, 3>& words);
-  void add_whole(const WholeTriangles& triangles, QueryWord queries);
-  void add_cut(TriangleId t, const std::array<Point, 3>& corners, std::size_t first, QueryWord queries);
+  void add_cut(TriangleId t, const std::array<Point, 3>& corners, const std::array<QueryWord, 3>& words,
+               QueryWord queries);
   void measure_cut();
   void add_clipped(TriangleId t, std::size_t query);
   void follow_dips();
@@ -98,7 +98,8 @@ class PacketPatches {
   std::vector<LeafId> leaves_;      // with words
   EpochArray<QueryWord> all_;       // by meshlet: the queries that have all of it
   std::vector<MeshletId> meshlets_;
-  QueryWord met_ = 0;  // that have a triangle
+  QueryWord met_ = 0;                   // that have a triangle
+  std::vector<WholeTriangles> inside_;  // of a meshlet
 
   std::size_t cut_count_ = 0;  // waiting
   std::array<TriangleId, kPacketCapacity> cut_triangles_{};

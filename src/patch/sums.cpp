@@ -2,7 +2,6 @@
 #include "patch/sums.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -12,26 +11,18 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-// One of these is far from the rim, unless it is everywhere.
-constexpr std::array<Point, 6> kPoles{{{0.48, 0.6, 0.64},
-                                       {-0.48, -0.6, -0.64},
-                                       {0.64, -0.48, -0.6},
-                                       {-0.64, 0.48, 0.6},
-                                       {0.6, -0.64, 0.48},
-                                       {-0.6, 0.64, -0.48}}};
-
-double squared_size(const Complex& z) { return z.real() * z.real() + z.imag() * z.imag(); }
-
-/// Only the argument of a product counts. One is 0 if the rim meets the point where the potential is singular.
-Complex rescaled(const Complex& z) {
-  const double size = squared_size(z);
-  return size == 0 || (size > 1e-100 && size < 1e100) ? z : (1 / std::sqrt(size)) * z;
-}
-
 /// A number whose argument is half the signed area of a spherical triangle.
 Complex half_area(const Point& n, const Point& u, const Point& w) {
   return {1 + dot(n, u) + dot(u, w) + dot(w, n), dot(n, cross(u, w))};
 }
+
+bool is_clear(const Complex& from_pole) { return std::norm(from_pole) >= kClearPole; }
+
+/// Only the argument of a factor counts. One is 0 if an end is where the potential is singular, to all digits.
+Complex not_zero(const Complex& z) { return z == Complex(0) ? 1 : z; }
+
+/// Times a power of the radius, which may be infinite: then no triangle is cut.
+double times_power(double sum, double power) { return sum == 0 ? 0 : sum * power; }
 
 }  // namespace
 
@@ -45,14 +36,24 @@ Point Circle::middle(double theta, const Point& u, const Point& w) const {
 }
 
 void RimArcs::clear(const Point& normal) {
+  // Oblique, so that the singular point is none of those where symmetric surfaces have corners and sides.
+  const Point oblique{0.0731, -0.0417, 0.0593};
   const double size = length(normal);
-  pole_ = size > 0 ? (1 / size) * normal : kPoles[0];
-  ends_.clear();
+  const Point about = (size > 0 ? (1 / size) * normal : Point{0, 0, 1}) + oblique;
+  pole_ = (1 / length(about)) * about;
+  const Point beside = cross(pole_, std::abs(pole_.x) < 0.6 ? Point{1, 0, 0} : Point{0, 1, 0});
+  other_ = (1 / length(beside)) * beside;
   product_ = 1;
-  from_pole_ = 1;
-  least_from_pole_ = kInfinity;
   sum_ = 0;
   count_ = 0;
+}
+
+Complex RimArcs::from_pole(const Point& u, const Point& w) const {
+  const Complex factor = half_area(pole_, u, w);
+  if (is_clear(factor)) return factor;
+  const Complex between =
+      times(not_zero(half_area(pole_, u, other_)), std::conj(not_zero(half_area(pole_, w, other_))));
+  return times(half_area(other_, u, w), (1 / std::sqrt(std::norm(between))) * between);
 }
 
 void RimArcs::add(const Circle& circle, double theta, const Point& u, const Point& w) {
@@ -60,11 +61,11 @@ void RimArcs::add(const Circle& circle, double theta, const Point& u, const Poin
   const double sign = h < 0 ? -1 : 1;
   const Point n = sign * circle.normal;
   sum_ += sign * theta * (1 - sign * h);
-  ++count_;
   const auto add_part = [&](const Point& from, const Point& to) {
-    add_factors(std::conj(half_area(n, from, to)), half_area(pole_, from, to), from, to);
+    add_factor(times(std::conj(half_area(n, from, to)), from_pole(from, to)));
   };
-  if (theta < kLongArc) return add_part(u, w);
+  // From near the opposite of one pole, half a long arc does not lead near that of the other.
+  if (theta < (is_clear(half_area(pole_, u, w)) ? kLongArc : kLongArc / 2)) return add_part(u, w);
   const Point half = circle.middle(theta, u, w);
   const Point first = circle.middle(theta / 2, u, half);
   const Point last = circle.middle(theta / 2, half, w);
@@ -74,18 +75,10 @@ void RimArcs::add(const Circle& circle, double theta, const Point& u, const Poin
   add_part(last, w);
 }
 
-void RimArcs::add_measured(double turn, const Complex& factor, const Complex& from_pole, const Point& u,
-                           const Point& w) {
-  sum_ += turn;
-  ++count_;
-  add_factors(factor, from_pole, u, w);
-}
-
-void RimArcs::add_factors(const Complex& factor, const Complex& from_pole, const Point& u, const Point& w) {
-  product_ = rescaled(times(product_, factor));
-  from_pole_ = rescaled(times(from_pole_, from_pole));
-  least_from_pole_ = std::min(least_from_pole_, squared_size(from_pole));
-  ends_.emplace_back(u, w);
+/// The size of a product of 16 factors is at most 16^16, and hardly ever less than the inverse.
+void RimArcs::rescale() {
+  const double size = std::norm(product_);
+  if (size > 0) product_ = (1 / std::sqrt(size)) * product_;
 }
 
 void RimArcs::add_circle(double h) {
@@ -95,25 +88,8 @@ void RimArcs::add_circle(double h) {
 
 double RimArcs::area_behind() const {
   constexpr double kSphere = 4 * std::numbers::pi;
-  constexpr double kFarPole = 0.25;      // of the squared factor of an arc
   constexpr double kArcSlack = 0x1p-46;  // of an arc
-  Complex best = times(product_, from_pole_);
-  double most = least_from_pole_;
-  for (const Point& pole : kPoles) {
-    if (most >= kFarPole) break;
-    Complex product = product_;
-    double least = kFarPole;
-    for (const auto& [u, w] : ends_) {
-      const Complex factor = half_area(pole, u, w);
-      least = std::min(least, squared_size(factor));
-      if (least <= most) break;
-      product = rescaled(times(product, factor));
-    }
-    if (least <= most) continue;
-    most = least;
-    best = product;
-  }
-  const double area = std::fmod(-(sum_ + 2 * argument(best)), kSphere);
+  const double area = std::fmod(-(sum_ + 2 * argument(product_)), kSphere);
   const double positive = area < 0 ? area + kSphere : area;
   return positive > kSphere - kArcSlack * static_cast<double>(count_ + 8) ? 0 : positive;
 }
@@ -121,25 +97,23 @@ double RimArcs::area_behind() const {
 void PatchSums::clear(const Point& normal) {
   rim_.clear(normal);
   has_border_ = false;
-  area_ = 0;
-  moment_ = 0;
+  area_ = moment_ = 0;
+  cut_area_ = cut_moment_ = 0;
 }
 
-void PatchSums::add_cut(double area, double distance, const PatchBall& ball) {
+double PatchSums::area(const PatchBall& ball) const {
   const double r = ball.radius;
-  area_ += area * r * r;
-  moment_ += area * distance * r * r * r;
+  return (area_ + times_power(cut_area_, r * r)) / ball.scale / ball.scale;
 }
-
-double PatchSums::area(const PatchBall& ball) const { return area_ / ball.scale / ball.scale; }
 
 double PatchSums::volume(const PatchBall& ball) const {
   if (has_border_) return kNan;
   const double r = ball.radius;
-  const bool is_inward = rim_.empty() && moment_ < 0;  // all of the ball but what the patch encloses
+  const double moment = moment_ + times_power(cut_moment_, r * r * r);
+  const bool is_inward = rim_.empty() && moment < 0;  // all of the ball but what the patch encloses
   const double behind = is_inward ? 4 * std::numbers::pi : rim_.empty() ? 0 : rim_.area_behind();
-  const double cone = behind == 0 ? 0 : behind * r * r * r;
-  return (moment_ + cone) / 3 / ball.scale / ball.scale / ball.scale;
+  const double cone = times_power(behind, r * r * r);
+  return (moment + cone) / 3 / ball.scale / ball.scale / ball.scale;
 }
 
 }  // namespace meshhood::inline v0_1

@@ -5,8 +5,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <utility>
-#include <vector>
 
 #include "shared/distance.h"
 #include "simd/patches.h"
@@ -50,10 +48,14 @@ struct Circle {
 /// 4 pi. So the complex numbers are multiplied, and one arctangent is taken of the product. For h < 0, n is replaced by
 /// -n: the arc is then -theta about it, and T is far from its singularity. An arc that is not short is divided, since
 /// opposite ends have no spherical triangle.
+///
+/// Near -k the last term is that of another pole l, whose triangles differ from it by those between the two poles:
+///     T(k, u, w) = T(l, u, w) + T(k, u, l) - T(k, w, l), modulo 4 pi.
+/// Where u is so near that its triangle has no certain area, the arc that ends there takes the same one away.
 class RimArcs {
  public:
   /// Begins with a patch whose normal is about this one, of any length. Seen from there, the rim lies all around, most
-  /// often far from the opposite point, where the potential is singular.
+  /// often far from the opposite point.
   void clear(const Point& normal);
 
   [[nodiscard]] const Point& pole() const { return pole_; }
@@ -61,8 +63,11 @@ class RimArcs {
   /// An arc of the angle `theta` counterclockwise about the normal, from `u` to `w`. O(1).
   void add(const Circle& circle, double theta, const Point& u, const Point& w);
 
-  /// An arc that `PatchKernels` have measured: what its angle adds, and its factors of the products.
-  void add_measured(double turn, const Complex& factor, const Complex& from_pole, const Point& u, const Point& w);
+  /// An arc that `PatchKernels` have measured: what its angle adds, and its factor.
+  void add_measured(double turn, const Complex& factor) {
+    sum_ += turn;
+    add_factor(factor);
+  }
 
   /// A whole circle.
   void add_circle(double h);
@@ -74,13 +79,17 @@ class RimArcs {
   [[nodiscard]] double area_behind() const;
 
  private:
-  void add_factors(const Complex& factor, const Complex& from_pole, const Point& u, const Point& w);
+  void add_factor(const Complex& factor) {
+    product_ = times(product_, factor);
+    if (++count_ % 16 == 0) rescale();
+  }
 
-  std::vector<std::pair<Point, Point>> ends_;
+  void rescale();
+  [[nodiscard]] Complex from_pole(const Point& u, const Point& w) const;
+
   Complex product_{1, 0};
   Point pole_{0, 0, 1};
-  Complex from_pole_{1, 0};             // the product of the factors of the pole
-  double least_from_pole_ = kInfinity;  // the square of the smallest
+  Point other_{0, 1, 0};  // l, at a right angle
   double sum_ = 0;
   std::size_t count_ = 0;
 };
@@ -101,9 +110,11 @@ class PatchSums {
     moment_ += moment;
   }
 
-  /// The part of a triangle that is not, `area` and `distance` in units of the radius. The caller adds its arcs to
-  /// `rim`.
-  void add_cut(double area, double distance, const PatchBall& ball);
+  /// The part of a triangle that is not, in units of the radius. The caller adds its arcs to `rim`.
+  void add_cut(double area, double distance) {
+    cut_area_ += area;
+    cut_moment_ += area * distance;
+  }
 
   [[nodiscard]] RimArcs& rim() { return rim_; }
 
@@ -118,8 +129,10 @@ class PatchSums {
  private:
   RimArcs rim_;
   bool has_border_ = false;
-  double area_ = 0;    // these two in the frame
+  double area_ = 0;    // of whole triangles; these two in the frame
   double moment_ = 0;  // the sum of area times distance
+  double cut_area_ = 0;
+  double cut_moment_ = 0;
 };
 
 }  // namespace meshhood::inline v0_1

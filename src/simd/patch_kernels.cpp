@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <span>
 
 #include "simd/patches.h"
 
@@ -45,12 +46,16 @@ HWY_INLINE Turns product(const Turns& a, const Turns& b) {
           hn::Add(hn::Mul(a.real, b.imaginary), hn::Mul(a.imaginary, b.real))};
 }
 
-/// `argument` of numbers that are not 0.
+HWY_INLINE Numbers squared_size(const Turns& a) {
+  return hn::Add(hn::Mul(a.real, a.real), hn::Mul(a.imaginary, a.imaginary));
+}
+
+/// `argument` of numbers that are not 0, whose imaginary part is not negative.
 HWY_INLINE Numbers arguments(const Turns& numbers) {
   const auto zero = hn::Zero(Doubles());
   const auto half_pi = splat(std::numbers::pi / 2);
   const auto x = hn::Abs(numbers.real);
-  const auto y = hn::Abs(numbers.imaginary);
+  const auto y = numbers.imaginary;
   const auto is_upright = hn::Gt(y, x);
   const auto low = chosen(is_upright, x, y);
   const auto high = chosen(is_upright, y, x);
@@ -68,8 +73,7 @@ HWY_INLINE Numbers arguments(const Turns& numbers) {
   const auto small = hn::Add(t, hn::Mul(t, hn::Div(hn::Mul(z, above), below)));
   const auto eighth = hn::Add(chosen(is_steep, splat(std::numbers::pi / 4), zero), small);
   const auto quarter = chosen(is_upright, hn::Sub(half_pi, eighth), eighth);
-  const auto half = chosen(hn::Lt(numbers.real, zero), hn::Sub(splat(std::numbers::pi), quarter), quarter);
-  return chosen(hn::Lt(numbers.imaginary, zero), negated(half), half);
+  return chosen(hn::Lt(numbers.real, zero), hn::Sub(splat(std::numbers::pi), quarter), quarter);
 }
 
 /// `half_area` of src/patch/sums.cpp.
@@ -79,29 +83,29 @@ HWY_INLINE Turns half_areas(const Vectors& n, const Vectors& u, const Vectors& w
   return {products, scalar_product(n, vector_product(u, w))};
 }
 
-/// The line of a side: its point nearest to the center, its direction, and half the chord.
+/// A side with one end in the ball.
 struct Line {
-  HWY_INLINE Line(const Vectors& first, const Vectors& last, Numbers direction) {
-    const Lanes is_reversed = hn::Lt(direction, hn::Zero(Doubles()));
-    const auto begin = chosen(is_reversed, last, first);
-    const auto whole = difference(chosen(is_reversed, first, last), begin);
+  /// `whole`: from that end to the other.
+  HWY_INLINE Line(const Vectors& inside, const Vectors& whole) {
     square = squared_length(whole);
-    const auto share = negated(hn::Div(scalar_product(begin, whole), square));
-    nearest = sum(begin, scaled(whole, share));
-    along = scaled(whole, hn::Div(direction, hn::Sqrt(square)));
-    const auto rest = hn::Sub(splat(1.0), squared_length(nearest));
-    half = hn::Sqrt(hn::Max(hn::Zero(Doubles()), rest));
+    nearest = sum(inside, scaled(whole, negated(hn::Div(scalar_product(inside, whole), square))));
+    along = scaled(whole, hn::Div(splat(1.0), hn::Sqrt(square)));
+    half = hn::Sqrt(hn::Max(hn::Zero(Doubles()), hn::Sub(splat(1.0), squared_length(nearest))));
+    exit = sum(nearest, scaled(along, half));
+    chord = hn::Sub(half, scalar_product(inside, along));
   }
 
-  HWY_INLINE void set_offset(const Vectors& normal) { offset = scalar_product(nearest, vector_product(along, normal)); }
+  /// Of the line, from the foot of the center on the plane, to the right.
+  HWY_INLINE Numbers offset(const Vectors& normal) const {
+    return scalar_product(nearest, vector_product(along, normal));
+  }
 
-  Numbers square;  // of the length of the side
-  Vectors nearest;
-  Vectors along;
-  Numbers half;
-  Numbers from{};  // the part of the side in the ball, from `nearest` on
-  Numbers to{};
-  Numbers offset{};  // from the foot of the center on the plane
+  Numbers square;   // of the length of the side
+  Vectors nearest;  // to the center
+  Vectors along;    // a unit vector, outward
+  Numbers half;     // of the chord of the line
+  Vectors exit;     // where it leaves the ball
+  Numbers chord;    // of the side
 };
 
 /// `ClippedTriangle::may_dip`.
@@ -151,68 +155,57 @@ HWY_INLINE LaneMask measure_vector(const CutTriangles& cut, std::size_t i, Clipp
   const auto sign = load(cut.insides[i]);
   const Lanes inside = hn::Gt(sign, zero);
 
-  Line first(a, b, load(cut.directions[0][i]));
-  Line middle(b, c, load(cut.directions[1][i]));
-  Line last(c, a, load(cut.directions[2][i]));
-  first.from = chosen(inside, scalar_product(a, first.along), negated(first.half));
-  first.to = chosen(inside, first.half, scalar_product(b, first.along));
-  middle.from = scalar_product(b, middle.along);
-  middle.to = scalar_product(c, middle.along);
-  last.from = chosen(inside, negated(last.half), scalar_product(c, last.along));
-  last.to = chosen(inside, scalar_product(a, last.along), last.half);
-
-  const auto area = vector_product(difference(b, a), difference(c, a));
+  const auto first_side = difference(b, a);
+  const auto last_side = difference(c, a);
+  const Line first(chosen(inside, a, b), scaled(first_side, sign));
+  const Line last(chosen(inside, a, c), scaled(last_side, sign));
+  const auto area = vector_product(first_side, last_side);
   const auto size = hn::Sqrt(squared_length(area));
   const auto normal = scaled(area, hn::Div(one, size));
-  const auto first_chord = hn::Sub(first.to, first.from);
-  const auto middle_chord = chosen(inside, zero, hn::Sub(middle.to, middle.from));
-  const auto last_chord = hn::Sub(last.to, last.from);
-  auto nearest = chosen(hn::Gt(middle_chord, first_chord), middle.nearest, first.nearest);
-  nearest = chosen(hn::Gt(last_chord, hn::Max(first_chord, middle_chord)), last.nearest, nearest);
-  auto distance = scalar_product(normal, nearest);
-  distance = chosen(hn::Gt(distance, one), one, hn::Max(distance, splat(-1.0)));
-  for (Line* line : {&first, &middle, &last}) line->set_offset(normal);
+  auto distance = scalar_product(normal, chosen(hn::Gt(last.chord, first.chord), last.nearest, first.nearest));
+  distance = hn::Min(one, hn::Max(distance, splat(-1.0)));
 
   // The arc leads from one of the sides at the first corner to the other.
-  const Turns ends = product({first.offset, first.half}, {last.offset, last.half});
-  const auto turn = scalar_product(normal, vector_product(last.along, first.along));
-  const Turns arc = product({scalar_product(last.along, first.along), chosen(inside, negated(turn), turn)},
-                            {ends.real, negated(ends.imaginary)});
-  auto angle = arguments(arc);
-  angle = chosen(hn::And(inside, hn::Lt(angle, zero)), hn::Add(splat(2 * std::numbers::pi), angle), angle);
+  const auto first_offset = hn::Mul(sign, first.offset(normal));
+  const auto last_offset = negated(hn::Mul(sign, last.offset(normal)));
+  const Turns ends = product({first_offset, first.half}, {last_offset, last.half});
+  const auto turn = hn::Mul(sign, scalar_product(normal, vector_product(last.along, first.along)));
+  const Turns arc =
+      product({negated(scalar_product(last.along, first.along)), turn}, {ends.real, negated(ends.imaginary)});
+  const auto angle = arguments(arc);
   const auto disc = hn::Mul(hn::Sub(one, distance), hn::Add(one, distance));
-  const auto chords = hn::Add(hn::Add(hn::Mul(first.offset, first_chord), hn::Mul(middle.offset, middle_chord)),
-                              hn::Mul(last.offset, last_chord));
+  // Twice the areas between the foot of the center and the chords; that at the third side is all of it or nothing.
+  const auto between = chosen(inside, zero, scalar_product(normal, vector_product(b, c)));
+  const auto chords = hn::Add(hn::Add(hn::Mul(first_offset, first.chord), between), hn::Mul(last_offset, last.chord));
   store(hn::Mul(splat(0.5), hn::Add(chords, hn::Mul(disc, angle))), clipped.area[i]);
   store(distance, clipped.distance[i]);
 
-  const auto at_first = sum(first.nearest, scaled(first.along, hn::Mul(sign, first.half)));
-  const auto at_last = difference(last.nearest, scaled(last.along, hn::Mul(sign, last.half)));
-  const auto from = chosen(inside, at_first, at_last);
-  const auto to = chosen(inside, at_last, at_first);
-  const auto from_pole = half_areas(load_rows(d, cut.poles, i), from, to);
-  store(from_pole.real, clipped.real_from_pole[i]);
-  store(from_pole.imaginary, clipped.imaginary_from_pole[i]);
   const auto side = chosen(hn::Lt(distance, zero), splat(-1.0), one);
-  const auto pole = scaled(normal, side);
-  store(hn::Mul(hn::Mul(side, angle), hn::Sub(one, hn::Mul(side, distance))), clipped.turn[i]);
-  const auto factor = half_areas(pole, from, to);
+  const auto height = hn::Mul(side, distance);
+  store(hn::Mul(hn::Mul(side, angle), hn::Sub(one, height)), clipped.turn[i]);
+  // The triangle of the pole n of the arc has two sides of the angle a, cos a = h, and the angle t between them. So
+  // half its area is the argument of 1 + tan^2(a / 2) e^(it), and that of (1 + h)^2 + (1 - h)(1 + h) e^(it), whose last
+  // term is `arc`.
+  const auto above = hn::Add(one, height);
+  const Turns about{hn::Add(hn::Mul(above, above), arc.real), negated(hn::Mul(side, arc.imaginary))};
+  const Turns from_pole = half_areas(load_rows(d, cut.poles, i), chosen(inside, first.exit, last.exit),
+                                     chosen(inside, last.exit, first.exit));
+  const Turns factor = product(about, from_pole);
   store(factor.real, clipped.real[i]);
-  store(negated(factor.imaginary), clipped.imaginary[i]);
-  store_rows(from, clipped.from, i);
-  store_rows(to, clipped.to, i);
+  store(factor.imaginary, clipped.imaginary[i]);
 
   // See `ClippedTriangle::angle_of_arc`.
-  const auto is_clear = hn::Gt(hn::Abs(arc.imaginary), hn::Mul(splat(kClearTurn), arc.real));
-  const auto is_simple = hn::Or(hn::And(inside, hn::AndNot(may_dip(b, c), is_clear)),
-                                hn::AndNot(inside, hn::And(hn::Ge(angle, zero), hn::Gt(middle.square, zero))));
+  const auto third_square = squared_length(difference(c, b));
+  const auto is_clear = hn::Gt(arc.imaginary, hn::Mul(splat(kClearTurn), arc.real));
+  const auto is_simple =
+      hn::Or(hn::And(inside, hn::AndNot(may_dip(b, c), is_clear)), hn::AndNot(inside, hn::Gt(third_square, zero)));
   const auto has_area = hn::And(hn::Gt(size, zero), hn::Gt(hn::Mul(first.square, last.square), zero));
   const auto short_square = hn::Mul(splat(kNeedle), hn::Max(first.square, last.square));
-  const auto is_needle = hn::Or(hn::Lt(middle.square, short_square),
-                                hn::Or(hn::Lt(first.square, short_square), hn::Lt(last.square, short_square)));
-  const auto is_short = hn::Lt(angle, splat(kLongArc));
-  return bits_of(d,
-                 hn::And(hn::And(is_simple, corners.are_near()), hn::AndNot(is_needle, hn::And(has_area, is_short))));
+  const auto is_needle = hn::Lt(hn::Min(third_square, hn::Min(first.square, last.square)), short_square);
+  const auto is_short = hn::And(hn::Ge(arc.imaginary, zero), hn::Lt(angle, splat(kLongArc)));
+  const auto is_far_from_opposite = hn::Ge(squared_size(from_pole), splat(kClearPole));
+  return bits_of(d, hn::And(hn::And(is_simple, corners.are_near()),
+                            hn::And(hn::AndNot(is_needle, has_area), hn::And(is_short, is_far_from_opposite))));
 }
 
 LaneMask measure(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped) {
@@ -221,19 +214,26 @@ LaneMask measure(const CutTriangles& cut, std::size_t count, ClippedTriangles& c
   return measured & first_lanes(static_cast<unsigned>(count));
 }
 
-void add_whole(const WholeTriangles& triangles, QueryWord queries, const PointPerLane<double>& centers, double scale,
-               WholeSums& sums) {
+void add_whole(std::span<const WholeTriangles> triangles, const Point& point, const PointPerLane<double>& centers,
+               double scale, WholeSums& sums) {
   const Doubles d;
-  const auto area = splat(triangles.area);
-  const auto moment = splat(triangles.moment);
-  const auto vector = splat_point(d, triangles.vector);
-  const auto point = splat_point(d, triangles.point);
+  QueryWord queries = 0;
+  for (const WholeTriangles& one : triangles) queries |= one.queries;
   for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Doubles>) {
     if ((queries >> i & first_lanes(kLanes<Doubles>)) == 0) continue;
-    const Lanes chosen = mask_of(d, queries >> i);
-    const auto offset = scaled(difference(point, load_rows(d, centers, i)), splat(scale));
-    add_to(sums.area[i], only(d, chosen, area));
-    add_to(sums.moment[i], only(d, chosen, hn::Add(moment, scalar_product(vector, offset))));
+    auto area = hn::Zero(d);
+    auto moment = hn::Zero(d);
+    Vectors vector{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    for (const WholeTriangles& one : triangles) {
+      const Lanes chosen = mask_of(d, one.queries >> i);
+      area = hn::Add(area, only(d, chosen, splat(one.area)));
+      moment = hn::Add(moment, only(d, chosen, splat(one.moment)));
+      vector = sum(vector, {only(d, chosen, splat(one.vector.x)), only(d, chosen, splat(one.vector.y)),
+                            only(d, chosen, splat(one.vector.z))});
+    }
+    const auto offset = scaled(difference(splat_point(d, point), load_rows(d, centers, i)), splat(scale));
+    add_to(sums.area[i], area);
+    add_to(sums.moment[i], hn::Add(moment, scalar_product(vector, offset)));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <complex>
 #include <cstddef>
 #include <numbers>
+#include <span>
 
 #include "simd/kernels.h"
 #include "simd/leaf.h"
@@ -74,6 +75,10 @@ inline constexpr double kNeedle = 0x1p-20;
 /// An arc of at least this angle has nearly opposite ends, or more than that, and is added in four parts.
 inline constexpr double kLongArc = 2;
 
+/// The ends of an arc are near the opposite of the pole of its rim, where its argument is uncertain, if the square of
+/// the number is smaller.
+inline constexpr double kClearPole = 0x1p-12;
+
 /// Triangles that a sphere cuts, each with its ball. One corner, the first, is alone inside or outside.
 struct CutTriangles {
   std::array<PointPerLane<double>, 3> corners;  // in the orientation of the triangle
@@ -81,30 +86,24 @@ struct CutTriangles {
   PointPerLane<double> poles;  // of the rims: unit vectors
   PerLane<double> units;       // 1 / radius
   PerLane<double> insides;     // 1 if the first corner is in the ball, else -1
-  /// By side, from the corner of its number on: 1, or -1 if its line is computed from the other end, as in the other
-  /// triangle that has the side.
-  std::array<PerLane<double>, 3> directions;
 };
 
-/// What `ClippedTriangle::measure` finds of each, and adds to the rim: an arc from `from` to `to`.
+/// What `ClippedTriangle::measure` finds of each, and adds to the rim: one arc.
 struct ClippedTriangles {
   PerLane<double> area;
   PerLane<double> distance;
   PerLane<double> turn;  // what the angle of the arc adds to the area behind
-  PerLane<double> real;  // of the arc's factor, and of the one of the pole: see `RimArcs`
+  PerLane<double> real;  // of the factor of the arc: see `RimArcs`
   PerLane<double> imaginary;
-  PerLane<double> real_from_pole;
-  PerLane<double> imaginary_from_pole;
-  PointPerLane<double> from;
-  PointPerLane<double> to;
 };
 
-/// Triangles in balls: sums of area, vector area, and area times distance of the plane from a point.
+/// Triangles in the balls of some queries: sums of area, vector area, and area times distance of the plane from a
+/// point, along the normal.
 struct WholeTriangles {
   double area;
   Point vector;
-  Point point;
   double moment;
+  QueryWord queries;
 };
 
 /// Sums of each query over triangles in its ball.
@@ -114,14 +113,14 @@ struct WholeSums {
 };
 
 struct PatchKernels {
-  /// Adds triangles to the sums of the queries of a word: their area, and their moment from the center of the query,
-  /// where `moment` is that from `point`.
-  void (*add_whole)(const WholeTriangles& triangles, QueryWord queries, const PointPerLane<double>& centers,
+  /// Adds triangles to the sums of their queries: their area, and their moment from the center of the query, where
+  /// those that are given are from `point`.
+  void (*add_whole)(std::span<const WholeTriangles> triangles, const Point& point, const PointPerLane<double>& centers,
                     double scale, WholeSums& sums);
 
   /// Measures the first `count` triangles; reads and writes whole vectors. Returns those that it has measured: not one
-  /// with a corner far away, without an area, a needle, with an arc that is not short, or whose third side may dip into
-  /// the ball.
+  /// with a corner far away, without an area, a needle, with an arc that is not short or near the opposite of the pole,
+  /// or whose third side may dip into the ball.
   LaneMask (*measure)(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped);
 
   /// Which of them have one corner in the ball, and a third side that may dip into it or a corner far away.

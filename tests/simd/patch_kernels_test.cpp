@@ -66,7 +66,6 @@ class EveryPatchKernel : public testing::TestWithParam<Isa> {
     std::size_t corner = cut.first;
     for (std::size_t k = 0; k < 3; ++k) {
       given_->corners[k].set(lane, cut.triangle.corners[corner]);
-      given_->directions[k][lane] = cut.triangle.places[after(corner)] < cut.triangle.places[corner] ? -1 : 1;
       corner = after(corner);
     }
     given_->centers.set(lane, cut.ball.center);
