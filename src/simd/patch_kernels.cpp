@@ -145,8 +145,14 @@ struct Corners {
   Vectors c;
 };
 
-/// Those from `i` on, a vector.
-HWY_INLINE LaneMask measure_vector(const CutTriangles& cut, std::size_t i, ClippedTriangles& clipped) {
+/// Of each triangle, a number whose argument is the angle of its arc.
+struct Arcs {
+  PerLane<double> real;
+  PerLane<double> imaginary;
+};
+
+/// Measures those from `i` on, a vector, but for the angles of the arcs.
+HWY_INLINE LaneMask measure_chords(const CutTriangles& cut, std::size_t i, Arcs& arcs, ClippedTriangles& clipped) {
   const Doubles d;
   const auto zero = hn::Zero(d);
   const auto one = splat(1.0);
@@ -172,17 +178,16 @@ HWY_INLINE LaneMask measure_vector(const CutTriangles& cut, std::size_t i, Clipp
   const auto turn = hn::Mul(sign, scalar_product(normal, vector_product(last.along, first.along)));
   const Turns arc =
       product({negated(scalar_product(last.along, first.along)), turn}, {ends.real, negated(ends.imaginary)});
-  const auto angle = arguments(arc);
-  const auto disc = hn::Mul(hn::Sub(one, distance), hn::Add(one, distance));
+  store(arc.real, arcs.real[i]);
+  store(arc.imaginary, arcs.imaginary[i]);
   // Twice the areas between the foot of the center and the chords; that at the third side is all of it or nothing.
   const auto between = chosen(inside, zero, scalar_product(normal, vector_product(b, c)));
   const auto chords = hn::Add(hn::Add(hn::Mul(first_offset, first.chord), between), hn::Mul(last_offset, last.chord));
-  store(hn::Mul(splat(0.5), hn::Add(chords, hn::Mul(disc, angle))), clipped.area[i]);
+  store(hn::Mul(splat(0.5), chords), clipped.area[i]);
   store(distance, clipped.distance[i]);
 
   const auto side = chosen(hn::Lt(distance, zero), splat(-1.0), one);
   const auto height = hn::Mul(side, distance);
-  store(hn::Mul(hn::Mul(side, angle), hn::Sub(one, height)), clipped.turn[i]);
   // The triangle of the pole n of the arc has two sides of the angle a, cos a = h, and the angle t between them. So
   // half its area is the argument of 1 + tan^2(a / 2) e^(it), and that of (1 + h)^2 + (1 - h)(1 + h) e^(it), whose last
   // term is `arc`.
@@ -202,15 +207,33 @@ HWY_INLINE LaneMask measure_vector(const CutTriangles& cut, std::size_t i, Clipp
   const auto has_area = hn::And(hn::Gt(size, zero), hn::Gt(hn::Mul(first.square, last.square), zero));
   const auto short_square = hn::Mul(splat(kNeedle), hn::Max(first.square, last.square));
   const auto is_needle = hn::Lt(hn::Min(third_square, hn::Min(first.square, last.square)), short_square);
-  const auto is_short = hn::And(hn::Ge(arc.imaginary, zero), hn::Lt(angle, splat(kLongArc)));
   const auto is_far_from_opposite = hn::Ge(squared_size(from_pole), splat(kClearPole));
   return bits_of(d, hn::And(hn::And(is_simple, corners.are_near()),
-                            hn::And(hn::AndNot(is_needle, has_area), hn::And(is_short, is_far_from_opposite))));
+                            hn::And(hn::AndNot(is_needle, has_area), is_far_from_opposite)));
 }
 
+/// Adds what the angles add. Returns those that are short.
+HWY_INLINE LaneMask measure_angles(const Arcs& arcs, std::size_t i, ClippedTriangles& clipped) {
+  const Doubles d;
+  const auto one = splat(1.0);
+  const Turns arc{load(arcs.real[i]), load(arcs.imaginary[i])};
+  const auto angle = arguments(arc);
+  const auto distance = load(clipped.distance[i]);
+  const auto disc = hn::Mul(hn::Sub(one, distance), hn::Add(one, distance));
+  add_to(clipped.area[i], hn::Mul(splat(0.5), hn::Mul(disc, angle)));
+  const auto side = chosen(hn::Lt(distance, hn::Zero(d)), splat(-1.0), one);
+  store(hn::Mul(hn::Mul(side, angle), hn::Sub(one, hn::Mul(side, distance))), clipped.turn[i]);
+  return bits_of(d, hn::And(hn::Ge(arc.imaginary, hn::Zero(d)), hn::Lt(angle, splat(kLongArc))));
+}
+
+/// In two loops, since a processor looks ahead no farther than one turn of a longer one.
 LaneMask measure(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped) {
+  Arcs arcs;
   LaneMask measured = 0;
-  for (std::size_t i = 0; i < count; i += kLanes<Doubles>) measured |= measure_vector(cut, i, clipped) << i;
+  LaneMask are_short = 0;
+  for (std::size_t i = 0; i < count; i += kLanes<Doubles>) measured |= measure_chords(cut, i, arcs, clipped) << i;
+  for (std::size_t i = 0; i < count; i += kLanes<Doubles>) are_short |= measure_angles(arcs, i, clipped) << i;
+  measured &= are_short;
   return measured & first_lanes(static_cast<unsigned>(count));
 }
 
