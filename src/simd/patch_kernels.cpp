@@ -145,96 +145,99 @@ struct Corners {
   Vectors c;
 };
 
-/// Of each triangle, a number whose argument is the angle of its arc.
+/// Of each triangle, the arc: a number whose argument is its angle, and its ends.
 struct Arcs {
   PerLane<double> real;
   PerLane<double> imaginary;
+  PointPerLane<double> from;
+  PointPerLane<double> to;
 };
 
-/// Measures those from `i` on, a vector, but for the angles of the arcs.
-HWY_INLINE LaneMask measure_chords(const CutTriangles& cut, std::size_t i, Arcs& arcs, ClippedTriangles& clipped) {
-  const Doubles d;
-  const auto zero = hn::Zero(d);
+/// Measures the chords of those from `i` on. Returns which triangles these formulas suit.
+HWY_INLINE Lanes measure_chords(const Doubles d, const CutTriangles& cut, std::size_t i, ClippedTriangles& clipped,
+                                Arcs& arcs) {
   const auto one = splat(1.0);
+  const auto zero = hn::Zero(d);
   const Corners corners(cut, i);
   const auto& [center, unit, a, b, c] = corners;
   const auto sign = load(cut.insides[i]);
   const Lanes inside = hn::Gt(sign, zero);
-
   const auto first_side = difference(b, a);
   const auto last_side = difference(c, a);
   const Line first(chosen(inside, a, b), scaled(first_side, sign));
   const Line last(chosen(inside, a, c), scaled(last_side, sign));
+  store_rows(chosen(inside, first.exit, last.exit), arcs.from, i);
+  store_rows(chosen(inside, last.exit, first.exit), arcs.to, i);
+
   const auto area = vector_product(first_side, last_side);
   const auto size = hn::Sqrt(squared_length(area));
   const auto normal = scaled(area, hn::Div(one, size));
-  auto distance = scalar_product(normal, chosen(hn::Gt(last.chord, first.chord), last.nearest, first.nearest));
-  distance = hn::Min(one, hn::Max(distance, splat(-1.0)));
-
-  // The arc leads from one of the sides at the first corner to the other.
+  const auto distance = scalar_product(normal, chosen(hn::Gt(last.chord, first.chord), last.nearest, first.nearest));
+  store(hn::Min(one, hn::Max(distance, splat(-1.0))), clipped.distance[i]);
+  // Twice the areas between the foot of the center and the chords; that at the third side is all of it or nothing.
   const auto first_offset = hn::Mul(sign, first.offset(normal));
   const auto last_offset = negated(hn::Mul(sign, last.offset(normal)));
+  const auto between = chosen(inside, zero, scalar_product(normal, vector_product(b, c)));
+  store(hn::Add(hn::Add(hn::Mul(first_offset, first.chord), between), hn::Mul(last_offset, last.chord)),
+        clipped.area[i]);
+
+  // The arc leads from one of the sides at the first corner to the other.
   const Turns ends = product({first_offset, first.half}, {last_offset, last.half});
   const auto turn = hn::Mul(sign, scalar_product(normal, vector_product(last.along, first.along)));
   const Turns arc =
       product({negated(scalar_product(last.along, first.along)), turn}, {ends.real, negated(ends.imaginary)});
   store(arc.real, arcs.real[i]);
   store(arc.imaginary, arcs.imaginary[i]);
-  // Twice the areas between the foot of the center and the chords; that at the third side is all of it or nothing.
-  const auto between = chosen(inside, zero, scalar_product(normal, vector_product(b, c)));
-  const auto chords = hn::Add(hn::Add(hn::Mul(first_offset, first.chord), between), hn::Mul(last_offset, last.chord));
-  store(hn::Mul(splat(0.5), chords), clipped.area[i]);
-  store(distance, clipped.distance[i]);
 
-  const auto side = chosen(hn::Lt(distance, zero), splat(-1.0), one);
-  const auto height = hn::Mul(side, distance);
-  // The triangle of the pole n of the arc has two sides of the angle a, cos a = h, and the angle t between them. So
-  // half its area is the argument of 1 + tan^2(a / 2) e^(it), and that of (1 + h)^2 + (1 - h)(1 + h) e^(it), whose last
-  // term is `arc`.
-  const auto above = hn::Add(one, height);
-  const Turns about{hn::Add(hn::Mul(above, above), arc.real), negated(hn::Mul(side, arc.imaginary))};
-  const Turns from_pole = half_areas(load_rows(d, cut.poles, i), chosen(inside, first.exit, last.exit),
-                                     chosen(inside, last.exit, first.exit));
-  const Turns factor = product(about, from_pole);
-  store(factor.real, clipped.real[i]);
-  store(factor.imaginary, clipped.imaginary[i]);
-
-  // See `ClippedTriangle::angle_of_arc`.
   const auto third_square = squared_length(difference(c, b));
-  const auto is_clear = hn::Gt(arc.imaginary, hn::Mul(splat(kClearTurn), arc.real));
-  const auto is_simple =
-      hn::Or(hn::And(inside, hn::AndNot(may_dip(b, c), is_clear)), hn::AndNot(inside, hn::Gt(third_square, zero)));
-  const auto has_area = hn::And(hn::Gt(size, zero), hn::Gt(hn::Mul(first.square, last.square), zero));
-  const auto short_square = hn::Mul(splat(kNeedle), hn::Max(first.square, last.square));
-  const auto is_needle = hn::Lt(hn::Min(third_square, hn::Min(first.square, last.square)), short_square);
-  const auto is_far_from_opposite = hn::Ge(squared_size(from_pole), splat(kClearPole));
-  return bits_of(d, hn::And(hn::And(is_simple, corners.are_near()),
-                            hn::And(hn::AndNot(is_needle, has_area), is_far_from_opposite)));
+  const auto least_square = hn::Min(third_square, hn::Min(first.square, last.square));
+  const auto is_needle = hn::Lt(least_square, hn::Mul(splat(kNeedle), hn::Max(first.square, last.square)));
+  const auto has_area = hn::And(hn::Gt(size, zero), hn::Gt(least_square, zero));
+  const auto does_not_dip = hn::AndNot(hn::And(inside, may_dip(b, c)), corners.are_near());
+  return hn::And(does_not_dip, hn::AndNot(is_needle, has_area));
 }
 
-/// Adds what the angles add. Returns those that are short.
-HWY_INLINE LaneMask measure_angles(const Arcs& arcs, std::size_t i, ClippedTriangles& clipped) {
-  const Doubles d;
+/// Adds what the arcs add. Returns which are short, clear and far from the opposite of the pole.
+HWY_INLINE Lanes measure_arcs(const Doubles d, const CutTriangles& cut, const Arcs& arcs, std::size_t i,
+                              ClippedTriangles& clipped) {
+  const auto zero = hn::Zero(d);
   const auto one = splat(1.0);
   const Turns arc{load(arcs.real[i]), load(arcs.imaginary[i])};
   const auto angle = arguments(arc);
   const auto distance = load(clipped.distance[i]);
   const auto disc = hn::Mul(hn::Sub(one, distance), hn::Add(one, distance));
-  add_to(clipped.area[i], hn::Mul(splat(0.5), hn::Mul(disc, angle)));
-  const auto side = chosen(hn::Lt(distance, hn::Zero(d)), splat(-1.0), one);
-  store(hn::Mul(hn::Mul(side, angle), hn::Sub(one, hn::Mul(side, distance))), clipped.turn[i]);
-  return bits_of(d, hn::And(hn::Ge(arc.imaginary, hn::Zero(d)), hn::Lt(angle, splat(kLongArc))));
+  store(hn::Mul(splat(0.5), hn::Add(load(clipped.area[i]), hn::Mul(disc, angle))), clipped.area[i]);
+  const auto side = chosen(hn::Lt(distance, zero), splat(-1.0), one);
+  const auto height = hn::Mul(side, distance);
+  store(hn::Mul(hn::Mul(side, angle), hn::Sub(one, height)), clipped.turn[i]);
+
+  // The triangle of the pole n of the arc has two sides of the angle a, cos a = h, and the angle t between them. So
+  // half its area is the argument of 1 + tan^2(a / 2) e^(it), and that of (1 + h)^2 + (1 - h)(1 + h) e^(it), whose last
+  // term is `arc`.
+  const auto above = hn::Add(one, height);
+  const Turns about{hn::Add(hn::Mul(above, above), arc.real), negated(hn::Mul(side, arc.imaginary))};
+  const Turns from_pole = half_areas(load_rows(d, cut.poles, i), load_rows(d, arcs.from, i), load_rows(d, arcs.to, i));
+  const Turns factor = product(about, from_pole);
+  store(factor.real, clipped.real[i]);
+  store(factor.imaginary, clipped.imaginary[i]);
+
+  // See `ClippedTriangle::angle_of_arc`.
+  const auto least = chosen(hn::Gt(load(cut.insides[i]), zero), hn::Mul(splat(kClearTurn), arc.real), zero);
+  const auto is_clear = hn::And(hn::Ge(arc.imaginary, zero), hn::Ge(arc.imaginary, least));
+  const auto is_far_from_opposite = hn::Ge(squared_size(from_pole), splat(kClearPole));
+  return hn::And(hn::And(is_clear, is_far_from_opposite), hn::Lt(angle, splat(kLongArc)));
 }
 
-/// In two loops, since a processor looks ahead no farther than one turn of a longer one.
+/// In loops so short that the processor works on several turns of one at once.
 LaneMask measure(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped) {
+  constexpr std::size_t kStep = kLanes<Doubles>;
+  const Doubles d;
   Arcs arcs;
+  LaneMask plain = 0;
   LaneMask measured = 0;
-  LaneMask are_short = 0;
-  for (std::size_t i = 0; i < count; i += kLanes<Doubles>) measured |= measure_chords(cut, i, arcs, clipped) << i;
-  for (std::size_t i = 0; i < count; i += kLanes<Doubles>) are_short |= measure_angles(arcs, i, clipped) << i;
-  measured &= are_short;
-  return measured & first_lanes(static_cast<unsigned>(count));
+  for (std::size_t i = 0; i < count; i += kStep) plain |= bits_of(d, measure_chords(d, cut, i, clipped, arcs)) << i;
+  for (std::size_t i = 0; i < count; i += kStep) measured |= bits_of(d, measure_arcs(d, cut, arcs, i, clipped)) << i;
+  return plain & measured & first_lanes(static_cast<unsigned>(count));
 }
 
 void add_whole(std::span<const WholeTriangles> triangles, const Point& point, const PointPerLane<double>& centers,
