@@ -51,7 +51,13 @@ Reference make_reference(const MeshView& mesh) {
   return {positions, std::move(triangles), std::move(owners)};
 }
 
-void compare(const Surface& surface, const Reference& reference, double edges, double radius, unsigned threads) {
+/// Microseconds a vertex.
+struct Times {
+  double plain;
+  double measured;
+};
+
+Times compare(const Surface& surface, const Reference& reference, double edges, double radius, unsigned threads) {
   const std::size_t rows = surface.vertex_count();
   std::vector<VertexId> sample;
   for (std::size_t i = 0; i < kSample; ++i) sample.push_back(static_cast<VertexId>(i * rows / kSample));
@@ -77,6 +83,7 @@ void compare(const Surface& surface, const Reference& reference, double edges, d
   std::printf("%6.4g %8.0f %10.2f %10.3f %8.1f %10.3f %10.1e %10.1e\n", edges, faces, plainly, measuring,
               plainly / measuring, searching, area / disc, volume / (disc * radius * 4 / 3));
   std::fflush(stdout);
+  return {plainly, measuring};
 }
 
 int run(const Arguments& arguments) {
@@ -91,9 +98,13 @@ int run(const Arguments& arguments) {
   const Reference reference = make_reference(mesh.view());
   std::printf("%6s %8s %10s %10s %8s %10s %10s %10s\n", "edges", "faces", "plain us", "us", "ratio", "gap us", "area",
               "volume");
+  Times all{0, 0};
   for (const double count : numbers(arguments, 2, {1, 3, 5, 10, 16})) {
-    compare(surface, reference, count, count * mean_edge, threads);
+    const auto [plain, measured] = compare(surface, reference, count, count * mean_edge, threads);
+    all.plain += plain;
+    all.measured += measured;
   }
+  std::printf("%6s %8s %10.2f %10.3f %8.1f\n", "all", "", all.plain, all.measured, all.plain / all.measured);
   return 0;
 }
 

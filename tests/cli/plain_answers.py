@@ -53,7 +53,9 @@ class Question:
 
     @property
     def rows(self):
-        """The query vertices of a command of rows."""
+        """The query vertices of a command of rows, or the numbers of its points."""
+        if "--points" in self.run.asked:
+            return np.arange(len(self.files.points))
         return self.files.vertices if "--vertices" in self.run.asked else np.arange(self.files.count)
 
     def radii_of(self, row):
@@ -122,12 +124,18 @@ def columns_of(run):
 
 def table_of_rows(run):
     columns = columns_of(run)
-    arrays = {"vertices": columns.pop("vertex").astype(int)}
+    if "--points" in run.asked:
+        arrays = {"start_face": columns.pop("start_face"),
+                  "start_point": np.stack([columns.pop(f"start_point_{axis}") for axis in "xyz"], axis=1)}
+        rows = len(arrays["start_face"])
+    else:
+        arrays = {"vertices": columns.pop("vertex").astype(int)}
+        rows = len(arrays["vertices"])
     if "--radii" in run.asked:
         arrays["radii"] = columns.pop("radius")[None]
     if run.command == "aggregate":
         names = reductions(run)
-        shape = (-1, run.files.values.shape[1], len(names), len(arrays["vertices"]))
+        shape = (-1, run.files.values.shape[1], len(names), rows)
         arrays["values"] = np.moveaxis(np.stack(list(columns.values())).reshape(shape), 3, 1)
         if len(names) == 1:
             arrays["values"] = arrays["values"][..., 0]
@@ -136,14 +144,14 @@ def table_of_rows(run):
         kinds = run.asked.get("--kinds", "crease").split(",")
         of_kinds = [[columns.pop(f"{kind}_{name}") for kind in kinds] for name in ("scales", "strength", "radius")]
         arrays.update(zip(("scales", "strength", "radius"), (np.stack(one, axis=1) for one in of_kinds)))
-        arrays["features"] = np.stack(list(columns.values())).reshape(len(kinds), -1, len(arrays["vertices"]))
+        arrays["features"] = np.stack(list(columns.values())).reshape(len(kinds), -1, rows)
         arrays["features"] = np.moveaxis(arrays["features"], 0, 2)
         return arrays
     for name in dict.fromkeys(re.sub(r"_r?[^_]+(_[xyz012])?$", "", name) for name in columns):
         of_name = [column for key, column in columns.items() if re.fullmatch(rf"{name}_r?[^_]+", key)]
         if not of_name:
             of_name = [column for key, column in columns.items() if re.fullmatch(rf"{name}_r?[^_]+_[xyz012]", key)]
-            of_name = np.stack(of_name).reshape(-1, 3, len(arrays["vertices"])).swapaxes(1, 2)
+            of_name = np.stack(of_name).reshape(-1, 3, rows).swapaxes(1, 2)
         arrays[name] = np.stack(list(of_name))
     return arrays
 
@@ -423,11 +431,13 @@ def batch(run, wrong):
 def check_radii(question, arrays, wrong):
     per_row = "--radii" in question.run.asked
     expected = question.files.radii[None, : len(question.rows)] * question.unit if per_row else np.array(question.radii)
-    if "--csv" in question.run.asked:
+    if "--csv" in question.run.asked and "--points" in question.run.asked:
+        expect(wrong, "starts", len(arrays["start_point"]), len(question.rows))
+    elif "--csv" in question.run.asked:
         rows = question.mesh.kept[question.rows] if "--vertices" in question.run.asked else question.rows
         expect(wrong, "vertices", arrays["vertices"].tolist(), rows.tolist())
-        if not per_row:
-            return
+    if "--csv" in question.run.asked and not per_row:
+        return
     expect(wrong, "radii", arrays["radii"].shape, expected.shape)
     expect(wrong, "radii", arrays["radii"], expected)
 
@@ -497,17 +507,17 @@ FITS = (*READING, "--metric", "--walls", "--ignored", "--unit", "--no-filter", "
 
 
 @functools.lru_cache(maxsize=None)
-def fitted(files, command, file, options, radius, v):
-    """The answer for one vertex and one list of radii, from the mesh itself."""
-    listed = files.folder / "one_vertex"
-    listed.write_text(f"{v}\n", encoding="utf-8")
-    alone = ["-r", radius, "--vertices", listed, "--threads", "1", "-o", "-"]
+def fitted(files, command, file, options, radius, option, row):
+    """The answer for one line of a list of vertices or points and one list of radii, from the mesh itself."""
+    listed = files.folder / "one_row"
+    listed.write_text(row, encoding="utf-8")
+    alone = ["-r", radius, option, listed, "--threads", "1", "-o", "-"]
     done = files.run([command, files.folder / file, *options, *alone])
     return dict(np.load(io.BytesIO(done.stdout)))
 
 
 def fits(run, wrong):
-    """Curvatures, features, invariants and gaps of the surface, against the same for one vertex at a time."""
+    """Curvatures, features, invariants and gaps of the surface, against the same for one row at a time."""
     question = Question(run)
     asked, arrays, rows = run.asked, arrays_of(run), question.rows
     options = words_of(run, FITS)
@@ -528,13 +538,16 @@ def fits(run, wrong):
     is_rounded = {"--csv", "--largest"} <= set(asked)  # text does not have the radii that were computed
     for row in sample(len(rows))[::20]:
         of_row = repr(question.files.radii[row].item()) if "--radii" in asked else radii
-        one = fitted(question.files, run.command, run.file, options, of_row, int(rows[row]))
+        listed = ("--vertices", f"{rows[row]}")
+        if "--points" in asked:
+            listed = ("--points", " ".join(map(repr, question.files.points[row].tolist())))
+        one = fitted(question.files, run.command, run.file, options, of_row, *listed)
         for name in set(one) - {"radii", "vertices", "kinds"}:
-            axis = 0 if name in ("scales", "strength", "radius") else 1
+            axis = 0 if name in ("scales", "strength", "radius", "start_face", "start_point") else 1
             found = np.take(arrays[name], [row], axis)
             same = agree(found, one[name]) if is_rounded else np.array_equal(found, one[name], equal_nan=True)
             if not same:
-                what = f"{name} of row {row}, vertex {rows[row]}"
+                what = f"{name} of row {row}, {' '.join(listed)}"
                 wrong.append(f"{what}: expected {one[name].ravel()}, got {found.ravel()}")
     shown = {"features": lambda: arrays["features"][-1, :, 0], "invariants": lambda: arrays["volume"][-1],
              "gaps": lambda: arrays["distance"][-1], "curvature": lambda: (arrays["k1"][-1] + arrays["k2"][-1]) / 2}

@@ -238,6 +238,7 @@ class Files:
             text(name, getattr(self, name))
         text("one_value", self.values[:, 0])
         text("radii_of_vertices", self.radii[: len(self.vertices)])
+        text("radii_of_points", self.radii[: len(self.points)])
         np.save(self.folder / "values", self.values)
         (self.folder / "values.npy").rename(self.folder / "values")
         np.save(self.folder / "positions.npy", self.arrays[0])
@@ -313,8 +314,9 @@ class Run:
             return ",".join(map(repr, self.files.point.tolist()))
         if value == "enough":
             return str(self.enough)
-        if value == "radii" and "--vertices" in self.asked:
-            value = "radii_of_vertices"
+        for rows in ("vertices", "points"):
+            if value == "radii" and f"--{rows}" in self.asked:
+                value = f"radii_of_{rows}"
         if value in ("mesh", "faces"):
             value += {"mesh": ".ply", "faces": ".npy"}[value]
         if isinstance(value, str):
