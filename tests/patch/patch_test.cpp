@@ -670,6 +670,13 @@ TEST(Patch, OfAPointHasItsFaceAtAnyRadius) {
       EXPECT_FALSE(std::isnan(test.searcher.measure({on.face, on.point}, radius).volume));
     }
   }
+  Case box(make_box({1, 1, 1}, 1));
+  const SurfacePoint on = box.surface.closest_point({0.5, 0.5, 2});
+  for (const double radius : {0.0, 1e-320, 1e-200}) {
+    EXPECT_EQ(box.searcher.patch({on.face, on.point}, radius).size(), 2U) << "on a diagonal";
+    EXPECT_EQ(box.searcher.measure({on.face, on.point}, radius).volume, 0);
+    EXPECT_EQ(box.searcher.gap({on.face, on.point}, radius).face, kNoFace);
+  }
 }
 
 TEST(Patch, IsTheSameFarFromTheOrigin) {
