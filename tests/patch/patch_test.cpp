@@ -258,6 +258,25 @@ TEST(Patch, OfACubeIsExact) {
   }
 }
 
+/// The rim passes through the opposites of the normal at the start and of the pole that is tried next.
+TEST(Patch, OfATurnedCubeIsExact) {
+  const Point pole{0.48, 0.6, 0.64};
+  for (double angle = 0; angle < 6; ++angle) {
+    const Point beside = std::cos(angle) * Point{0.8, 0, -0.6} + std::sin(angle) * Point{-0.36, 0.8, -0.48};
+    const Point x = std::sqrt(0.5) * (pole + beside);
+    const Point y = std::sqrt(0.5) * (pole - beside);
+    const auto turned = [&](const Point& p) { return p.x * x + p.y * y + p.z * cross(x, y); };
+    TestMesh mesh = make_box({1, 1, 1}, 2);
+    for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+      const Point p = turned(corner_of(mesh, v));
+      std::ranges::copy(std::array{p.x, p.y, p.z}, &mesh.positions[3 * std::size_t{v}]);
+    }
+    Case cube(mesh.finish(false));
+    const Point on = turned({2, 1, 2});
+    EXPECT_NEAR(cube.measure({3, {on.x, on.y, on.z}}, 0.5).volume, kPi / 24, 1e-14);
+  }
+}
+
 TEST(Patch, OfASphereHasItsMeanCurvature) {
   Case ball(make_ball(6));
   const double r = 0.5;
