@@ -271,6 +271,7 @@ class Session {
     aggregate_ids(*place.index, vertices, radius, answer, run.threads);
     fit_rows(place, vertices, radius, run.threads);
     find_patches(place, vertices, radius, run.threads);
+    find_nearest(*place.index, vertices, radius, run.threads);
     follow_refit(place, {.vertices = vertices, .radius = radius}, run.threads);
   }
 
@@ -344,11 +345,75 @@ class Session {
       if (polygons == mesh.face_count()) expect_faces(mesh, place.subject->oracle.exact(v, radius), faces);
       if (row == 0) clip_patch(searcher, v, radius, faces);
     }
+    find_patches_of_points(surface, mesh, vertices, radius, threads);
   }
 
-  static std::size_t count_polygons(const test::TestMesh& mesh) {
+  /// Rows of points nearest to the middles of pairs of vertices are searches alone, bit for bit. Some have another
+  /// face.
+  static void find_patches_of_points(const Surface& surface, const test::TestMesh& mesh,
+                                     const std::vector<VertexId>& vertices, double radius, unsigned threads) {
+    const std::size_t rows = vertices.size();
+    const std::vector<double> scales{radius, 0, radius / 2};
+    std::vector<std::size_t> faces;
+    std::vector<SpacePoint> points;
+    std::vector<double> radii;
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double* const a = &mesh.positions[3 * std::size_t{vertices[row]}];
+      const double* const b = &mesh.positions[3 * std::size_t{vertices[(row + 1) % rows]}];
+      const SurfacePoint on = surface.closest_point({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
+      faces.push_back((on.face + row % 8 / 7) % mesh.face_count());
+      points.push_back(on.point);
+      radii.push_back(scales[row % scales.size()]);
+    }
+    PatchSearcher searcher(surface);
+    for (const BatchRadius& given : {BatchRadius(radius), BatchRadius(radii), BatchRadius::scales(scales)}) {
+      const Invariants found = invariants(surface, faces, points, given, {.threads = threads});
+      const std::vector<SurfacePoint> nearest = gaps(surface, faces, points, given, {.threads = threads});
+      if (found.area.size() != (given.scales() ? scales.size() : 1) * rows) fail("another number of rows of points");
+      for (std::size_t i = 0; i < found.area.size(); ++i) {
+        const PatchStart start(faces[i % rows], points[i % rows]);
+        const double one = given.scales() ? scales[i / rows] : given.list() ? radii[i] : radius;
+        const auto [area, volume] = searcher.measure(start, one);
+        const auto numbers = [](double a, double v, const SurfacePoint& gap) {
+          return std::vector{a, v, gap.distance, gap.point[0], gap.point[1], gap.point[2]};
+        };
+        const SurfacePoint gap = searcher.gap(start, one);
+        if (gap.face != nearest[i].face ||
+            !same_bits(numbers(area, volume, gap), numbers(found.area[i], found.volume[i], nearest[i]))) {
+          fail("a row of a point differs");
+        }
+      }
+    }
+  }
+
+  /// Rows of nearest vertices, which are searched together, are those of single searches.
+  static void find_nearest(const Index& index, const std::vector<VertexId>& vertices, double radius, unsigned threads) {
+    const std::size_t k = 1 + vertices.size() / 2;
+    const KNearest found = k_nearest(index, vertices, k, {.radius = radius}, {.threads = threads});
+    Searcher searcher(index);
+    std::vector<VertexId> ids;
+    std::vector<double> distances;
+    for (std::size_t row = 0; row < vertices.size(); ++row) {
+      searcher.nearest_connected(vertices[row], k, ids, distances);
+      ids.resize(static_cast<std::size_t>(std::ranges::upper_bound(distances, radius) - distances.begin()));
+      distances.resize(ids.size());
+      ids.resize(k, kNoVertex);
+      distances.resize(k, std::numeric_limits<double>::infinity());
+      if (!std::ranges::equal(ids, std::span(found.ids).subspan(row * k, k)) ||
+          !std::ranges::equal(distances, std::span(found.distances).subspan(row * k, k))) {
+        fail("a row of nearest vertices differs");
+      }
+    }
+  }
+
+  /// Those without a wall.
+  static std::size_t count_polygons(const test::TestMesh& mesh, const std::vector<std::uint8_t>& walls = {}) {
     std::size_t polygons = 0;
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) polygons += static_cast<std::size_t>(mesh.face(f).size() > 2);
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+      const bool has_wall =
+          std::ranges::any_of(mesh.face(f), [&](VertexId v) { return !walls.empty() && walls[v] != 0; });
+      polygons += static_cast<std::size_t>(mesh.face(f).size() > 2 && !has_wall);
+    }
     return polygons;
   }
 
@@ -440,6 +505,14 @@ class Session {
     if (ids_ != oracle.region(start, radius)) fail("the region differs");
     const double connecting = searcher.connecting_radius({start.center, start.seeds}, w);
     if (connecting != oracle.connecting_radii(start)[w]) fail("the connecting radius differs");
+    std::vector<VertexId> all(vertices);
+    std::iota(all.begin(), all.end(), VertexId{0});
+    find_nearest(searched, all, radius, 2);
+    const test::TestMesh& mesh = place.subject->mesh;
+    const Surface surface(searched, mesh.view().faces);
+    if (count_polygons(mesh, start.walls) != 0) return find_patches_of_points(surface, mesh, all, radius, 2);
+    const std::vector<std::size_t> none;
+    expect_refused(ErrorCode::InvalidMesh, [&] { static_cast<void>(gaps(surface, none, {}, radius)); });
   }
 
   void ask_wrongly() {

@@ -10,6 +10,7 @@
 
 #include "meshhood/batch.h"
 
+#include "aggregate/reducers.h"
 #include "batch/position_sort.h"
 #include "exact/index_access.h"
 #include "shared/parallel.h"

@@ -21,12 +21,10 @@ RealVector<Real> offset(const PatchBall& ball, const Point& p) {
 
 ClippedTriangle::ClippedTriangle(const PatchBall& ball, const PatchTriangle& triangle)
     : ball_(&ball), triangle_(&triangle) {
-  double farthest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     corners_[i] = ball.unit * (triangle.corners[i] - ball.center);
-    farthest = std::max(farthest, dot(corners_[i], corners_[i]));
+    is_far_ = is_far_ || !(dot(corners_[i], corners_[i]) <= kFar * kFar);  // NaN where the unit is infinite
   }
-  is_far_ = !(farthest <= kFar * kFar);
   for (std::size_t i = 0; i < 3; ++i) {
     sides_[i].is_cut = triangle.inside[i] || triangle.inside[after(i)];
     if (sides_[i].is_cut || !may_dip(i)) continue;

@@ -109,7 +109,7 @@ class ClippedTriangle {
   const PatchTriangle* triangle_;
   std::array<Point, 3> corners_;  // from the center
   std::array<Side, 3> sides_;
-  bool is_far_;
+  bool is_far_ = false;
   Plane plane_;
 };
 

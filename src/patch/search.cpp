@@ -124,19 +124,12 @@ void PatchSearch::add_whole(TriangleId t, const PatchTriangle& triangle) {
 }
 
 void PatchSearch::add_cut(TriangleId t, const PatchTriangle& triangle) {
-  const auto add_side = [&](std::size_t i, bool is_met) {
-    if (is_met && state_->triangles.is_border(t, static_cast<unsigned>(i))) sums_.meet_border();
-  };
-  if (!std::isfinite(ball_.unit)) {  // a ball that is next to nothing
-    for (std::size_t i = 0; i < 3; ++i) add_side(i, triangle.inside[i] || triangle.inside[(i + 1) % 3]);
-    return;
-  }
   ClippedTriangle clipped(ball_, triangle);
   for (std::size_t i = 0; i < 3; ++i) {
     if (clipped.dips(i)) state_->triangles.for_each_beside(t, i, [&](TriangleId other) { visit(other); });
-    add_side(i, clipped.meets(i));
+    if (clipped.meets(i) && state_->triangles.is_border(t, static_cast<unsigned>(i))) sums_.meet_border();
   }
-  if (measures_) clipped.add_to(sums_);
+  if (measures_ && std::isfinite(ball_.unit)) clipped.add_to(sums_);  // else the ball is next to nothing
 }
 
 }  // namespace meshhood::inline v0_1

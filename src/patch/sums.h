@@ -3,8 +3,10 @@
 // it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "shared/distance.h"
 #include "simd/patches.h"
@@ -16,14 +18,15 @@ struct PatchBall {
   Point center;
   double squared;  // of the predicate
   double scale;    // of the frame, a power of two
-  double radius;   // in the frame
+  double radius;   // in the frame; > 0, so that sides through the center of one that is next to nothing are found
   double unit;     // 1 / radius in the unit of the mesh; infinite if that is next to nothing
 
   [[nodiscard]] bool contains(const Point& p) const { return squared_distance(center, p) <= squared; }
 };
 
 [[nodiscard]] inline PatchBall patch_ball(const Point& center, double radius, double scale) {
-  return {center, squared_radius(radius), scale, scale * radius, radius > 0 ? 1 / radius : kInfinity};
+  constexpr double kLeast = std::numeric_limits<double>::min();
+  return {center, squared_radius(radius), scale, std::max(kLeast, scale * radius), radius > 0 ? 1 / radius : kInfinity};
 }
 
 /// The circle in which a plane meets the unit sphere.

@@ -63,10 +63,11 @@ double unfolded_length(const Point& a, const Point& b, const Point& c, const Poi
   };
   const auto [along_c, away_c] = in_plane(c);
   const auto [along_d, away_d] = in_plane(d);
-  const double crossing = (along_c * away_d + along_d * away_c) / (away_c + away_d);
+  const double away = away_c + away_d;
+  if (away == 0) return kNoLine;
+  const double crossing = (along_c * away_d + along_d * away_c) / away;
   if (!(0 < crossing && crossing < side)) return kNoLine;
   const double along = along_c - along_d;
-  const double away = away_c + away_d;
   return std::sqrt(along * along + away * away);
 }
 

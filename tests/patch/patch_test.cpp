@@ -258,6 +258,33 @@ TEST(Patch, OfACubeIsExact) {
   }
 }
 
+/// The rim passes through the opposite of its pole: a normal z, and what `RimArcs` adds to it, in the plane of a face.
+TEST(Patch, OfATurnedCubeIsExact) {
+  const Point oblique{0.0731, -0.0417, 0.0593};
+  for (double angle = 0; angle < 6; angle += 0.5) {
+    const Point z{0.6 * std::cos(angle), 0.6 * std::sin(angle), 0.8};
+    const Point across = cross(z, oblique);
+    const Point x = (1 / length(across)) * across;
+    const Point y = cross(z, x);
+    TestMesh mesh = make_box({1, 1, 1}, 2);
+    const auto turned = [&](const Point& p) { return p.x * x + p.y * y + p.z * z; };
+    for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+      const Point p = turned(corner_of(mesh, v));
+      std::ranges::copy(std::array{p.x, p.y, p.z}, &mesh.positions[3 * std::size_t{v}]);
+    }
+    Case cube(mesh.finish(false));
+    const Point on = turned({2, 1, 2});
+    std::size_t sides = 0;
+    for (std::size_t face = 0; face < 12; ++face) {
+      const double volume = cube.measure({face, {on.x, on.y, on.z}}, 0.5).volume;
+      if (std::isnan(volume)) continue;  // too far away
+      ++sides;
+      EXPECT_NEAR(volume, kPi / 24, 1e-14);
+    }
+    EXPECT_EQ(sides, 2U);
+  }
+}
+
 TEST(Patch, OfASphereHasItsMeanCurvature) {
   Case ball(make_ball(6));
   const double r = 0.5;
@@ -669,6 +696,13 @@ TEST(Patch, OfAPointHasItsFaceAtAnyRadius) {
       EXPECT_THAT(test.searcher.patch({on.face, on.point}, radius), testing::Contains(on.face));
       EXPECT_FALSE(std::isnan(test.searcher.measure({on.face, on.point}, radius).volume));
     }
+  }
+  Case box(make_box({1, 1, 1}, 1));
+  const SurfacePoint on = box.surface.closest_point({0.5, 0.5, 2});
+  for (const double radius : {0.0, 1e-320, 1e-200}) {
+    EXPECT_EQ(box.searcher.patch({on.face, on.point}, radius).size(), 2U) << "on a diagonal";
+    EXPECT_EQ(box.searcher.measure({on.face, on.point}, radius).volume, 0);
+    EXPECT_EQ(box.searcher.gap({on.face, on.point}, radius).face, kNoFace);
   }
 }
 
