@@ -257,9 +257,10 @@ void bind_methods(nb::module_& module) {
       .value("rings", Metric::Rings)
       .value("space", Metric::Space);
   nb::class_<Call>(module, "Call")
-      .def(nb::init<std::optional<Ids>, Radius, Metric, unsigned, nb::object, std::uint64_t>(),
-           nb::arg("vertices").none(), nb::arg("radius"), nb::arg("metric"), nb::arg("threads"),
-           nb::arg("progress").none(), nb::arg("max_bytes"));
+      .def(nb::init<std::optional<Ids>, std::optional<FacePoints>, Radius, Metric, unsigned, nb::object,
+                    std::uint64_t>(),
+           nb::arg("vertices").none(), nb::arg("points").none(), nb::arg("radius"), nb::arg("metric"),
+           nb::arg("threads"), nb::arg("progress").none(), nb::arg("max_bytes"));
   nb::class_<Method>(module, "Method")
       .def("neighborhood", &one)
       .def("neighborhood_and_distances", &one_with_distances)
