@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import { expectMesh, expectNumber, withDefaults, withMesh } from './arguments.js';
+import { expectNumber, withDefaults, withMesh } from './arguments.js';
 import { Instance } from './instance.js';
 
 /** The position of the first vertex of each id. */
@@ -14,7 +14,6 @@ function keptPositions(positions, ids) {
 
 export function weld(positions, corners, options = {}) {
   const { offsets, eps } = withDefaults(options, { offsets: null, eps: 0 });
-  expectMesh(positions, { corners, offsets });
   expectNumber(eps, 'eps');
   const instance = new Instance();
   try {
