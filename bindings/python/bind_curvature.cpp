@@ -52,13 +52,11 @@ auto corrected_curvatures_of(const Surface& surface, const Call& call) {
   const Run run = call.run();
   CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, call.query(), run); });
   const std::size_t rows = found.area.size();
-  const auto vectors = [rows](std::vector<double>& values, std::size_t columns) {
-    return owned<double>(std::move(values), {rows, columns});
-  };
   return std::tuple(owned<double>(std::move(found.area)), owned<double>(std::move(found.mean)),
                     owned<double>(std::move(found.gaussian)), owned<double>(std::move(found.k1)),
-                    owned<double>(std::move(found.k2)), vectors(found.d1, 3), vectors(found.d2, 3),
-                    vectors(found.measures, CorrectedCurvatures::kMeasures));
+                    owned<double>(std::move(found.k2)), owned<double>(std::move(found.d1), {rows, 3}),
+                    owned<double>(std::move(found.d2), {rows, 3}),
+                    owned<double>(std::move(found.measures), {rows, CorrectedCurvatures::kMeasures}));
 }
 
 MomentOptions moment_options(unsigned degree, const std::optional<Reals>& weights) {
