@@ -197,7 +197,7 @@ class Queries(Held):
         else:
             centers = _convert.points(points, "points")
             count = len(centers)
-        searched = self._by_metric(centers, metric, walls, ignored, "points: expected vertices")
+        searched = self._method_for(centers, metric, walls, ignored, wanted="points: expected vertices")
         radii = np.array(np.broadcast_to(_convert.radii(r, count), count)) * self._scale(unit, metric)
         if face is not None:
             rows = self._corners_of(face, count, seeds)
@@ -240,7 +240,7 @@ class Queries(Held):
         >>> counts, ids = index.nested(42, range(3), metric="rings")  # itself, its neighbors, and theirs
         """
         center, first = self._start(start, seeds, face, "neighborhoods(scales=radii, vertices=...)")
-        searched = self._by_metric(center, metric, walls, ignored)
+        searched = self._method_for(center, metric, walls, ignored)
         values = _convert.ascending(radii, "radii") * self._scale(unit, metric)
         counts, ids, has_seed = searched.nested(center, first, values)
         _warn_unless(has_seed or not len(first), "start: the")
@@ -266,7 +266,7 @@ class Queries(Held):
         True
         """
         center, first = self._start(start, seeds, face, "a call for each")
-        searched = self._by_metric(center, metric, walls, ignored)
+        searched = self._method_for(center, metric, walls, ignored)
         w, r = _convert.vertex(w, self._count, "w"), self._scale(unit, metric) * _convert.radius(r)
         return bool(searched.contains(center, first, w, r))
 
@@ -292,7 +292,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "a call for each")
         w = _convert.vertex(w, self._count, "w")
-        return float(self._by_metric(center, metric, walls, ignored).connecting_radius(center, first, w))
+        return float(self._method_for(center, metric, walls, ignored).connecting_radius(center, first, w))
 
     def nearest_connected(
         self,
@@ -315,7 +315,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "k_nearest(k, vertices), or seeds= around a point")
         k = _convert.integer(k, "k", 1, 2**63 - 1)
-        return Connected(*self._by_metric(center, metric, walls, ignored).nearest_connected(center, first, k))
+        return Connected(*self._method_for(center, metric, walls, ignored).nearest_connected(center, first, k))
 
     @overload
     def nearest(
@@ -353,17 +353,19 @@ class Queries(Held):
     ) -> tuple[Any, Ids, float, Any]:
         """The center and the seeds, as `_start` returns them, the radius, and the method."""
         center, first = self._start(start, seeds, face, "neighborhoods(r, vertices)")
-        searched = self._searched(metric, walls, ignored)._method(method, metric)
-        _check_vertex(center, metric, method)
+        searched = self._method_for(center, metric, walls, ignored, method)
         return center, first, self._scale(unit, metric) * _convert.radius(r), searched
 
-    def _by_metric(
-        self, center: Any, metric: Any, walls: Any, ignored: Any, wanted: str = "start: expected a vertex"
-    ) -> Any:
-        """The exact method. Refuses a point where the metric needs a vertex."""
-        searched = self._searched(metric, walls, ignored)._method("exact", metric)
-        _check_vertex(center, metric, "exact", wanted)
-        return searched
+    def _method_for(
+        self, center: Any, metric: Any, walls: Any, ignored: Any, method: Any = "exact",
+        wanted: str = "start: expected a vertex",
+    ) -> Any:  # fmt: skip
+        """The method for a point, or for a vertex if `center` is None."""
+        if center is not None and metric == "rings":
+            raise ValueError(f"{wanted} with metric={metric!r}, because a point has no edges")
+        if center is not None and method != "exact":
+            raise ValueError(f"method: {method!r}, expected 'exact' around a point")
+        return self._searched(metric, walls, ignored)._method(method, metric)
 
     def _start(self, start: Any, seeds: Any, face: Any, meant: str) -> tuple[tuple[float, float, float] | None, Ids]:
         """The center and the seeds; for a vertex, None and the vertex. `meant`: the call for several vertices."""
@@ -398,13 +400,6 @@ class Queries(Held):
         places = np.arange(sizes.max(initial=0))
         at = np.minimum(begin[:, None] + places, max(len(corners) - 1, 0))
         return np.where(places < sizes[:, None], corners[at], np.int32(-1))
-
-
-def _check_vertex(center: Any, metric: str, method: Any, wanted: str = "start: expected a vertex") -> None:
-    if center is not None and metric == "rings":
-        raise ValueError(f"{wanted} with metric={metric!r}, because a point has no edges")
-    if center is not None and method != "exact":
-        raise ValueError(f"method: {method!r}, expected 'exact' around a point")
 
 
 def _around_point(searched: Any, center: Any, first: Ids, radius: float) -> tuple[Ids, Reals]:
