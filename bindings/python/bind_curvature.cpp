@@ -59,15 +59,9 @@ auto corrected_curvatures_of(const Surface& surface, const Call& call) {
                     owned<double>(std::move(found.measures), {rows, CorrectedCurvatures::kMeasures}));
 }
 
-MomentOptions moment_options(unsigned degree, const std::optional<Reals>& weights) {
-  MomentOptions options{.degree = degree, .weights = {}};
-  if (weights) options.weights = numbers_of(*weights);
-  return options;
-}
-
 Output<double> moments_of(const ExactMethod& method, const Call& call, unsigned degree,
                           const std::optional<Reals>& weights) {
-  const MomentOptions options = moment_options(degree, weights);
+  const MomentOptions options{.degree = degree, .weights = numbers_of(weights)};
   const Run run = call.run();
   std::vector<double> found = without_lock([&] { return moments(method.index(), call.query(), options, run); });
   const std::size_t columns = moment_count(degree);
@@ -76,7 +70,7 @@ Output<double> moments_of(const ExactMethod& method, const Call& call, unsigned 
 }
 
 auto components_of(const ExactMethod& method, const Call& call, const std::optional<Reals>& weights) {
-  const MomentOptions options = moment_options(0, weights);
+  const MomentOptions options{.degree = 0, .weights = numbers_of(weights)};
   const Run run = call.run();
   PrincipalComponents found =
       without_lock([&] { return principal_components(method.index(), call.query(), options, run); });

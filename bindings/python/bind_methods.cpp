@@ -205,19 +205,13 @@ auto discs_of(const ExactMethod& method, const Call& call, double area, const Re
 /// A value for each vertex, 0 or 1.
 using Mask = std::optional<Bytes>;
 
-/// Borrows the array.
-VertexMask mask_of(const Mask& mask) { return mask ? VertexMask(std::span(mask->data(), mask->size())) : VertexMask(); }
-
 std::shared_ptr<ExactMethod> masked_method(const ExactMethod& method, const Mask& walls, const Mask& ignored) {
-  const Masks masks{mask_of(walls), mask_of(ignored)};
+  const Masks masks{.walls = bytes_of(walls), .ignored = bytes_of(ignored)};
   return exact_method(without_lock([&] { return masked(method.index(), masks); }));
 }
 
 bool are_same_masks(const Mask& a, const Mask& b) {
-  const auto bytes = [](const Mask& mask) {
-    return mask ? std::span(mask->data(), mask->size()) : std::span<const std::uint8_t>();
-  };
-  return a.has_value() == b.has_value() && std::ranges::equal(bytes(a), bytes(b));
+  return a.has_value() == b.has_value() && std::ranges::equal(bytes_of(a), bytes_of(b));
 }
 
 /// Not a copy: the array keeps the index alive, and may not be written to.
