@@ -57,7 +57,7 @@ Fingerprint hash_faces(const FacesView& faces) {
 // Regions as meshes.
 
 [[clang::export_name("prepare_regions")]] void prepare_regions() {
-  workspace.build(given, {}, {});
+  workspace.replace_index(meshhood::build(given));
   workspace.use_faces(given.faces, {});
 }
 
