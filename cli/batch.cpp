@@ -41,24 +41,6 @@ struct BatchEstimate {
   AnswerSize lower;  ///< three standard errors below the mean
 };
 
-/// The sizes of rows, one after the other.
-struct Sample {
-  double rows = 0;
-  double sum = 0;
-  double squares = 0;
-
-  void add(double size) {
-    rows += 1;
-    sum += size;
-    squares += size * size;
-  }
-
-  [[nodiscard]] double mean() const { return sum / rows; }
-  [[nodiscard]] double standard_error() const {
-    return std::sqrt(std::max(0.0, squares / rows - mean() * mean()) / rows);
-  }
-};
-
 /// Takes about half a second. Empty for few rows, which are counted as fast.
 std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQuery& query) {
   constexpr std::size_t kSamples = 256;
@@ -71,25 +53,29 @@ std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQue
   std::vector<VertexId> vertices(kSamplesPerStep);
   std::vector<double> radii(kSamplesPerStep);
   const BatchRadius radius = query.radius.list() ? BatchRadius(radii) : query.radius;
-  Sample sample;
+  double drawn = 0;  // rows, and the sums of their sizes and of the squares of these
+  double sum = 0;
+  double squares = 0;
   // A call of a scan, or of a search that copies the positions, also takes a time that grows with the mesh.
   const auto work_of_call = static_cast<double>(method.vertex_count());
-  for (double work = 0; sample.rows < kSamples && work < kMostWork;
-       work = sample.sum + work_of_call * sample.rows / kSamplesPerStep) {
+  for (double work = 0; drawn < kSamples && work < kMostWork; work = sum + work_of_call * drawn / kSamplesPerStep) {
     for (std::size_t i = 0; i < kSamplesPerStep; ++i) {
       const std::size_t row = random() % rows;
       vertices[i] = query.vertices[row];
       if (query.radius.list()) radii[i] = (*query.radius.list())[row];
     }
     for (const std::uint64_t size : counts(method, {.vertices = vertices, .radius = radius, .metric = query.metric})) {
-      sample.add(static_cast<double>(size));
+      drawn += 1;
+      sum += static_cast<double>(size);
+      squares += static_cast<double>(size) * static_cast<double>(size);
     }
   }
+  const double mean = sum / drawn;
+  const double standard_error = std::sqrt(std::max(0.0, squares / drawn - mean * mean) / drawn);
   const auto of_all_rows = [rows](double size) {
     return AnswerSize{rows, static_cast<std::uint64_t>(static_cast<double>(rows) * size)};
   };
-  return BatchEstimate{of_all_rows(sample.mean()),
-                       of_all_rows(std::max(0.0, sample.mean() - 3 * sample.standard_error()))};
+  return BatchEstimate{of_all_rows(mean), of_all_rows(std::max(0.0, mean - 3 * standard_error))};
 }
 
 struct BatchCommand {
@@ -206,15 +192,14 @@ class Writer {
   }
 
  private:
-  [[nodiscard]] BatchVertices listed() const { return listed_rows(options_, query_); }
-
   /// A line for each vertex of each row.
   AnswerSize write_pairs() {
     CsvWriter csv(options_.output.name, pair_names(options_.distances), options_.max_bytes);
+    const BatchVertices listed = listed_rows(options_, query_);
     AnswerSize total;
     for_each_row(options_.distances || sorter_.needs_distances(),
                  [&](std::span<const VertexId> ids, std::span<const double> distances) {
-                   const VertexId v = listed()[total.rows++];
+                   const VertexId v = listed[total.rows++];
                    total.count += ids.size();
                    for (std::size_t i = 0; i < ids.size(); ++i) {
                      csv.add(v);
@@ -230,7 +215,7 @@ class Writer {
 
   void write_arrays(std::span<const std::uint64_t> sizes, const AnswerSize& total) {
     io::NpzWriter npz(path_of(options_.output.name));
-    write_vertices(npz, listed());
+    write_vertices(npz, listed_rows(options_, query_));
     const std::uint64_t columns = method_.vertex_count();
     if (is_matrix(options_)) {
       const std::array<std::int64_t, 2> shape{static_cast<std::int64_t>(total.rows),

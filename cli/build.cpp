@@ -38,13 +38,6 @@ struct BuildCommand {
 
 using BuiltIndex = std::variant<Index, paper::Index>;
 
-struct Summary {
-  std::size_t vertices;
-  std::size_t clusters;  ///< on the lowest level
-  std::uintmax_t bytes;  ///< of the file; 0 for a pipe or a device
-  double seconds;        ///< of the build
-};
-
 /// Of a `MeshView` or a `GraphView`.
 template <class Mesh>
 BuiltIndex build_index(const BuildCommand& options, const Mesh& mesh) {
@@ -59,22 +52,24 @@ void save(const std::string& file, const BuiltIndex& built, const SaveOptions& s
   io::save(path_of(file), std::get<paper::Index>(built), run);
 }
 
-Summary summary_of(const std::string& file, const BuiltIndex& built, double seconds) {
+void print(const BuildCommand& options, const BuiltIndex& built, double seconds) {
   std::error_code not_regular;
-  const std::uintmax_t bytes = std::filesystem::file_size(path_of(file), not_regular);
-  return std::visit(
-      [&](const auto& index) {
-        const std::vector<LevelSummary> levels = index.levels();
-        return Summary{.vertices = index.vertex_count(),
-                       .clusters = levels.empty() ? 0 : levels.front().clusters,
-                       .bytes = not_regular ? 0 : bytes,
-                       .seconds = seconds};
-      },
-      built);
+  const std::uintmax_t size = std::filesystem::file_size(path_of(options.output), not_regular);
+  const std::uintmax_t bytes = not_regular ? 0 : size;  // 0 for a pipe or a device
+  const std::size_t vertices = std::visit([](const auto& index) { return index.vertex_count(); }, built);
+  const std::vector<LevelSummary> levels = std::visit([](const auto& index) { return index.levels(); }, built);
+  const std::size_t lowest = levels.empty() ? 0 : levels.front().clusters;
+  const std::string_view clusters = options.index == "paper" ? "clusters" : "leaves";
+  print_result(options.json,
+               {{"output", options.output},
+                {"index", options.index},
+                {"vertices", vertices},
+                {clusters, lowest},
+                {"bytes", bytes},
+                {"seconds", seconds}},
+               fmt::format("{}: {} vertices, {} {}, {}, built in {:.3f} s\n", printable_name(options.output), vertices,
+                           lowest, clusters, bytes_text(static_cast<double>(bytes)), seconds));
 }
-
-/// The name of the clusters on the lowest level.
-std::string_view clusters_name(const BuildCommand& options) { return options.index == "paper" ? "clusters" : "leaves"; }
 
 /// The graph of the mesh without the edges that `file` lists.
 Adjacency cut_graph(const MeshView& mesh, const std::string& file, const Welding& welding) {
@@ -103,17 +98,7 @@ void build(const BuildCommand& options) {
       rest ? build_index(options, GraphView{mesh.view().positions, rest->view()}) : build_index(options, mesh.view());
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   save(options.output, index, {.faces = options.faces ? std::optional(mesh.view().faces) : std::nullopt});
-  const Summary summary = summary_of(options.output, index, elapsed.count());
-  print_result(options.json,
-               {{"output", options.output},
-                {"index", options.index},
-                {"vertices", summary.vertices},
-                {clusters_name(options), summary.clusters},
-                {"bytes", summary.bytes},
-                {"seconds", summary.seconds}},
-               fmt::format("{}: {} vertices, {} {}, {}, built in {:.3f} s\n", printable_name(options.output),
-                           summary.vertices, summary.clusters, clusters_name(options),
-                           bytes_text(static_cast<double>(summary.bytes)), summary.seconds));
+  print(options, index, elapsed.count());
 }
 
 }  // namespace

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 // meshhood closest: the points of the surface nearest to points in space.
-#include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>

@@ -37,28 +37,21 @@ struct Box {
   std::array<double, 3> max;
 };
 
-/// Properties of a mesh. Edges connect vertices, not positions.
-struct Statistics {
-  std::size_t vertices = 0;
-  std::size_t faces = 0;
-  std::map<std::size_t, std::size_t> polygon_degrees;  ///< number of corners -> number of faces
-  std::size_t edges = 0;                               ///< distinct
-  std::size_t components = 0;                          ///< connected by edges; without isolated vertices
-  std::size_t isolated_vertices = 0;                   ///< in no face
-  std::size_t boundary_edges = 0;                      ///< in one face
-  std::size_t nonmanifold_edges = 0;                   ///< in more than two faces
-  double average_edge = 0;                             ///< mean length of the distinct edges; 0 if there are none
-  std::size_t repeated_corners = 0;                    ///< corners whose vertex occurs earlier in the same face
-  std::size_t repeated_positions = 0;                  ///< #V minus the number of distinct positions
-  std::optional<Box> bounds;                           ///< empty for a mesh without vertices
+/// Of the distinct edges, which connect vertices, not positions.
+struct EdgeCounts {
+  std::size_t all = 0;
+  std::size_t boundary = 0;     ///< in one face
+  std::size_t nonmanifold = 0;  ///< in more than two faces
 };
 
+/// The number of faces by that of their corners.
 std::map<std::size_t, std::size_t> polygon_degrees(const FacesView& faces) {
   std::map<std::size_t, std::size_t> degrees;
   faces.for_each([&](std::size_t, std::span<const VertexId> corners) { ++degrees[corners.size()]; });
   return degrees;
 }
 
+/// Corners whose vertex occurs earlier in the same face.
 std::size_t repeated_corners(const FacesView& faces) {
   std::size_t repeated = 0;
   std::vector<VertexId> sorted;
@@ -85,15 +78,17 @@ std::vector<std::pair<VertexId, VertexId>> sides(const FacesView& faces) {
   return all;
 }
 
-void count_edges(const FacesView& faces, Statistics& result) {
+EdgeCounts count_edges(const FacesView& faces) {
+  EdgeCounts counts;
   const auto all = sides(faces);
   for (auto edge = all.begin(); edge != all.end();) {
     const auto next = std::find_if(edge, all.end(), [&](const auto& other) { return other != *edge; });
-    ++result.edges;
-    result.boundary_edges += next - edge == 1 ? 1 : 0;
-    result.nonmanifold_edges += next - edge > 2 ? 1 : 0;
+    ++counts.all;
+    counts.boundary += next - edge == 1 ? 1 : 0;
+    counts.nonmanifold += next - edge > 2 ? 1 : 0;
     edge = next;
   }
+  return counts;
 }
 
 /// For each vertex: whether it is in no face.
@@ -103,6 +98,11 @@ std::vector<char> mark_isolated(const MeshView& mesh) {
     for (const VertexId v : corners) done[v] = 0;
   });
   return done;
+}
+
+std::size_t count_isolated(const MeshView& mesh) {
+  const std::vector<char> isolated = mark_isolated(mesh);
+  return static_cast<std::size_t>(std::ranges::count(isolated, 1));
 }
 
 void mark_component(const AdjacencyView& adjacency, std::size_t start, std::vector<char>& done,
@@ -119,11 +119,14 @@ void mark_component(const AdjacencyView& adjacency, std::size_t start, std::vect
   }
 }
 
-std::size_t repeated_positions(const PositionsView& positions) {
-  const std::vector<VertexId> ids = io::welded_ids(positions);
-  return ids.empty() ? 0 : ids.size() - 1 - *std::max_element(ids.begin(), ids.end());
+/// #V minus the number of distinct positions. Walls do not count: they are where another vertex is.
+std::size_t repeated_positions(const io::Mesh& mesh) {
+  const std::vector<VertexId> ids = io::welded_ids(mesh.view().positions);
+  const std::size_t repeated = ids.empty() ? 0 : ids.size() - 1 - std::ranges::max(ids);
+  return repeated - std::min(repeated, static_cast<std::size_t>(std::ranges::count(mesh.walls, 1)));
 }
 
+/// None of a mesh without vertices.
 std::optional<Box> bounds(const PositionsView& positions) {
   if (positions.size() == 0) return std::nullopt;
   constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -138,7 +141,7 @@ std::optional<Box> bounds(const PositionsView& positions) {
   return box;
 }
 
-/// The number of components, as above. `adjacency`: that of `mesh`. O(#V + #corners).
+/// Components connected by edges, without isolated vertices. `adjacency`: that of `mesh`. O(#V + #corners).
 std::size_t count_components(const MeshView& mesh, const AdjacencyView& adjacency) {
   std::vector<char> done = mark_isolated(mesh);
   std::vector<VertexId> stack;
@@ -149,23 +152,6 @@ std::size_t count_components(const MeshView& mesh, const AdjacencyView& adjacenc
     ++components;
   }
   return components;
-}
-
-/// `adjacency`: that of `mesh`. O(#V log #V + #corners log #corners).
-Statistics statistics(const MeshView& mesh, const AdjacencyView& adjacency) {
-  Statistics result;
-  result.vertices = mesh.positions.size();
-  result.faces = mesh.faces.size();
-  result.polygon_degrees = polygon_degrees(mesh.faces);
-  count_edges(mesh.faces, result);
-  const std::vector<char> isolated = mark_isolated(mesh);
-  result.isolated_vertices = static_cast<std::size_t>(std::count(isolated.begin(), isolated.end(), 1));
-  result.components = count_components(mesh, adjacency);
-  result.average_edge = mean_edge_length({mesh.positions, adjacency});
-  result.repeated_corners = repeated_corners(mesh.faces);
-  result.repeated_positions = repeated_positions(mesh.positions);
-  result.bounds = bounds(mesh.positions);
-  return result;
 }
 
 /// What is printed, as JSON and as text.
@@ -247,32 +233,37 @@ std::string to_text(const std::optional<Box>& bounds) {
   return fmt::format("{:g} to {:g}", fmt::join(bounds->min, " "), fmt::join(bounds->max, " "));
 }
 
-Report report_of(const Input& input, const Statistics& s) {
+/// O(#V log #V + #corners log #corners).
+Report report_of(Input& input, std::size_t components, std::size_t repeated) {
   const io::Mesh& mesh = *input.mesh();
+  const MeshView view = mesh.view();
   const std::size_t welded = input.welding().count();
+  const std::map<std::size_t, std::size_t> by_corners = polygon_degrees(view.faces);
+  const EdgeCounts edges = count_edges(view.faces);
+  const double average_edge = mean_edge_length(input.graph());
+  const std::optional<Box> box = bounds(view.positions);
   Json degrees = Json::object();
-  for (const auto& [corners, faces] : s.polygon_degrees) degrees[std::to_string(corners)] = faces;
+  for (const auto& [corners, faces] : by_corners) degrees[std::to_string(corners)] = faces;
   Json warnings = Json::array();
   for (const auto& [what, count, first_place] : mesh.warnings) {
     warnings.push_back({{"what", what}, {"count", count}, {"first_place", first_place}});
   }
   Report report{{{"mesh", input.name()}, {"format", format_name(mesh.format)}}, ""};
   report.add_line("mesh", fmt::format("{} ({})", printable_name(input.name()), format_name(mesh.format)));
-  report.add("vertices", "vertices", s.vertices);
-  report.add("faces", "faces", s.faces);
-  report.add("polygon_degrees", "corners per face", degrees, to_text(s.polygon_degrees));
-  report.add("edges", "edges", s.edges);
-  report.add("components", "components", s.components);
-  report.add("isolated_vertices", "isolated vertices", s.isolated_vertices - welded);
-  report.add("boundary_edges", "boundary edges", s.boundary_edges);
-  report.add("nonmanifold_edges", "non-manifold edges", s.nonmanifold_edges);
-  report.add("average_edge", "mean edge length", s.average_edge, fmt::format("{:.4g}", s.average_edge));
-  report.add("repeated_corners", "repeated corners", s.repeated_corners);
-  report.add("repeated_positions", "repeated positions", s.repeated_positions);
+  report.add("vertices", "vertices", view.positions.size());
+  report.add("faces", "faces", view.faces.size());
+  report.add("polygon_degrees", "corners per face", degrees, to_text(by_corners));
+  report.add("edges", "edges", edges.all);
+  report.add("components", "components", components);
+  report.add("isolated_vertices", "isolated vertices", count_isolated(view) - welded);
+  report.add("boundary_edges", "boundary edges", edges.boundary);
+  report.add("nonmanifold_edges", "non-manifold edges", edges.nonmanifold);
+  report.add("average_edge", "mean edge length", average_edge, fmt::format("{:.4g}", average_edge));
+  report.add("repeated_corners", "repeated corners", repeated_corners(view.faces));
+  report.add("repeated_positions", "repeated positions", repeated);
   report.document["welded_vertices"] = welded;
   if (welded > 0) report.add_line("welded vertices", std::to_string(welded));
-  report.add("bounding_box", "bounding box", s.bounds ? Json{{"min", s.bounds->min}, {"max", s.bounds->max}} : Json(),
-             to_text(s.bounds));
+  report.add("bounding_box", "bounding box", box ? Json{{"min", box->min}, {"max", box->max}} : Json(), to_text(box));
   report.document["warnings"] = std::move(warnings);
   return report;
 }
@@ -296,9 +287,9 @@ std::size_t components_if_welded(const io::Mesh& mesh, double eps) {
 
 /// Names welding if repeated positions split components or, of a mesh of nearly as many components as faces, positions
 /// that differ by rounding.
-void note_split_components(const Input& input, const Statistics& summary) {
-  if (summary.components < 2 || input.welding().count() > 0) return;
-  std::size_t fewest = summary.components;
+void note_split_components(Input& input, std::size_t components, std::size_t repeated) {
+  if (components < 2 || input.welding().count() > 0) return;
+  std::size_t fewest = components;
   std::string_view positions;
   std::string option;
   const auto attempt = [&](std::string_view positions_of_attempt, const std::string& eps) {
@@ -308,21 +299,21 @@ void note_split_components(const Input& input, const Statistics& summary) {
     positions = positions_of_attempt;
     option = eps.empty() ? "--weld" : "--weld=" + eps;
   };
-  if (summary.repeated_positions > 0) attempt("equal", "");
-  if (10 * fewest >= 9 * summary.faces) attempt("nearly equal", rounding_eps(summary.average_edge));
-  if (fewest == summary.components) return;
+  if (repeated > 0) attempt("equal", "");
+  if (10 * fewest >= 9 * input.mesh()->view().faces.size()) {
+    attempt("nearly equal", rounding_eps(mean_edge_length(input.graph())));
+  }
+  if (fewest == components) return;
   print_error("note: ", fmt::format("vertices at {} positions split the mesh into {} components; {} joins them into {}",
-                                    positions, summary.components, option, fewest));
+                                    positions, components, option, fewest));
 }
 
 /// With --index, also builds both indexes.
 void info_of_mesh(const InfoCommand& options, Input& input) {
-  Statistics summary = statistics(input.mesh()->view(), input.graph().adjacency);
-  const std::vector<std::uint8_t>& walls = input.mesh()->walls;  // they are where another vertex is
-  summary.repeated_positions -=
-      std::min(summary.repeated_positions, static_cast<std::size_t>(std::ranges::count(walls, 1)));
-  note_split_components(input, summary);
-  Report report = report_of(input, summary);
+  const std::size_t components = count_components(input.mesh()->view(), input.graph().adjacency);
+  const std::size_t repeated = repeated_positions(*input.mesh());
+  note_split_components(input, components, repeated);
+  Report report = report_of(input, components, repeated);
   if (options.index) {
     const Report exact = report_of(input.exact_index());
     const Report paper = report_of(input.paper_index());

@@ -7,8 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <iterator>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -109,21 +107,18 @@ PositionsData positions_of(const paper::Index& index) {
   });
 }
 
-/// As `kept_vertices` of a mesh, whose walls are kept: they are where they are because they have no position.
+/// As `kept_vertices` of a mesh, whose walls are kept: they have no position, and are where the first vertex that has
+/// one is.
 std::vector<VertexId> kept_of_mesh(const io::Mesh& mesh, double eps) {
-  if (mesh.walls.empty()) return kept_vertices(mesh.view().positions, eps);
-  std::vector<VertexId> kept(mesh.walls.size());
-  std::iota(kept.begin(), kept.end(), VertexId{0});
-  std::vector<VertexId> others;
-  std::copy_if(kept.begin(), kept.end(), std::back_inserter(others), [&](VertexId v) { return mesh.walls[v] == 0; });
-  std::visit(
-      [&]<class Real>(const std::vector<Real>& all) {
-        std::vector<Real> xyz;
-        for (const std::size_t v : others) xyz.insert(xyz.end(), &all[3 * v], &all[3 * v] + 3);
-        const std::vector<VertexId> kept_others = kept_vertices(xyz, eps);
-        for (std::size_t i = 0; i < others.size(); ++i) kept[others[i]] = others[kept_others[i]];
-      },
-      mesh.positions);
+  std::vector<VertexId> kept = kept_vertices(mesh.view().positions, eps);
+  const auto first = static_cast<VertexId>(std::ranges::find(mesh.walls, 0) - mesh.walls.begin());
+  for (VertexId v = 0; v < mesh.walls.size(); ++v) {
+    if (mesh.walls[v] != 0) {
+      kept[v] = v;
+    } else if (mesh.walls[kept[v]] != 0) {
+      kept[v] = first;
+    }
+  }
   return kept;
 }
 

@@ -100,12 +100,9 @@ std::string for_bash(const CLI::App& program) {
     commands.push_back(command->get_name());
     values += values_for_bash(*command);
     options += fmt::format("      {}) words='{}' ;;\n", command->get_name(), names_for_bash(*command));
-  }
-  for (const CLI::App* command : commands_of(program)) {
     for (const CLI::Option* argument : options_of(*command, true)) {
-      if (!words(*argument).empty()) {
-        options += fmt::format("      {}:) words='{}' ;;\n", command->get_name(), fmt::join(words(*argument), " "));
-      }
+      if (words(*argument).empty()) continue;
+      options += fmt::format("      {}:) words='{}' ;;\n", command->get_name(), fmt::join(words(*argument), " "));
     }
   }
   return fmt::format(R"(# Completion of meshhood in bash.

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mesh_file.h"
 
-#include <algorithm>
-#include <cstddef>
-#include <utility>
-
 #include "system.h"
 #include "task.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // meshhood view: a page that shows the mesh and its neighborhoods.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "io/index_io.h"
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <new>
-#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
@@ -28,38 +24,33 @@
 namespace meshhood::inline v0_1::io {
 namespace {
 
-using Head = std::array<char, kIndexHeadBytes>;
-
-std::span<const std::byte> bytes_of(const Head& head, std::size_t size) {
-  return std::as_bytes(std::span(head).first(size));
+std::span<const std::byte> first_bytes(FileSource& file, std::size_t count = kIndexHeadBytes) {
+  return std::as_bytes(std::span(file.peek(count)));
 }
 
 bool begins_index(FileSource& file) {
   constexpr std::size_t kMagicBytes = 8;
-  return meshhood::is_index(std::as_bytes(std::span(file.peek(kMagicBytes))));
+  return meshhood::is_index(first_bytes(file, kMagicBytes));
 }
 
 /// Refuses a file whose first bytes are not those of an index of its size. The size of a pipe is unknown.
-void check_head(std::span<const std::byte> first_bytes, const std::optional<std::uint64_t>& size) {
-  if (size) {
-    static_cast<void>(meshhood::read_header(first_bytes, *size));
-  } else if (!meshhood::is_index(first_bytes)) {
-    static_cast<void>(meshhood::read_header(first_bytes));
+void check_head(FileSource& file) {
+  const std::span<const std::byte> head = first_bytes(file);
+  if (file.size()) {
+    static_cast<void>(meshhood::read_header(head, *file.size()));
+  } else if (!meshhood::is_index(head)) {
+    static_cast<void>(meshhood::read_header(head));
   }
 }
 
-/// Reads the whole source. A wrong beginning is refused before memory is allocated for the rest.
-AlignedBuffer read_all(ByteSource& source) {
+/// Reads the whole file. A wrong beginning is refused before memory is allocated for the rest.
+AlignedBuffer read_all(FileSource& file) {
   constexpr std::size_t kFirstGuess = std::size_t{1} << 20;
-  Head head;
-  const std::size_t known = source.fill(head);
-  check_head(bytes_of(head, known), source.size());
+  check_head(file);
   // One byte more than the size, so that the end is found without growing the buffer.
-  AlignedBuffer all(std::max(known, static_cast<std::size_t>(source.size().value_or(kFirstGuess))) + 1);
-  std::copy_n(head.begin(), known, all.room().begin());
-  all.add(known);
+  AlignedBuffer all(static_cast<std::size_t>(file.size().value_or(kFirstGuess)) + 1);
   for (;;) {
-    all.add(source.fill(all.room()));
+    all.add(file.fill(all.room()));
     if (!all.room().empty()) return all;
     all.grow();
   }
@@ -186,9 +177,8 @@ IndexHeader read_header(const std::filesystem::path& path) {
   if (!source.is_regular()) {
     raise_io(path, EINVAL, "is not a regular file, expected an index file");
   }
-  Head head;
-  const std::size_t known = source.fill(head);
-  return naming(path, [&] { return meshhood::read_header(bytes_of(head, known), source.size().value_or(known)); });
+  const std::span<const std::byte> head = first_bytes(source);
+  return naming(path, [&] { return meshhood::read_header(head, source.size().value_or(head.size())); });
 }
 
 }  // namespace meshhood::inline v0_1::io

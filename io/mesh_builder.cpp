@@ -106,8 +106,7 @@ void Positions::end_vertex(const Location& location) {
 }
 
 std::optional<Location> Positions::location_of_nan(std::uint64_t vertex) const {
-  const auto found = std::lower_bound(nan_vertices_.begin(), nan_vertices_.end(), vertex,
-                                      [](const auto& known, std::uint64_t v) { return known.first < v; });
+  const auto found = std::ranges::lower_bound(nan_vertices_, vertex, {}, [](const auto& known) { return known.first; });
   if (found == nan_vertices_.end() || found->first != vertex) return std::nullopt;
   return found->second;
 }

@@ -73,14 +73,13 @@ std::string printable_name(std::string_view name) {
   std::string result;
   while (!name.empty()) {
     const auto [code, length] = first_character(name);
-    if (length == 0) {
-      append_escaped(result, name.substr(0, 1));
-    } else if (controls_terminal(code)) {
-      append_escaped(result, name.substr(0, length));
+    const std::string_view character = name.substr(0, length == 0 ? 1 : length);
+    if (length == 0 || controls_terminal(code)) {
+      append_escaped(result, character);
     } else {
-      result += name.substr(0, length);
+      result += character;
     }
-    name.remove_prefix(length == 0 ? 1 : length);
+    name.remove_prefix(character.size());
   }
   return result;
 }

@@ -7,7 +7,6 @@
 
 #include "io/binary.h"
 #include "io/mesh_builder.h"
-#include "io/number.h"
 #include "io/readers.h"
 #include "io/text.h"
 

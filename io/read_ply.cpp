@@ -119,8 +119,7 @@ class PlyReader {
   void read_element() {
     if (element_->properties.empty()) return;  // rows without bytes
     if (element_ == &vertex_) return read_vertices();
-    if (element_->name == "face") return read_faces();
-    if (element_->name == "tristrips") return read_lists(nullptr, &PlyReader::read_strip);
+    if (element_->name == "face" || element_->name == "tristrips") return read_lists();
     read_rows(nullptr, [&] { skip_properties(0, element_->properties.size()); });
   }
 
@@ -157,21 +156,19 @@ class PlyReader {
     }
   }
 
-  void read_faces() {
-    if (element_->count == 0 && !find_list()) return;
-    read_lists(values_->face_rows(*element_, list_property(), vertex_.count, builder_.faces), &PlyReader::read_face);
-  }
-
-  // Calls `read_list` for the list of vertices in each row of the element, except in those that `plain` takes.
-  void read_lists(const PlyRows& plain, void (PlyReader::*read_list)(uint64_t corners)) {
+  // Of faces or strips.
+  void read_lists() {
     if (element_->count == 0 && !find_list()) return;
     const std::size_t list = list_property();
     property_ = &element_->properties[list];
     reserve_corners();
+    const bool are_faces = element_->name == "face";
+    const PlyRows plain = are_faces ? values_->face_rows(*element_, list, vertex_.count, builder_.faces) : PlyRows();
     read_rows(plain, [&] {
       skip_properties(0, list);
       property_ = &element_->properties[list];
-      (this->*read_list)(take_list_count());
+      const uint64_t corners = take_list_count();
+      are_faces ? read_face(corners) : read_strip(corners);
       skip_properties(list + 1, element_->properties.size());
     });
   }

@@ -157,10 +157,7 @@ class BinaryStl {
   bool has_payload_ = false;   // a facet says so, or has a color
 };
 
-bool is_word(std::string_view token, std::string_view lower_case) {
-  return std::equal(token.begin(), token.end(), lower_case.begin(), lower_case.end(),
-                    [](char a, char b) { return (('A' <= a && a <= 'Z') ? a - 'A' + 'a' : a) == b; });
-}
+bool is_word(std::string_view token, std::string_view word) { return lower_case(std::string(token)) == word; }
 
 // A plain facet: seven lines of lower-case words and single blanks, three corners at different positions.
 struct FacetRow {

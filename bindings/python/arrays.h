@@ -45,6 +45,12 @@ using Points = nanobind::ndarray<const double, nanobind::shape<-1, 3>, nanobind:
   return {reinterpret_cast<const VertexId*>(ids.data()), ids.size()};
 }
 [[nodiscard]] inline std::span<const double> numbers_of(const Reals& array) { return {array.data(), array.size()}; }
+[[nodiscard]] inline std::span<const double> numbers_of(const std::optional<Reals>& array) {
+  return array ? numbers_of(*array) : std::span<const double>();
+}
+[[nodiscard]] inline std::span<const std::uint8_t> bytes_of(const std::optional<Bytes>& array) {
+  return array ? std::span(array->data(), array->size()) : std::span<const std::uint8_t>();
+}
 [[nodiscard]] inline std::span<const SpacePoint> points_of(const Points& points) {
   static_assert(sizeof(SpacePoint) == 3 * sizeof(double));
   return {reinterpret_cast<const SpacePoint*>(points.data()), points.shape(0)};

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -17,9 +19,15 @@ namespace meshhood::python {
 /// A number; an array, one for each row; or a list, of scales.
 using Radius = std::variant<double, Reals, std::vector<double>>;
 
+/// Numbers of faces, and a point of each.
+using FacePoints =
+    std::pair<nanobind::ndarray<const std::int64_t, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>,
+              Points>;
+
 /// What every call on many vertices has: the rows, all of them without `vertices`, and how it runs.
 struct Call {
   std::optional<Ids> vertices;
+  std::optional<FacePoints> points;  ///< in place of vertices
   Radius radius;
   Metric metric;
   unsigned threads;
@@ -39,6 +47,10 @@ struct Call {
     }
     return query;
   }
+
+  /// Of the points. Borrowed.
+  [[nodiscard]] IndicesView faces() const { return std::span(points->first.data(), points->first.size()); }
+  [[nodiscard]] std::span<const SpacePoint> face_points() const { return points_of(points->second); }
 
   /// Made by the thread that will report.
   [[nodiscard]] Run run() const {

@@ -20,17 +20,11 @@ namespace {
 
 using Values = nb::ndarray<const double, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
 
-SignalView signal_of(const Values& values, const std::optional<Reals>& weights) {
-  SignalView signal{std::span(values.data(), values.size()), values.shape(1)};
-  if (weights) signal.weights = numbers_of(*weights);
-  return signal;
-}
-
 /// A flat array, #scales by #rows by channels by #reductions.
 nb::object aggregates(const ExactMethod& method, const Call& call, const Values& values,
                       const std::optional<Reals>& weights, std::vector<Reduce> reduce, SmoothingKernel kernel,
                       MissingValues missing, Nesting nesting, unsigned ddof, double quantile) {
-  const SignalView signal = signal_of(values, weights);
+  const SignalView signal{std::span(values.data(), values.size()), values.shape(1), numbers_of(weights)};
   const BatchQuery rows = call.query();
   const AggregateQuery query{.vertices = rows.vertices,
                              .radius = rows.radius,

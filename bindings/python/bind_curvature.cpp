@@ -52,24 +52,16 @@ auto corrected_curvatures_of(const Surface& surface, const Call& call) {
   const Run run = call.run();
   CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, call.query(), run); });
   const std::size_t rows = found.area.size();
-  const auto vectors = [rows](std::vector<double>& values, std::size_t columns) {
-    return owned<double>(std::move(values), {rows, columns});
-  };
   return std::tuple(owned<double>(std::move(found.area)), owned<double>(std::move(found.mean)),
                     owned<double>(std::move(found.gaussian)), owned<double>(std::move(found.k1)),
-                    owned<double>(std::move(found.k2)), vectors(found.d1, 3), vectors(found.d2, 3),
-                    vectors(found.measures, CorrectedCurvatures::kMeasures));
-}
-
-MomentOptions moment_options(unsigned degree, const std::optional<Reals>& weights) {
-  MomentOptions options{.degree = degree, .weights = {}};
-  if (weights) options.weights = numbers_of(*weights);
-  return options;
+                    owned<double>(std::move(found.k2)), owned<double>(std::move(found.d1), {rows, 3}),
+                    owned<double>(std::move(found.d2), {rows, 3}),
+                    owned<double>(std::move(found.measures), {rows, CorrectedCurvatures::kMeasures}));
 }
 
 Output<double> moments_of(const ExactMethod& method, const Call& call, unsigned degree,
                           const std::optional<Reals>& weights) {
-  const MomentOptions options = moment_options(degree, weights);
+  const MomentOptions options{.degree = degree, .weights = numbers_of(weights)};
   const Run run = call.run();
   std::vector<double> found = without_lock([&] { return moments(method.index(), call.query(), options, run); });
   const std::size_t columns = moment_count(degree);
@@ -78,7 +70,7 @@ Output<double> moments_of(const ExactMethod& method, const Call& call, unsigned 
 }
 
 auto components_of(const ExactMethod& method, const Call& call, const std::optional<Reals>& weights) {
-  const MomentOptions options = moment_options(0, weights);
+  const MomentOptions options{.degree = 0, .weights = numbers_of(weights)};
   const Run run = call.run();
   PrincipalComponents found =
       without_lock([&] { return principal_components(method.index(), call.query(), options, run); });

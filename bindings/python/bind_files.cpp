@@ -70,10 +70,10 @@ void write(const std::filesystem::path& path, const Mesh& given,
     properties.push_back({name, std::span(numbers.data(), numbers.size())});
   }
   const Progress progress = progress_to(nb::handle(Py_None));
-  const auto unplaced = walls ? std::span(walls->data(), walls->size()) : std::span<const std::uint8_t>();
   without_lock([&] {
-    if (vtk) return io::write_vtk(path, mesh, {.properties = properties, .walls = unplaced, .progress = progress});
-    io::PlyOptions options{.properties = properties, .walls = unplaced, .progress = progress};
+    if (vtk)
+      return io::write_vtk(path, mesh, {.properties = properties, .walls = bytes_of(walls), .progress = progress});
+    io::PlyOptions options{.properties = properties, .walls = bytes_of(walls), .progress = progress};
     if (colors) options.colors = std::span(colors->data(), colors->size());
     io::write_ply(path, mesh, options);
   });

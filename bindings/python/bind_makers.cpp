@@ -8,7 +8,6 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "meshhood/adjacency.h"
@@ -57,13 +56,6 @@ GraphData positions_copy(const PositionsView& positions, const char* argument) {
   return copy;
 }
 
-/// The graph of a mesh whose positions other threads may write to. Copies them first.
-GraphData graph_copy(const MeshView& mesh) {
-  GraphData copy = positions_copy(mesh.positions, "V");
-  copy.adjacency = about("F", [&] { return adjacency({copy.view().positions, mesh.faces}); });
-  return copy;
-}
-
 /// Throws unless the faces are those of the graph: some of its faces, or all of them if edges were cut. So the edges of
 /// one are edges of the other.
 void check_faces(const GraphView& graph, const FacesView& faces) {
@@ -80,13 +72,12 @@ std::shared_ptr<ExactMethod> make_exact(const Mesh& given, const std::optional<I
   const Run run{.threads = threads, .progress = progress_to(progress)};
   const IndicesView edges = cut ? indices_of(*cut, "cut") : IndicesView();
   return without_lock([&] {
-    if (cut) {
-      GraphData graph = graph_copy(mesh);
-      graph.adjacency = about("cut", [&] { return cut_edges(graph.adjacency.view(), edges); });
-      return exact_method(build(graph.view(), run));
-    }
-    const GraphData copy = positions_copy(mesh.positions, "V");
-    return about("F", [&] { return exact_method(build(MeshView{copy.view().positions, mesh.faces}, run)); });
+    GraphData copy = positions_copy(mesh.positions, "V");
+    const MeshView copied{copy.view().positions, mesh.faces};
+    if (!cut) return about("F", [&] { return exact_method(build(copied, run)); });
+    copy.adjacency = about("F", [&] { return adjacency(copied); });
+    copy.adjacency = about("cut", [&] { return cut_edges(copy.adjacency.view(), edges); });
+    return exact_method(build(copy.view(), run));
   });
 }
 

@@ -60,12 +60,14 @@ Start start_of(const Center& center, const Ids& seeds) {
   return center ? Start(*center, ids) : Start(ids.front());
 }
 
+// Of an exact method, by any metric.
+
 /// Also returns whether a seed lies in the ball, as `stroke` and `nested` do.
-auto region(ExactMethod& method, Metric metric, const Center& center, const Ids& seeds, double radius) {
+auto region(Method& method, const Center& center, const Ids& seeds, double radius) {
   const Start start = start_of(center, seeds);
   std::vector<VertexId> ids;
   std::vector<double> distances;
-  const bool has_seed = method.with(metric, [&](Searcher& searcher) {
+  const bool has_seed = method.with_exact_searcher([&](Searcher& searcher) {
     searcher.neighborhood(start, radius, ids, distances);
     return searcher.has_seed(start, radius);
   });
@@ -73,8 +75,7 @@ auto region(ExactMethod& method, Metric metric, const Center& center, const Ids&
 }
 
 /// By vertices if there are no centers: then they are the seeds of the rows. Seeds that do not exist are -1.
-auto stroke(ExactMethod& method, Metric metric, const std::optional<Points>& centers, const SeedRows& seeds,
-            const Reals& radii) {
+auto stroke(Method& method, const std::optional<Points>& centers, const SeedRows& seeds, const Reals& radii) {
   const std::span all_seeds(reinterpret_cast<const VertexId*>(seeds.data()), seeds.size());
   std::vector<Dab> dabs;
   for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -84,37 +85,38 @@ auto stroke(ExactMethod& method, Metric metric, const std::optional<Points>& cen
     dabs.push_back({start, radii.data()[i]});
   }
   std::vector<VertexId> ids;
-  const bool has_seeds = method.with(metric, [&](Searcher& searcher) {
+  const bool has_seeds = method.with_exact_searcher([&](Searcher& searcher) {
     searcher.stroke(dabs, ids);
     return std::ranges::all_of(dabs, [&](const Dab& dab) { return searcher.has_seed(dab.start, dab.radius); });
   });
   return std::pair(owned<std::int32_t>(std::move(ids)), has_seeds);
 }
 
-auto nested(ExactMethod& method, Metric metric, const Center& center, const Ids& seeds, const Reals& radii) {
+auto nested(Method& method, const Center& center, const Ids& seeds, const Reals& radii) {
   const Start start = start_of(center, seeds);
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
-  const bool has_seed = method.with(metric, [&](Searcher& searcher) {
+  const bool has_seed = method.with_exact_searcher([&](Searcher& searcher) {
     searcher.nested(start, numbers_of(radii), ids, counts);
     return radii.size() == 0 || searcher.has_seed(start, radii.data()[radii.size() - 1]);
   });
   return std::tuple(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)), has_seed);
 }
 
-bool contains(ExactMethod& method, Metric metric, const Center& center, const Ids& seeds, VertexId w, double radius) {
-  return method.with(metric, [&](Searcher& searcher) { return searcher.contains(start_of(center, seeds), w, radius); });
+bool contains(Method& method, const Center& center, const Ids& seeds, VertexId w, double radius) {
+  return method.with_exact_searcher(
+      [&](Searcher& searcher) { return searcher.contains(start_of(center, seeds), w, radius); });
 }
 
-double connecting_radius(ExactMethod& method, Metric metric, const Center& center, const Ids& seeds, VertexId w) {
-  return method.with(metric,
-                     [&](Searcher& searcher) { return searcher.connecting_radius(start_of(center, seeds), w); });
+double connecting_radius(Method& method, const Center& center, const Ids& seeds, VertexId w) {
+  return method.with_exact_searcher(
+      [&](Searcher& searcher) { return searcher.connecting_radius(start_of(center, seeds), w); });
 }
 
-auto nearest_connected(ExactMethod& method, Metric metric, const Center& center, const Ids& seeds, std::size_t k) {
+auto nearest_connected(Method& method, const Center& center, const Ids& seeds, std::size_t k) {
   std::vector<VertexId> ids;
   std::vector<double> radii;
-  method.with(metric, [&](Searcher& searcher) {
+  method.with_exact_searcher([&](Searcher& searcher) {
     searcher.nearest_connected(start_of(center, seeds), k, ids, radii);
     return true;
   });
@@ -203,19 +205,13 @@ auto discs_of(const ExactMethod& method, const Call& call, double area, const Re
 /// A value for each vertex, 0 or 1.
 using Mask = std::optional<Bytes>;
 
-/// Borrows the array.
-VertexMask mask_of(const Mask& mask) { return mask ? VertexMask(std::span(mask->data(), mask->size())) : VertexMask(); }
-
 std::shared_ptr<ExactMethod> masked_method(const ExactMethod& method, const Mask& walls, const Mask& ignored) {
-  const Masks masks{mask_of(walls), mask_of(ignored)};
+  const Masks masks{.walls = bytes_of(walls), .ignored = bytes_of(ignored)};
   return exact_method(without_lock([&] { return masked(method.index(), masks); }));
 }
 
 bool are_same_masks(const Mask& a, const Mask& b) {
-  const auto bytes = [](const Mask& mask) {
-    return mask ? std::span(mask->data(), mask->size()) : std::span<const std::uint8_t>();
-  };
-  return a.has_value() == b.has_value() && std::ranges::equal(bytes(a), bytes(b));
+  return a.has_value() == b.has_value() && std::ranges::equal(bytes_of(a), bytes_of(b));
 }
 
 /// Not a copy: the array keeps the index alive, and may not be written to.
@@ -257,18 +253,27 @@ void bind_methods(nb::module_& module) {
       .value("rings", Metric::Rings)
       .value("space", Metric::Space);
   nb::class_<Call>(module, "Call")
-      .def(nb::init<std::optional<Ids>, Radius, Metric, unsigned, nb::object, std::uint64_t>(),
-           nb::arg("vertices").none(), nb::arg("radius"), nb::arg("metric"), nb::arg("threads"),
-           nb::arg("progress").none(), nb::arg("max_bytes"));
+      .def(nb::init<std::optional<Ids>, std::optional<FacePoints>, Radius, Metric, unsigned, nb::object,
+                    std::uint64_t>(),
+           nb::arg("vertices").none(), nb::arg("points").none(), nb::arg("radius"), nb::arg("metric"),
+           nb::arg("threads"), nb::arg("progress").none(), nb::arg("max_bytes"));
+  const auto center = nb::arg("center").none();
+  const auto arg = nb::arg();
   nb::class_<Method>(module, "Method")
       .def("neighborhood", &one)
       .def("neighborhood_and_distances", &one_with_distances)
       .def("count", &count_of_one)
       .def("neighborhoods", &many, nb::arg(), nb::arg("distances"), nb::arg("sorted"))
-      .def("counts", &many_counts);
+      .def("counts", &many_counts)
+      .def("region", &region, center, arg, arg)
+      .def("stroke", &stroke, center, arg, arg)
+      .def("nested", &nested, center, arg, arg)
+      .def("contains", &contains, center, arg, arg, arg)
+      .def("connecting_radius", &connecting_radius, center, arg, arg)
+      .def("nearest_connected", &nearest_connected, center, arg, arg);
   module.def("are_same_masks", &are_same_masks, nb::arg().none(), nb::arg().none());
-  nb::class_<ExactMethod, Method> exact(module, "ExactMethod");
-  exact.def("masked", &masked_method, nb::arg("walls").none(), nb::arg("ignored").none())
+  nb::class_<ExactMethod, Method>(module, "ExactMethod")
+      .def("masked", &masked_method, nb::arg("walls").none(), nb::arg("ignored").none())
       .def("quality",
            [](const ExactMethod& method) {
              const Quality found = without_lock([&] { return quality(method.index()); });
@@ -277,16 +282,8 @@ void bind_methods(nb::module_& module) {
       .def_prop_ro("permutation", &permutation, nb::rv_policy::reference)
       .def_prop_ro("faces", &stored_faces, nb::rv_policy::reference)
       .def_prop_ro("vertex_count", [](const ExactMethod& method) { return method.index().vertex_count(); })
-      .def_prop_ro("nbytes", [](const ExactMethod& method) { return method.index().bytes().total(); });
-  const auto center = nb::arg("center").none();
-  const auto arg = nb::arg();
-  exact.def("region", &region, arg, center, arg, arg)
-      .def("stroke", &stroke, arg, center, arg, arg)
-      .def("nested", &nested, arg, center, arg, arg)
-      .def("contains", &contains, arg, center, arg, arg, arg)
-      .def("connecting_radius", &connecting_radius, arg, center, arg, arg)
-      .def("nearest_connected", &nearest_connected, arg, center, arg, arg)
-      .def("nearest", &nearest_vertices, arg, nb::arg("threads") = 1, nb::arg("progress").none() = nb::none());
+      .def_prop_ro("nbytes", [](const ExactMethod& method) { return method.index().bytes().total(); })
+      .def("nearest", &nearest_vertices, nb::arg(), nb::arg("threads") = 1, nb::arg("progress").none() = nb::none());
   module.def("nearest_unconnected", &unconnected);
   module.def("k_nearest", &k_nearest_of, nb::arg(), nb::arg(), nb::arg("k"));
   module.def("discs", &discs_of, nb::arg(), nb::arg(), nb::arg("area"), nb::arg("areas"));

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -72,27 +71,6 @@ class SurfaceColumns {
 
 Corners corners_of(bool all) { return all ? Corners::All : Corners::Any; }
 
-Surface of_faces(const ExactMethod& method, const Faces& given) {
-  const FacesView faces = faces_of(given);
-  return without_lock([&] { return Surface(method.index(), faces); });
-}
-
-/// With an index of its own.
-Surface of_mesh(const Mesh& given) {
-  const MeshView mesh = mesh_of(given);
-  return without_lock([&] {
-    const Index index = build(mesh);
-    return Surface(index, mesh.faces);
-  });
-}
-
-Surface of_normals(const ExactMethod& method, const Reals& normals, const std::optional<Faces>& given) {
-  const FacesView faces = given ? faces_of(*given) : FacesView{};
-  return without_lock([&] {
-    return about("normals", [&] { return Surface::of_normals(method.index(), numbers_of(normals), faces); });
-  });
-}
-
 /// The columns of the points that `find(visit)` visits, with the places of corners in the face.
 template <class Find>
 auto columns(std::size_t rows, const Find& find) {
@@ -125,15 +103,10 @@ auto first_hits(const Surface& surface, const Points& origins, const Points& dir
 Output<double> measure_thickness(const Surface& surface, const Call& call, bool by_sphere) {
   const Run run = call.run();
   const ThicknessMethod method = by_sphere ? ThicknessMethod::Sphere : ThicknessMethod::Ray;
-  return owned<double>(without_lock([&] { return thickness(surface, call.query().vertices, method, run); }));
-}
-
-Output<double> measure_thickness_of_points(const Surface& surface, const Input& faces, const Points& points,
-                                           const Call& call, bool by_sphere) {
-  const Run run = call.run();
-  const ThicknessMethod method = by_sphere ? ThicknessMethod::Sphere : ThicknessMethod::Ray;
-  const IndicesView numbers = indices_of(faces, "face");
-  return owned<double>(without_lock([&] { return thickness(surface, numbers, points_of(points), method, run); }));
+  return owned<double>(without_lock([&] {
+    if (call.points) return thickness(surface, call.faces(), call.face_points(), method, run);
+    return thickness(surface, call.query().vertices, method, run);
+  }));
 }
 
 Output<std::int64_t> faces(const Surface& surface, const Ids& ids, bool all) {
@@ -154,8 +127,8 @@ auto rim(const Surface& surface, const Ids& ids, const SpacePoint& center, doubl
                     owned<std::uint8_t>(std::move(rim.closed)));
 }
 
-/// The surface of an index, with searchers for single starts.
-class Patches {
+/// A surface for any number of threads at the same time, with searchers for single starts.
+class SharedSurface : public Surface {
   /// A vertex, or a face and a point of it.
   using Place = std::variant<VertexId, std::pair<std::size_t, SpacePoint>>;
 
@@ -165,53 +138,36 @@ class Patches {
     const auto* const on_face = std::get_if<1>(&place);
     const PatchStart start =
         on_face != nullptr ? PatchStart(on_face->first, on_face->second) : PatchStart(std::get<0>(place));
-    return searchers_.with([&] { return PatchSearcher(surface_); },
+    return searchers_.with([&] { return PatchSearcher(*this); },
                            [&](PatchSearcher& searcher) { return f(searcher, start); });
   }
 
-  static auto columns_of(Invariants found) {
-    return std::pair(owned<double>(std::move(found.area)), owned<double>(std::move(found.volume)));
-  }
-
  public:
-  explicit Patches(Surface surface) : surface_(std::move(surface)) {}
+  explicit SharedSurface(Surface surface) : Surface(std::move(surface)) {}
 
   [[nodiscard]] auto measure_rows(const Call& call) const {
     const Run run = call.run();
-    return columns_of(without_lock([&] { return invariants(surface_, call.query(), run); }));
-  }
-
-  [[nodiscard]] auto measure_points(const Input& faces, const Points& points, const Call& call) const {
-    const Run run = call.run();
-    const IndicesView numbers = indices_of(faces, "face");
-    return columns_of(
-        without_lock([&] { return invariants(surface_, numbers, points_of(points), call.query().radius, run); }));
+    Invariants found = without_lock([&] {
+      if (!call.points) return invariants(*this, call.query(), run);
+      return invariants(*this, call.faces(), call.face_points(), call.query().radius, run);
+    });
+    return std::pair(owned<double>(std::move(found.area)), owned<double>(std::move(found.volume)));
   }
 
   [[nodiscard]] auto find_gaps(const Call& call) const {
     const BatchQuery query = call.query();
     const Run run = call.run();
-    SurfaceColumns columns(query.result_rows(surface_.vertex_count()));
+    SurfaceColumns columns(query.result_rows(call.points ? call.face_points().size() : vertex_count()));
+    const auto set = [&](std::size_t row, const SurfacePoint& gap) { columns.set(row, gap, gap.vertices); };
     without_lock([&] {
-      const auto set = [&](std::size_t row, const SurfacePoint& gap) { columns.set(row, gap, gap.vertices); };
-      for_each_gap(surface_, query, set, run);
+      if (!call.points) return for_each_gap(*this, query, set, run);
+      const std::vector<SurfacePoint> found = gaps(*this, call.faces(), call.face_points(), query.radius, run);
+      for (std::size_t row = 0; row < found.size(); ++row) set(row, found[row]);
     });
     return columns.arrays();
   }
 
-  [[nodiscard]] auto find_gaps_of_points(const Input& faces, const Points& points, const Call& call) const {
-    const Run run = call.run();
-    const IndicesView numbers = indices_of(faces, "face");
-    const BatchRadius radius = call.query().radius;
-    SurfaceColumns columns(BatchQuery{.radius = radius}.result_rows(points.shape(0)));
-    without_lock([&] {
-      const std::vector<SurfacePoint> found = gaps(surface_, numbers, points_of(points), radius, run);
-      for (std::size_t row = 0; row < found.size(); ++row) columns.set(row, found[row], found[row].vertices);
-    });
-    return columns.arrays();
-  }
-
-  auto faces(const Place& place, double radius) {
+  auto find_patch(const Place& place, double radius) {
     const std::vector<std::size_t> found =
         ask(place, [&](PatchSearcher& searcher, const PatchStart& start) { return searcher.patch(start, radius); });
     return owned<std::int64_t>(std::vector<std::int64_t>(found.begin(), found.end()));
@@ -246,12 +202,28 @@ class Patches {
   }
 
  private:
-  Surface surface_;
   Pool<PatchSearcher> searchers_;
 };
 
-auto make_patches(const ExactMethod& method, const Surface& surface) {
-  return std::make_unique<Patches>(surface.on(method.index()));
+SharedSurface of_faces(const ExactMethod& method, const Faces& given) {
+  const FacesView faces = faces_of(given);
+  return SharedSurface(without_lock([&] { return Surface(method.index(), faces); }));
+}
+
+/// With an index of its own.
+SharedSurface of_mesh(const Mesh& given) {
+  const MeshView mesh = mesh_of(given);
+  return SharedSurface(without_lock([&] {
+    const Index index = build(mesh);
+    return Surface(index, mesh.faces);
+  }));
+}
+
+SharedSurface of_normals(const ExactMethod& method, const Reals& normals, const std::optional<Faces>& given) {
+  const FacesView faces = given ? faces_of(*given) : FacesView{};
+  return SharedSurface(without_lock([&] {
+    return about("normals", [&] { return Surface::of_normals(method.index(), numbers_of(normals), faces); });
+  }));
 }
 
 }  // namespace
@@ -264,7 +236,8 @@ nb::class_<Surface> bind_surface(nb::module_& module) {
   surface.def_prop_ro("face_count", &Surface::face_count)
       .def("paths",
            [](const Surface& surface) { return exact_method(without_lock([&] { return surface_paths(surface); })); })
-      .def("on", [](const Surface& whole, const ExactMethod& method) { return whole.on(method.index()); })
+      .def("on",
+           [](const Surface& whole, const ExactMethod& method) { return SharedSurface(whole.on(method.index())); })
       .def("refit",
            [](Surface& surface, const ExactMethod& method, const Ids& changed) {
              without_lock([&] { surface.refit_in_place(method.index(), ids_of(changed)); });
@@ -272,20 +245,16 @@ nb::class_<Surface> bind_surface(nb::module_& module) {
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("first_hits", &first_hits, nb::arg(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("thickness", &measure_thickness, nb::arg(), nb::arg("by_sphere"))
-      .def("thickness", &measure_thickness_of_points, nb::arg(), nb::arg(), nb::arg(), nb::arg("by_sphere"))
       .def("faces", &faces)
       .def("submesh", &submesh)
       .def("rim", &rim);
-  nb::class_<Patches>(module, "Patches")
-      .def("invariants", &Patches::measure_rows)
-      .def("invariants", &Patches::measure_points)
-      .def("gaps", &Patches::find_gaps)
-      .def("gaps", &Patches::find_gaps_of_points)
-      .def("faces", &Patches::faces)
-      .def("clip", &Patches::clip)
-      .def("measure", &Patches::measure)
-      .def("gap", &Patches::find_gap);
-  module.def("patches", &make_patches);
+  nb::class_<SharedSurface, Surface>(module, "SharedSurface")
+      .def("invariants", &SharedSurface::measure_rows)
+      .def("gaps", &SharedSurface::find_gaps)
+      .def("patch", &SharedSurface::find_patch)
+      .def("clip", &SharedSurface::clip)
+      .def("measure", &SharedSurface::measure)
+      .def("gap", &SharedSurface::find_gap);
   return surface;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -29,34 +27,35 @@ class Method {
   /// meanwhile.
   template <class F>
   auto with_searcher(F&& f) {
-    return searchers_.with([this] { return search_.make_searcher(); },
-                           [&](AnySearcher& searcher) { return std::visit(f, searcher); });
+    return with_any([&](AnySearcher& searcher) { return std::visit(f, searcher); });
+  }
+
+  /// The same of an exact method, by any metric.
+  template <class F>
+  auto with_exact_searcher(F&& f) {
+    return with_any([&](AnySearcher& searcher) { return f(std::get<Searcher>(searcher)); });
   }
 
  private:
+  template <class F>
+  auto with_any(F&& f) {
+    return searchers_.with([this] { return search_.make_searcher(); }, std::forward<F>(f));
+  }
+
   std::shared_ptr<const void> owner_;
   SearchMethod search_;
   Pool<AnySearcher> searchers_;
 };
 
-/// The exact neighborhood by the index, and the queries that only the index has.
+/// The exact neighborhood by the index, and the calls that only the index has.
 class ExactMethod : public Method {
  public:
   explicit ExactMethod(std::shared_ptr<const Index> index) : Method(*index, index), index_(std::move(index)) {}
 
   [[nodiscard]] const Index& index() const { return *index_; }
 
-  /// As `with_searcher`, with a searcher by the metric.
-  template <class F>
-  auto with(Metric metric, F&& f) {
-    return by_metric_[static_cast<std::size_t>(metric)].with([&] { return Searcher(index(), metric); },
-                                                             std::forward<F>(f));
-  }
-
  private:
   std::shared_ptr<const Index> index_;
-  // `Space` is the last metric.
-  std::array<Pool<Searcher>, static_cast<std::size_t>(Metric::Space) + 1> by_metric_;
 };
 
 [[nodiscard]] inline std::shared_ptr<ExactMethod> exact_method(Index index) {

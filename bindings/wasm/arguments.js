@@ -81,17 +81,7 @@ export function toReals(values, name) {
   throw new TypeError(`${name}: expected a typed array of numbers`);
 }
 
-export function expectMesh(positions, { corners, offsets }) {
-  expectType(positions, [Float32Array, Float64Array], 'positions');
-  expectFaces({ corners, offsets });
-}
-
 const INDICES = [Uint32Array, Int32Array, Uint16Array];
-
-export function expectFaces({ corners, offsets }) {
-  expectType(corners, INDICES, 'corners');
-  if (offsets !== null && offsets !== undefined) expectType(offsets, INDICES, 'offsets');
-}
 
 /** The module takes indices of 32 bits. */
 function widened(indices) {
@@ -100,6 +90,8 @@ function widened(indices) {
 
 /** Calls `use` while these faces are those of a call. */
 export function withFaces(instance, { corners, offsets = null }, use) {
+  expectType(corners, INDICES, 'corners');
+  if (offsets !== null) expectType(offsets, INDICES, 'offsets');
   return instance.with([widened(corners), widened(offsets)], (ids, begins) => {
     instance.call('take_faces', ids, corners.length, corners instanceof Int32Array, begins, offsets?.length ?? 0,
       offsets instanceof Int32Array);
@@ -109,6 +101,7 @@ export function withFaces(instance, { corners, offsets = null }, use) {
 
 /** The same for positions. */
 export function withPositions(instance, positions, use) {
+  expectType(positions, [Float32Array, Float64Array], 'positions');
   return instance.with([positions], (xyz) => {
     instance.call('take_positions', xyz, positions.length, positions instanceof Float64Array);
     return use();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import {
-  choose, chooseSome, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectSize,
-  expectType, expectVertex, expectVertices, toReals, withDefaults, withFaces, withMesh, withPositions,
+  choose, chooseSome, expectBytes, expectNumber, expectPoint, expectSize, expectVertex, expectVertices, toReals,
+  withDefaults, withFaces, withMesh, withPositions,
 } from './arguments.js';
 import { Curvature } from './curvature.js';
 import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
@@ -82,23 +82,16 @@ function chooseMethodFrom(start, given) {
 
 function build(positions, corners, options = {}) {
   const { offsets, cut, progress } = withDefaults(options, BUILDING);
-  expectMesh(positions, { corners, offsets });
   expectVertices(cut, 'cut');
   return makeInstance((instance) =>
     withMesh(instance, positions, { corners, offsets }, () => instance.with([cut], (ends) =>
       instance.callWithProgress(progress, 'build', ends, cut?.length ?? 0))));
 }
 
-/** What a refit needs, checked. */
-function movement(positions, options = {}) {
-  const { changed } = withDefaults(options, { changed: null });
-  expectType(positions, [Float32Array, Float64Array], 'positions');
-  expectVertices(changed, 'changed');
-  return { positions, changed };
-}
-
 /** Moves the vertices of the index in `instance`. */
-function move(instance, { positions, changed }) {
+function move(instance, positions, options = {}) {
+  const { changed } = withDefaults(options, { changed: null });
+  expectVertices(changed, 'changed');
   withPositions(instance, positions, () => instance.with([changed], (list) =>
     instance.call('refit', list, changed?.length ?? 0)));
 }
@@ -153,12 +146,11 @@ export class MeshIndex extends Owner {
   }
 
   refit(positions, options) {
-    const change = movement(positions, options);
-    return new MeshIndex(makeInstance((copy) => move(copy, change), this.instance.clone()));
+    return new MeshIndex(makeInstance((copy) => move(copy, positions, options), this.instance.clone()));
   }
 
   refitInPlace(positions, options) {
-    move(this.instance, movement(positions, options));
+    move(this.instance, positions, options);
   }
 
   quality() {
@@ -372,11 +364,10 @@ export class MeshIndex extends Owner {
     return this.#askRows(r, given, () => this.#callOnPoints(name, given.face, points));
   }
 
-  /** Calls the function of this name, or that for points of faces. */
+  /** Calls the function of this name for points of faces, or with null for vertices. */
   #callOnPoints(name, face, points, ...more) {
-    if (points === null) return this.instance.call(name, ...more);
     return this.instance.with([face, points], (faces, list) =>
-      this.instance.call(`${name}_of_points`, faces, face.length, list, ...more));
+      this.instance.call(name, faces, face?.length ?? 0, list, ...more));
   }
 
   patch(start, r, options = {}) {
@@ -460,7 +451,6 @@ export class MeshIndex extends Owner {
     if (faces === null) {
       throw new MeshhoodError('InvalidOption', "weights: 'area' needs the option faces, which an index does not keep");
     }
-    expectFaces(faces);
     withFaces(this.instance, faces, () => this.instance.call('areas'));
     return this.instance.takeReals();
   }
@@ -492,9 +482,8 @@ export class MeshIndex extends Owner {
     const place = choose(THICKNESSES, method, 'method');
     const points = readPoints(given);
     useFaces(this.instance, faces);
-    this.instance.with([vertices], (ids) => points === null
-      ? this.instance.call('thickness', ids, vertices?.length ?? 0, place)
-      : this.#callOnPoints('thickness', face, points, place));
+    this.instance.with([vertices], (ids) =>
+      this.#callOnPoints('thickness', face, points, ids, vertices?.length ?? 0, place));
     return this.instance.takeAnswer().reals;
   }
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-import {
-  choose, expectMesh, expectNumber, expectPoint, expectType, expectVertex, withDefaults, withMesh,
-} from './arguments.js';
+import { choose, expectNumber, expectPoint, expectType, expectVertex, withDefaults, withMesh } from './arguments.js';
 import { Owner, makeInstance } from './instance.js';
 
 const CORNERS = ['all', 'any'];
@@ -12,7 +10,6 @@ export class RegionMesh extends Owner {
 
   constructor(positions, corners, options = {}) {
     const { offsets } = withDefaults(options, { offsets: null });
-    expectMesh(positions, { corners, offsets });
     super(makeInstance((instance) =>
       withMesh(instance, positions, { corners, offsets }, () => instance.call('prepare_regions'))));
     this.#positions = positions.slice();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The words of every call on many vertices: which rows, their radii, and what the searches may pass.
-import { choose, expectFaces, expectType, expectVertices, toReals, withFaces } from './arguments.js';
+import { choose, expectType, expectVertices, toReals, withFaces } from './arguments.js';
 import { MeshhoodError } from './instance.js';
 
 // Options with their defaults.
@@ -17,7 +17,6 @@ export function useFaces(instance, faces) {
   if (faces === null) {
     throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which an index does not keep');
   }
-  expectFaces(faces);
   withFaces(instance, faces, () => instance.call('use_faces'));
 }
 

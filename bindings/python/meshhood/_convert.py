@@ -181,18 +181,29 @@ def seed_rows(values, rows, count):
     return vertex_rows(array.reshape(-1), count, "seeds").reshape(array.shape)
 
 
+def integers(values, name):
+    """`values` as a new array of 32 or 64 bits in C order. A copy, because another thread may write to `values` after
+    they are checked."""
+    array = as_array(values, name)
+    if array.size == 0 and not isinstance(values, np.ndarray):
+        array = array.astype(np.int32)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name}: expected integers, not {array.dtype}")
+    if array.dtype.itemsize < 4:
+        array = array.astype(np.int32)
+    return np.array(array, order="C")
+
+
 def edges(values, name):
     """`values`, (n, 2), as a new flat array of integers; None if there are none."""
     if values is None:
         return None
-    array = np.array(as_array(values, name), order="C")
+    array = integers(values, name)
     if array.size == 0 and not isinstance(values, np.ndarray):
-        array = np.empty((0, 2), np.int64)
-    if array.dtype.kind not in "iu":
-        raise TypeError(f"{name}: expected integers, not {array.dtype}")
+        array = array.reshape(0, 2)
     if array.ndim != 2 or array.shape[1] != 2:
         raise ValueError(f"{name}: expected an array (n, 2), not one of shape {array.shape}")
-    return array.astype(np.int64 if array.dtype != np.uint64 else np.uint64).ravel()
+    return array.ravel()
 
 
 def mask(values, name, count):

@@ -34,7 +34,6 @@ class Held:
     _methods: Methods
     _last_surface: tuple[Any, Any]  # the key of its faces, and the surface
     _before_refit: list[Any]  # at most one: the exact index, the key, its surface, and what has moved since
-    _last_patches: tuple[Any, Any]  # likewise
     _count: int
     _whole: Optional[Held]
     _no_position: Any  # the mask of the vertices without a position, or None
@@ -53,7 +52,6 @@ class Held:
         self._methods = Methods(exact, None if whole is None else whole._methods)
         self._last_surface = (None, None)
         self._before_refit = []
-        self._last_patches = (None, None)
         self._count = exact.vertex_count
 
     def _method(self, method: Any, metric: Any) -> Any:
@@ -148,6 +146,8 @@ class Held:
 
     def _keyed_faces(self, F: Any) -> tuple[bytes, tuple[Any, Any]]:
         """The same, and what tells them from other faces. Those of another mesh are refused."""
+        if self._whole is not None:
+            return self._whole._keyed_faces(F)
         if F is None:
             return b"", self._own_faces("F: expected the faces, because")
         arrays = face_arrays(F)
@@ -168,22 +168,23 @@ class Held:
 
     def _surface(self, F: Any, normals: Any = None, needs_faces: bool = False) -> Any:
         """The surface of the faces, the last of which is kept, or one with these normals."""
+        if normals is None:
+            return self._surface_of(*self._keyed_faces(F))
         if self._whole is not None:
             return self._whole._surface(F, normals, needs_faces).on(self._exact)
-        if normals is not None:
-            if F is not None and not needs_faces:
-                raise ValueError("F: expected None, because the normals are given")
-            arrays = self._face_arrays(F) if needs_faces else None
-            return _core.surface_of_normals(self._exact, normals_of(normals, self._count), arrays)
-        return self._surface_of(*self._keyed_faces(F))
+        if F is not None and not needs_faces:
+            raise ValueError("F: expected None, because the normals are given")
+        arrays = self._face_arrays(F) if needs_faces else None
+        return _core.surface_of_normals(self._exact, normals_of(normals, self._count), arrays)
 
     def _surface_of(self, key: bytes, arrays: tuple[Any, Any]) -> Any:
         """The surface of faces, as `_keyed_faces` returns them."""
-        if self._whole is not None:
-            return self._whole._surface_of(key, arrays).on(self._exact)
         kept, surface = self._last_surface
         if kept != key:
-            surface = self._refitted_surface(key) or _core.surface_of_faces(self._exact, arrays)
+            if self._whole is not None:
+                surface = self._whole._surface_of(key, arrays).on(self._exact)
+            else:
+                surface = self._refitted_surface(key) or _core.surface_of_faces(self._exact, arrays)
             self._last_surface = (key, surface)  # replaced as a whole: no lock, which a fork could copy while it is held
         return surface
 

@@ -9,7 +9,7 @@ import warnings
 import numpy as np
 
 from . import _core
-from ._convert import as_array
+from ._convert import as_array, integers
 
 
 def mesh_arrays(V, F):
@@ -88,22 +88,9 @@ def _as_float64(array, name):
     return array.astype(np.float64)
 
 
-def _integers(F, name):
-    """`F` as a new array of 32 or 64 bits in C order. A copy, because another thread may write to `F` after it is
-    checked."""
-    array = as_array(F, name)
-    if array.size == 0 and not isinstance(F, np.ndarray):
-        array = array.astype(np.int32)
-    if array.dtype.kind not in "iu":
-        raise TypeError(f"{name}: expected integers, not {array.dtype}")
-    if array.dtype.itemsize < 4:
-        array = array.astype(np.int32)
-    return np.array(array, order="C")
-
-
 def _faces(F):
     """(#F, k): polygons of k corners each; one dimension: VTK's padded faces."""
-    array = _integers(F, "F")
+    array = integers(F, "F")
     if array.ndim == 1:
         return _padded(array)
     if array.ndim != 2 or array.shape[1] == 0:
@@ -142,7 +129,7 @@ def _polygons(F):
         raise ValueError(
             f"F: a tuple means (offsets, corners), but this has {len(F)} parts; for rows of corners use a list"
         )
-    offsets, corners = (_integers(part, name) for part, name in zip(F, ("F[0]", "F[1]")))
+    offsets, corners = (integers(part, name) for part, name in zip(F, ("F[0]", "F[1]")))
     for part, name in ((offsets, "F[0]"), (corners, "F[1]")):
         if part.ndim != 1:
             raise ValueError(f"{name}: expected one dimension, not shape {part.shape}")
@@ -163,13 +150,13 @@ def _edges(graph, vertex_count):
     else:
         rows, columns = _coordinate_entries(graph)
     corners = np.column_stack([rows, columns]).ravel()
-    return _integers(corners, "F"), np.arange(len(rows) + 1, dtype=np.int64) * 2
+    return integers(corners, "F"), np.arange(len(rows) + 1, dtype=np.int64) * 2
 
 
 def _compressed_entries(graph, vertex_count):
     """The entries of a CSR, CSC or BSR matrix."""
     block_rows, block_columns = getattr(graph, "blocksize", (1, 1))
-    indptr, indices = _integers(graph.indptr, "F.indptr"), _integers(graph.indices, "F.indices")
+    indptr, indices = integers(graph.indptr, "F.indptr"), integers(graph.indices, "F.indices")
     major = "column" if graph.format == "csc" else "row"
     _check_indptr(indptr, indices, vertex_count // max(block_rows, 1), major)
     blocks = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
@@ -207,7 +194,7 @@ def _list_entries(graph, vertex_count):
     if graph.rows.shape != (vertex_count,):
         raise ValueError(f"F: rows of shape {graph.rows.shape}, expected ({vertex_count},)")
     lists = [list(row) for row in graph.rows]
-    columns = _integers(list(itertools.chain.from_iterable(lists)), "F")
+    columns = integers(list(itertools.chain.from_iterable(lists)), "F")
     return np.repeat(np.arange(vertex_count), [len(row) for row in lists]), columns
 
 
@@ -353,7 +340,7 @@ def _meshio_block(block):
     """(#cells, #corners)"""
     if block.type not in _MESHIO_CORNERS:
         raise ValueError(f"V: has cells of type {block.type!r}, expected a surface: triangle, quad or polygon")
-    data = _integers(block.data, "V")
+    data = integers(block.data, "V")
     sides = _MESHIO_CORNERS[block.type]
     if data.ndim != 2 or sides not in (None, data.shape[1]):
         raise ValueError(f"V: has cells of type {block.type!r} in an array of shape {data.shape}")

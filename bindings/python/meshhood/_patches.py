@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _convert, _core
+from . import _convert
 from ._held import Held
 from ._progress import Progress
 from ._region_mesh import Submesh
@@ -96,15 +96,6 @@ class Patches(Held):
     seen from outside; one with a wall is not there.
     """
 
-    def _patches(self, F: Any) -> Any:
-        """What is made of the faces, kept with the index."""
-        key, arrays = self._keyed_faces(F)
-        kept, patches = self._last_patches
-        if kept != key:
-            patches = _core.patches(self._exact, self._surface_of(key, arrays))
-            self._last_patches = (key, patches)  # replaced as a whole
-        return patches
-
     def invariants(
         self,
         r: Optional[Radii] = None,
@@ -145,9 +136,9 @@ class Patches(Held):
         metric = _convert.choice(metric, "metric", ("straight",))
         rows = read_rows(
             self, vertices, r, scales, metric, walls, ignored, unit, workers, progress,
-            points=points, face=face, surface=None if face is None else self._surface(F),
+            points=points, face=face, F=F,
         )  # fmt: skip
-        return Invariants(*map(rows.shaped, rows.ask(rows.index._patches(F).invariants)))
+        return Invariants(*map(rows.shaped, rows.ask(rows.index._surface(F).invariants)))
 
     def gaps(
         self,
@@ -179,9 +170,9 @@ class Patches(Held):
         metric = _convert.choice(metric, "metric", ("straight",))
         rows = read_rows(
             self, vertices, r, scales, metric, walls, ignored, unit, workers, progress,
-            points=points, face=face, surface=None if face is None else self._surface(F),
+            points=points, face=face, F=F,
         )  # fmt: skip
-        return Gaps(*map(rows.shaped, rows.ask(rows.index._patches(F).gaps)))
+        return Gaps(*map(rows.shaped, rows.ask(rows.index._surface(F).gaps)))
 
     def patch(
         self,
@@ -205,8 +196,8 @@ class Patches(Held):
         >>> face in index.patch(point, 0.3, face=face)
         True
         """
-        patches, *one = self._one_patch(start, r, face, F, walls, unit)
-        return patches.faces(*one)
+        surface, *one = self._one_patch(start, r, face, F, walls, unit)
+        return surface.patch(*one)
 
     def clip(
         self,
@@ -238,9 +229,9 @@ class Patches(Held):
         >>> np.allclose(np.linalg.norm(part.V[len(part.vertices):] - V[42], axis=1), 0.5)
         True
         """
-        patches, *one = self._one_patch(start, r, face, F, walls, unit)
+        surface, *one = self._one_patch(start, r, face, F, walls, unit)
         limit = _convert.finite(tolerance, "tolerance", or_zero=False)
-        points, corners, weights, faces, triangles, area = patches.clip(*one, limit)
+        points, corners, weights, faces, triangles, area = surface.clip(*one, limit)
         count = int(np.count_nonzero((corners == corners[:, :1]).all(axis=1)))  # of vertices, which come first
         new = corners[count:], weights[count:]
         return Submesh(points, triangles, corners[:count, 0].copy(), faces, area, *new, self._count)
@@ -271,8 +262,8 @@ class Patches(Held):
         >>> face, _, point, _ = index.closest_point([0, 0, 2.0])
         >>> area, volume = index.measure(point, 0.3, face=face)
         """
-        patches, *one = self._one_patch(start, r, face, F, walls, unit)
-        return Measure(*patches.measure(*one))
+        surface, *one = self._one_patch(start, r, face, F, walls, unit)
+        return Measure(*surface.measure(*one))
 
     def gap(
         self,
@@ -300,17 +291,17 @@ class Patches(Held):
         >>> bool(abs(index.gap(point, 0.4, face=face).distance - 0.25) < 0.02)
         True
         """
-        patches, *one = self._one_patch(start, r, face, F, walls, unit)
-        distance, number, *arrays = (column[0] for column in patches.gap(*one))
+        surface, *one = self._one_patch(start, r, face, F, walls, unit)
+        distance, number, *arrays = (column[0] for column in surface.gap(*one))
         return Gap(float(distance), int(number), *arrays)
 
     def _one_patch(self, start: Any, r: Any, face: Any, F: Any, walls: Any, unit: Any) -> tuple[Any, Any, float]:
-        """What has the patches, and the start and the radius of one."""
+        """The surface, and the start and the radius of a patch."""
         radius = self._scale(unit) * _convert.radius(r)
-        patches = self._with_masks(walls, None)._patches(F)
+        surface = self._with_masks(walls, None)._surface(F)
         if face is None:
             if not _convert.is_single(start):
                 raise TypeError("start: a point, expected its face, too: face=, as closest_point or first_hit returns it")
-            return patches, _convert.vertex(start, self._count, "start"), radius
+            return surface, _convert.vertex(start, self._count, "start"), radius
         point = _convert.point(start, "start", "invariants, gaps")[0].tolist()
-        return patches, (_convert.integer(face, "face", 0, 2**63 - 1), point), radius
+        return surface, (_convert.integer(face, "face", 0, 2**63 - 1), point), radius

@@ -12,11 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _convert
 from ._held import Held
-from ._methods import Method, core_metric
+from ._methods import Method
 from ._progress import Progress, reporter
 from ._repr import shown_in_a_line
 from ._rows import check_sort, result_dtype, sorted_rows
-from ._types import METRICS, Counts, Floats, Ids, Mask, Metric, Number, Reals, Scales, Sort, Unit
+from ._types import Counts, Floats, Ids, Mask, Metric, Number, Reals, Scales, Sort, Unit
 
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike
@@ -129,7 +129,7 @@ class Queries(Held):
         center, first, radius, searched = self._asked(start, r, seeds, face, metric, walls, ignored, unit, method)
         distances: Any = None
         if center is not None:
-            indices, distances = self._around_point(center, first, radius, metric, walls, ignored)
+            indices, distances = _around_point(searched, center, first, radius)
         elif return_distance or sort == "distance":
             indices, distances = searched.neighborhood_and_distances(int(first[0]), radius)
         else:
@@ -160,7 +160,7 @@ class Queries(Held):
         center, first, radius, searched = self._asked(start, r, seeds, face, metric, walls, ignored, unit, method)
         if center is None:
             return int(searched.count(int(first[0]), radius))
-        return len(self._around_point(center, first, radius, metric, walls, ignored)[0])
+        return len(_around_point(searched, center, first, radius)[0])
 
     def stroke(
         self,
@@ -197,7 +197,7 @@ class Queries(Held):
         else:
             centers = _convert.points(points, "points")
             count = len(centers)
-        by = self._metric_of(centers, metric, "points: expected vertices")
+        searched = self._method_for(centers, metric, walls, ignored, wanted="points: expected vertices")
         radii = np.array(np.broadcast_to(_convert.radii(r, count), count)) * self._scale(unit, metric)
         if face is not None:
             rows = self._corners_of(face, count, seeds)
@@ -205,7 +205,7 @@ class Queries(Held):
             if seeds is None:
                 seeds = self._exact.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
             rows = _convert.seed_rows(seeds, count, self._count)
-        indices, has_seeds = self._searched(metric, walls, ignored)._exact.stroke(by, centers, rows, radii)
+        indices, has_seeds = searched.stroke(centers, rows, radii)
         _warn_unless(has_seeds, "points: a")
         if by_id:
             indices.sort()
@@ -240,9 +240,9 @@ class Queries(Held):
         >>> counts, ids = index.nested(42, range(3), metric="rings")  # itself, its neighbors, and theirs
         """
         center, first = self._start(start, seeds, face, "neighborhoods(scales=radii, vertices=...)")
-        by = self._metric_of(center, metric)
+        searched = self._method_for(center, metric, walls, ignored)
         values = _convert.ascending(radii, "radii") * self._scale(unit, metric)
-        counts, ids, has_seed = self._searched(metric, walls, ignored)._exact.nested(by, center, first, values)
+        counts, ids, has_seed = searched.nested(center, first, values)
         _warn_unless(has_seed or not len(first), "start: the")
         return Nested(counts, ids)
 
@@ -266,9 +266,9 @@ class Queries(Held):
         True
         """
         center, first = self._start(start, seeds, face, "a call for each")
-        by = self._metric_of(center, metric)
+        searched = self._method_for(center, metric, walls, ignored)
         w, r = _convert.vertex(w, self._count, "w"), self._scale(unit, metric) * _convert.radius(r)
-        return bool(self._searched(metric, walls, ignored)._exact.contains(by, center, first, w, r))
+        return bool(searched.contains(center, first, w, r))
 
     def connecting_radius(
         self,
@@ -292,8 +292,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "a call for each")
         w = _convert.vertex(w, self._count, "w")
-        searched = self._searched(metric, walls, ignored)._exact
-        return float(searched.connecting_radius(self._metric_of(center, metric), center, first, w))
+        return float(self._method_for(center, metric, walls, ignored).connecting_radius(center, first, w))
 
     def nearest_connected(
         self,
@@ -316,8 +315,7 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds, face, "k_nearest(k, vertices), or seeds= around a point")
         k = _convert.integer(k, "k", 1, 2**63 - 1)
-        searched = self._searched(metric, walls, ignored)._exact
-        return Connected(*searched.nearest_connected(self._metric_of(center, metric), center, first, k))
+        return Connected(*self._method_for(center, metric, walls, ignored).nearest_connected(center, first, k))
 
     @overload
     def nearest(
@@ -355,22 +353,19 @@ class Queries(Held):
     ) -> tuple[Any, Ids, float, Any]:
         """The center and the seeds, as `_start` returns them, the radius, and the method."""
         center, first = self._start(start, seeds, face, "neighborhoods(r, vertices)")
-        searched = self._searched(metric, walls, ignored)._method(method, metric)
-        _check_vertex(center, metric, method)
+        searched = self._method_for(center, metric, walls, ignored, method)
         return center, first, self._scale(unit, metric) * _convert.radius(r), searched
 
-    def _metric_of(self, center: Any, metric: str, wanted: str = "start: expected a vertex") -> Any:
-        metric = _convert.choice(metric, "metric", METRICS)
-        _check_vertex(center, metric, "exact", wanted)
-        return core_metric(metric)
-
-    def _around_point(
-        self, center: Any, first: Ids, radius: float, metric: str, walls: Any, ignored: Any
-    ) -> tuple[Ids, Reals]:
-        exact = self._searched(metric, walls, ignored)._exact
-        ids, distances, has_seed = exact.region(core_metric(metric), center, first, radius)
-        _warn_unless(has_seed or not len(first), "start: the", stacklevel=4)
-        return ids, distances
+    def _method_for(
+        self, center: Any, metric: Any, walls: Any, ignored: Any, method: Any = "exact",
+        wanted: str = "start: expected a vertex",
+    ) -> Any:  # fmt: skip
+        """The method for a point, or for a vertex if `center` is None."""
+        if center is not None and metric == "rings":
+            raise ValueError(f"{wanted} with metric={metric!r}, because a point has no edges")
+        if center is not None and method != "exact":
+            raise ValueError(f"method: {method!r}, expected 'exact' around a point")
+        return self._searched(metric, walls, ignored)._method(method, metric)
 
     def _start(self, start: Any, seeds: Any, face: Any, meant: str) -> tuple[tuple[float, float, float] | None, Ids]:
         """The center and the seeds; for a vertex, None and the vertex. `meant`: the call for several vertices."""
@@ -407,11 +402,10 @@ class Queries(Held):
         return np.where(places < sizes[:, None], corners[at], np.int32(-1))
 
 
-def _check_vertex(center: Any, metric: str, method: Any, wanted: str = "start: expected a vertex") -> None:
-    if center is not None and metric == "rings":
-        raise ValueError(f"{wanted} with metric={metric!r}, because a point has no edges")
-    if center is not None and method != "exact":
-        raise ValueError(f"method: {method!r}, expected 'exact' around a point")
+def _around_point(searched: Any, center: Any, first: Ids, radius: float) -> tuple[Ids, Reals]:
+    ids, distances, has_seed = searched.region(center, first, radius)
+    _warn_unless(has_seed or not len(first), "start: the", stacklevel=4)
+    return ids, distances
 
 
 def _warn_unless(has_seed: bool, which: str, stacklevel: int = 3) -> None:

@@ -26,7 +26,7 @@ class Rows:
 
     count: int
     vertices: Optional[Ids]  # None for all
-    face_points: tuple[Any, ...]  # in place of vertices: faces, and a point of each
+    face_points: Optional[tuple[Any, Any]]  # in place of vertices: faces, and a point of each
     radii: list[Union[float, Reals]]  # of each scale, in the unit of the positions
     has_scales: bool
     shape: tuple[int, ...]  # the leading axes of the result
@@ -41,13 +41,14 @@ class Rows:
 
     def call(self, report: Report, radius: Any, max_bytes: int = 2**64 - 1) -> Any:
         """As the library takes them."""
-        return _core.Call(self.vertices, radius, core_metric(self.metric), self.threads, report, max_bytes)
+        metric = core_metric(self.metric)
+        return _core.Call(self.vertices, self.face_points, radius, metric, self.threads, report, max_bytes)
 
     def ask(self, call: Callable[..., Any], *first: Any, max_bytes: int = 2**64 - 1, **options: Any) -> Any:
         """What a call of the library returns for these rows."""
         radius = self.radii if self.has_scales else self.radii[0]
         with self.reporter(call.__name__) as report:
-            return call(*self.face_points, *first, self.call(report, radius, max_bytes), **options)
+            return call(*first, self.call(report, radius, max_bytes), **options)
 
     def shaped(self, array: Any) -> Any:
         """A result with a row for each vertex, of one scale after the other."""
@@ -56,16 +57,15 @@ class Rows:
 
 def read_rows(
     index: Held, vertices: Any, r: Any, scales: Any, metric: Any, walls: Any, ignored: Any, unit: Any, workers: Any,
-    progress: Any, *, points: Any = None, face: Any = None, surface: Any = None,
+    progress: Any, *, points: Any = None, face: Any = None, F: Any = None,
 ) -> Rows:  # fmt: skip
-    """points, face, surface: of a call that takes points of faces in place of vertices."""
-    face_points: tuple[Any, ...] = ()
-    is_one, ids, count = False, None, index._count
+    """points, face, F: of a call that takes points of faces in place of vertices."""
+    is_one, ids, face_points, count = False, None, None, index._count
     if points is not None or face is not None:
         if points is None or face is None or vertices is not None:
             raise ValueError("points: expected points and the face of each, or vertices")
         array = _convert.points(points, "points")
-        face_points = (_convert.faces_of_points(face, len(array), surface.face_count), array)
+        face_points = (_convert.faces_of_points(face, len(array), index._surface(F).face_count), array)
         is_one, count = np.ndim(face) == 0, len(array)
     elif vertices is not None:
         is_one = _convert.is_single(vertices)

@@ -271,7 +271,7 @@ class SurfaceQueries(Held):
         surface = self._surface(F)
         rows = read_rows(
             self, vertices, 0.0, None, "straight", None, None, "mesh", workers, progress,
-            points=points, face=face, surface=surface,
+            points=points, face=face, F=F,
         )  # fmt: skip
         found = rows.ask(surface.thickness, by_sphere=by_sphere)
         if rows.shape == ():

@@ -136,9 +136,7 @@ def _settings(count: int, v: Any, r: Any, unit: Any, ids: Any, values: Any, name
 
 
 def _encode(values: Any, count: int) -> str:
-    array = np.asarray(values)
-    if array.dtype.kind not in "biuf":
-        raise TypeError(f"values: expected numbers, not {array.dtype}")
+    array = _convert.numbers(values, "values", "biuf")
     if array.shape != (count,):
         raise ValueError(f"values: an array of shape {array.shape}, expected ({count},)")
     most = np.finfo(np.float32).max

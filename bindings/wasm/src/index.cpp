@@ -45,11 +45,15 @@ IndicesView view_indices(const void* indices, std::size_t count, bool is_signed)
 
 /// `cut` are the ends of edges that no search crosses, or null.
 [[clang::export_name("build")]] void build(const VertexId* cut, std::size_t cut_count) {
-  workspace.build(given, std::span(cut, cut_count), {.progress = report_progress});
+  const Run run{.progress = report_progress};
+  if (cut_count == 0) return workspace.replace_index(meshhood::build(given, run));
+  const Adjacency whole = adjacency(given);
+  const Adjacency rest = cut_edges(whole.view(), std::span(cut, cut_count));
+  workspace.replace_index(meshhood::build(GraphView{given.positions, rest.view()}, run));
 }
 
 [[clang::export_name("load")]] void load(const void* bytes, std::size_t size) {
-  workspace.load(view_bytes(bytes, size), {.progress = report_progress});
+  workspace.replace_index(meshhood::load(view_bytes(bytes, size), {.progress = report_progress}));
 }
 
 /// All vertices have moved if `changed` is null.

@@ -55,11 +55,13 @@ std::string warnings;
 
 [[clang::export_name("mesh_warnings_size")]] std::size_t mesh_warnings_size() { return warnings.size(); }
 
-/// The ids of the answer are those that the vertices get, the counts the new corners. The faces keep their offsets.
+/// The positions of the mesh are those of the kept vertices. The ids of the answer are those that the vertices get, the
+/// counts the new corners. The faces keep their offsets.
 [[clang::export_name("weld")]] void weld(double eps) {
-  const io::WeldedMesh welded = io::weld(given, eps);
-  answer.ids.assign(welded.ids.begin(), welded.ids.end());
-  answer.counts.assign(welded.corners.begin(), welded.corners.end());
+  io::WeldedMesh welded = io::weld(given, eps);
+  file_mesh.positions = std::move(welded.positions);
+  answer.ids = std::move(welded.ids);
+  answer.counts = std::move(welded.corners);
 }
 
 }  // namespace meshhood::wasm

@@ -16,42 +16,31 @@ namespace {
 
 PatchStart patch_start = VertexId{0};
 
-/// All areas, and then all volumes.
-void answer_invariants(Invariants found) {
-  answer.reals = std::move(found.area);
-  answer.reals.insert(answer.reals.end(), found.volume.begin(), found.volume.end());
-}
-
-void answer_gaps(const std::vector<SurfacePoint>& gaps) {
-  answer = {};
-  for (const SurfacePoint& gap : gaps) append_point(gap);
-}
-
 void answer_faces(const std::vector<std::size_t>& faces) { answer.counts.assign(faces.begin(), faces.end()); }
 
 }  // namespace
 
-/// See `answer_invariants`.
-[[clang::export_name("invariants")]] void invariants() {
-  answer_invariants(meshhood::invariants(workspace.surface(), rows));
+/// The reals are all areas, and then all volumes: of the rows, or, unless `points` is null, of a point for each face
+/// with the radii of the rows.
+[[clang::export_name("invariants")]] void invariants(const VertexId* faces, std::size_t face_count,
+                                                     const SpacePoint* points) {
+  const std::span numbers(faces, face_count);
+  Invariants found = points == nullptr
+                         ? meshhood::invariants(workspace.surface(), rows)
+                         : meshhood::invariants(workspace.surface(), numbers, {points, face_count}, rows.radius);
+  answer.reals = std::move(found.area);
+  answer.reals.insert(answer.reals.end(), found.volume.begin(), found.volume.end());
 }
 
-/// The same of a point for each face, with the radii of the rows.
-[[clang::export_name("invariants_of_points")]] void invariants_of_points(const VertexId* faces, std::size_t face_count,
-                                                                         const SpacePoint* points) {
+/// Of the same. The counts are the faces, and the ids the three vertices of each row. The reals are seven for each row:
+/// the weights, the point and the distance.
+[[clang::export_name("gaps")]] void gaps(const VertexId* faces, std::size_t face_count, const SpacePoint* points) {
   const std::span numbers(faces, face_count);
-  answer_invariants(meshhood::invariants(workspace.surface(), numbers, {points, face_count}, rows.radius));
-}
-
-/// The counts are the faces, and the ids the three vertices of each row. The reals are seven for each row: the weights,
-/// the point and the distance.
-[[clang::export_name("gaps")]] void gaps() { answer_gaps(meshhood::gaps(workspace.surface(), rows)); }
-
-/// The same of a point for each face, with the radii of the rows.
-[[clang::export_name("gaps_of_points")]] void gaps_of_points(const VertexId* faces, std::size_t face_count,
-                                                             const SpacePoint* points) {
-  const std::span numbers(faces, face_count);
-  answer_gaps(meshhood::gaps(workspace.surface(), numbers, {points, face_count}, rows.radius));
+  const std::vector<SurfacePoint> found =
+      points == nullptr ? meshhood::gaps(workspace.surface(), rows)
+                        : meshhood::gaps(workspace.surface(), numbers, {points, face_count}, rows.radius);
+  answer = {};
+  for (const SurfacePoint& gap : found) append_point(gap);
 }
 
 /// Where the patches that follow start.

@@ -2,15 +2,14 @@
 // The surface: its faces, points on them, the thickness of its walls, and regions as meshes. `use_faces` or
 // `prepare_regions` comes first.
 #include <cstddef>
-
-#define XXH_INLINE_ALL  // NOLINT(readability-identifier-naming): the library's own
-#include <xxhash.h>
+#include <span>
 
 #include "meshhood/fingerprint.h"
 #include "meshhood/meshhood.h"
 
 #include "answer.h"
 #include "arguments.h"
+#include "shared/checksum.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
@@ -20,15 +19,12 @@ namespace {
 /// Of the bytes of the corners and the offsets, in their order: `meshhood::fingerprint` does not see which way round a
 /// face is, on which its normal depends.
 Fingerprint hash_faces(const FacesView& faces) {
+  const auto bytes_of = [](const IndicesView& indices) {
+    return indices.visit([](auto values) { return std::as_bytes(values); });
+  };
   const std::size_t corner_count = faces.corners().size();
-  XXH3_state_t state;
-  XXH3_128bits_reset(&state);
-  XXH3_128bits_update(&state, &corner_count, sizeof corner_count);
-  for (const IndicesView& indices : {faces.corners(), faces.offsets()}) {
-    indices.visit([&](auto values) { XXH3_128bits_update(&state, values.data(), values.size_bytes()); });
-  }
-  const XXH128_hash_t hash = XXH3_128bits_digest(&state);
-  return {.high = hash.high64, .low = hash.low64};
+  return wide_checksum(
+      {std::as_bytes(std::span(&corner_count, 1)), bytes_of(faces.corners()), bytes_of(faces.offsets())});
 }
 
 }  // namespace
@@ -48,23 +44,20 @@ Fingerprint hash_faces(const FacesView& faces) {
   append_point(workspace.surface().first_hit({x, y, z}, {along_x, along_y, along_z}));
 }
 
-[[clang::export_name("thickness")]] void thickness(const VertexId* vertices, std::size_t vertex_count,
-                                                   ThicknessMethod method) {
-  answer.reals = meshhood::thickness(workspace.surface(), view_vertices(vertices, vertex_count), method);
-}
-
-/// A point for each face.
-[[clang::export_name("thickness_of_points")]] void thickness_of_points(const VertexId* faces, std::size_t face_count,
-                                                                       const SpacePoint* points,
-                                                                       ThicknessMethod method) {
+/// Of vertices, or, unless `points` is null, of a point for each face.
+[[clang::export_name("thickness")]] void thickness(const VertexId* faces, std::size_t face_count,
+                                                   const SpacePoint* points, const VertexId* vertices,
+                                                   std::size_t vertex_count, ThicknessMethod method) {
   const std::span numbers(faces, face_count);
-  answer.reals = meshhood::thickness(workspace.surface(), numbers, {points, face_count}, method);
+  answer.reals = points == nullptr
+                     ? meshhood::thickness(workspace.surface(), view_vertices(vertices, vertex_count), method)
+                     : meshhood::thickness(workspace.surface(), numbers, {points, face_count}, method);
 }
 
 // Regions as meshes.
 
 [[clang::export_name("prepare_regions")]] void prepare_regions() {
-  workspace.build(given, {}, {});
+  workspace.replace_index(meshhood::build(given));
   workspace.use_faces(given.faces, {});
 }
 

@@ -9,15 +9,6 @@
 
 namespace meshhood::wasm {
 
-void Workspace::build(const MeshView& mesh, std::span<const VertexId> cut, const Run& run) {
-  if (cut.empty()) return replace_index(meshhood::build(mesh, run));
-  const Adjacency whole = adjacency(mesh);
-  const Adjacency rest = cut_edges(whole.view(), cut);
-  replace_index(meshhood::build(GraphView{mesh.positions, rest.view()}, run));
-}
-
-void Workspace::load(std::span<const std::byte> bytes, const Run& run) { replace_index(meshhood::load(bytes, run)); }
-
 void Workspace::refit(const PositionsView& positions, const std::optional<IndicesView>& changed) {
   std::optional<Surface> surface = faces_ ? std::exchange(surface_, {}) : std::nullopt;
   const std::optional<Fingerprint> faces = faces_;

@@ -40,12 +40,7 @@ struct Searches {
 /// when it is first used.
 class Workspace {
  public:
-  /// Replaces the index. `cut` are the ends of edges that no search crosses. Throws as `meshhood::build` and
-  /// `cut_edges`.
-  void build(const MeshView& mesh, std::span<const VertexId> cut, const Run& run);
-
-  /// Replaces the index by a saved one. Throws as `meshhood::load`.
-  void load(std::span<const std::byte> bytes, const Run& run);
+  void replace_index(Index&& index);
 
   /// Moves the vertices `changed`, or all. Throws as `meshhood::refit`; the index is then as it was.
   void refit(const PositionsView& positions, const std::optional<IndicesView>& changed);
@@ -86,7 +81,6 @@ class Workspace {
   [[nodiscard]] PatchSearcher& patch_searcher();
 
  private:
-  void replace_index(Index&& index);
   void forget_derived();
   void forget_surfaces();
   [[nodiscard]] const paper::Index& paper_index();
