@@ -783,7 +783,14 @@ TEST(PatchBatch, OfPointsOfFacesHasThoseOfSingleSearches) {
   for (const unsigned threads : {1U, 3U}) {
     const meshhood::Run run{.threads = threads};
     const Invariants each = invariants(test.surface, faces, points, radii, run);
-    const Invariants of_scales = invariants(test.surface, faces, points, BatchRadius::scales(scales), run);
+    std::size_t last = 0;
+    const Progress count = [&](std::size_t done, std::size_t total) {
+      last = done;
+      return total == scales.size() * rows;
+    };
+    const Invariants of_scales =
+        invariants(test.surface, faces, points, BatchRadius::scales(scales), {.threads = threads, .progress = count});
+    EXPECT_EQ(last, scales.size() * rows);
     const std::vector<SurfacePoint> nearest = gaps(test.surface, faces, points, radii, run);
     ASSERT_EQ(of_scales.volume.size(), scales.size() * rows);
     for (std::size_t i = 0; i < rows; ++i) {
