@@ -34,7 +34,8 @@ auto of_patches(const RowTask& task, std::string_view description, RowTable& tab
   std::vector<std::int64_t> faces;
   std::vector<SpacePoint> points;
   std::vector<double> coordinates;
-  for (const SurfacePoint& nearest : surface.closest_points(*task.rows.points(), {.threads = task.options.threads})) {
+  for (const SurfacePoint& nearest : task.while_shown(
+           "searching", 1, [&](const Run& run) { return surface.closest_points(*task.rows.points(), run); })) {
     faces.push_back(static_cast<std::int64_t>(nearest.face));
     points.push_back(nearest.point);
     coordinates.insert(coordinates.end(), nearest.point.begin(), nearest.point.end());

@@ -37,7 +37,7 @@ namespace {
 /// Any number of rows is right if `vertices` has none.
 void check_rows(const io::InputBuffer& input, std::uint64_t rows, std::optional<std::size_t> vertices) {
   if (!vertices || rows == *vertices) return;
-  fail(input, fmt::format("{} rows of values, expected one for each of {} vertices", rows, *vertices));
+  fail(input, fmt::format("{} rows of values, expected {}", rows, *vertices));
 }
 
 void refuse_xml(io::InputBuffer& input) {
@@ -196,11 +196,18 @@ Channels read_channels(const std::string& file, std::optional<std::size_t> verti
 std::vector<SpacePoint> read_points(const std::string& file) {
   constexpr std::size_t kAxes = 3;
   const Channels read = read_channels(file, std::nullopt);
-  if (read.channels != kAxes && !read.numbers.empty()) {
+  if (read.channels != kAxes && (!read.numbers.empty() || read.channels > 1)) {
     wrong_option("{}: {} numbers for each point, expected {}", printable_name(file), read.channels, kAxes);
   }
+  constexpr double kMost = 0x1p500;
   std::vector<SpacePoint> points(read.numbers.size() / kAxes);
-  for (std::size_t i = 0; i < read.numbers.size(); ++i) points[i / kAxes][i % kAxes] = read.numbers[i];
+  for (std::size_t i = 0; i < read.numbers.size(); ++i) {
+    if (!(std::abs(read.numbers[i]) <= kMost)) {
+      wrong_option("{}: row {}: coordinate {} is {}, expected a finite number of magnitude up to 2^500",
+                   printable_name(file), i / kAxes, i % kAxes, read.numbers[i]);
+    }
+    points[i / kAxes][i % kAxes] = read.numbers[i];
+  }
   return points;
 }
 

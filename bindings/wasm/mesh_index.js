@@ -142,7 +142,9 @@ export class MeshIndex extends Owner {
   }
 
   get permutation() {
-    return this.instance.take(Uint32Array, this.instance.call('permutation'), this.vertexCount);
+    const ids = this.instance.call('permutation');
+    if (ids === 0) return Uint32Array.from({ length: this.vertexCount }, (_, v) => v);
+    return this.instance.take(Uint32Array, ids, this.vertexCount);
   }
 
   refit(positions, options) {

@@ -81,7 +81,11 @@ IndicesView view_indices(const void* indices, std::size_t count, bool is_signed)
 
 [[clang::export_name("mean_edge_length")]] double mean_edge_length() { return workspace.mean_edge(); }
 
-[[clang::export_name("permutation")]] const VertexId* permutation() { return workspace.index().permutation().data(); }
+/// Null where the vertices are in index order: the library then has none.
+[[clang::export_name("permutation")]] const VertexId* permutation() {
+  const std::span<const VertexId> ids = workspace.index().permutation();
+  return ids.empty() ? nullptr : ids.data();
+}
 
 [[clang::export_name("graph_is_double")]] bool graph_is_double() { return workspace.graph().positions.index() == 1; }
 
