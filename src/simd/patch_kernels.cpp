@@ -88,11 +88,13 @@ struct Line {
   /// `whole`: from that end to the other.
   HWY_INLINE Line(const Vectors& inside, const Vectors& whole) {
     square = squared_length(whole);
-    nearest = sum(inside, scaled(whole, negated(hn::Div(scalar_product(inside, whole), square))));
-    along = scaled(whole, hn::Div(splat(1.0), hn::Sqrt(square)));
+    unit = hn::Div(splat(1.0), hn::Sqrt(square));
+    along = scaled(whole, unit);
+    const auto end = hn::Mul(scalar_product(inside, whole), unit);
+    nearest = difference(inside, scaled(along, end));
     half = hn::Sqrt(hn::Max(hn::Zero(Doubles()), hn::Sub(splat(1.0), squared_length(nearest))));
     exit = sum(nearest, scaled(along, half));
-    chord = hn::Sub(half, scalar_product(inside, along));
+    chord = hn::Sub(half, end);
   }
 
   /// Of the line, from the foot of the center on the plane, to the right.
@@ -101,6 +103,7 @@ struct Line {
   }
 
   Numbers square;   // of the length of the side
+  Numbers unit;     // 1 / length
   Vectors nearest;  // to the center
   Vectors along;    // a unit vector, outward
   Numbers half;     // of the chord of the line
@@ -158,8 +161,7 @@ HWY_INLINE Lanes measure_chords(const Doubles d, const CutTriangles& cut, std::s
                                 Arcs& arcs) {
   const auto one = splat(1.0);
   const auto zero = hn::Zero(d);
-  const Corners corners(cut, i);
-  const auto& [center, unit, a, b, c] = corners;
+  const auto [center, unit, a, b, c] = Corners(cut, i);
   const auto sign = load(cut.insides[i]);
   const Lanes inside = hn::Gt(sign, zero);
   const auto first_side = difference(b, a);
@@ -183,17 +185,20 @@ HWY_INLINE Lanes measure_chords(const Doubles d, const CutTriangles& cut, std::s
 
   // The arc leads from one of the sides at the first corner to the other.
   const Turns ends = product({first_offset, first.half}, {last_offset, last.half});
-  const auto turn = hn::Mul(sign, scalar_product(normal, vector_product(last.along, first.along)));
+  const auto turn = negated(hn::Mul(hn::Mul(sign, size), hn::Mul(first.unit, last.unit)));
   const Turns arc =
       product({negated(scalar_product(last.along, first.along)), turn}, {ends.real, negated(ends.imaginary)});
   store(arc.real, arcs.real[i]);
   store(arc.imaginary, arcs.imaginary[i]);
 
   const auto third_square = squared_length(difference(c, b));
+  const auto longest_square = hn::Max(first.square, last.square);
   const auto least_square = hn::Min(third_square, hn::Min(first.square, last.square));
-  const auto is_needle = hn::Lt(least_square, hn::Mul(splat(kNeedle), hn::Max(first.square, last.square)));
+  const auto is_needle = hn::Lt(least_square, hn::Mul(splat(kNeedle), longest_square));
   const auto has_area = hn::And(hn::Gt(size, zero), hn::Gt(least_square, zero));
-  const auto does_not_dip = hn::AndNot(hn::And(inside, may_dip(b, c)), corners.are_near());
+  // One end of each of these sides is in the ball.
+  const auto are_near = hn::Le(longest_square, splat((kFar - 1) * (kFar - 1)));
+  const auto does_not_dip = hn::AndNot(hn::And(inside, may_dip(b, c)), are_near);
   return hn::And(does_not_dip, hn::AndNot(is_needle, has_area));
 }
 
