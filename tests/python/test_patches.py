@@ -77,6 +77,43 @@ def test_area_volume_and_gap_of_a_vertex_are_rows_of_all():
     assert index.gap(7, 0.6, walls=walls).face == -1
 
 
+def test_area_and_volume_of_a_sphere_of_10242_vertices():
+    sphere = pytest.importorskip("trimesh").creation.icosphere(subdivisions=5)
+    area, volume = meshhood.MeshIndex(sphere.vertices, sphere.faces).invariants(0.5)
+    assert len(area) == 10242
+    assert np.allclose(area, 0.785307, rtol=0, atol=2e-5)  # of the round sphere: 0.785398
+    assert np.allclose(volume, 0.212571, rtol=0, atol=6e-6)  # 0.212712
+
+
+def winding_numbers(points, triangles):
+    """How often the triangles wind around each of the points."""
+    a, b, c = (triangles[None, :, k] - points[:, None] for k in range(3))
+    la, lb, lc = (np.linalg.norm(x, axis=2) for x in (a, b, c))
+    ab, bc, ca = ((x * y).sum(2) for x, y in ((a, b), (b, c), (c, a)))
+    angles = np.arctan2((a * np.cross(b, c)).sum(2), la * lb * lc + ab * lc + bc * la + ca * lb)
+    return angles.sum(1) / (2 * PI)
+
+
+def test_volumes_of_a_folded_surface_are_those_of_random_points():
+    """Where a ball has one patch, the part of it behind the patch is what the surface winds around."""
+    trimesh = pytest.importorskip("trimesh")
+    sphere, random = trimesh.creation.icosphere(subdivisions=3), np.random.default_rng(8)
+    P = sphere.vertices
+    V = P * (1 + 0.25 * np.sin(9 * P[:, :1]) * np.sin(8 * P[:, 1:2]) * np.cos(7 * P[:, 2:]))
+    index = meshhood.MeshIndex(V, sphere.faces)
+    r, count = 0.45, scaled(4000, 1000)
+    volume, gap = index.invariants(r).volume, index.gaps(r).distance
+    whole = np.flatnonzero(np.isinf(gap))[::100]
+    assert len(whole) > 3
+    for v in whole:
+        directions = random.normal(size=(count, 3))
+        directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+        points = V[v] + r * random.uniform(size=(count, 1)) ** (1 / 3) * directions
+        inside = np.concatenate([winding_numbers(some, V[sphere.faces]) for some in np.array_split(points, count // 100)])
+        share = (inside > 0.5).mean()
+        assert abs(volume[v] / (4 / 3 * PI * r**3) - share) < 4 * np.sqrt(share * (1 - share) / count)
+
+
 def test_polygons_and_other_faces():
     V, F = box((2, 2, 2))
     quads = np.concatenate([F[::2], F[1::2, 2:]], axis=1)
