@@ -43,7 +43,8 @@ void RimArcs::clear(const Point& normal) {
   pole_ = (1 / length(about)) * about;
   const Point beside = cross(pole_, std::abs(pole_.x) < 0.6 ? Point{1, 0, 0} : Point{0, 1, 0});
   other_ = (1 / length(beside)) * beside;
-  product_ = 1;
+  real_ = 1;
+  imaginary_ = 0;
   sum_ = 0;
   count_ = 0;
 }
@@ -77,8 +78,10 @@ void RimArcs::add(const Circle& circle, double theta, const Point& u, const Poin
 
 /// The size of a product of 16 factors is at most 16^16, and hardly ever less than the inverse.
 void RimArcs::rescale() {
-  const double size = std::norm(product_);
-  if (size > 0) product_ = (1 / std::sqrt(size)) * product_;
+  const double size = std::sqrt(real_ * real_ + imaginary_ * imaginary_);
+  if (size == 0) return;
+  real_ /= size;
+  imaginary_ /= size;
 }
 
 void RimArcs::add_circle(double h) {
@@ -89,7 +92,7 @@ void RimArcs::add_circle(double h) {
 double RimArcs::area_behind() const {
   constexpr double kSphere = 4 * std::numbers::pi;
   constexpr double kArcSlack = 0x1p-46;  // of an arc
-  const double area = std::fmod(-(sum_ + 2 * argument(product_)), kSphere);
+  const double area = std::fmod(-(sum_ + 2 * argument({real_, imaginary_})), kSphere);
   const double positive = area < 0 ? area + kSphere : area;
   return positive > kSphere - kArcSlack * static_cast<double>(count_ + 8) ? 0 : positive;
 }

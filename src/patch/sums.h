@@ -83,17 +83,20 @@ class RimArcs {
 
  private:
   void add_factor(const Complex& factor) {
-    product_ = times(product_, factor);
+    const Complex product = times({real_, imaginary_}, factor);
+    real_ = product.real();
+    imaginary_ = product.imag();
     if (++count_ % 16 == 0) rescale();
   }
 
   void rescale();
   [[nodiscard]] Complex from_pole(const Point& u, const Point& w) const;
 
-  Complex product_{1, 0};
   Point pole_{0, 0, 1};
   Point other_{0, 1, 0};  // l, at a right angle
-  double sum_ = 0;
+  double real_ = 1;       // of the product of all factors
+  double sum_ = 0;        // in between, as g++ 12 fuses a product into two neighbors, whatever -ffp-contract says
+  double imaginary_ = 0;
   std::size_t count_ = 0;
 };
 
