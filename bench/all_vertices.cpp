@@ -280,8 +280,10 @@ class AllVertices {
 
 void print_table(AllVertices& all, const std::vector<double>& radii) {
   std::printf("microseconds a row; x: times as fast as\n");
+  std::string targets;
+  for (const Timing& isa : timings_by_isa()) targets += (targets.empty() ? std::string() : ", ") + isa.name;
   std::printf("%6s %8s %9s %17s %17s %15s %15s %20s  %s\n", "edges", "vertices", "BFS", "one: count, ids",
-              "batch: count, ids", "x BFS", "x one", "threads (processes)", "portable, AVX2, AVX-512 / best");
+              "batch: count, ids", "x BFS", "x one", "threads (processes)", (targets + " / best").c_str());
   for (const double edges : radii) all.measure(edges).print();
 }
 
