@@ -95,7 +95,7 @@ class RimArcs {
   Point pole_{0, 0, 1};
   Point other_{0, 1, 0};  // l, at a right angle
   double real_ = 1;       // of the product of all factors
-  double sum_ = 0;        // in between, as g++ 12 fuses a product into two neighbors, whatever -ffp-contract says
+  double sum_ = 0;        // stands between, since g++ 12 fuses the product of neighbors in spite of -ffp-contract=off
   double imaginary_ = 0;
   std::size_t count_ = 0;
 };

@@ -75,8 +75,8 @@ inline constexpr double kNeedle = 0x1p-20;
 /// An arc of at least this angle has nearly opposite ends, or more than that, and is added in four parts.
 inline constexpr double kLongArc = 2;
 
-/// The ends of an arc are near the opposite of the pole of its rim, where its argument is uncertain, if the square of
-/// the number is smaller.
+/// An arc is near the opposite of the pole of its rim if the squared size of its factor from the pole is smaller. The
+/// argument of the factor is uncertain there.
 inline constexpr double kClearPole = 0x1p-12;
 
 /// Triangles that a sphere cuts, each with its ball. One corner, the first, is alone inside or outside.
