@@ -49,10 +49,10 @@ CALLS = {
     "partition": "meshhood.partition(arrays, folder / str(os.getpid()), parts=2, halo=1.0, workers=2)",
     "along the surface": "index.counts(1.0, range(500), metric='surface', workers=2)",
     "in space": "index.neighborhoods(2.0, metric='space', workers=2)",
-    "one query": "index.neighborhood(0, 40.0, return_distance=True)",
+    "one query": "index.neighborhood(0, 120.0, return_distance=True)",
     "one count": "index.count(0, np.inf, walls=walls)",
     "one along the surface": "index.neighborhood(0, 40.0, metric='surface')",
-    "nested": "index.nested(0, [10.0, 40.0])",
+    "nested": "index.nested(0, [10.0, 120.0])",
     "stroke": "index.stroke(V[:240], 20.0)",
     "contains": "index.contains(0, 14000, np.inf)",
     "connecting radius": "index.connecting_radius(0, 14000)",
@@ -97,11 +97,11 @@ def outcome(kilobytes):
     # Of the call, with so much memory left.
     used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
     resource.setrlimit(resource.RLIMIT_AS, (used, -1))
-    held = []  # what was freed before, which would serve whatever the limit
+    held = ()  # what was freed before, which would serve whatever the limit: a chain, as a list moves when it grows
     for size in (2**20, 2**16, 2**12):
         try:
             while True:
-                held.append(bytearray(size))
+                held = bytearray(size), held
         except MemoryError:
             pass
     resource.setrlimit(resource.RLIMIT_AS, (used + 1024 * kilobytes, -1))
