@@ -100,9 +100,7 @@ def in_child(end):
         end()
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 eval(call)
-"""
 
-AT_ANY_MOMENT = """
 def end():
     for _ in range(2):
         threading.Thread(target=run, daemon=True).start()
@@ -112,41 +110,29 @@ for number in range({runs}):
     random.seed(number)
     code = in_child(end)
     assert code == 0, f"run {{number}}: exit code {{code}}"
-"""
 
 # The threads of low priority have the only processor once the main thread sleeps, which is after the interpreter was
 # freed. So they take the lock then.
-AFTER_THE_INTERPRETER = """
 import ctypes
 libc = ctypes.CDLL(None)
 def run_idle():
     os.sched_setscheduler(threading.get_native_id(), os.SCHED_IDLE, os.sched_param(0))
     run()
-def end():
+def end_with_idle_threads():
     libc.on_exit(libc.sleep, None)  # sleep(exit code)
     os.sched_setaffinity(0, {{min(os.sched_getaffinity(0))}})
     for _ in range(4):
         threading.Thread(target=run_idle, daemon=True).start()
         time.sleep(0.01)
     sys.exit(1)
-code = in_child(end)
-assert code == 1, f"exit code {{code}}"
+if hasattr(os, "SCHED_IDLE"):
+    code = in_child(end_with_idle_threads)
+    assert code == 1, f"with idle threads: exit code {{code}}"
 """
-
-
-def run(program, call, folder, **names):
-    done = programs.run(PROGRAM.format(call=CALLS[call]) + program.format(**names), folder)
-    assert done.stderr == ""
-
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
 @pytest.mark.parametrize("call", CALLS)
 def test_the_process_ends_normally(call, tmp_path):
-    run(AT_ANY_MOMENT, call, tmp_path, runs=RUNS)
+    done = programs.run(PROGRAM.format(call=CALLS[call], runs=RUNS), tmp_path)
+    assert done.stderr == ""
     print(f"{RUNS} processes ended in the middle of: {call}")
-
-
-@pytest.mark.skipif(not hasattr(os, "SCHED_IDLE"), reason="needs the scheduler of Linux")
-@pytest.mark.parametrize("call", CALLS)
-def test_a_call_may_return_after_the_interpreter_is_freed(call, tmp_path):
-    run(AFTER_THE_INTERPRETER, call, tmp_path)
