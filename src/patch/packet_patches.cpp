@@ -9,11 +9,20 @@
 #include "surface/face_triangles.h"
 
 namespace meshhood::inline v0_1 {
+namespace {
+
+LaneRow row(const Point& p, double fourth) { return {p.x, p.y, p.z, fourth}; }
+
+}  // namespace
+
 PacketPatches::PacketPatches(const PatchState& state)
     : state_(&state),
       kernels_(&patch_kernels(best_isa())),
       words_(state.index->vertex_count()),
-      all_(state.meshlets.size()) {}
+      all_(state.meshlets.size()) {
+  cuts_.corners.fill(cut_corners_[0].data());
+  cuts_.balls.fill(cutting_balls_[0].data());
+}
 
 QueryWord PacketPatches::find(const PacketAnswer& packet, bool measures) {
   measures_ = measures;
@@ -58,6 +67,7 @@ void PacketPatches::set_balls(const PacketAnswer& packet) {
     if (!std::isfinite(balls_[q].unit) || !std::isfinite(balls_[q].radius)) leave(q);
     centers_.set(q, balls_[q].center);
     sums_[q].clear(state_->triangles.normal_of(index, state_->triangles.fans[place]));
+    cutting_balls_[q] = {row(balls_[q].center, balls_[q].unit), row(sums_[q].rim().pole(), 0)};
   });
 }
 
@@ -171,19 +181,23 @@ constexpr std::array<CutKind, 8> kCutKinds{{{}, {0, 1}, {1, 1}, {2, -1}, {2, 1},
 /// Of queries that have one corner or two. From any corner on, three follow each other in the list of five.
 void PacketPatches::add_cut(TriangleId t, const std::array<Point, 3>& corners, const std::array<QueryWord, 3>& words,
                             QueryWord queries) {
-  const std::array around{corners[0], corners[1], corners[2], corners[0], corners[1]};
+  const std::array a{row(corners[0], 0), row(corners[1], 0), row(corners[2], 0)};
+  const std::array around{a[0], a[1], a[2], a[0], a[1]};
+  const LaneRow* rows = nullptr;
   for_each_query(queries, [&](std::size_t q) {
-    if (cut_count_ == kPacketCapacity) measure_cut();
+    if (cut_count_ == kPacketCapacity) {
+      measure_cut();
+      rows = nullptr;
+    }
     const std::size_t lane = cut_count_++;
+    if (rows == nullptr) rows = (cut_corners_[lane] = around).data();
     const auto has = [q](QueryWord word) { return word >> q & 1U; };
     const CutKind kind = kCutKinds[has(words[0]) | has(words[1]) << 1U | has(words[2]) << 2U];
-    cut_triangles_[lane] = t;
+    cut_ids_[lane] = t;
     cut_queries_[lane] = q;
-    for (std::size_t corner = 0; corner < 3; ++corner) cut_.corners[corner].set(lane, around[kind.first + corner]);
-    cut_.insides[lane] = kind.inside;
-    cut_.centers.set(lane, balls_[q].center);
-    cut_.units[lane] = balls_[q].unit;
-    cut_.poles.set(lane, sums_[q].rim().pole());
+    cuts_.corners[lane] = rows + kind.first;
+    cuts_.balls[lane] = cutting_balls_[q].data();
+    cuts_.insides[lane] = kind.inside;
   });
 }
 
@@ -191,11 +205,11 @@ void PacketPatches::measure_cut() {
   const auto lanes = static_cast<unsigned>(std::exchange(cut_count_, 0));
   if (lanes == 0) return;
   const LaneMask left =
-      measures_ ? first_lanes(lanes) & ~kernels_->measure(cut_, lanes, clipped_) : kernels_->may_dip(cut_, lanes);
+      measures_ ? first_lanes(lanes) & ~kernels_->measure(cuts_, lanes, clipped_) : kernels_->may_dip(cuts_, lanes);
   for (unsigned i = 0; i < lanes; ++i) {
     const std::size_t q = cut_queries_[i];
     if ((left >> i & 1U) != 0) {
-      add_clipped(cut_triangles_[i], q);
+      add_clipped(cut_ids_[i], q);
     } else if (measures_) {
       sums_[q].add_cut(clipped_.area[i], clipped_.distance[i]);
       sums_[q].rim().add_measured(clipped_.turn[i], {clipped_.real[i], clipped_.imaginary[i]});

@@ -32,6 +32,8 @@ class PacketPatches {
  public:
   /// Of packets of `state.searched`. Borrows the state.
   explicit PacketPatches(const PatchState& state);
+  PacketPatches(const PacketPatches&) = delete;
+  PacketPatches& operator=(const PacketPatches&) = delete;
 
   /// Returns the queries whose patches it has found. Of the others patch and neighborhood may differ, by a loose edge,
   /// a diagonal or what is behind a side that dips into the ball; or much is behind such sides; or the radius is next
@@ -102,9 +104,11 @@ class PacketPatches {
   std::vector<WholeTriangles> inside_;  // of a meshlet
 
   std::size_t cut_count_ = 0;  // waiting
-  std::array<TriangleId, kPacketCapacity> cut_triangles_{};
+  std::array<TriangleId, kPacketCapacity> cut_ids_{};
   std::array<std::size_t, kPacketCapacity> cut_queries_{};
-  CutTriangles cut_{};
+  std::array<std::array<LaneRow, 5>, kPacketCapacity> cut_corners_{};
+  std::array<std::array<LaneRow, 2>, kPacketCapacity> cutting_balls_{};  // by query
+  Cuts cuts_{};                                                          // with rows of the lists above
   ClippedTriangles clipped_{};
 
   std::vector<Dip> dips_;

@@ -22,6 +22,12 @@ HWY_API DoubleMask128 Lt(Doubles128 a, Doubles128 b) { return {wasm_f64x2_lt(a.r
 HWY_API DoubleMask128 Le(Doubles128 a, Doubles128 b) { return {wasm_f64x2_le(a.raw, b.raw)}; }
 HWY_API DoubleMask128 Gt(Doubles128 a, Doubles128 b) { return {wasm_f64x2_gt(a.raw, b.raw)}; }
 HWY_API DoubleMask128 Ge(Doubles128 a, Doubles128 b) { return {wasm_f64x2_ge(a.raw, b.raw)}; }
+HWY_API Doubles128 InterleaveLower(Full128<double> /*d*/, Doubles128 a, Doubles128 b) {
+  return {wasm_i64x2_shuffle(a.raw, b.raw, 0, 2)};
+}
+HWY_API Doubles128 InterleaveUpper(Full128<double> /*d*/, Doubles128 a, Doubles128 b) {
+  return {wasm_i64x2_shuffle(a.raw, b.raw, 1, 3)};
+}
 HWY_API Doubles128 PromoteTo(Full128<double> /*d*/, Vec128<float, 2> v) {
   return {wasm_f64x2_promote_low_f32x4(v.raw)};
 }

@@ -29,6 +29,11 @@ struct Cut {
 
 class EveryPatchKernel : public testing::TestWithParam<Isa> {
  protected:
+  EveryPatchKernel() {
+    given_->corners.fill(triangles_[0].data());
+    given_->balls.fill(balls_[0].data());
+  }
+
   double coordinate(double size) { return size * random_.uniform(-1, 1); }
   Point point(double size) { return {coordinate(size), coordinate(size), coordinate(size)}; }
 
@@ -63,20 +68,19 @@ class EveryPatchKernel : public testing::TestWithParam<Isa> {
   }
 
   void set(std::size_t lane, const Cut& cut) {
-    std::size_t corner = cut.first;
-    for (std::size_t k = 0; k < 3; ++k) {
-      given_->corners[k].set(lane, cut.triangle.corners[corner]);
-      corner = after(corner);
-    }
-    given_->centers.set(lane, cut.ball.center);
-    given_->poles.set(lane, {0, 0.6, -0.8});
-    given_->units[lane] = cut.ball.unit;
+    const auto row = [](const Point& p, double fourth) { return LaneRow{p.x, p.y, p.z, fourth}; };
+    for (std::size_t i = 0; i < 5; ++i) triangles_[lane][i] = row(cut.triangle.corners[i % 3], 0);
+    balls_[lane][0] = row(cut.ball.center, cut.ball.unit);
+    given_->corners[lane] = &triangles_[lane][cut.first];
+    given_->balls[lane] = balls_[lane].data();
     given_->insides[lane] = cut.triangle.inside[cut.first] ? 1 : -1;
   }
 
   Random random_{91};
   std::array<Cut, kPacketCapacity> cuts_;
-  std::unique_ptr<CutTriangles> given_ = std::make_unique<CutTriangles>();
+  std::array<std::array<LaneRow, 5>, kPacketCapacity> triangles_{};
+  std::array<std::array<LaneRow, 2>, kPacketCapacity> balls_{};
+  std::unique_ptr<Cuts> given_ = std::make_unique<Cuts>();
 };
 
 TEST_P(EveryPatchKernel, FindsSidesThatMayDip) {
