@@ -76,7 +76,7 @@ void RimArcs::add(const Circle& circle, double theta, const Point& u, const Poin
   add_part(last, w);
 }
 
-/// The size of a product of 16 factors is at most 16^16, and hardly ever less than the inverse.
+/// A factor is below 2^5, and above 2^-6 unless it is that of an arc near the opposite of the pole.
 void RimArcs::rescale() {
   const double size = std::sqrt(real_ * real_ + imaginary_ * imaginary_);
   if (size == 0) return;

@@ -86,7 +86,7 @@ class RimArcs {
     const Complex product = times({real_, imaginary_}, factor);
     real_ = product.real();
     imaginary_ = product.imag();
-    if (++count_ % 16 == 0) rescale();
+    if (++count_ % 64 == 0) rescale();
   }
 
   void rescale();

@@ -85,25 +85,20 @@ HWY_INLINE Turns half_areas(const Vectors& n, const Vectors& u, const Vectors& w
 
 /// A side with one end in the ball.
 struct Line {
-  /// `whole`: from that end to the other.
-  HWY_INLINE Line(const Vectors& inside, const Vectors& whole) {
-    square = squared_length(whole);
-    unit = hn::Div(splat(1.0), hn::Sqrt(square));
-    along = scaled(whole, unit);
-    const auto end = hn::Mul(scalar_product(inside, whole), unit);
+  /// `side`: a vector in the direction of the side, which is that from `inside` outward times `sign`, 1 or -1.
+  HWY_INLINE Line(const Vectors& inside, const Vectors& side, Numbers sign) {
+    square = squared_length(side);
+    unit = hn::Div(sign, hn::Sqrt(square));
+    along = scaled(side, unit);
+    const auto end = hn::Mul(scalar_product(inside, side), unit);
     nearest = difference(inside, scaled(along, end));
     half = hn::Sqrt(hn::Max(hn::Zero(Doubles()), hn::Sub(splat(1.0), squared_length(nearest))));
     exit = sum(nearest, scaled(along, half));
     chord = hn::Sub(half, end);
   }
 
-  /// Of the line, from the foot of the center on the plane, to the right.
-  HWY_INLINE Numbers offset(const Vectors& normal) const {
-    return scalar_product(nearest, vector_product(along, normal));
-  }
-
   Numbers square;   // of the length of the side
-  Numbers unit;     // 1 / length
+  Numbers unit;     // sign / length
   Vectors nearest;  // to the center
   Vectors along;    // a unit vector, outward
   Numbers half;     // of the chord of the line
@@ -178,12 +173,13 @@ struct Corners {
   Vectors c;
 };
 
-/// Of each triangle, the arc: a number whose argument is its angle, and its ends.
+/// Of each triangle, the arc: a number whose argument is its angle, and where both sides at the first corner leave the
+/// ball. If that corner is inside, the arc leads from the first to the last, else back.
 struct Arcs {
   PerLane<double> real;
   PerLane<double> imaginary;
-  PointPerLane<double> from;
-  PointPerLane<double> to;
+  PointPerLane<double> first;
+  PointPerLane<double> last;
 };
 
 /// Measures the chords of those from `i` on. Returns which triangles these formulas suit.
@@ -196,26 +192,31 @@ HWY_INLINE Lanes measure_chords(const Doubles d, const Cuts& cuts, std::size_t i
   const Lanes inside = hn::Gt(sign, zero);
   const auto first_side = difference(b, a);
   const auto last_side = difference(c, a);
-  const Line first(chosen(inside, a, b), scaled(first_side, sign));
-  const Line last(chosen(inside, a, c), scaled(last_side, sign));
-  store_rows(chosen(inside, first.exit, last.exit), arcs.from, i);
-  store_rows(chosen(inside, last.exit, first.exit), arcs.to, i);
+  const auto first_inside = chosen(inside, a, b);
+  const auto last_inside = chosen(inside, a, c);
+  const Line first(first_inside, first_side, sign);
+  const Line last(last_inside, last_side, sign);
+  store_rows(first.exit, arcs.first, i);
+  store_rows(last.exit, arcs.last, i);
 
   const auto area = vector_product(first_side, last_side);
   const auto size = hn::Sqrt(squared_length(area));
   const auto normal = scaled(area, hn::Div(one, size));
   const auto distance = scalar_product(normal, chosen(hn::Gt(last.chord, first.chord), last.nearest, first.nearest));
   store(hn::Min(one, hn::Max(distance, splat(-1.0))), clipped.distance[i]);
-  // Twice the areas between the foot of the center and the chords; that at the third side is all of it or nothing.
-  const auto first_offset = hn::Mul(sign, first.offset(normal));
-  const auto last_offset = negated(hn::Mul(sign, last.offset(normal)));
-  const auto between = chosen(inside, zero, scalar_product(normal, vector_product(b, c)));
+  // Of the lines, from the foot of the center on the plane, to the right of the first side and of the reversed last.
+  const auto over_first = vector_product(normal, first_inside);
+  const auto over_last = vector_product(normal, last_inside);
+  const auto first_offset = hn::Mul(sign, scalar_product(over_first, first.along));
+  const auto last_offset = negated(hn::Mul(sign, scalar_product(over_last, last.along)));
+  // Twice the areas between the foot and the chords; that at the third side is all of it or nothing.
+  const auto between = chosen(inside, zero, scalar_product(over_first, last_inside));
   store(hn::Add(hn::Add(hn::Mul(first_offset, first.chord), between), hn::Mul(last_offset, last.chord)),
         clipped.area[i]);
 
   // The arc leads from one of the sides at the first corner to the other.
   const Turns ends = product({first_offset, first.half}, {last_offset, last.half});
-  const auto turn = negated(hn::Mul(hn::Mul(sign, size), hn::Mul(first.unit, last.unit)));
+  const auto turn = negated(hn::Mul(sign, hn::Mul(size, hn::Mul(first.unit, last.unit))));
   const Turns arc =
       product({negated(scalar_product(last.along, first.along)), turn}, {ends.real, negated(ends.imaginary)});
   store(arc.real, arcs.real[i]);
@@ -251,7 +252,8 @@ HWY_INLINE Lanes measure_arcs(const Doubles d, const Cuts& cuts, const Arcs& arc
   // term is `arc`.
   const auto above = hn::Add(one, height);
   const Turns about{hn::Add(hn::Mul(above, above), arc.real), negated(hn::Mul(side, arc.imaginary))};
-  const Turns from_pole = half_areas(Rows(&cuts.balls[i], 1).point, load_rows(d, arcs.from, i), load_rows(d, arcs.to, i));
+  auto from_pole = half_areas(Rows(&cuts.balls[i], 1).point, load_rows(d, arcs.first, i), load_rows(d, arcs.last, i));
+  from_pole.imaginary = hn::Mul(load(cuts.insides[i]), from_pole.imaginary);
   const Turns factor = product(about, from_pole);
   store(factor.real, clipped.real[i]);
   store(factor.imaginary, clipped.imaginary[i]);
