@@ -20,8 +20,8 @@ PacketPatches::PacketPatches(const PatchState& state)
       kernels_(&patch_kernels(best_isa())),
       words_(state.index->vertex_count()),
       all_(state.meshlets.size()) {
-  cuts_.corners.fill(cut_corners_[0].data());
-  cuts_.balls.fill(cutting_balls_[0].data());
+  cut_.corners.fill(cut_corners_[0].data());
+  cut_.balls.fill(cutting_balls_[0].data());
 }
 
 QueryWord PacketPatches::find(const PacketAnswer& packet, bool measures) {
@@ -195,9 +195,9 @@ void PacketPatches::add_cut(TriangleId t, const std::array<Point, 3>& corners, c
     const CutKind kind = kCutKinds[has(words[0]) | has(words[1]) << 1U | has(words[2]) << 2U];
     cut_ids_[lane] = t;
     cut_queries_[lane] = q;
-    cuts_.corners[lane] = rows + kind.first;
-    cuts_.balls[lane] = cutting_balls_[q].data();
-    cuts_.insides[lane] = kind.inside;
+    cut_.corners[lane] = rows + kind.first;
+    cut_.balls[lane] = cutting_balls_[q].data();
+    cut_.insides[lane] = kind.inside;
   });
 }
 
@@ -205,7 +205,7 @@ void PacketPatches::measure_cut() {
   const auto lanes = static_cast<unsigned>(std::exchange(cut_count_, 0));
   if (lanes == 0) return;
   const LaneMask left =
-      measures_ ? first_lanes(lanes) & ~kernels_->measure(cuts_, lanes, clipped_) : kernels_->may_dip(cuts_, lanes);
+      measures_ ? first_lanes(lanes) & ~kernels_->measure(cut_, lanes, clipped_) : kernels_->may_dip(cut_, lanes);
   for (unsigned i = 0; i < lanes; ++i) {
     const std::size_t q = cut_queries_[i];
     if ((left >> i & 1U) != 0) {

@@ -108,7 +108,7 @@ class PacketPatches {
   std::array<std::size_t, kPacketCapacity> cut_queries_{};
   std::array<std::array<LaneRow, 5>, kPacketCapacity> cut_corners_{};
   std::array<std::array<LaneRow, 2>, kPacketCapacity> cutting_balls_{};  // by query
-  Cuts cuts_{};                                                          // with rows of the lists above
+  CutTriangles cut_{};                                                   // with rows of the lists above
   ClippedTriangles clipped_{};
 
   std::vector<Dip> dips_;

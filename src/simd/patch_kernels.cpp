@@ -156,11 +156,11 @@ struct Rows {
 
 /// From the center, in units of the radius.
 struct Corners {
-  HWY_INLINE Corners(const Cuts& cuts, std::size_t i) {
-    const auto [center, unit] = Rows(&cuts.balls[i], 0);
-    a = scaled(difference(Rows(&cuts.corners[i], 0).point, center), unit);
-    b = scaled(difference(Rows(&cuts.corners[i], 1).point, center), unit);
-    c = scaled(difference(Rows(&cuts.corners[i], 2).point, center), unit);
+  HWY_INLINE Corners(const CutTriangles& cut, std::size_t i) {
+    const auto [center, unit] = Rows(&cut.balls[i], 0);
+    a = scaled(difference(Rows(&cut.corners[i], 0).point, center), unit);
+    b = scaled(difference(Rows(&cut.corners[i], 1).point, center), unit);
+    c = scaled(difference(Rows(&cut.corners[i], 2).point, center), unit);
   }
 
   HWY_INLINE Lanes are_near() const {
@@ -183,12 +183,12 @@ struct Arcs {
 };
 
 /// Measures the chords of those from `i` on. Returns which triangles these formulas suit.
-HWY_INLINE Lanes measure_chords(const Doubles d, const Cuts& cuts, std::size_t i, ClippedTriangles& clipped,
+HWY_INLINE Lanes measure_chords(const Doubles d, const CutTriangles& cut, std::size_t i, ClippedTriangles& clipped,
                                 Arcs& arcs) {
   const auto one = splat(1.0);
   const auto zero = hn::Zero(d);
-  const auto [a, b, c] = Corners(cuts, i);
-  const auto sign = load(cuts.insides[i]);
+  const auto [a, b, c] = Corners(cut, i);
+  const auto sign = load(cut.insides[i]);
   const Lanes inside = hn::Gt(sign, zero);
   const auto first_side = difference(b, a);
   const auto last_side = difference(c, a);
@@ -234,7 +234,7 @@ HWY_INLINE Lanes measure_chords(const Doubles d, const Cuts& cuts, std::size_t i
 }
 
 /// Adds what the arcs add. Returns which are short, clear and far from the opposite of the pole.
-HWY_INLINE Lanes measure_arcs(const Doubles d, const Cuts& cuts, const Arcs& arcs, std::size_t i,
+HWY_INLINE Lanes measure_arcs(const Doubles d, const CutTriangles& cut, const Arcs& arcs, std::size_t i,
                               ClippedTriangles& clipped) {
   const auto zero = hn::Zero(d);
   const auto one = splat(1.0);
@@ -252,28 +252,28 @@ HWY_INLINE Lanes measure_arcs(const Doubles d, const Cuts& cuts, const Arcs& arc
   // term is `arc`.
   const auto above = hn::Add(one, height);
   const Turns about{hn::Add(hn::Mul(above, above), arc.real), negated(hn::Mul(side, arc.imaginary))};
-  auto from_pole = half_areas(Rows(&cuts.balls[i], 1).point, load_rows(d, arcs.first, i), load_rows(d, arcs.last, i));
-  from_pole.imaginary = hn::Mul(load(cuts.insides[i]), from_pole.imaginary);
+  auto from_pole = half_areas(Rows(&cut.balls[i], 1).point, load_rows(d, arcs.first, i), load_rows(d, arcs.last, i));
+  from_pole.imaginary = hn::Mul(load(cut.insides[i]), from_pole.imaginary);
   const Turns factor = product(about, from_pole);
   store(factor.real, clipped.real[i]);
   store(factor.imaginary, clipped.imaginary[i]);
 
   // See `ClippedTriangle::angle_of_arc`.
-  const auto least = chosen(hn::Gt(load(cuts.insides[i]), zero), hn::Mul(splat(kClearTurn), arc.real), zero);
+  const auto least = chosen(hn::Gt(load(cut.insides[i]), zero), hn::Mul(splat(kClearTurn), arc.real), zero);
   const auto is_clear = hn::And(hn::Ge(arc.imaginary, zero), hn::Ge(arc.imaginary, least));
   const auto is_far_from_opposite = hn::Ge(squared_size(from_pole), splat(kClearPole));
   return hn::And(hn::And(is_clear, is_far_from_opposite), hn::Lt(angle, splat(kLongArc)));
 }
 
 /// In loops so short that the processor works on several turns of one at once.
-LaneMask measure(const Cuts& cuts, std::size_t count, ClippedTriangles& clipped) {
+LaneMask measure(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped) {
   constexpr std::size_t kStep = kLanes<Doubles>;
   const Doubles d;
   Arcs arcs;
   LaneMask plain = 0;
   LaneMask measured = 0;
-  for (std::size_t i = 0; i < count; i += kStep) plain |= bits_of(d, measure_chords(d, cuts, i, clipped, arcs)) << i;
-  for (std::size_t i = 0; i < count; i += kStep) measured |= bits_of(d, measure_arcs(d, cuts, arcs, i, clipped)) << i;
+  for (std::size_t i = 0; i < count; i += kStep) plain |= bits_of(d, measure_chords(d, cut, i, clipped, arcs)) << i;
+  for (std::size_t i = 0; i < count; i += kStep) measured |= bits_of(d, measure_arcs(d, cut, arcs, i, clipped)) << i;
   return plain & measured & first_lanes(static_cast<unsigned>(count));
 }
 
@@ -300,12 +300,12 @@ void add_whole(std::span<const WholeTriangles> triangles, const Point& point, co
   }
 }
 
-LaneMask may_dip_of(const Cuts& cuts, std::size_t count) {
+LaneMask may_dip_of(const CutTriangles& cut, std::size_t count) {
   const Doubles d;
   LaneMask result = 0;
   for (std::size_t i = 0; i < count; i += kLanes<Doubles>) {
-    const Corners corners(cuts, i);
-    const Lanes inside = hn::Gt(load(cuts.insides[i]), hn::Zero(d));
+    const Corners corners(cut, i);
+    const Lanes inside = hn::Gt(load(cut.insides[i]), hn::Zero(d));
     const Lanes is_clear = hn::AndNot(may_dip(corners.b, corners.c), corners.are_near());
     result |= bits_of(d, hn::AndNot(is_clear, inside)) << i;
   }

@@ -84,13 +84,13 @@ inline constexpr double kClearPole = 0x1p-12;
 using LaneRow = std::array<double, 4>;
 
 /// A triangle and a ball for each lane. One corner, the first, is alone inside or outside.
-struct Cuts {
+struct CutTriangles {
   std::array<const LaneRow*, kPacketCapacity> corners;  // three, from the first on, in the orientation of the triangle
   std::array<const LaneRow*, kPacketCapacity> balls;    // the center and 1 / radius; the pole of the rim, a unit vector
   PerLane<double> insides;                              // 1 if the first corner is in the ball, else -1
 };
 
-/// What `ClippedTriangle::measure` finds of each cut, and adds to the rim: one arc.
+/// What `ClippedTriangle::measure` finds of each, and adds to the rim: one arc.
 struct ClippedTriangles {
   PerLane<double> area;
   PerLane<double> distance;
@@ -120,13 +120,13 @@ struct PatchKernels {
   void (*add_whole)(std::span<const WholeTriangles> triangles, const Point& point, const PointPerLane<double>& centers,
                     double scale, WholeSums& sums);
 
-  /// Measures the first `count` cuts; reads and writes whole vectors, so each lane has rows. Returns those that it has
+  /// Measures the first `count`; reads and writes whole vectors, so each lane has rows. Returns those that it has
   /// measured: none with a corner far away, without an area, of a needle, with an arc that is not short or near the
   /// opposite of the pole, or whose third side may dip into the ball.
-  LaneMask (*measure)(const Cuts& cuts, std::size_t count, ClippedTriangles& clipped);
+  LaneMask (*measure)(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped);
 
   /// Which of them have one corner in the ball, and a third side that may dip into it or a corner far away.
-  LaneMask (*may_dip)(const Cuts& cuts, std::size_t count);
+  LaneMask (*may_dip)(const CutTriangles& cut, std::size_t count);
 
   /// Those of `queries` that may have a point of a triangle within their reach. The others have none, but for rounding.
   /// Fourth powers of a reach must not vanish.

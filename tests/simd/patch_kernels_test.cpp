@@ -60,7 +60,7 @@ class EveryPatchKernel : public testing::TestWithParam<Isa> {
     }
   }
 
-  /// Sets `cuts` and what is given to the kernels. Returns how many there are.
+  /// Sets `cuts_` and what is given to the kernels. Returns how many there are.
   std::size_t draw_some() {
     const std::size_t count = 1 + random_.below(kPacketCapacity);
     for (std::size_t i = 0; i < count; ++i) set(i, cuts_[i] = draw());
@@ -80,7 +80,7 @@ class EveryPatchKernel : public testing::TestWithParam<Isa> {
   std::array<Cut, kPacketCapacity> cuts_;
   std::array<std::array<LaneRow, 5>, kPacketCapacity> triangles_{};
   std::array<std::array<LaneRow, 2>, kPacketCapacity> balls_{};
-  std::unique_ptr<Cuts> given_ = std::make_unique<Cuts>();
+  std::unique_ptr<CutTriangles> given_ = std::make_unique<CutTriangles>();
 };
 
 TEST_P(EveryPatchKernel, FindsSidesThatMayDip) {
