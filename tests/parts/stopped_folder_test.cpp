@@ -11,6 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "meshhood/error.h"
+
 #include "support/parts_folder.h"
 #include "support/scale.h"
 #include "support/small_disk.h"
