@@ -11,7 +11,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-LaneRow row(const Point& p, double fourth) { return {p.x, p.y, p.z, fourth}; }
+LaneRow row(const Point& p, double fourth = 0) { return {p.x, p.y, p.z, fourth}; }
 
 }  // namespace
 
@@ -67,7 +67,7 @@ void PacketPatches::set_balls(const PacketAnswer& packet) {
     if (!std::isfinite(balls_[q].unit) || !std::isfinite(balls_[q].radius)) leave(q);
     centers_.set(q, balls_[q].center);
     sums_[q].clear(state_->triangles.normal_of(index, state_->triangles.fans[place]));
-    cutting_balls_[q] = {row(balls_[q].center, balls_[q].unit), row(sums_[q].rim().pole(), 0)};
+    cutting_balls_[q] = {row(balls_[q].center, balls_[q].unit), row(sums_[q].rim().pole())};
   });
 }
 
@@ -181,7 +181,7 @@ constexpr std::array<CutKind, 8> kCutKinds{{{}, {0, 1}, {1, 1}, {2, -1}, {2, 1},
 /// Of queries that have one corner or two. From any corner on, three follow each other in the list of five.
 void PacketPatches::add_cut(TriangleId t, const std::array<Point, 3>& corners, const std::array<QueryWord, 3>& words,
                             QueryWord queries) {
-  const std::array a{row(corners[0], 0), row(corners[1], 0), row(corners[2], 0)};
+  const std::array a{row(corners[0]), row(corners[1]), row(corners[2])};
   const std::array around{a[0], a[1], a[2], a[0], a[1]};
   const LaneRow* rows = nullptr;
   for_each_query(queries, [&](std::size_t q) {

@@ -32,7 +32,7 @@ class PacketPatches {
  public:
   /// Of packets of `state.searched`. Borrows the state.
   explicit PacketPatches(const PatchState& state);
-  PacketPatches(const PacketPatches&) = delete;
+  PacketPatches(const PacketPatches&) = delete;  // kernels are given the places of its rows
   PacketPatches& operator=(const PacketPatches&) = delete;
 
   /// Returns the queries whose patches it has found. Of the others patch and neighborhood may differ, by a loose edge,
