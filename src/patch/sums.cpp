@@ -76,7 +76,8 @@ void RimArcs::add(const Circle& circle, double theta, const Point& u, const Poin
   add_part(last, w);
 }
 
-/// A factor is below 2^5, and above 2^-6 unless it is that of an arc near the opposite of the pole.
+/// A factor is below 2^5, and above 2^-6 unless it is that of an arc near the opposite of the pole. So a product of 64
+/// neither overflows nor vanishes.
 void RimArcs::rescale() {
   const double size = std::sqrt(real_ * real_ + imaginary_ * imaginary_);
   if (size == 0) return;

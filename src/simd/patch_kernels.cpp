@@ -119,7 +119,7 @@ HWY_INLINE Lanes may_dip(const Vectors& a, const Vectors& b) {
 }
 
 #if HWY_TARGET != HWY_SCALAR
-/// Two numbers of each second lane, from number `at` of a row on.
+/// Two numbers of every second lane, from number `at` of a row on.
 template <class D>
 HWY_INLINE VectorOf<D> pairs(D d, const LaneRow* const* lanes, std::size_t row, std::size_t at) {
   if constexpr (kLanes<D> == 2) {
