@@ -9,19 +9,13 @@
 #include "surface/face_triangles.h"
 
 namespace meshhood::inline v0_1 {
-namespace {
-
-LaneRow row(const Point& p, double fourth = 0) { return {p.x, p.y, p.z, fourth}; }
-
-}  // namespace
-
 PacketPatches::PacketPatches(const PatchState& state)
     : state_(&state),
       kernels_(&patch_kernels(best_isa())),
       words_(state.index->vertex_count()),
       all_(state.meshlets.size()) {
-  cut_.corners.fill(cut_corners_[0].data());
-  cut_.balls.fill(cutting_balls_[0].data());
+  cut_.corners.fill(corner_rows_[0].data());
+  cut_.balls.fill(ball_rows_[0].data());
 }
 
 QueryWord PacketPatches::find(const PacketAnswer& packet, bool measures) {
@@ -67,7 +61,7 @@ void PacketPatches::set_balls(const PacketAnswer& packet) {
     if (!std::isfinite(balls_[q].unit) || !std::isfinite(balls_[q].radius)) leave(q);
     centers_.set(q, balls_[q].center);
     sums_[q].clear(state_->triangles.normal_of(index, state_->triangles.fans[place]));
-    cutting_balls_[q] = {row(balls_[q].center, balls_[q].unit), row(sums_[q].rim().pole())};
+    ball_rows_[q] = {lane_row(balls_[q].center, balls_[q].unit), lane_row(sums_[q].rim().pole())};
   });
 }
 
@@ -181,8 +175,6 @@ constexpr std::array<CutKind, 8> kCutKinds{{{}, {0, 1}, {1, 1}, {2, -1}, {2, 1},
 /// Of queries that have one corner or two. From any corner on, three follow each other in the list of five.
 void PacketPatches::add_cut(TriangleId t, const std::array<Point, 3>& corners, const std::array<QueryWord, 3>& words,
                             QueryWord queries) {
-  const std::array a{row(corners[0]), row(corners[1]), row(corners[2])};
-  const std::array around{a[0], a[1], a[2], a[0], a[1]};
   const LaneRow* rows = nullptr;
   for_each_query(queries, [&](std::size_t q) {
     if (cut_count_ == kPacketCapacity) {
@@ -190,13 +182,16 @@ void PacketPatches::add_cut(TriangleId t, const std::array<Point, 3>& corners, c
       rows = nullptr;
     }
     const std::size_t lane = cut_count_++;
-    if (rows == nullptr) rows = (cut_corners_[lane] = around).data();
+    if (rows == nullptr) {
+      for (std::size_t i = 0; i < 5; ++i) corner_rows_[lane][i] = lane_row(corners[i % 3]);
+      rows = corner_rows_[lane].data();
+    }
     const auto has = [q](QueryWord word) { return word >> q & 1U; };
     const CutKind kind = kCutKinds[has(words[0]) | has(words[1]) << 1U | has(words[2]) << 2U];
-    cut_ids_[lane] = t;
+    cut_triangles_[lane] = t;
     cut_queries_[lane] = q;
     cut_.corners[lane] = rows + kind.first;
-    cut_.balls[lane] = cutting_balls_[q].data();
+    cut_.balls[lane] = ball_rows_[q].data();
     cut_.insides[lane] = kind.inside;
   });
 }
@@ -209,7 +204,7 @@ void PacketPatches::measure_cut() {
   for (unsigned i = 0; i < lanes; ++i) {
     const std::size_t q = cut_queries_[i];
     if ((left >> i & 1U) != 0) {
-      add_clipped(cut_ids_[i], q);
+      add_clipped(cut_triangles_[i], q);
     } else if (measures_) {
       sums_[q].add_cut(clipped_.area[i], clipped_.distance[i]);
       sums_[q].rim().add_measured(clipped_.turn[i], {clipped_.real[i], clipped_.imaginary[i]});

@@ -32,7 +32,7 @@ class PacketPatches {
  public:
   /// Of packets of `state.searched`. Borrows the state.
   explicit PacketPatches(const PatchState& state);
-  PacketPatches(const PacketPatches&) = delete;  // kernels are given the places of its rows
+  PacketPatches(const PacketPatches&) = delete;  // it points to rows of its own
   PacketPatches& operator=(const PacketPatches&) = delete;
 
   /// Returns the queries whose patches it has found. Of the others patch and neighborhood may differ, by a loose edge,
@@ -104,11 +104,11 @@ class PacketPatches {
   std::vector<WholeTriangles> inside_;  // of a meshlet
 
   std::size_t cut_count_ = 0;  // waiting
-  std::array<TriangleId, kPacketCapacity> cut_ids_{};
+  std::array<TriangleId, kPacketCapacity> cut_triangles_{};
   std::array<std::size_t, kPacketCapacity> cut_queries_{};
-  std::array<std::array<LaneRow, 5>, kPacketCapacity> cut_corners_{};
-  std::array<std::array<LaneRow, 2>, kPacketCapacity> cutting_balls_{};  // by query
-  CutTriangles cut_{};                                                   // with rows of the lists above
+  std::array<std::array<LaneRow, 5>, kPacketCapacity> corner_rows_{};
+  std::array<std::array<LaneRow, 2>, kPacketCapacity> ball_rows_{};  // by query
+  CutTriangles cut_{};                                               // points to these rows
   ClippedTriangles clipped_{};
 
   std::vector<Dip> dips_;

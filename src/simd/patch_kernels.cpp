@@ -132,8 +132,8 @@ HWY_INLINE VectorOf<D> pairs(D d, const LaneRow* const* lanes, std::size_t row, 
 #endif
 
 /// A row of each lane, by the numbers in it.
-struct Rows {
-  HWY_INLINE Rows(const LaneRow* const* lanes, std::size_t row) {
+struct LaneRows {
+  HWY_INLINE LaneRows(const LaneRow* const* lanes, std::size_t row) {
     const Doubles d;
 #if HWY_TARGET == HWY_SCALAR
     const auto [x, y, z, w] = lanes[0][row];
@@ -157,10 +157,10 @@ struct Rows {
 /// From the center, in units of the radius.
 struct Corners {
   HWY_INLINE Corners(const CutTriangles& cut, std::size_t i) {
-    const auto [center, unit] = Rows(&cut.balls[i], 0);
-    a = scaled(difference(Rows(&cut.corners[i], 0).point, center), unit);
-    b = scaled(difference(Rows(&cut.corners[i], 1).point, center), unit);
-    c = scaled(difference(Rows(&cut.corners[i], 2).point, center), unit);
+    const auto [center, unit] = LaneRows(&cut.balls[i], 0);
+    a = scaled(difference(LaneRows(&cut.corners[i], 0).point, center), unit);
+    b = scaled(difference(LaneRows(&cut.corners[i], 1).point, center), unit);
+    c = scaled(difference(LaneRows(&cut.corners[i], 2).point, center), unit);
   }
 
   HWY_INLINE Lanes are_near() const {
@@ -204,7 +204,8 @@ HWY_INLINE Lanes measure_chords(const Doubles d, const CutTriangles& cut, std::s
   const auto normal = scaled(area, hn::Div(one, size));
   const auto distance = scalar_product(normal, chosen(hn::Gt(last.chord, first.chord), last.nearest, first.nearest));
   store(hn::Min(one, hn::Max(distance, splat(-1.0))), clipped.distance[i]);
-  // Of the lines, from the foot of the center on the plane, to the right of the first side and of the reversed last.
+  // How far the lines are from the foot of the center on the plane: to the right of the first side, and of the last one
+  // from its other end. It is the same for all points of a line, so it follows from the corner in the ball.
   const auto over_first = vector_product(normal, first_inside);
   const auto over_last = vector_product(normal, last_inside);
   const auto first_offset = hn::Mul(sign, scalar_product(over_first, first.along));
@@ -252,7 +253,8 @@ HWY_INLINE Lanes measure_arcs(const Doubles d, const CutTriangles& cut, const Ar
   // term is `arc`.
   const auto above = hn::Add(one, height);
   const Turns about{hn::Add(hn::Mul(above, above), arc.real), negated(hn::Mul(side, arc.imaginary))};
-  auto from_pole = half_areas(Rows(&cut.balls[i], 1).point, load_rows(d, arcs.first, i), load_rows(d, arcs.last, i));
+  auto from_pole =
+      half_areas(LaneRows(&cut.balls[i], 1).point, load_rows(d, arcs.first, i), load_rows(d, arcs.last, i));
   from_pole.imaginary = hn::Mul(load(cut.insides[i]), from_pole.imaginary);
   const Turns factor = product(about, from_pole);
   store(factor.real, clipped.real[i]);

@@ -79,8 +79,10 @@ inline constexpr double kLongArc = 2;
 /// argument of the factor is uncertain there.
 inline constexpr double kClearPole = 0x1p-12;
 
-/// Four numbers. Kernels read rows where they lie, and turn those of several lanes into vectors.
+/// Four numbers of a lane. Kernels read such rows where they lie, and turn those of several lanes into vectors.
 using LaneRow = std::array<double, 4>;
+
+[[nodiscard]] inline LaneRow lane_row(const Point& p, double fourth = 0) { return {p.x, p.y, p.z, fourth}; }
 
 /// A triangle and a ball for each lane. One corner, the first, is alone inside or outside.
 struct CutTriangles {
@@ -119,9 +121,9 @@ struct PatchKernels {
   void (*add_whole)(std::span<const WholeTriangles> triangles, const Point& point, const PointPerLane<double>& centers,
                     double scale, WholeSums& sums);
 
-  /// Measures the first `count`; reads and writes whole vectors, so each lane has rows. Returns those that it has
-  /// measured: none with a corner far away, without an area, of a needle, with an arc that is not short or near the
-  /// opposite of the pole, or whose third side may dip into the ball.
+  /// Measures the first `count` triangles; reads and writes whole vectors, so the lanes behind them need rows, too.
+  /// Returns those that it has measured: not one with a corner far away, without an area, a needle, with an arc that is
+  /// not short or near the opposite of the pole, or whose third side may dip into the ball.
   LaneMask (*measure)(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped);
 
   /// Which of them have one corner in the ball, and a third side that may dip into it or a corner far away.

@@ -68,9 +68,8 @@ class EveryPatchKernel : public testing::TestWithParam<Isa> {
   }
 
   void set(std::size_t lane, const Cut& cut) {
-    const auto row = [](const Point& p, double fourth) { return LaneRow{p.x, p.y, p.z, fourth}; };
-    for (std::size_t i = 0; i < 5; ++i) triangles_[lane][i] = row(cut.triangle.corners[i % 3], 0);
-    balls_[lane][0] = row(cut.ball.center, cut.ball.unit);
+    for (std::size_t i = 0; i < 5; ++i) triangles_[lane][i] = lane_row(cut.triangle.corners[i % 3]);
+    balls_[lane][0] = lane_row(cut.ball.center, cut.ball.unit);
     given_->corners[lane] = &triangles_[lane][cut.first];
     given_->balls[lane] = balls_[lane].data();
     given_->insides[lane] = cut.triangle.inside[cut.first] ? 1 : -1;
