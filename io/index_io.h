@@ -8,8 +8,8 @@
 #include "meshhood/serialize.h"
 
 /// Reading and writing index files. `meshhood/serialize.h` documents the content and its verification.
-namespace meshhood::inline v0_1 {
-namespace io MESHHOOD_API {
+namespace meshhood::inline v0_1::io {
+MESHHOOD_API_BEGIN
 
 /// Writes `index` to a file atomically: to a temporary file beside the target, which is synced and renamed. Processes
 /// that have the old file open or mapped keep the old content. If several save at once, the last wins.
@@ -44,5 +44,5 @@ void save(const std::filesystem::path& path, const paper::Index& index, const Ru
 /// The header of the index in a regular file. Throws as `load`. O(1).
 [[nodiscard]] IndexHeader read_header(const std::filesystem::path& path);
 
-}  // namespace io
-}  // namespace meshhood::inline v0_1
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1::io

@@ -14,8 +14,8 @@
 #include "meshhood/run.h"
 
 /// Reading and writing mesh files. Readers keep the vertex numbering and the polygons of the file.
-namespace meshhood::inline v0_1 {
-namespace io MESHHOOD_API {
+namespace meshhood::inline v0_1::io {
+MESHHOOD_API_BEGIN
 
 enum class Format {
   Ply,
@@ -141,5 +141,5 @@ struct VtkOptions {
 /// as `write_ply`. Throws also Error{TooLarge}: the format counts in 31 bits.
 void write_vtk(const std::filesystem::path& path, const MeshView& mesh, const VtkOptions& options = {});
 
-}  // namespace io
-}  // namespace meshhood::inline v0_1
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1::io

@@ -20,8 +20,8 @@
 ///
 /// Expected O(#V + #corners) if `eps` is no larger than the mean edge length, and that is at least 1e-150, on one
 /// thread. The result does not depend on the machine. Throws Error{InvalidOption, InvalidMesh, TooLarge}.
-namespace meshhood::inline v0_1 {
-namespace io MESHHOOD_API {
+namespace meshhood::inline v0_1::io {
+MESHHOOD_API_BEGIN
 
 /// A welded mesh. Kept vertices have their positions, in the precision given, and their order. Offsets are empty if
 /// triangles were given.
@@ -36,5 +36,5 @@ struct WeldedMesh : MeshData {
 /// The `ids` that `weld` returns. O(#V).
 [[nodiscard]] std::vector<std::uint32_t> welded_ids(const PositionsView& positions, double eps = 0);
 
-}  // namespace io
-}  // namespace meshhood::inline v0_1
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1::io

@@ -11,8 +11,8 @@
 #include "meshhood/mesh.h"
 #include "meshhood/vertex_id.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// The largest number of neighbors over all vertices: twice the number of edges.
 inline constexpr std::size_t kMaxNeighbors = std::numeric_limits<EdgeOffset>::max();
@@ -95,5 +95,5 @@ void validate(const GraphView& graph);
 /// vertices are not joined by an edge; the message names the row of `edges`. O(#E + #cut log(valence)).
 [[nodiscard]] Adjacency cut_edges(const AdjacencyView& graph, const IndicesView& edges);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

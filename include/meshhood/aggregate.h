@@ -22,8 +22,8 @@
 ///         {.radius = meshhood::smoothing_radius(6.0), .kernel = meshhood::SmoothingKernel::Gaussian});
 ///
 /// See docs/aggregate.md.
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// How the values of a neighborhood are combined.
 enum class Reduce : std::uint8_t {
@@ -174,5 +174,5 @@ void aggregate(const Index& index, const SignalView& signal, const AggregateQuer
 /// distance, radius  >= 0, not checked; 0 if one is NaN.
 [[nodiscard]] double smoothing_weight(SmoothingKernel kernel, double distance, double radius);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

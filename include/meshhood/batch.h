@@ -25,8 +25,8 @@
 /// Many neighborhoods in one call, on all processors unless `Run` says otherwise.
 ///
 ///     const auto [offsets, ids, distances] = meshhood::neighborhoods(index, {.radius = 1.5}, {.distances = true});
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 struct SearcherFactory;
 
@@ -238,5 +238,5 @@ void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, 
 [[nodiscard]] std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& query,
                                                 const Run& run = {});
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -8,8 +8,8 @@
 
 #include "meshhood/export.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// Why a call failed. The list is closed: a program may switch over it.
 enum class ErrorCode {
@@ -61,5 +61,5 @@ class Error : public std::exception {
 /// through here.
 [[noreturn]] void raise(ErrorCode code, std::string message, std::string path = {}, int error_number = 0);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -5,8 +5,8 @@
 #include "meshhood/export.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// The graph of the faces of a mesh, for data that lies on faces: its vertices are the faces, at the mean of their
 /// corners, in double; two faces are joined if they have an edge in common. All faces of a non-manifold edge are joined
@@ -16,5 +16,5 @@ inline namespace v0_1 MESHHOOD_API {
 /// place; and TooLarge beyond `kMaxNeighbors`. O(#corners log #corners), and the number of neighbors.
 [[nodiscard]] GraphData face_graph(const MeshView& mesh);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -17,8 +17,8 @@
 ///     const std::vector<double> radii = meshhood::geometric_radii(1.0, 16.0, 9);
 ///     const auto creases = meshhood::features(surface, {.radius = meshhood::BatchRadius::scales(radii)});
 ///     const meshhood::Persistence lasting = meshhood::persistence(creases, radii, 0.5);
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// A number without unit that describes the neighborhood of one radius r: it does not change if mesh and radius are
 /// scaled together, so that scales can be compared.
@@ -84,5 +84,5 @@ struct Persistence {
 /// Throws Error{InvalidOption, InvalidRadius}.
 [[nodiscard]] Persistence persistence(std::span<const double> values, std::span<const double> radii, double threshold);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

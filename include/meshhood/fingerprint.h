@@ -8,8 +8,8 @@
 #include "meshhood/export.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// Identifies a mesh: a 128-bit hash of its positions, bit for bit and in their precision, and of its graph. It does
 /// not depend on the order of faces and corners, nor on the layout of the positions in memory. It detects mistakes, not
@@ -30,5 +30,5 @@ struct Fingerprint {
 /// The graph must be valid. O(#V + #E).
 [[nodiscard]] Fingerprint fingerprint(const GraphView& graph);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -17,8 +17,8 @@
 #include "meshhood/owner.h"
 #include "meshhood/run.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 class KeptGraph;
 struct IndexView;
@@ -142,5 +142,5 @@ template <class Positions, class Faces>
 /// `extract_graph(index)`.
 [[nodiscard]] Fingerprint fingerprint(const Index& index);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

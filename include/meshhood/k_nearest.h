@@ -15,8 +15,8 @@
 #include "meshhood/unconnected.h"
 
 /// The nearest connected vertices of many vertices in one call: a number of them, or as many as cover an area.
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 struct NearestOptions {
   /// By what vertices are near. Straight: the connecting radius, as for `Searcher::nearest_connected`; then the
@@ -64,5 +64,5 @@ void k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k,
                                   std::span<const double> areas, const NearestOptions& options = {},
                                   const Run& run = {});
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

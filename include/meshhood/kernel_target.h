@@ -5,13 +5,13 @@
 
 #include "meshhood/export.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// The instructions that the inner loops use on this processor, as Google Highway names them: "AVX3" for AVX-512,
 /// "AVX2", "SSE4", "NEON", "WASM", or "SCALAR" for none but those of every processor. Chosen once, when it is first
 /// asked for. Answers do not depend on it, only their speed. Any number of threads may call it.
 [[nodiscard]] std::string_view kernel_target();
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

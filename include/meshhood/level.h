@@ -5,8 +5,8 @@
 
 #include "meshhood/export.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// Memory of an index by part, in bytes. Of a mapped index: bytes of the file.
 struct IndexBytes {
@@ -29,5 +29,5 @@ struct LevelSummary {
   std::size_t bytes;     ///< memory of the arrays of the level
 };
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -12,8 +12,8 @@
 /// Points without faces: the graph that joins near ones.
 ///
 ///     const auto index = meshhood::build_linked(points, 0.9);
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 struct LinkOptions {
   /// A graph with more edges is refused.
@@ -39,5 +39,5 @@ struct LinkOptions {
 [[nodiscard]] Index build_linked(const PositionsView& points, double link, const LinkOptions& options = {},
                                  const Run& run = {});
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

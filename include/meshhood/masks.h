@@ -11,8 +11,8 @@
 #include "meshhood/mesh.h"
 #include "meshhood/run.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// A set of vertices: one value for each vertex by the caller's ids, #V in total. A bool that is true, or a byte other
 /// than 0, puts its vertex into the set. Borrowed; a temporary container is rejected by the compiler. Empty: no vertex.
@@ -64,5 +64,5 @@ struct Masks {
 /// masks, and Error{Cancelled}.
 [[nodiscard]] Index masked(const Index& index, const Masks& masks, const Run& run = {});
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

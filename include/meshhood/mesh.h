@@ -15,8 +15,8 @@
 #include "meshhood/vertex.h"
 #include "meshhood/vertex_id.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// The largest number of vertices. One id is reserved.
 inline constexpr std::size_t kMaxVertices = std::numeric_limits<VertexId>::max() - std::size_t{1};
@@ -37,14 +37,14 @@ class Borrowed : public std::span<const T> {
   constexpr Borrowed(Range&& array) : std::span<const T>(array) {}
 };
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1
 
 template <class T>
 inline constexpr bool std::ranges::enable_borrowed_range<meshhood::Borrowed<T>> = true;
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// A type of coordinates and values.
 template <class T>
@@ -345,5 +345,5 @@ void validate(const PositionsView& positions);
 /// Throws Error{VertexOutOfRange}.
 [[nodiscard]] double distance(const PositionsView& positions, Vertex v, Vertex w);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -9,8 +9,8 @@
 #include "meshhood/export.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// A polygonal mesh that owns its arrays: a copy of a mesh of another library (see cgal.h, openmesh.h and
 /// geometry_central.h), or a mesh of a file.
@@ -27,5 +27,5 @@ struct MeshData {
   [[nodiscard]] MeshView view() const&& = delete;
 };
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

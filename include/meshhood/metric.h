@@ -7,8 +7,8 @@
 
 #include "meshhood/export.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// How the distance of a vertex is measured, of which radii and smoothing kernels speak. See `Searcher`.
 enum class Metric : std::uint8_t {
@@ -33,5 +33,5 @@ class Radius {
   double value_;
 };
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

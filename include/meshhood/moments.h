@@ -15,8 +15,8 @@
 ///
 ///     const std::vector<double> areas = meshhood::vertex_areas(mesh);
 ///     const auto components = meshhood::principal_components(index, {.radius = 2.5}, {.weights = areas});
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// The largest i + j + k of a moment.
 inline constexpr unsigned kLargestMomentDegree = 4;
@@ -78,5 +78,5 @@ struct PrincipalComponents {
 /// where all are 0.
 [[nodiscard]] double surface_variation(double least, double middle, double largest);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -6,8 +6,8 @@
 
 #include "meshhood/export.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 namespace detail {
 
 /// Throws Error{InvalidOption}.
@@ -46,5 +46,5 @@ class Owner {
 };
 
 }  // namespace detail
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -19,8 +19,8 @@
 
 /// The index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
 /// `docs/paper.md` lists the deviations from the paper, with reasons.
-namespace meshhood::inline v0_1 {
-namespace paper MESHHOOD_API {
+namespace meshhood::inline v0_1::paper {
+MESHHOOD_API_BEGIN
 
 /// A cluster, by its number on its level.
 using ClusterId = VertexId;
@@ -201,5 +201,5 @@ class Searcher {
   QueryProfile profile_;
 };
 
-}  // namespace paper
-}  // namespace meshhood::inline v0_1
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1::paper

@@ -35,8 +35,8 @@
 ///
 /// A surface makes what all searches share at the first of them, and again after a refit: about 37 bytes a triangle, in
 /// O(#V + #corners log #corners). Error{InvalidMesh} if no face is there.
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// A vertex, or a point on a face.
 class PatchStart {
@@ -168,5 +168,5 @@ struct Invariants {
 void for_each_gap(const Surface& surface, const BatchQuery& query, const SurfacePointVisitor& visit,
                   const Run& run = {});
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

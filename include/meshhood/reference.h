@@ -13,8 +13,8 @@
 #include "meshhood/search.h"
 #include "meshhood/vertex.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// Finds exact neighborhoods by breadth-first search on the graph of the mesh: the reference of sec. 4.3 for
 /// correctness and speed. It is meant to be the fastest breadth-first search possible: the position of a vertex and the
@@ -119,5 +119,5 @@ class BallSearcher {
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidMesh, TooLarge}.
 [[nodiscard]] std::vector<VertexId> exact_neighborhood(const MeshView& mesh, Vertex v, double radius);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -23,8 +23,8 @@
 /// In place, the lengths of edges that paths need are renewed where vertices have moved. Positions and bounding spheres
 /// are computed again from the leaves up. Answers are exact, whatever the positions. Queries take longer once vertices
 /// of a leaf have moved far apart; `quality` measures this.
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// The index of the mesh after its vertices have moved.
 ///
@@ -75,5 +75,5 @@ struct Quality {
 /// Deterministic. O(leaves), and a build of 16384 vertices.
 [[nodiscard]] Quality quality(const Index& index);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

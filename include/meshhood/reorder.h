@@ -8,8 +8,8 @@
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// A mesh renumbered into index order, with its index. With this order, mesh and index share one copy of the positions,
 /// `Index::permutation()` is empty, and vertices that are near on the mesh are near in memory.
@@ -33,5 +33,5 @@ struct ReorderedMesh {
 /// + #corners).
 [[nodiscard]] ReorderedMesh reorder(const MeshView& mesh, const Run& run = {});
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -8,8 +8,8 @@
 
 #include "meshhood/export.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// Callback of a long call: `done` of `total` equal parts are complete. Return false to cancel. The call then throws
 /// Error{Cancelled}, with the promise of `Error`.
@@ -44,5 +44,5 @@ struct Run {
   std::uint64_t max_bytes = kUnlimited;
 };
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

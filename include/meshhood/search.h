@@ -19,8 +19,8 @@
 
 /// Queries about the neighborhood of one vertex or point: the exact searcher, what all searchers have in common, and
 /// the folding of answers. Batches of many vertices are in batch.h.
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 struct SingleQueries;
 
@@ -229,5 +229,5 @@ template <NeighborhoodSearcher S, class T, class F>
   return init;
 }
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -20,8 +20,8 @@
 /// The bytes are the same on every machine, for any compiler and number of threads. docs/index_file.md describes the
 /// format, which has a version number of its own. Every byte is covered by a checksum or must be zero, so that every
 /// change is detected.
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// Receives the bytes of an index, piece by piece. Its exceptions are passed on.
 using Sink = std::function<void(std::span<const std::byte>)>;
@@ -123,5 +123,5 @@ void save(const Index& index, const Sink& sink, const Run& run = {});
 [[nodiscard]] Index load(std::span<const std::byte> bytes, const Run& run = {});
 
 }  // namespace paper
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -13,8 +13,8 @@
 #include "meshhood/run.h"
 #include "meshhood/vertex.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// A point in space, in the unit of the positions.
 using SpacePoint = std::array<double, 3>;
@@ -79,5 +79,5 @@ struct NearestVertex {
 [[nodiscard]] std::vector<NearestVertex> nearest(const Index& index, std::span<const SpacePoint> points,
                                                  const Run& run = {});
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

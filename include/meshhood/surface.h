@@ -18,8 +18,8 @@
 #include "meshhood/start.h"
 #include "meshhood/vertex_id.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// No face.
 inline constexpr std::size_t kNoFace = std::numeric_limits<std::size_t>::max();
@@ -278,5 +278,5 @@ enum class ThicknessMethod : std::uint8_t {
                                             std::span<const SpacePoint> points,
                                             ThicknessMethod method = ThicknessMethod::Ray, const Run& run = {});
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

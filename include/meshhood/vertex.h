@@ -8,8 +8,8 @@
 #include "meshhood/export.h"
 #include "meshhood/vertex_id.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 namespace detail {
 
@@ -38,5 +38,5 @@ class Vertex {
   VertexId id_;
 };
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -10,8 +10,8 @@
 
 #include "meshhood/export.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// A vertex, by its row in the caller's positions.
 using VertexId = std::uint32_t;
@@ -22,5 +22,5 @@ inline constexpr VertexId kNoVertex = std::numeric_limits<VertexId>::max();
 /// An index into a list of neighbors, in which each edge occurs twice.
 using EdgeOffset = std::uint32_t;
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

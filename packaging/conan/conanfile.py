@@ -54,7 +54,7 @@ class Meshhood(ConanFile):
         toolchain.cache_variables["MESHHOOD_BUILD_CLI"] = False
         for library, header in (("highway", "HIGHWAY"), ("xxhash", "XXHASH")):
             includes = self.dependencies[library].cpp_info.aggregated_components().includedirs
-            toolchain.cache_variables[f"{header}_INCLUDE_DIR"] = includes[0]
+            toolchain.cache_variables[f"MESHHOOD_{header}_INCLUDE_DIR"] = includes[0]
         toolchain.generate()
 
     def build(self):

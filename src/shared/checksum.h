@@ -9,8 +9,8 @@
 #include "meshhood/export.h"
 #include "meshhood/fingerprint.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 using ByteSpans = std::initializer_list<std::span<const std::byte>>;
 
@@ -20,5 +20,5 @@ using ByteSpans = std::initializer_list<std::span<const std::byte>>;
 /// The 128-bit XXH3 hash of the concatenation of `parts`.
 [[nodiscard]] Fingerprint wide_checksum(ByteSpans parts);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

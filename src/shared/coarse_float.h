@@ -8,8 +8,8 @@
 #include "meshhood/export.h"
 #include "meshhood/mesh.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// A mesh for which float is coarse: the mean edge is shorter than 64 steps from one float to the next at the largest
 /// coordinate, so that rounding to float moves vertices by up to a hundredth of it, or onto each other.
@@ -34,5 +34,5 @@ inline constexpr std::string_view kWriteOtherwise =
 /// of the faces as many as show that float is not coarse: a few in most meshes.
 [[nodiscard]] std::optional<CoarseFloat> coarse_float(const MeshView& mesh);
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

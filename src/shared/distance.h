@@ -17,8 +17,8 @@
 #error "meshhood needs arithmetic without excess precision: compile it with -msse2 -mfpmath=sse"
 #endif
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -120,5 +120,5 @@ class SearchBall {
   double inner_radius_;
 };
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

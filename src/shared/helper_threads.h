@@ -15,8 +15,8 @@
 
 #include "meshhood/export.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 /// Lets the C++ runtime allocate what it needs on this thread to handle exceptions. It would do so at the first
 /// exception; if memory has run out by then, glibc ends the process, where the runtime was loaded by the program while
@@ -104,5 +104,5 @@ class HelperThreads {
 
 #endif
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

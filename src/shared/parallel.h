@@ -18,8 +18,8 @@
 #include "meshhood/export.h"
 #include "meshhood/run.h"
 
-namespace meshhood {
-inline namespace v0_1 MESHHOOD_API {
+namespace meshhood::inline v0_1 {
+MESHHOOD_API_BEGIN
 
 class HelperThreads;
 
@@ -138,5 +138,5 @@ void TaskContext::parallel_for(std::size_t count, std::size_t grain, F&& f) {
   });
 }
 
-}  // namespace v0_1
-}  // namespace meshhood
+MESHHOOD_API_END
+}  // namespace meshhood::inline v0_1

@@ -1,26 +1,39 @@
-# Builds and installs the libraries as shared ones, which export the interface alone, and uses them with each of
-# COMPILERS.
+# Builds and installs the libraries as shared ones by each of COMPILERS: they export the interface alone, and programs of
+# every other compiler use them.
 cmake_minimum_required(VERSION 3.25)
 include(${SOURCE_DIR}/tests/install/consume.cmake)
-set(prefix ${WORK_DIR}/installed)
-file(REMOVE_RECURSE ${prefix})
-execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/build -G ${GENERATOR} -DBUILD_SHARED_LIBS=ON
-  -DMESHHOOD_BUILD_CLI=OFF OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/build --parallel 2 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${CMAKE_COMMAND} --install ${WORK_DIR}/build --prefix ${prefix}
-  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-foreach(COMPILER IN LISTS COMPILERS)
-  cmake_path(GET COMPILER FILENAME name)
-  consume(${prefix} ${WORK_DIR}/${name})
+set(exported python3 -B ${SOURCE_DIR}/tests/repo/exported.py ${SOURCE_DIR})
+foreach(maker IN LISTS COMPILERS)
+  cmake_path(GET maker FILENAME name)
+  set(build ${WORK_DIR}/${name}/build)
+  set(prefix ${WORK_DIR}/${name}/installed)
+  file(REMOVE_RECURSE ${prefix})
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${build} -G ${GENERATOR} -DBUILD_SHARED_LIBS=ON
+    -DMESHHOOD_BUILD_CLI=OFF -DCMAKE_CXX_COMPILER=${maker} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${build} --parallel 2 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${CMAKE_COMMAND} --install ${build} --prefix ${prefix}
+    OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  file(GLOB libraries ${prefix}/*/libmeshhood*.so.${VERSION})
+  list(LENGTH libraries count)
+  if(NOT count EQUAL 2)
+    message(FATAL_ERROR "shared libraries with the version in their name: ${libraries}, expected two")
+  endif()
+  execute_process(COMMAND ${exported} ${libraries} COMMAND_ERROR_IS_FATAL ANY)
+  foreach(COMPILER IN LISTS COMPILERS)
+    cmake_path(GET COMPILER FILENAME user)
+    consume(${prefix} ${WORK_DIR}/${name}/${user})
+  endforeach()
 endforeach()
+
+# What follows is about those of the first compiler.
+list(GET COMPILERS 0 COMPILER)
+cmake_path(GET COMPILER FILENAME name)
+set(build ${WORK_DIR}/${name}/build)
+set(prefix ${WORK_DIR}/${name}/installed)
 file(GLOB libraries ${prefix}/*/libmeshhood*.so.${VERSION})
-list(LENGTH libraries count)
-if(NOT count EQUAL 2)
-  message(FATAL_ERROR "shared libraries with the version in their name: ${libraries}, expected two")
-endif()
+list(APPEND exported ${libraries})
 
 # Programs of a release with the same soname still link. A symbol that is gone is noticed.
-set(exported python3 -B ${SOURCE_DIR}/tests/repo/exported.py ${SOURCE_DIR} ${libraries})
 string(REGEX MATCH "^[0-9]+\\.[0-9]+" soname ${VERSION})
 file(GLOB released ${SOURCE_DIR}/tests/packages/released/${soname}.*)
 list(TRANSFORM released PREPEND --released=)
@@ -33,7 +46,6 @@ if(result EQUAL 0 OR NOT said MATCHES "0.0.9 had _ZN8meshhood4v0_14goneEv, which
   message(FATAL_ERROR "a symbol that is gone was not noticed: ${said}")
 endif()
 
-list(GET COMPILERS 0 COMPILER)
 file(GLOB packages ${prefix}/*/pkgconfig)
 set(ENV{PKG_CONFIG_PATH} ${packages})
 execute_process(COMMAND pkg-config --cflags --libs meshhood-io
@@ -62,7 +74,7 @@ if(result EQUAL 0 OR NOT said MATCHES "undefined reference to `meshhood::v0_99::
 endif()
 
 # With the command line, which uses more of io than programs may.
-execute_process(COMMAND ${CMAKE_COMMAND} -DMESHHOOD_BUILD_CLI=ON ${WORK_DIR}/build
+execute_process(COMMAND ${CMAKE_COMMAND} -DMESHHOOD_BUILD_CLI=ON ${build}
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/build --parallel 2 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${WORK_DIR}/build/meshhood --version COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${CMAKE_COMMAND} --build ${build} --parallel 2 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${build}/meshhood --version COMMAND_ERROR_IS_FATAL ANY)

@@ -16,7 +16,6 @@ PARAMETER = re.compile(r"^(\s*///) (\w+(?:, \w+)*) {2,}(\S.*)$")
 TEXT = re.compile(r"^\s*/// \S")
 CODE = re.compile(r"^\s*/// {5}")
 NUMBER = re.compile(r"#(?=[A-Za-z])")
-VERSION = re.compile(r"^(?:inline namespace v\d+_\d+ MESHHOOD_API \{|\}  // namespace v\d+_\d+)$")
 INLINE = re.compile(r"::inline v\d+_\d+")
 GUARD = re.compile(r"^#if __has_include\(.*\)$")
 
@@ -40,8 +39,6 @@ def filtered(lines):
         found = PARAMETER.match(line)
         if starts_file_comment(lines, i):
             yield "/// @file"
-        if VERSION.match(line):
-            continue
         if line.startswith("namespace"):
             line = INLINE.sub("", line)
         if GUARD.match(line):
