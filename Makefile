@@ -9,7 +9,8 @@
 #   make test                 runs the short tests; about ten minutes
 #   make packages             makes and tests what a release publishes, in build/packages/release; half an hour
 #   make test-platforms       tests the core as other compilers and machines have it, in QEMU and Wine too; takes long
-#   make test-all             runs also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
+#   make test-all             runs also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify, and then
+#                             make test-platforms; hours
 #
 # These measure the tables of docs/benchmarks again. They write them and print how long each part took. They need a quiet
 # machine; otherwise a table says that it was busy.
@@ -39,6 +40,7 @@ test:
 test-all:
 	@tools/setup test-all
 	@tools/test release asan tsan:shared/helper_threads tsan:exact/threads tsan:patch/packet_patches
+	@$(MAKE) --no-print-directory test-platforms
 
 test-platforms:
 	@tools/setup platforms

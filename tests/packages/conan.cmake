@@ -1,9 +1,13 @@
-# `conan create` of the recipe, static and shared, with each of COMPILERS, in a cache of its own. Headers of this machine
-# are its requirements.
+# pylint of the recipe, and `conan create` of it, static and shared, with each of COMPILERS, in a cache of its own. Headers
+# of this machine are its requirements.
 cmake_minimum_required(VERSION 3.25)
 cmake_path(GET PYTHON PARENT_PATH programs)
 set(ENV{CONAN_HOME} ${WORK_DIR})
 file(REMOVE_RECURSE ${WORK_DIR})
+# What Conan makes of the settings is not seen without a plugin of ConanCenter.
+execute_process(COMMAND ${programs}/pylint --disable=missing-docstring,line-too-long,no-member
+  ${SOURCE_DIR}/packaging/conan/conanfile.py ${SOURCE_DIR}/packaging/conan/test_package/conanfile.py
+  COMMAND_ERROR_IS_FATAL ANY)
 function(conan)
   execute_process(COMMAND ${programs}/conan ${ARGN} OUTPUT_FILE ${WORK_DIR}/log.txt ERROR_FILE ${WORK_DIR}/log.txt
     RESULT_VARIABLE result)
