@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Queries for what is nearest: `python3 -m bench.surface MESH`. k nearest beside SciPy's kd-tree, which knows no
 surface: seconds on all processors. Closest points and first hits beside Open3D (Embree, in single precision), if it
-is installed: microseconds of one processor. All are the least of three rounds."""
+is installed: microseconds of one processor. All are the least of some rounds, in which the two take turns."""
 
 import argparse
 import os
@@ -12,18 +12,19 @@ from scipy.spatial import cKDTree
 
 import meshhood
 
-ROUNDS = 3
+ROUNDS = 5
 POINTS = 1_000_000
 LINK = 0.9  # about 15 neighbors a point, where the points have a mean density of 5
 
 
-def least_time(call, clock=time.perf_counter):
-    times = []
-    for _ in range(ROUNDS):
-        start = clock()
-        call()
-        times.append(clock() - start)
-    return min(times)
+def time_of(call, clock):
+    start = clock()
+    call()
+    return clock() - start
+
+
+def least_times(*calls, clock=time.perf_counter):
+    return np.min([[time_of(call, clock) for call in calls] for _ in range(ROUNDS)], axis=0)
 
 
 def print_row(what, ours, theirs, name):
@@ -34,8 +35,10 @@ def compare_points():
     points = np.random.default_rng(1).uniform(0, (POINTS / 5) ** (1 / 3), (POINTS, 3))
     print_row(
         f"from_points, {POINTS} points",
-        least_time(lambda: meshhood.MeshIndex.from_points(points, LINK)),
-        least_time(lambda: cKDTree(points).query_pairs(LINK, output_type="ndarray")),
+        *least_times(
+            lambda: meshhood.MeshIndex.from_points(points, LINK),
+            lambda: cKDTree(points).query_pairs(LINK, output_type="ndarray"),
+        ),
         "cKDTree and query_pairs",
     )
 
@@ -44,9 +47,12 @@ def compare_mesh(path):
     V, F = meshhood.read_mesh(path)
     index, tree = meshhood.MeshIndex(V, F), cKDTree(V)
     for k in (10, 20, 50, 100):
-        knn = least_time(lambda k=k: tree.query(V, k, workers=-1))
-        for metric in ("straight", "path"):
-            ours = least_time(lambda k=k, metric=metric: index.k_nearest(k, metric=metric))
+        straight, path, knn = least_times(
+            lambda k=k: index.k_nearest(k),
+            lambda k=k: index.k_nearest(k, metric="path"),
+            lambda k=k: tree.query(V, k, workers=-1),
+        )
+        for metric, ours in (("straight", straight), ("path", path)):
             print_row(f"k_nearest, {len(V)} vertices, k = {k}, {metric}", ours, knn, "cKDTree.query")
 
 
@@ -90,10 +96,7 @@ def families(V, on_faces, edge, random):
 
 
 def compare_calls(what, count, ours, theirs):
-    ours()
-    theirs()
-    ours, theirs = (1e6 * least_time(call, time.process_time) / count for call in (ours, theirs))
-    print_row(what, ours, theirs, "Open3D")
+    print_row(what, *(1e6 / count * least_times(ours, theirs, clock=time.process_time)), "Open3D")
 
 
 def main():

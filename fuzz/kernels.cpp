@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -104,6 +105,16 @@ void compare_edges(Bytes bytes, const Kernels& tried) {
   const auto expected_end = plain.compress(ids.data(), among, expected.data()) - expected.data();
   if (found_end != expected_end || !std::equal(found.begin(), found.begin() + found_end, expected.begin())) {
     fail("compress differs");
+  }
+
+  std::array<double, kLeafCapacity + 15> numbers{};
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) numbers[i] = static_cast<double>(std::bit_cast<float>(ids[i]));
+  std::array<std::uint64_t, numbers.size()> found_less{};
+  std::array<std::uint64_t, numbers.size()> expected_less{};
+  tried.count_less(numbers.data(), kLeafCapacity, found_less.data());
+  plain.count_less(numbers.data(), kLeafCapacity, expected_less.data());
+  if (!std::equal(found_less.begin(), found_less.begin() + kLeafCapacity, expected_less.begin())) {
+    fail("count_less differs");
   }
 }
 

@@ -173,9 +173,29 @@ VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
   return out;
 }
 
+void count_less(const double* numbers, std::size_t count, std::uint64_t* less) {
+  const Doubles d;
+  const hn::RebindToUnsigned<Doubles> words;
+  for (std::size_t i = 0; i < count; i += 2 * kLanes<Doubles>) {
+    const auto low = hn::LoadU(d, numbers + i);
+    const auto high = hn::LoadU(d, numbers + i + kLanes<Doubles>);
+    auto low_count = hn::Zero(words);
+    auto high_count = hn::Zero(words);
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto minus_one_if_less = [&, other = hn::Set(d, numbers[k])](Numbers than) HWY_ATTR {
+        return hn::BitCast(words, hn::VecFromMask(d, hn::Lt(other, than)));
+      };
+      low_count = hn::Sub(low_count, minus_one_if_less(low));
+      high_count = hn::Sub(high_count, minus_one_if_less(high));
+    }
+    hn::StoreU(low_count, words, less + i);
+    hn::StoreU(high_count, words, less + i + kLanes<Doubles>);
+  }
+}
+
 constexpr Kernels kBallKernels{
     within_float, within_exact<double>, squares<float>, squares<double>, cross_edges, reachable,
-    classify,     box_squares,          box_entries,    compress};
+    classify,     box_squares,          box_entries,    compress,        count_less};
 
 }  // namespace
 }  // namespace meshhood::inline v0_1::HWY_NAMESPACE

@@ -60,6 +60,9 @@ struct Kernels {
   /// ids beyond that end.
   VertexId* (*compress)(const VertexId* ids, LaneMask lanes, VertexId* out);
 
+  /// Writes for each of `count` numbers how many of them are less. Reads and writes up to 15 more.
+  void (*count_less)(const double* numbers, std::size_t count, std::uint64_t* less);
+
   [[nodiscard]] LaneMask within(const float* xyz, std::size_t size, const LeafBall& ball) const {
     return within_float(xyz, size, ball);
   }

@@ -2,9 +2,11 @@
 // Every instruction set gives the same bits, also where single precision cannot decide.
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -217,6 +219,23 @@ TEST_P(EveryIsa, CompressKeepsTheOrder) {
       if ((lanes >> lane & 1U) == 0) continue;
       ASSERT_EQ(*next++, 100 + lane);
     }
+  }
+}
+
+TEST_P(EveryIsa, CountLessComparesEachWithEach) {
+  constexpr double kTiny = std::numeric_limits<double>::denorm_min();
+  for (std::size_t round = 0; round < scaled(4000, 100); ++round) {
+    const std::size_t count = random.below(100);
+    const double step = round % 3 == 0 ? kTiny : random.uniform(0, 1e300);  // few steps, so that some are equal
+    std::vector<double> numbers(count + 15, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < count; ++i)
+      numbers[i] = step * static_cast<double>(random.below(round % 2 == 0 ? 9 : 1000));
+    std::vector<std::uint64_t> found(numbers.size());
+    std::vector<std::uint64_t> expected(count);
+    tried.count_less(numbers.data(), count, found.data());
+    plain.count_less(numbers.data(), count, expected.data());
+    found.resize(count);
+    ASSERT_EQ(found, expected);
   }
 }
 

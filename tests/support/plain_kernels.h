@@ -109,10 +109,18 @@ inline VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
   return out;
 }
 
+inline void count_less(const double* numbers, std::size_t count, std::uint64_t* less) {
+  const std::span all(numbers, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    less[i] = static_cast<std::uint64_t>(std::ranges::count_if(all, [&](double other) { return other < all[i]; }));
+  }
+}
+
 }  // namespace plain
 
-inline constexpr Kernels kPlainKernels{
-    plain::within<float>, plain::within<double>, plain::squares<float>, plain::squares<double>, plain::cross_edges,
-    plain::reachable,     plain::classify,       plain::box_squares,    plain::box_entries,     plain::compress};
+inline constexpr Kernels kPlainKernels{plain::within<float>,   plain::within<double>, plain::squares<float>,
+                                       plain::squares<double>, plain::cross_edges,    plain::reachable,
+                                       plain::classify,        plain::box_squares,    plain::box_entries,
+                                       plain::compress,        plain::count_less};
 
 }  // namespace meshhood::test

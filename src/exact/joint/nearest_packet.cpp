@@ -72,9 +72,7 @@ std::span<const Path> NearestPacket::vertices_in_ball(unsigned lane, double radi
   return order_.sorted({0, lane}, std::span(in_ball_).first(count)).subspan(1);
 }
 
-bool NearestPacket::has_reached_neighbor(std::uint32_t at) const {
-  const std::uint32_t leaf = leaf_of(at);
-  if ((index_->adjacency[entries_[leaf].first + lane_of(at)] & states_[leaf].reached) != 0) return true;
+bool NearestPacket::has_reached_neighbor_beyond(std::uint32_t at) const {
   for (std::uint32_t i = last_edge_[at]; i != kNone; i = edges_[i].before) {
     const std::uint32_t to = edges_[i].to;
     if ((states_[leaf_of(to)].reached >> lane_of(to) & 1U) != 0) return true;
@@ -82,16 +80,14 @@ bool NearestPacket::has_reached_neighbor(std::uint32_t at) const {
   return false;
 }
 
-/// Reaches a vertex, and the waiting ones that it connects. Few vertices ever wait.
-void NearestPacket::reach(std::uint32_t at) {
-  std::size_t head = reached_.size();
-  for (reached_.push_back(at); head < reached_.size(); ++head) {
+/// Reaches the waiting vertices that the last one connects.
+void NearestPacket::reach_waiting() {
+  for (std::size_t head = reached_.size() - 1; head < reached_.size(); ++head) {
     const std::uint32_t from = reached_[head];
     State& state = states_[leaf_of(from)];
-    state.reached |= LaneMask{1} << lane_of(from);
-    if (waiting_count_ == 0) continue;
     const auto connect = [&](State& other, std::uint32_t to) {
       other.waiting &= ~(LaneMask{1} << lane_of(to));
+      other.reached |= LaneMask{1} << lane_of(to);
       --waiting_count_;
       reached_.push_back(to);
     };
@@ -115,10 +111,8 @@ std::span<const Path> NearestPacket::take_ring() {
     ring_.push_back({squares_[leaf_of(at)][lane_of(at)], index_->id(entry.first + lane_of(at))});
   }
   reached_.clear();
-  if (ring_.size() > 1) {
-    // Different squares may have one root.
-    std::ranges::sort(ring_, {}, [](const Path& path) { return std::pair(std::sqrt(path.length), path.end); });
-  }
+  // Different squares may have one root.
+  std::ranges::sort(ring_, {}, [](const Path& path) { return std::pair(std::sqrt(path.length), path.end); });
   return ring_;
 }
 

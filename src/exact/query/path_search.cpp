@@ -2,6 +2,7 @@
 #include "exact/query/path_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <numeric>
@@ -31,6 +32,9 @@ constexpr double kShortestRange = 0x1p-900;
 
 // Intervals with more paths are sorted one by one.
 constexpr std::uint32_t kFewPaths = 16;
+
+// Chosen: to compare each path with each takes less time than to count intervals.
+constexpr std::size_t kMostCompared = 96;
 
 /// By insertion: for paths that are nearly in order.
 void sort_by_insertion(std::span<Path> paths) {
@@ -232,6 +236,29 @@ std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path>
   sorted_.resize(paths.size() + 1);
   sorted_.front() = first;
   const std::span<Path> result = std::span(sorted_).subspan(1);
+  if (paths.size() <= kMostCompared) {
+    sort_by_comparison(paths, result);
+  } else {
+    sort_by_intervals(paths, result);
+  }
+  assert(std::is_sorted(result.begin(), result.end(), comes_before));
+  return sorted_;
+}
+
+/// Puts each path after those that are shorter, and after those of its length that were put before.
+void PathOrder::sort_by_comparison(std::span<const Path> paths, std::span<Path> result) const {
+  constexpr std::size_t kReadBeyond = 15;
+  std::array<double, kMostCompared + kReadBeyond> lengths;
+  std::array<std::uint64_t, kMostCompared + kReadBeyond> shorter;
+  for (std::size_t i = 0; i < paths.size(); ++i) lengths[i] = paths[i].length;
+  std::fill_n(&lengths[paths.size()], kReadBeyond, 0);
+  kernels_->count_less(lengths.data(), paths.size(), shorter.data());
+  std::array<std::uint8_t, kMostCompared> equal{};
+  for (std::size_t i = 0; i < paths.size(); ++i) result[shorter[i] + equal[shorter[i]]++] = paths[i];
+  sort_by_insertion(result);
+}
+
+void PathOrder::sort_by_intervals(std::span<const Path> paths, std::span<Path> result) {
   double longest = kShortestRange;
   for (const Path& path : paths) longest = std::max(longest, path.length);
   const double scale = static_cast<double>(paths.size()) / longest;
@@ -247,16 +274,13 @@ std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path>
   for (const Path& path : paths) result[ends_[interval(path)]++] = path;
   if (most <= kFewPaths) {
     sort_by_insertion(result);
-    assert(std::is_sorted(result.begin(), result.end(), comes_before));
-    return sorted_;
+    return;
   }
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     const std::size_t from = i == 0 ? 0 : ends_[i - 1];
     std::sort(result.begin() + static_cast<std::ptrdiff_t>(from),
               result.begin() + static_cast<std::ptrdiff_t>(ends_[i]), comes_before);
   }
-  assert(std::is_sorted(result.begin(), result.end(), comes_before));
-  return sorted_;
 }
 
 }  // namespace meshhood::inline v0_1

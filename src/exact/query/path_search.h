@@ -12,6 +12,7 @@
 
 #include "exact/layout.h"
 #include "exact/weighted_graph.h"
+#include "simd/kernels.h"
 
 namespace meshhood::inline v0_1 {
 
@@ -132,9 +133,9 @@ class PathQueue {
   return a.length != b.length ? a.length < b.length : a.end < b.end;
 }
 
-/// Sorts paths by length, then by their ends: by counting those of equal intervals of length, of which there are as
-/// many as paths. Takes linear time if the lengths are spread about evenly, as those of shortest paths are, and O(n log
-/// n) otherwise.
+/// Sorts paths by length, then by their ends: few by comparing each with each, more by counting those of equal
+/// intervals of length, of which there are as many as paths. Takes linear time if the lengths are spread about evenly,
+/// as those of shortest paths are, and O(n log n) otherwise.
 class PathOrder {
  public:
   /// The paths in order, after `first`, which stays the first. Their lengths are finite, and not negative. Valid until
@@ -142,6 +143,10 @@ class PathOrder {
   [[nodiscard]] std::span<const Path> sorted(const Path& first, std::span<const Path> paths);
 
  private:
+  void sort_by_comparison(std::span<const Path> paths, std::span<Path> result) const;
+  void sort_by_intervals(std::span<const Path> paths, std::span<Path> result);
+
+  const Kernels* kernels_ = &kernels(best_isa());
   std::vector<Path> sorted_;
   std::vector<std::uint32_t> ends_;  // by interval
 };

@@ -36,7 +36,7 @@ void expect_sorted(const std::vector<double>& lengths) {
 
 TEST(PathOrder, SortsByLengthThenByVertex) {
   Random random(1);
-  for (const std::size_t count : {0U, 1U, 2U, 64U, 5000U}) {
+  for (const std::size_t count : {0U, 1U, 2U, 64U, 96U, 97U, 5000U}) {
     for (const double unit : {0.0, Limits::denorm_min(), 1e-300, 1.0, 1e300}) {
       std::vector<double> even(count);
       for (double& length : even) length = unit * random.uniform(0, 8);
