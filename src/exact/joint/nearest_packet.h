@@ -72,8 +72,6 @@ class NearestPacket {
   [[nodiscard]] bool has_reached_neighbor_beyond(std::uint32_t at) const;
   void reach(std::uint32_t at);
   void reach_waiting();
-  template <class F>
-  bool pass_on(double radius, F&& f);
   std::span<const Path> take_ring();
 
   const IndexView* index_;
@@ -102,9 +100,22 @@ bool NearestPacket::for_each_near(unsigned lane, double most, F&& f) {
   reached_.clear();
   reach(lane);
   double radius = 0;
+  // Calls `f` for the vertices reached since the last call. Most often, that is one.
+  const auto pass_on = [&] {
+    if (reached_.size() == 1) {
+      const std::uint32_t at = reached_.front();
+      reached_.clear();
+      const Entry& entry = entries_[leaf_of(at)];
+      return (entry.ignored >> lane_of(at) & 1U) != 0 || f(index_->id(entry.first + lane_of(at)), radius);
+    }
+    for (const Path& next : take_ring()) {
+      if (!f(static_cast<VertexId>(next.end), radius)) return false;
+    }
+    return true;
+  };
   for (const auto& [square, at] : vertices_in_ball(lane, most)) {
     const double distance = std::sqrt(square);  // different squares may have one root
-    if (distance > radius && !reached_.empty() && !pass_on(radius, f)) return false;
+    if (distance > radius && !reached_.empty() && !pass_on()) return false;
     if (!has_reached_neighbor(at)) {
       states_[leaf_of(at)].waiting |= LaneMask{1} << lane_of(at);
       ++waiting_count_;
@@ -113,7 +124,7 @@ bool NearestPacket::for_each_near(unsigned lane, double most, F&& f) {
     radius = distance;
     reach(at);
   }
-  return pass_on(radius, f);
+  return pass_on();
 }
 
 inline bool NearestPacket::has_reached_neighbor(std::uint32_t at) const {
@@ -127,21 +138,6 @@ inline void NearestPacket::reach(std::uint32_t at) {
   states_[leaf_of(at)].reached |= LaneMask{1} << lane_of(at);
   reached_.push_back(at);
   if (waiting_count_ != 0) reach_waiting();
-}
-
-/// Calls `f` for the vertices reached since the last call. Most often, that is one.
-template <class F>
-bool NearestPacket::pass_on(double radius, F&& f) {
-  if (reached_.size() == 1) {
-    const std::uint32_t at = reached_.front();
-    reached_.clear();
-    const Entry& entry = entries_[leaf_of(at)];
-    return (entry.ignored >> lane_of(at) & 1U) != 0 || f(index_->id(entry.first + lane_of(at)), radius);
-  }
-  for (const Path& next : take_ring()) {
-    if (!f(static_cast<VertexId>(next.end), radius)) return false;
-  }
-  return true;
 }
 
 }  // namespace meshhood::inline v0_1
