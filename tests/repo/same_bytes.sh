@@ -7,7 +7,7 @@ export SOURCE_DATE_EPOCH=1 # of the files of a package
 rm -rf "$2"
 build() { # FOLDER
   mkdir -p "$1"
-  tar -C "$root" -cf - CMakeLists.txt LICENSE cmake include src io parts shapes measure cli viewer | tar -C "$1" -xf -
+  tar -C "$root" -cf - CMakeLists.txt LICENSE NOTICE cmake include src io parts shapes measure cli viewer | tar -C "$1" -xf -
   cmake -S "$1" -B "$1/build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" --log-level=WARNING >/dev/null
   cmake --build "$1/build" --target meshhood meshhood_io meshhood_cli meshhood_manual >/dev/null
   (cd "$1/build" && cpack --config CPackConfig.cmake -B deb >/dev/null && mv deb/meshhood_*.deb meshhood.deb)
