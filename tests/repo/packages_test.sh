@@ -8,8 +8,8 @@ repository=$2/repository programs=$2/programs
 rm -rf "$2"
 mkdir -p "$repository/build/packages" "$repository/build/venv/bin" "$programs"
 cd "$1"
-cp --parents tools/packages include/meshhood/version.h cmake/MeshhoodPackage.cmake README.md SECURITY.md \
-  CHANGELOG.md docs/index.md "$repository"
+cp --recursive --parents tools/packages include/meshhood/version.h cmake/MeshhoodPackage.cmake README.md SECURITY.md \
+  CHANGELOG.md docs/index.md packaging "$repository"
 cd "$repository"
 PATH=$programs:$PATH
 program() { printf '#!/bin/sh\n%s\n' "$2" >"$1" && chmod +x "$1"; }
@@ -54,4 +54,4 @@ says "these were not made"
 program "$programs/ctest" "mkdir -p build/packages/deb && touch ${files[*]}"
 tools/packages >/dev/null
 echo "$(wc -l <build/packages/release/SHA256SUMS) files to publish, ${#files[@]} of them made by tests"
-[[ $(wc -l <build/packages/release/SHA256SUMS) == 14 ]]
+[[ $(wc -l <build/packages/release/SHA256SUMS) == 15 ]]
