@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Queries for what is nearest: `python3 -m bench.surface MESH`. k nearest beside SciPy's kd-tree, which knows no
 surface: seconds on all processors. Closest points and first hits beside Open3D (Embree, in single precision), if it
-is installed: microseconds of one processor. All are the least of some rounds, in which the two take turns."""
+is installed: microseconds of one processor. All are the least of five rounds, in which they take turns."""
 
 import argparse
 import os

@@ -4,7 +4,7 @@ cmake_minimum_required(VERSION 3.25)
 cmake_path(GET PYTHON PARENT_PATH programs)
 set(ENV{CONAN_HOME} ${WORK_DIR})
 file(REMOVE_RECURSE ${WORK_DIR})
-# What Conan makes of the settings is not seen without a plugin of ConanCenter.
+# Without the plugin of ConanCenter, pylint does not know the members of settings.
 execute_process(COMMAND ${programs}/pylint --disable=missing-docstring,line-too-long,no-member
   ${SOURCE_DIR}/packaging/conan/conanfile.py ${SOURCE_DIR}/packaging/conan/test_package/conanfile.py
   COMMAND_ERROR_IS_FATAL ANY)

@@ -1,5 +1,5 @@
 # Builds and installs the libraries as shared ones by each of COMPILERS: they export the interface alone, and programs of
-# every other compiler use them.
+# each compiler use them.
 cmake_minimum_required(VERSION 3.25)
 include(${SOURCE_DIR}/tests/install/consume.cmake)
 set(exported python3 -B ${SOURCE_DIR}/tests/repo/exported.py ${SOURCE_DIR})

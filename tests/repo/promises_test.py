@@ -19,7 +19,7 @@ PROMISES = [
     ("SECURITY.md", r"To report a weakness:\*\*.*The last minor version gets the fixes"),
     ("SECURITY.md", r"trusted\?.* mesh files, index files.* no\. .*with `trusted` \| yes\. .*a pickle of Python.* yes"),
     ("packaging/RELEASE.md", r"the address of the maintainer, which step 1 fills in"),
-    ("packaging/RELEASE.md", r"This one, with its hooks, and that of vcpkg cannot be installed from PyPI, npm or Debian"),
+    ("packaging/RELEASE.md", r"The linter and the hooks of ConanCenter, and the linter of vcpkg, cannot be installed from PyPI, npm or Debian"),
     ("packaging/RELEASE.md", r"nothing here runs programs of macOS.*There is no wheel for Windows"),
     ("README.md", r"Wheels are for Linux, and for macOS, where they have not been run\. On Windows, the C\+\+ library"),
     ("docs/python.md", r"Wheels are for Linux, and for macOS, where they have not been run\. There are none for Windows"),

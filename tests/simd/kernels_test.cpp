@@ -228,8 +228,8 @@ TEST_P(EveryIsa, CountLessComparesEachWithEach) {
     const std::size_t count = random.below(100);
     const double step = round % 3 == 0 ? kTiny : random.uniform(0, 1e300);  // few steps, so that some are equal
     std::vector<double> numbers(count + 15, std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < count; ++i)
-      numbers[i] = step * static_cast<double>(random.below(round % 2 == 0 ? 9 : 1000));
+    const std::size_t most = round % 2 == 0 ? 9 : 1000;
+    for (std::size_t i = 0; i < count; ++i) numbers[i] = step * static_cast<double>(random.below(most));
     std::vector<std::uint64_t> found(numbers.size());
     std::vector<std::uint64_t> expected(count);
     tried.count_less(numbers.data(), count, found.data());

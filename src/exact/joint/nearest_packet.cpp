@@ -72,6 +72,7 @@ std::span<const Path> NearestPacket::vertices_in_ball(unsigned lane, double radi
   return order_.sorted({0, lane}, std::span(in_ball_).first(count)).subspan(1);
 }
 
+/// The same for neighbors in other leaves.
 bool NearestPacket::has_reached_neighbor_beyond(std::uint32_t at) const {
   for (std::uint32_t i = last_edge_[at]; i != kNone; i = edges_[i].before) {
     const std::uint32_t to = edges_[i].to;
