@@ -37,7 +37,7 @@ namespace {
 /// Any number of rows is right if `vertices` has none.
 void check_rows(const io::InputBuffer& input, std::uint64_t rows, std::optional<std::size_t> vertices) {
   if (!vertices || rows == *vertices) return;
-  fail(input, fmt::format("{} rows of values, expected {}", rows, *vertices));
+  fail(input, fmt::format("{} rows of values, expected {}, one for each vertex", rows, *vertices));
 }
 
 void refuse_xml(io::InputBuffer& input) {

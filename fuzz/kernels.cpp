@@ -107,7 +107,7 @@ void compare_edges(Bytes bytes, const Kernels& tried) {
     fail("compress differs");
   }
 
-  std::array<double, kLeafCapacity + 15> numbers{};
+  std::array<double, kLeafCapacity + Kernels::kSpareNumbers> numbers{};
   for (std::size_t i = 0; i < kLeafCapacity; ++i) numbers[i] = static_cast<double>(std::bit_cast<float>(ids[i]));
   std::array<std::uint64_t, numbers.size()> found_less{};
   std::array<std::uint64_t, numbers.size()> expected_less{};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `Kernels`, compiled once for each target; see lanes-inl.h.
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -175,6 +176,7 @@ VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
 
 void count_less(const double* numbers, std::size_t count, std::uint64_t* less) {
   const Doubles d;
+  static_assert(2 * kLanes<Doubles> <= Kernels::kSpareNumbers + 1);
   const hn::RebindToUnsigned<Doubles> words;
   for (std::size_t i = 0; i < count; i += 2 * kLanes<Doubles>) {
     const auto low = hn::LoadU(d, numbers + i);
@@ -193,9 +195,11 @@ void count_less(const double* numbers, std::size_t count, std::uint64_t* less) {
   }
 }
 
+constexpr std::size_t kFewNumbers = std::min(32 * kLanes<Doubles>, Kernels::kMostFewNumbers);
+
 constexpr Kernels kBallKernels{
     within_float, within_exact<double>, squares<float>, squares<double>, cross_edges, reachable,
-    classify,     box_squares,          box_entries,    compress,        count_less};
+    classify,     box_squares,          box_entries,    compress,        count_less,  kFewNumbers};
 
 }  // namespace
 }  // namespace meshhood::inline v0_1::HWY_NAMESPACE

@@ -60,8 +60,13 @@ struct Kernels {
   /// ids beyond that end.
   VertexId* (*compress)(const VertexId* ids, LaneMask lanes, VertexId* out);
 
-  /// Writes for each of `count` numbers how many of them are less. Reads and writes up to 15 more.
+  /// Writes for each of `count` numbers how many of them are less. Reads and writes up to `kSpareNumbers` more.
   void (*count_less)(const double* numbers, std::size_t count, std::uint64_t* less);
+  static constexpr std::size_t kSpareNumbers = 15;
+
+  /// Chosen: up to so many numbers, `count_less` sorts paths in less time than it takes to count intervals.
+  std::size_t few_numbers;
+  static constexpr std::size_t kMostFewNumbers = 96;
 
   [[nodiscard]] LaneMask within(const float* xyz, std::size_t size, const LeafBall& ball) const {
     return within_float(xyz, size, ball);

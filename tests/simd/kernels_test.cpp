@@ -227,7 +227,7 @@ TEST_P(EveryIsa, CountLessComparesEachWithEach) {
   for (std::size_t round = 0; round < scaled(4000, 100); ++round) {
     const std::size_t count = random.below(100);
     const double step = round % 3 == 0 ? kTiny : random.uniform(0, 1e300);  // few steps, so that some are equal
-    std::vector<double> numbers(count + 15, std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> numbers(count + Kernels::kSpareNumbers, std::numeric_limits<double>::quiet_NaN());
     const std::size_t most = round % 2 == 0 ? 9 : 1000;
     for (std::size_t i = 0; i < count; ++i) numbers[i] = step * static_cast<double>(random.below(most));
     std::vector<std::uint64_t> found(numbers.size());

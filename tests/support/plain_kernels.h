@@ -121,6 +121,6 @@ inline void count_less(const double* numbers, std::size_t count, std::uint64_t* 
 inline constexpr Kernels kPlainKernels{plain::within<float>,   plain::within<double>, plain::squares<float>,
                                        plain::squares<double>, plain::cross_edges,    plain::reachable,
                                        plain::classify,        plain::box_squares,    plain::box_entries,
-                                       plain::compress,        plain::count_less};
+                                       plain::compress,        plain::count_less,     0};
 
 }  // namespace meshhood::test

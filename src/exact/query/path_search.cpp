@@ -33,9 +33,6 @@ constexpr double kShortestRange = 0x1p-900;
 // Intervals with more paths are sorted one by one.
 constexpr std::uint32_t kFewPaths = 16;
 
-// Chosen: to compare each path with each takes less time than to count intervals.
-constexpr std::size_t kMostCompared = 96;
-
 /// By insertion: for paths that are nearly in order.
 void sort_by_insertion(std::span<Path> paths) {
   for (std::size_t i = 1; i < paths.size(); ++i) {
@@ -236,7 +233,7 @@ std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path>
   sorted_.resize(paths.size() + 1);
   sorted_.front() = first;
   const std::span<Path> result = std::span(sorted_).subspan(1);
-  if (paths.size() <= kMostCompared) {
+  if (paths.size() <= kernels_->few_numbers) {
     sort_by_comparison(paths, result);
   } else {
     sort_by_intervals(paths, result);
@@ -247,13 +244,13 @@ std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path>
 
 /// Puts each path after those that are shorter, and after those of its length that were put before.
 void PathOrder::sort_by_comparison(std::span<const Path> paths, std::span<Path> result) const {
-  constexpr std::size_t kReadBeyond = 15;
-  std::array<double, kMostCompared + kReadBeyond> lengths;
-  std::array<std::uint64_t, kMostCompared + kReadBeyond> shorter;
+  constexpr std::size_t kMost = Kernels::kMostFewNumbers;
+  std::array<double, kMost + Kernels::kSpareNumbers> lengths;
+  std::array<std::uint64_t, lengths.size()> shorter;
   for (std::size_t i = 0; i < paths.size(); ++i) lengths[i] = paths[i].length;
-  std::fill_n(&lengths[paths.size()], kReadBeyond, 0);
+  std::fill_n(&lengths[paths.size()], Kernels::kSpareNumbers, 0);
   kernels_->count_less(lengths.data(), paths.size(), shorter.data());
-  std::array<std::uint8_t, kMostCompared> equal{};
+  std::array<std::uint8_t, kMost> equal{};
   for (std::size_t i = 0; i < paths.size(); ++i) result[shorter[i] + equal[shorter[i]]++] = paths[i];
   sort_by_insertion(result);
 }
