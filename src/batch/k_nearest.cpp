@@ -190,7 +190,8 @@ void for_each_row(const Index& index, NearestRows& rows, F&& f) {
     return;
   }
   // Before the threads begin: each of them would make it.
-  if (options.metric == Metric::Path) static_cast<void>(IndexAccess::share_graph(index)->of(IndexAccess::view(index)));
+  if (options.metric == Metric::Path)
+    static_cast<void>(IndexAccess::share_graph(index)->paths_of(IndexAccess::view(index)));
   rows.for_each([&] { return std::make_unique<LengthRowSearch>(index, options); }, f);
 }
 

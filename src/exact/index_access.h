@@ -18,7 +18,7 @@ namespace meshhood::inline v0_1 {
 /// Access to the arrays of an index, for `build`, for index files and for tests.
 struct IndexAccess {
   [[nodiscard]] static Index make(std::shared_ptr<IndexView> view) { return Index(std::move(view)); }
-  /// With the graph of another index that has the same edges and positions.
+  /// With the graph of another index that has the same edges, or with other paths.
   [[nodiscard]] static Index make(std::shared_ptr<IndexView> view, std::shared_ptr<KeptGraph> graph) {
     Index result(std::move(view));
     result.graph_ = std::move(graph);

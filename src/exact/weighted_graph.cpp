@@ -55,12 +55,12 @@ Adjacency gather_edges(const IndexView& index, std::span<const VertexId> names, 
   return result;
 }
 
-KeptGraph::KeptGraph(WeightedGraph graph) {
-  graph_.get([&] { return std::move(graph); });
+KeptGraph::KeptGraph(std::shared_ptr<const Adjacency> edges, WeightedGraph paths) : edges_(std::move(edges)) {
+  paths_.get([&] { return std::move(paths); });
 }
 
-const WeightedGraph& KeptGraph::of(const IndexView& index) {
-  return graph_.get([&] {
+const WeightedGraph& KeptGraph::paths_of(const IndexView& index) {
+  return paths_.get([&] {
     TaskContext task;
     return make_weighted_graph(index,
                                edges_ ? edges_ : std::make_shared<const Adjacency>(gather_edges(index, {}, task)));
@@ -68,7 +68,7 @@ const WeightedGraph& KeptGraph::of(const IndexView& index) {
 }
 
 void KeptGraph::renew(const IndexView& index, std::span<const VertexId> moved) {
-  WeightedGraph* const graph = graph_.made();
+  WeightedGraph* const graph = paths_.made();
   if (graph == nullptr) return;
   const auto renew_row = [&](auto xyz, VertexId v) {
     for_each_length(*graph->edges, xyz, v, [&](std::size_t k, double length) {

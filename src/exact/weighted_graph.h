@@ -26,27 +26,33 @@ struct WeightedGraph {
   std::vector<double> lengths;             // by element of `edges->neighbors`
 };
 
-/// The graph of an index vertex by vertex, made at its first use and kept for all searchers: for paths along the edges,
-/// and for odd graphs. Any thread may ask for it. O(#V + #E) the first time.
+/// The graph of an index vertex by vertex, made at its first use and kept for all searchers: for paths, and the edges
+/// for odd graphs. Any thread may ask for it. O(#V + #E) the first time.
 class KeptGraph {
  public:
   KeptGraph() = default;
-  explicit KeptGraph(WeightedGraph graph);
   /// With these edges, or null for those of the index. Their lengths are made at the first use.
   explicit KeptGraph(std::shared_ptr<const Adjacency> edges) : edges_(std::move(edges)) {}
+  /// With these edges, and with paths in another graph. Its lengths are given; they may depend on the direction.
+  KeptGraph(std::shared_ptr<const Adjacency> edges, WeightedGraph paths);
 
-  /// Null if they have not been made.
-  [[nodiscard]] std::shared_ptr<const Adjacency> edges() const { return graph_.made() ? graph_.made()->edges : edges_; }
+  /// Those of the index. Null if they have not been made.
+  [[nodiscard]] std::shared_ptr<const Adjacency> edges() const {
+    return edges_ || !paths_.made() ? edges_ : paths_.made()->edges;
+  }
 
-  [[nodiscard]] const WeightedGraph& of(const IndexView& index);
+  [[nodiscard]] const Adjacency& edges_of(const IndexView& index) { return edges_ ? *edges_ : *paths_of(index).edges; }
 
-  /// Renews the lengths after vertices of `index` have moved, given by their places in index order. While no other
-  /// thread uses it. O(edges of `moved`).
+  /// That in which paths are searched: of the edges, unless another was given.
+  [[nodiscard]] const WeightedGraph& paths_of(const IndexView& index);
+
+  /// Renews the lengths of the edges after vertices of `index` have moved, given by their places in index order. While
+  /// no other thread uses it. O(edges of `moved`).
   void renew(const IndexView& index, std::span<const VertexId> moved);
 
  private:
   std::shared_ptr<const Adjacency> edges_;  // if they are known before the lengths
-  Kept<WeightedGraph> graph_;
+  Kept<WeightedGraph> paths_;
 };
 
 }  // namespace meshhood::inline v0_1

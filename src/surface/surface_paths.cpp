@@ -109,7 +109,7 @@ class SurfaceGraph {
 
  private:
   static const WeightedGraph& edges_of(const SurfaceState& surface) {
-    return IndexAccess::share_graph(surface.searched)->of(*surface.index);
+    return IndexAccess::share_graph(surface.searched)->paths_of(*surface.index);
   }
 
   template <class F>
@@ -136,11 +136,12 @@ class SurfaceGraph {
     });
   }
 
-  /// The sides of the triangles of open faces.
+  /// The sides of the triangles of open faces, of three corners each.
   template <class F>
   void for_each_side(F&& f) const {
     for (const auto& [corners, face, diagonals] : triangles_) {
-      if (!is_open(faces_[face])) continue;
+      const auto [first, second, third] = corners;
+      if (first == second || second == third || third == first || !is_open(faces_[face])) continue;
       for (unsigned i = 0; i < 3; ++i) {
         const auto [a, b] =
             std::minmax({static_cast<VertexId>(corners[i]), static_cast<VertexId>(corners[(i + 1) % 3])});
@@ -185,7 +186,8 @@ Index surface_paths(const Surface& surface, const Run& run) {
   view->owner = std::make_shared<const IndexView>(*view);
   view->is_derived = true;
   view->geometry = nullptr;
-  auto graph = std::make_shared<KeptGraph>(SurfaceGraph(state, task).make());
+  WeightedGraph lines = SurfaceGraph(state, task).make();
+  auto graph = std::make_shared<KeptGraph>(IndexAccess::share_graph(state.searched)->edges(), std::move(lines));
   task.finish();
   return IndexAccess::make(std::move(view), std::move(graph));
 }

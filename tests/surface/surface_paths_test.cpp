@@ -40,7 +40,7 @@ class PlainLines {
         const std::uint32_t a = face[i];
         const std::uint32_t b = face[(i + 1) % 3];
         if (a != b) offer(a, b, distance(a, b));
-        if (!has_wall(face)) opposite[sorted(a, b)].push_back(face[(i + 2) % 3]);
+        if (is_open(face)) opposite[sorted(a, b)].push_back(face[(i + 2) % 3]);
       }
     }
     for (const auto& [side, corners] : opposite) {
@@ -72,8 +72,10 @@ class PlainLines {
     return meshhood::distance(mesh_.positions_view(), a, b);
   }
 
-  [[nodiscard]] bool has_wall(std::span<const std::uint32_t> face) const {
-    return std::ranges::any_of(face, [&](std::uint32_t v) { return walls_[v] != 0; });
+  /// Whether it has three corners, none of which is a wall.
+  [[nodiscard]] bool is_open(std::span<const std::uint32_t> face) const {
+    return face[0] != face[1] && face[1] != face[2] && face[2] != face[0] &&
+           std::ranges::none_of(face, [&](std::uint32_t v) { return walls_[v] != 0; });
   }
 
   void offer(std::uint32_t a, std::uint32_t b, double length) {
@@ -238,6 +240,31 @@ TEST(SurfacePaths, HaveRowsOfTheirOwnInEveryBatch) {
   }
   const Curvatures fitted = curvatures(surface.on(index), query);
   EXPECT_NE(fitted.count, curvatures(surface, query).count);
+}
+
+/// Pairs of triangles between any vertices, and one between two: a graph unlike a surface, which has other searches.
+TEST(SurfacePaths, LeaveOtherMetricsAsTheyAre) {
+  Random random(3);
+  TestMesh mesh;
+  const auto any = [&] { return static_cast<std::uint32_t>(random.below(2000)); };
+  const auto along = [&] { return random.uniform(0, 10); };
+  for (std::size_t v = 0; v < 2000; ++v) mesh.add_vertex(along(), along(), along());
+  for (std::size_t i = 0; i < 1300; ++i) {
+    const std::uint32_t a = any();
+    const std::uint32_t b = any();
+    mesh.add_face({a, b, any()});
+    mesh.add_face({b, a, any()});
+  }
+  mesh.add_face({7, 7, 8});
+  const auto [given, whole] = indexed(mesh.finish(false));
+  const Index index = surface_paths(Surface(whole, given.view()));
+  for (const auto& [metric, radius] : {std::pair(Metric::Straight, 3.0), {Metric::Rings, 2.0}, {Metric::Space, 1.0}}) {
+    const BatchQuery query{.radius = radius, .metric = metric};
+    EXPECT_EQ(neighborhoods(index, query).ids, neighborhoods(whole, query).ids);
+    EXPECT_EQ(Searcher(index, metric).neighborhood(7, radius), Searcher(whole, metric).neighborhood(7, radius));
+  }
+  const BatchQuery query{.radius = 3, .metric = Metric::Path};
+  EXPECT_GT(neighborhoods(index, query).ids.size(), neighborhoods(whole, query).ids.size());
 }
 
 TEST(SurfacePaths, RefuseWhatAMaskedIndexRefuses) {

@@ -37,7 +37,7 @@ void sort_along_longest_axis(std::span<std::uint32_t> vertices, const PositionsI
 
 PathPacket::PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const PathLimits& limits)
     : index_(&index),
-      graph_(&graph.of(index)),
+      graph_(&graph.paths_of(index)),
       kernels_(&path_kernels(isa)),
       joint_kernels_(&joint_kernels(isa)),
       limits_(limits),

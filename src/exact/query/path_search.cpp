@@ -79,7 +79,7 @@ void PathQueue::begin_window() {
 
 PathSearch::PathSearch(const IndexView& index, KeptGraph& graph)
     : index_(&index),
-      graph_(&graph.of(index)),
+      graph_(&graph.paths_of(index)),
       edges_(graph_->edges.get()),
       lengths_(index.vertex_count(), kUnreached) {}
 

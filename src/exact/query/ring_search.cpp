@@ -162,7 +162,7 @@ class RingSearch final : public LengthSearch {
 }  // namespace
 
 std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
-  const Adjacency& edges = *graph_->of(*index_).edges;
+  const Adjacency& edges = graph_->edges_of(*index_);
   edges_to_.forget();
   found_.clear();
   places_.clear();

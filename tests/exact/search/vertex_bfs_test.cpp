@@ -213,7 +213,7 @@ TEST(VertexBfs, SearchersOfSeveralThreadsShareOneGraph) {
   std::vector<const WeightedGraph*> graphs(4);
   std::vector<std::thread> threads;
   for (const WeightedGraph*& graph : graphs) {
-    threads.emplace_back([&] { graph = &IndexAccess::share_graph(index)->of(IndexAccess::view(index)); });
+    threads.emplace_back([&] { graph = &IndexAccess::share_graph(index)->paths_of(IndexAccess::view(index)); });
   }
   for (std::thread& thread : threads) thread.join();
   EXPECT_THAT(graphs, testing::Each(graphs.front()));
