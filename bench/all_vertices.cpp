@@ -257,7 +257,7 @@ class AllVertices {
         ids = std::accumulate(sizes.begin(), sizes.end(), ids);
         return true;
       };
-      worker.count(chunk, add, nullptr);
+      worker.count(chunk, add, nullptr, false);
       chunk.clear();
     }
     return ids;

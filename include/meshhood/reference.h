@@ -70,6 +70,8 @@ class ReferenceSearcher {
   friend struct ReferenceAccess;
 
   struct State;
+  explicit ReferenceSearcher(std::unique_ptr<State> state);
+
   detail::Owner<State> state_;
 };
 

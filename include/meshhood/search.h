@@ -97,8 +97,8 @@ struct Dab {
 /// The cost of a ball around a vertex grows with the number of leaves that its surface intersects, not with the size of
 /// the result or the mesh; on folded surfaces, and from a point, with the number of leaves of the result. Paths take
 /// O(n log n) for a result of n vertices, and the first search of an index O(#V + #E): the index keeps the lengths of
-/// all edges for all searchers (80 bytes a vertex with six edges). Rings take O(n), space a time that grows with the
-/// leaves at the surface of the ball. Nothing is allocated once the buffers have grown.
+/// all edges for all searchers (76 bytes a vertex with six edges). Rings take O(n), space a time that grows with the
+/// leaves at the surface of the ball. Only `nested` allocates once the buffers have grown.
 ///
 /// Use one object per thread: it owns scratch memory, 23 to 30 bytes per leaf for balls around vertices, 64 for all
 /// else of the straight metric; 8 bytes a vertex for paths. Each part is made when it is first needed. It shares the
@@ -108,7 +108,7 @@ struct Dab {
 ///
 /// On a graph unlike a surface (with a vertex that has very many neighbors, or with random edges), the cost of a ball
 /// is that of `ReferenceSearcher`, and each searcher owns 20 bytes per vertex more (36 for double). All of them share a
-/// copy of the graph, which the index keeps: 8 bytes per vertex and 12 for each of its neighbors, which `Index::bytes`
+/// copy of the graph, which the index keeps: 4 bytes per vertex and 4 for each of its neighbors, which `Index::bytes`
 /// does not count. The query that makes it takes O(#V + #E).
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed, the coordinate or the dab; arguments

@@ -191,7 +191,7 @@ class Aggregation {
         signal_(signal),
         query_(checked.query()),
         radii_(checked.passes()),
-        has_patches_(query_.nesting == Nesting::Patch && !query_.radius.list()),
+        has_patches_(query_.nesting == Nesting::Patch && radii_.size() > 1),
         rows_(checked.rows()),
         numbers_(signal.channels * query_.reduce.size()),
         result_(result),
@@ -226,7 +226,7 @@ class Aggregation {
   }
 
   [[nodiscard]] bool is_listed(const BatchRadius& radius) const {
-    return !has_patches_ && !radius.list() && is_better_listed(index_, signal_, query_, radius.common());
+    return !has_patches_ && !radius.list() && is_better_listed(index_, signal_, query_, radius.common(), run_);
   }
 
   /// All channels of one radius.

@@ -41,14 +41,15 @@ bool is_moderate(const SignalView& signal) {
 }
 
 /// The mean size of the neighborhoods of some vertices, which depend on the index alone.
-double mean_count(const Index& index, Metric metric, double radius) {
+double mean_count(const Index& index, Metric metric, double radius, const Run& run) {
   constexpr std::size_t kSample = 64;
   const std::size_t vertices = index.vertex_count();
   std::vector<VertexId> sample(std::min(kSample, vertices));
   for (std::size_t i = 0; i < sample.size(); ++i) {
     sample[i] = IndexAccess::view(index).id(i * vertices / sample.size());
   }
-  const std::vector<std::uint64_t> sizes = counts(index, {.vertices = sample, .radius = radius, .metric = metric});
+  const BatchQuery query{.vertices = sample, .radius = radius, .metric = metric};
+  const std::vector<std::uint64_t> sizes = counts(index, query, {.threads = run.threads});
   return static_cast<double>(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})) /
          static_cast<double>(std::max<std::size_t>(sizes.size(), 1));
 }
@@ -143,13 +144,14 @@ class ListedRows {
 
 }  // namespace
 
-bool is_better_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius) {
+bool is_better_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
+                      const Run& run) {
   const bool has_kernel = query.kernel != SmoothingKernel::Box;
   constexpr double kSmallestRadius = 0x1p-450;  // squares of shorter distances underflow
   const bool is_slower = query.kernel == SmoothingKernel::Gaussian && signal.channels < kManyChannels;
   const double most = is_slower ? kFewVertices : kMostVertices;
-  return has_kernel && radius > kSmallestRadius && query.nesting == Nesting::Own &&
-         signal.channels >= kFewestChannels && mean_count(index, query.metric, radius) <= most && is_moderate(signal);
+  return has_kernel && radius > kSmallestRadius && signal.channels >= kFewestChannels &&
+         mean_count(index, query.metric, radius, run) <= most && is_moderate(signal);
 }
 
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,

@@ -89,10 +89,10 @@ struct VarianceOptions {
 /// Whether `sum_listed` is the faster way, and as accurate. Depends on the index, the radius and the signal alone, not
 /// on the rows: the bits of a row must not depend on the others.
 [[nodiscard]] bool is_better_listed(const Index& index, const SignalView& signal, const AggregateQuery& query,
-                                    double radius);
+                                    double radius, const Run& run = {});
 
 /// Writes `result`, #rows by channels by #reductions. The query has been checked, and has a smoothing kernel.
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
-                std::span<double> result, const Run& run);
+                std::span<double> result, const Run& run = {});
 
 }  // namespace meshhood::inline v0_1

@@ -129,6 +129,8 @@ ReferenceSearcher::ReferenceSearcher(const GraphView& graph) {
   state_ = std::make_unique<State>(graph);
 }
 
+ReferenceSearcher::ReferenceSearcher(std::unique_ptr<State> state) { state_ = std::move(state); }
+
 std::size_t ReferenceSearcher::vertex_count() const { return state_->adjacency.size(); }
 
 void ReferenceSearcher::neighborhood(Vertex v, double radius, std::vector<VertexId>& out) {
@@ -158,6 +160,10 @@ std::size_t ReferenceSearcher::count(Vertex v, double radius) { return state_->n
 
 std::span<const VertexId> ReferenceAccess::search(ReferenceSearcher& searcher, VertexId v, double squared_radius) {
   return searcher.state_->search(v, squared_radius);
+}
+
+ReferenceSearcher ReferenceAccess::make(const GraphView& graph) {
+  return ReferenceSearcher(std::make_unique<ReferenceSearcher::State>(graph));
 }
 
 void ReferenceAccess::remove(ReferenceSearcher& searcher, VertexId v) {

@@ -15,6 +15,9 @@ struct ReferenceAccess {
   /// the function of this name. Nothing is checked.
   [[nodiscard]] static std::span<const VertexId> search(ReferenceSearcher& searcher, VertexId v, double squared_radius);
 
+  /// A searcher of a valid graph.
+  [[nodiscard]] static ReferenceSearcher make(const GraphView& graph);
+
   /// No later search enters `v`, which is in no ball from now on. It must not be the vertex of a query.
   static void remove(ReferenceSearcher& searcher, VertexId v);
 

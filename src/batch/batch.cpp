@@ -10,14 +10,15 @@
 #include "batch/packets.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
+#include "exact/query/single_queries.h"
 #include "simd/leaf.h"
 
 namespace meshhood::inline v0_1 {
 
-void BatchWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) {
+void BatchWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept, bool distances) {
   for_each_answer(chunk, false, [&](std::span<const BatchItem> items) {
     const auto counts = std::span(search_->counts()).first(items.size());
-    if (kept != nullptr && search_->writes_pieces(false)) kept->add(search_->pieces(true), counts);
+    if (kept != nullptr && search_->writes_pieces(distances)) kept->add(search_->pieces(true), counts);
     return sink(items, counts);
   });
 }
@@ -97,7 +98,9 @@ Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOpt
       options_(options),
       rows_(query, factory_.vertex_count),
       task_(run.threads, run.progress, passes * rows_.size()),
-      threads_(task_.threads()) {}
+      threads_(task_.threads()) {
+  if (rows_.size() != 0 && factory_.of_slots != nullptr) prepare_searches(*factory_.of_slots, query.metric);
+}
 
 BatchWorker& Batch::worker(unsigned thread) {
   std::unique_ptr<BatchWorker>& worker = threads_[thread].worker;

@@ -33,8 +33,8 @@ class BatchWorker {
  public:
   explicit BatchWorker(std::unique_ptr<RowSearch> search) : search_(std::move(search)) {}
 
-  /// `kept` is null, or receives what spares `find` a second search.
-  void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept);
+  /// `kept` is null, or receives what spares a `find` with these `distances` a second search.
+  void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept, bool distances);
 
   /// `kept` is null, or reads what `count` kept of the same chunk, none of whose rows was dropped.
   void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver, KeptPackets::Reader* kept);

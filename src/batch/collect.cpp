@@ -35,7 +35,7 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
       }
       return batch.task().should_continue(thread);
     };
-    batch.worker(thread).count(chunk.items, sink, nullptr);
+    batch.worker(thread).count(chunk.items, sink, nullptr, false);
   });
   limit.check_sample(sizes, "about ");
 }
@@ -68,8 +68,8 @@ void count_rows(Batch& batch, std::uint64_t* sizes, const ForWriting* writing) {
       for (std::size_t i = 0; i < items.size(); ++i) ids += sizes[items[i].row] = some[i];
       return batch.task().should_continue(thread);
     };
-    batch.worker(thread).count(chunk.items, sink,
-                               writing == nullptr ? nullptr : &writing->kept.begin(thread, chunk.number));
+    KeptPackets* const kept = writing == nullptr ? nullptr : &writing->kept.begin(thread, chunk.number);
+    batch.worker(thread).count(chunk.items, sink, kept, batch.options().distances);
     if (writing != nullptr && ids >= most_ids) writing->limit.add(std::exchange(ids, 0));
     batch.task().advance(thread, chunk.items.size());
   });

@@ -185,13 +185,11 @@ class LengthRowSearch {
 template <class F>
 void for_each_row(const Index& index, NearestRows& rows, F&& f) {
   const NearestOptions& options = rows.options();
+  prepare_searches(index, options.metric);
   if (options.metric == Metric::Straight) {
     rows.for_each([&] { return std::make_unique<StraightRowSearch>(index, options); }, f);
     return;
   }
-  // Before the threads begin: each of them would make it.
-  if (options.metric == Metric::Path)
-    static_cast<void>(IndexAccess::share_graph(index)->paths_of(IndexAccess::view(index)));
   rows.for_each([&] { return std::make_unique<LengthRowSearch>(index, options); }, f);
 }
 

@@ -46,9 +46,8 @@ class SingleRows final : public RowSearch {
 
   [[nodiscard]] QueryWord queries() const override { return 1; }
 
-  [[nodiscard]] std::span<const Piece> pieces(bool /*in_order*/) override {
-    raise(ErrorCode::InvalidOption, "this method has no packets, expected the exact index, paths or rings");
-  }
+  /// Not called: packets are those of an index.
+  [[nodiscard]] std::span<const Piece> pieces(bool /*in_order*/) override { return {}; }
 
   [[nodiscard]] bool writes_pieces(bool /*distances*/) const override { return false; }
 

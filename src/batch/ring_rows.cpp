@@ -35,7 +35,7 @@ struct RingQuery {
 /// fresh over the edges of all leaves that have some, so each edge is followed once for all queries that reach it in
 /// that step.
 ///
-/// One object a thread. Owns 8 bytes a leaf of the mesh, and half a kilobyte for each leaf of an answer. What is found
+/// One object a thread. Owns 8 bytes a leaf of the mesh, and 0.7 kB for each leaf of the largest answer. What is found
 /// does not depend on earlier calls.
 class RingPacket final : public PacketLengths {
  public:

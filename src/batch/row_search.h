@@ -129,10 +129,10 @@ class RowSearch {
   /// The queries that have a neighborhood, as far as it is known.
   [[nodiscard]] virtual QueryWord queries() const = 0;
 
-  /// The answers as pieces without overlap, in index order if that is wanted. Not for a search of another order.
+  /// The answers as pieces without overlap, in index order if that is wanted. Not of `SingleRows`.
   [[nodiscard]] virtual std::span<const Piece> pieces(bool in_order) = 0;
 
-  /// The lengths of what `pieces` has returned, of rows with distances; null by straight lines.
+  /// The lengths of what `pieces` has returned, if `pays` was asked with distances; null by straight lines.
   [[nodiscard]] virtual PacketLengths* lengths() { return nullptr; }
 
   /// Whether rows can be written from their pieces and counts alone.

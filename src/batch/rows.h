@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -88,7 +89,7 @@ class SizeLimit {
     double variance = 0;
     for (const double size : sizes) variance += (size - mean) * (size - mean) / kSample;
     if (allows(rows * (mean - kDeviations * std::sqrt(variance / kSample)))) return;
-    refuse(how_exact, static_cast<std::uint64_t>(std::llround(rows * mean)));
+    refuse(how_exact, static_cast<std::uint64_t>(std::min(std::round(rows * mean), 0x1p63)));
   }
 
   [[nodiscard]] bool allows(double items) const { return items <= static_cast<double>(max_items_); }
@@ -105,9 +106,10 @@ class SizeLimit {
 
   /// `items`: the size of the result, as far as it is known.
   [[noreturn]] void refuse(const char* how_exact, std::uint64_t items) const {
+    constexpr auto kMost = std::numeric_limits<std::uint64_t>::max();
+    const std::uint64_t bytes = items > kMost / item_bytes_ ? kMost : items * item_bytes_;
     raise(ErrorCode::TooLarge, "the result of " + std::to_string(rows_) + " rows, " + how_exact +
-                                   std::to_string(items * item_bytes_) + " bytes, exceeds max_bytes, " +
-                                   std::to_string(max_bytes_));
+                                   std::to_string(bytes) + " bytes, exceeds max_bytes, " + std::to_string(max_bytes_));
   }
 
  private:

@@ -67,6 +67,10 @@ void verify_sizes(const IndexView& view, const file::SectionReader& file) {
   }
   expect("adjacency", view.adjacency.size(), padded, " values");
   if (view.levels.empty() || view.levels.front() != 0) refuse("levels", "the first level does not begin at group 0");
+  if (view.levels.size() > kMaxLevels + 1) {
+    refuse("levels",
+           std::to_string(view.levels.size() - 1) + " levels, expected at most " + std::to_string(kMaxLevels));
+  }
   for (std::size_t level = 1; level < view.levels.size(); ++level) {
     if (view.levels[level] <= view.levels[level - 1])
       refuse("levels", "level " + std::to_string(level - 1) + " has no group");

@@ -69,7 +69,7 @@ std::vector<LevelSummary> Index::levels() const {
   for (const TreeLevel& level : view().tree) {
     result.push_back({.level = static_cast<int>(result.size()),
                       .clusters = level.nodes,
-                      .mean_vertices = static_cast<double>(vertex_count()) / static_cast<double>(level.nodes),
+                      .mean_vertices = static_cast<double>(level.vertices) / static_cast<double>(level.nodes),
                       .mean_radius = level.mean_radius / view().frame.scale,
                       .mean_siblings = 0,
                       .bytes = level.groups * (sizeof(Group) + sizeof(GroupRecord))});

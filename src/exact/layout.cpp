@@ -39,8 +39,11 @@ Tree make_levels(std::span<const std::uint32_t> levels, std::span<const GroupRec
                  std::span<const double> mean_radii) {
   Tree tree;
   for (std::size_t level = 0; level + 1 < levels.size(); ++level) {
-    TreeLevel next{levels[level], levels[level + 1] - levels[level], 0, mean_radii[level]};
-    for (const GroupRecord& record : records.subspan(next.first_group, next.groups)) next.nodes += record.nodes;
+    TreeLevel next{levels[level], levels[level + 1] - levels[level], 0, 0, mean_radii[level]};
+    for (const GroupRecord& record : records.subspan(next.first_group, next.groups)) {
+      next.nodes += record.nodes;
+      next.vertices += record.begin[std::min<std::size_t>(record.nodes, kFanOut)] - record.begin[0];
+    }
     tree.push_back(next);
   }
   return tree;

@@ -32,6 +32,10 @@ struct GeometryData;
 /// The largest number of leaves, because a slot has 32 bits.
 inline constexpr std::size_t kMaxLeaves = std::numeric_limits<std::uint32_t>::max() / kLeafCapacity + std::size_t{1};
 
+/// The largest number of levels of the tree: each has at most three quarters of the nodes below it (`LevelGrouping`),
+/// and 2^27 (3/4)^66 < 1. Searches may descend recursively.
+inline constexpr std::size_t kMaxLevels = 67;
+
 /// A *slot* names a vertex by its leaf and lane: 32 times the leaf, plus the lane.
 [[nodiscard]] constexpr LeafId leaf_of(std::uint32_t slot) { return slot / kLeafCapacity; }
 [[nodiscard]] constexpr unsigned lane_of(std::uint32_t slot) { return slot % kLeafCapacity; }
@@ -92,7 +96,8 @@ struct TreeLevel {
   std::size_t first_group = 0;
   std::size_t groups = 0;
   std::size_t nodes = 0;
-  double mean_radius = 0;  // of the bounding spheres, in the frame
+  std::size_t vertices = 0;  // of the nodes
+  double mean_radius = 0;    // of the bounding spheres, in the frame
 };
 
 /// The groups of leaves below a node.
@@ -140,7 +145,7 @@ struct IndexView {
   std::shared_ptr<GeometryData> geometry;   // of this view alone; none while all arrays are in a file
   std::uint64_t version = 0;                // the number of refits in place that are in these arrays
 
-  /// The number of all refits in place. A masked index shares it, so that it knows when its index has moved on.
+  /// The number of all refits in place. A derived index shares it, so that it knows when its index has moved on.
   std::shared_ptr<std::uint64_t> newest = std::make_shared<std::uint64_t>(0);
 
   [[nodiscard]] bool is_current() const { return version == *newest; }

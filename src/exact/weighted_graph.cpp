@@ -55,16 +55,23 @@ Adjacency gather_edges(const IndexView& index, std::span<const VertexId> names, 
   return result;
 }
 
-KeptGraph::KeptGraph(std::shared_ptr<const Adjacency> edges, WeightedGraph paths) : edges_(std::move(edges)) {
+KeptGraph::KeptGraph(std::shared_ptr<const Adjacency> edges) {
+  if (edges) edges_.get([&] { return std::move(edges); });
+}
+
+KeptGraph::KeptGraph(std::shared_ptr<const Adjacency> edges, WeightedGraph paths) : KeptGraph(std::move(edges)) {
   paths_.get([&] { return std::move(paths); });
 }
 
-const WeightedGraph& KeptGraph::paths_of(const IndexView& index) {
-  return paths_.get([&] {
+const std::shared_ptr<const Adjacency>& KeptGraph::edges_of(const IndexView& index) {
+  return edges_.get([&] {
     TaskContext task;
-    return make_weighted_graph(index,
-                               edges_ ? edges_ : std::make_shared<const Adjacency>(gather_edges(index, {}, task)));
+    return std::make_shared<const Adjacency>(gather_edges(index, {}, task));
   });
+}
+
+const WeightedGraph& KeptGraph::paths_of(const IndexView& index) {
+  return paths_.get([&] { return make_weighted_graph(index, edges_of(index)); });
 }
 
 void KeptGraph::renew(const IndexView& index, std::span<const VertexId> moved) {

@@ -20,7 +20,7 @@ struct IndexView;
 [[nodiscard]] Adjacency gather_edges(const IndexView& index, std::span<const VertexId> names, TaskContext& task);
 
 /// The graph of an index with the length of each edge. Vertices are named by their place in index order, so neighbors
-/// lie near each other in memory. 80 bytes for a vertex with six neighbors.
+/// lie near each other in memory. 76 bytes for a vertex with six neighbors.
 struct WeightedGraph {
   std::shared_ptr<const Adjacency> edges;  // rows ascend
   std::vector<double> lengths;             // by element of `edges->neighbors`
@@ -32,16 +32,14 @@ class KeptGraph {
  public:
   KeptGraph() = default;
   /// With these edges, or null for those of the index. Their lengths are made at the first use.
-  explicit KeptGraph(std::shared_ptr<const Adjacency> edges) : edges_(std::move(edges)) {}
+  explicit KeptGraph(std::shared_ptr<const Adjacency> edges);
   /// With these edges, and with paths in another graph. Its lengths are given; they may depend on the direction.
   KeptGraph(std::shared_ptr<const Adjacency> edges, WeightedGraph paths);
 
   /// Those of the index. Null if they have not been made.
-  [[nodiscard]] std::shared_ptr<const Adjacency> edges() const {
-    return edges_ || !paths_.made() ? edges_ : paths_.made()->edges;
-  }
+  [[nodiscard]] std::shared_ptr<const Adjacency> edges() const { return edges_.made() ? *edges_.made() : nullptr; }
 
-  [[nodiscard]] const Adjacency& edges_of(const IndexView& index) { return edges_ ? *edges_ : *paths_of(index).edges; }
+  [[nodiscard]] const std::shared_ptr<const Adjacency>& edges_of(const IndexView& index);
 
   /// That in which paths are searched: of the edges, unless another was given.
   [[nodiscard]] const WeightedGraph& paths_of(const IndexView& index);
@@ -51,7 +49,7 @@ class KeptGraph {
   void renew(const IndexView& index, std::span<const VertexId> moved);
 
  private:
-  std::shared_ptr<const Adjacency> edges_;  // if they are known before the lengths
+  Kept<std::shared_ptr<const Adjacency>> edges_;
   Kept<WeightedGraph> paths_;
 };
 

@@ -64,6 +64,17 @@ TEST(IndexLevels, DescribeTheLeavesAndTheTreeAboveThem) {
   EXPECT_THAT(build(TestMesh{}.view()).levels(), IsEmpty());
 }
 
+TEST(IndexLevels, CountTheVerticesOfTheirClusters) {
+  TestMesh mesh = bumpy_grid(30);
+  for (std::size_t i = 0; i < 5000; ++i) mesh.add_vertex(static_cast<double>(i), 100, 0);
+  const std::vector<LevelSummary> levels = build(mesh.finish(false).view()).levels();
+  ASSERT_GT(levels.size(), 1U);
+  for (const LevelSummary& level : levels) {
+    // Leaves without a link are in no cluster above.
+    EXPECT_DOUBLE_EQ(level.mean_vertices * static_cast<double>(level.clusters), level.level == 0 ? 5900 : 900);
+  }
+}
+
 TEST(Index, ThatHasBeenMovedFromIsRefusedByEveryCallAndCanBeAssigned) {
   const TestMesh mesh = bumpy_grid(20);
   Index index = build(mesh.view());

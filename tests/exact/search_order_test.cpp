@@ -6,12 +6,14 @@
 #include <array>
 #include <cstdio>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meshhood/batch.h"
+#include "meshhood/k_nearest.h"
 #include "meshhood/masks.h"
 #include "meshhood/reorder.h"
 #include "meshhood/search.h"
@@ -266,6 +268,32 @@ TEST(SearchOrder, IsThatOfTheIndexInEveryWayToAnswer) {
     }
   }
   for (const Way way : {Way::Alone, Way::LeafBfs, Way::Component}) EXPECT_GT(ways[way], 0U);
+}
+
+/// Two vertices at one place: each is as near to the other as to itself.
+TEST(SearchOrder, OfPathsOfTheSameLengthIsThatOfTheIndex) {
+  TestMesh mesh;
+  for (const double x : {0.0, 0.0, 1.0, 2.0}) mesh.add_vertex(x, 0, 0);
+  mesh.add_face({0, 1, 2});
+  mesh.add_face({2, 3});
+  const auto [given, index] = indexed(mesh.finish(false));
+  Searcher searcher(index, Metric::Path);
+  const std::vector<std::size_t> places = places_of(index);
+  std::vector<VertexId> expected{0, 1, 2};
+  if (places[1] < places[0]) std::swap(expected[0], expected[1]);
+  for (const VertexId v : {0U, 1U}) {
+    EXPECT_EQ(searcher.neighborhood(v, 1), expected);
+    const std::vector<VertexId> seeds{v, v};
+    EXPECT_EQ(searcher.neighborhood(Start(SpacePoint{0, 0, 0}, seeds), 1), expected);
+    const std::vector<VertexId> one{v};
+    const KNearest nearest = k_nearest(index, one, 3, {.metric = Metric::Path});
+    EXPECT_EQ(std::vector(nearest.ids.begin(), nearest.ids.end()), expected);
+    for (const std::size_t rows : {std::size_t{1}, std::size_t{8}}) {  // one by one, and together
+      const std::vector<VertexId> list(rows, v);
+      const Neighborhoods found = neighborhoods(index, {.vertices = list, .radius = 1, .metric = Metric::Path});
+      EXPECT_EQ(std::vector(found.ids.begin(), found.ids.begin() + 3), expected);
+    }
+  }
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include "exact/layout.h"
 #include "support/families.h"
 #include "support/forged_index.h"
+#include "support/index_bytes.h"
 #include "support/refusal.h"
 
 namespace meshhood::test {
@@ -279,6 +280,23 @@ TEST(IndexVerify, RejectsWrongPositions) {
                          [&](Forgery& f) { f.section<Frame>("frame")[0].scale = scale; });
   }
   expect_refused_after("lies outside the frame", [](Forgery& f) { f.section<Frame>("frame")[0].origin.x = kInfinity; });
+}
+
+/// Searches descend recursively: a chain of nodes would use up the stack.
+TEST(IndexVerify, RejectsATreeOfTooManyLevels) {
+  IndexData chain = arrays_of(build(bumpy_grid(3).view()));
+  while (chain.levels.size() <= kMaxLevels + 1) {
+    GroupRecord above = chain.records.back();
+    above.first_child = static_cast<std::uint32_t>(chain.records.size() - 1);
+    chain.parents.back() = static_cast<NodeId>(kFanOut * chain.records.size());
+    chain.records.push_back(above);
+    chain.parents.push_back(kNoNode);
+    chain.groups.push_back(Group(chain.groups.back()));
+    chain.mean_radii.push_back(double{chain.mean_radii.back()});
+    chain.levels.push_back(static_cast<std::uint32_t>(chain.records.size()));
+  }
+  const std::vector<std::byte> bytes = saved(IndexAccess::make(std::move(chain)));
+  expect_refused(ErrorCode::MalformedIndex, "68 levels, expected at most 67", [&] { return load(bytes); });
 }
 
 TEST(IndexVerify, RejectsAWrongForest) {

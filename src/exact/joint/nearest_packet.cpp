@@ -69,10 +69,10 @@ std::span<const Path> NearestPacket::vertices_in_ball(unsigned lane, double radi
     if (i == 0) inside &= ~(LaneMask{1} << lane);
     for_each_lane(inside, [&](unsigned other) { in_ball_[count++] = {squares[other], kLeafCapacity * i + other}; });
   }
-  return order_.sorted({0, lane}, std::span(in_ball_).first(count)).subspan(1);
+  return order_.sorted(std::span(in_ball_).first(count));
 }
 
-/// The same for neighbors in other leaves.
+/// Whether a vertex has a reached neighbor in another leaf.
 bool NearestPacket::has_reached_neighbor_beyond(std::uint32_t at) const {
   for (std::uint32_t i = last_edge_[at]; i != kNone; i = edges_[i].before) {
     const std::uint32_t to = edges_[i].to;

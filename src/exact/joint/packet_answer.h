@@ -38,9 +38,9 @@ struct PacketAnswer {
   std::span<const std::size_t> rows;   ///< 1 to 32 rows by their numbers in the query; row i is query i of the packet
   std::span<const VertexId> vertices;  ///< of each row, an id of the caller
   std::span<const double> radii;       ///< of each row
-  QueryWord queries = 0;               ///< all; of several rows, without those of walls, whose neighborhoods are empty
-  std::span<const Piece> pieces;       ///< without overlap, as the visitor has asked for them; see simd/joint.h
-  PacketLengths* lengths = nullptr;    ///< null by straight lines, whose lengths positions give, and unless asked for
+  QueryWord queries = 0;          ///< all; straight ones of several rows without walls, whose neighborhoods are empty
+  std::span<const Piece> pieces;  ///< without overlap, as the visitor has asked for them; see simd/joint.h
+  PacketLengths* lengths = nullptr;  ///< null by straight lines, whose lengths positions give, and unless asked for
 };
 
 }  // namespace meshhood::inline v0_1

@@ -180,8 +180,8 @@ std::span<const Path> PathPacket::paths_in_order(std::size_t query) {
     count += static_cast<std::size_t>(length <= std::min(radius, kLongest)) & static_cast<std::size_t>(end != source) &
              static_cast<std::size_t>(!is_left_out);
   }
-  const std::span<const Path> paths = order_.sorted({0, source}, std::span(paths_).first(count));
-  return paths.subspan(index_->is_ignored_at(source) ? 1 : 0);
+  const std::span<const Path> others = std::span(paths_).first(count);
+  return index_->is_ignored_at(source) ? order_.sorted(others) : order_.sorted({0, source}, others);
 }
 
 std::span<const Piece> PathPacket::pieces() {

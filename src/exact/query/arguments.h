@@ -40,7 +40,7 @@ void check_connects(Metric metric);
 /// Error{InvalidOption} unless there is a finite number >= 0 for each vertex. `name`: of the argument.
 void check_weights(std::span<const double> weights, std::size_t vertices, std::string_view name = "weights");
 
-/// Whether neighborhoods by the metric need a vertex as start, and their distances are lengths along edges.
+/// Whether distances by the metric are lengths along edges, or numbers of edges.
 [[nodiscard]] constexpr bool is_along_edges(Metric metric) { return metric == Metric::Path || metric == Metric::Rings; }
 
 }  // namespace meshhood::inline v0_1

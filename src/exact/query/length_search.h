@@ -50,7 +50,7 @@ class LengthSearch {
   const IndexView* index_;
 };
 
-/// `metric` is not straight. For paths, O(#V) here, and O(#V + #E) for the first search of an index. What it is made
+/// `metric` is along edges. For paths, O(#V) here, and O(#V + #E) for the first search of an index. What it is made
 /// from must outlive it.
 [[nodiscard]] std::unique_ptr<LengthSearch> make_length_search(const IndexView& index, KeptGraph& graph, Metric metric,
                                                                const Kernels& kernels);

@@ -229,9 +229,8 @@ std::span<const Path> PathSearch::found_in_order() {
   return order_.sorted(found_.front(), std::span(found_).subspan(1));
 }
 
-std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path> paths) {
-  sorted_.resize(paths.size() + 1);
-  sorted_.front() = first;
+std::span<const Path> PathOrder::sorted(std::span<const Path> paths) {
+  sorted_.resize(paths.size() + 1);  // of which the other function uses the first
   const std::span<Path> result = std::span(sorted_).subspan(1);
   if (paths.size() <= kernels_->few_numbers) {
     sort_by_comparison(paths, result);
@@ -239,6 +238,15 @@ std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path>
     sort_by_intervals(paths, result);
   }
   assert(std::is_sorted(result.begin(), result.end(), comes_before));
+  return result;
+}
+
+std::span<const Path> PathOrder::sorted(const Path& shortest, std::span<const Path> paths) {
+  static_cast<void>(sorted(paths));
+  sorted_.front() = shortest;
+  for (std::size_t i = 1; i < sorted_.size() && comes_before(sorted_[i], sorted_[i - 1]); ++i) {
+    std::swap(sorted_[i], sorted_[i - 1]);  // those of vertices at the same place
+  }
   return sorted_;
 }
 

@@ -138,9 +138,11 @@ class PathQueue {
 /// as those of shortest paths are, and O(n log n) otherwise.
 class PathOrder {
  public:
-  /// The paths in order, after `first`, which stays the first. Their lengths are finite, and not negative. Valid until
-  /// the next call.
-  [[nodiscard]] std::span<const Path> sorted(const Path& first, std::span<const Path> paths);
+  /// The paths in order. Their lengths are finite, and not negative. Valid until the next call.
+  [[nodiscard]] std::span<const Path> sorted(std::span<const Path> paths);
+
+  /// The same with one more, which none is shorter than.
+  [[nodiscard]] std::span<const Path> sorted(const Path& shortest, std::span<const Path> paths);
 
  private:
   void sort_by_comparison(std::span<const Path> paths, std::span<Path> result) const;
@@ -196,7 +198,7 @@ class PathSearch {
   /// one after another that is longer by an eighth of an edge.
   [[nodiscard]] std::span<const Path> found() const { return found_; }
 
-  /// The same, ascending by length, then by vertex in index order; from one vertex, after that to it.
+  /// The same, ascending by length, then by vertex in index order.
   [[nodiscard]] std::span<const Path> found_in_order();
 
   /// How many times the last run followed the edges of a vertex.

@@ -121,16 +121,22 @@ class RingSearch final : public LengthSearch {
   void run_by_vertex(std::uint32_t slot, double radius, const IsEnough& is_enough) {
     constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
     const auto most = static_cast<std::uint32_t>(std::min(radius, kMost));
-    std::size_t known = 0;  // rings
+    std::uint32_t known = 0;  // rings
     for (std::uint32_t count = is_enough ? std::min(most, 1U) : most;; count = count > most / 2 ? most : 2 * count) {
       by_vertex_->run(slot, count);
-      const std::vector<std::vector<std::uint32_t>> rings = by_vertex_->rings();
-      for (; known < rings.size(); ++known) {
+      const auto edges_to = [this](std::uint32_t place) { return by_vertex_->edges_to(place); };
+      for (;; ++known) {
+        const auto ring = std::ranges::equal_range(by_vertex_->reached(), known, {}, edges_to);
+        if (ring.empty()) break;
         const std::size_t before = found_.size();
-        for (const std::uint32_t place : rings[known]) found_.push_back({static_cast<double>(known), place});
-        if (is_enough && is_enough(std::span(found_).subspan(before))) return;
+        for (const std::uint32_t place : ring) {
+          if (!index_->is_ignored_at(place)) found_.push_back({static_cast<double>(known), place});
+        }
+        const std::span<Path> added = std::span(found_).subspan(before);
+        std::ranges::sort(added, {}, &Path::end);
+        if (is_enough && is_enough(added)) return;
       }
-      if (count == most || rings.size() <= count) return;
+      if (count == most || known <= count) return;
     }
   }
 
@@ -162,7 +168,7 @@ class RingSearch final : public LengthSearch {
 }  // namespace
 
 std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
-  const Adjacency& edges = graph_->edges_of(*index_);
+  const Adjacency& edges = *graph_->edges_of(*index_);
   edges_to_.forget();
   found_.clear();
   places_.clear();
@@ -189,12 +195,6 @@ std::size_t VertexRings::run(std::uint32_t slot, std::uint32_t rings) {
     }
   }
   return count;
-}
-
-std::vector<std::vector<std::uint32_t>> VertexRings::rings() {
-  std::vector<std::vector<std::uint32_t>> rings(queue_.empty() ? 0 : edges_to(queue_.back()) + 1);
-  for (const std::uint32_t place : places()) rings[edges_to(place)].push_back(place);
-  return rings;
 }
 
 std::span<const std::uint32_t> VertexRings::places() {

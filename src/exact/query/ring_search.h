@@ -26,9 +26,9 @@ class VertexRings final : public PacketLengths {
   /// there are, without the ignored ones.
   std::size_t run(std::uint32_t slot, std::uint32_t rings);
 
-  /// These vertices ring by ring, by their places in index order, each ring ascending. The last ring may have had
-  /// ignored vertices alone.
-  [[nodiscard]] std::vector<std::vector<std::uint32_t>> rings();
+  /// These vertices and the ignored ones by their places, ring by ring, in no order within a ring. Valid until the next
+  /// `run`.
+  [[nodiscard]] std::span<const std::uint32_t> reached() const { return queue_; }
 
   /// These vertices, by their places in index order, ascending. Valid until the next `run`.
   [[nodiscard]] std::span<const std::uint32_t> places();

@@ -12,6 +12,7 @@
 #include "exact/query/arguments.h"
 #include "exact/query/single_queries.h"
 #include "exact/query/straight_queries.h"
+#include "exact/search/vertex_bfs.h"
 #include "shared/distance.h"
 
 namespace meshhood::inline v0_1 {
@@ -21,6 +22,15 @@ std::unique_ptr<SingleQueries> make_queries(BoundIndex index, std::shared_ptr<Ke
   if (is_along_edges(metric)) return make_length_queries(std::move(index), std::move(graph), metric, isa);
   if (metric == Metric::Space) return make_space_queries(std::move(index), std::move(graph), isa);
   return std::make_unique<StraightQueries>(std::move(index), std::move(graph), isa);
+}
+
+void prepare_searches(const Index& index, Metric metric) {
+  const IndexView& view = IndexAccess::view(index);
+  KeptGraph& graph = *IndexAccess::share_graph(index);
+  const bool is_by_vertex =
+      metric == Metric::Rings ? is_unlike_a_surface(view) : metric == Metric::Straight && is_odd(view);
+  if (is_by_vertex) static_cast<void>(graph.edges_of(view));
+  if (metric == Metric::Path) static_cast<void>(graph.paths_of(view));
 }
 
 void SingleQueries::check(const Start& start, std::string_view where) const {

@@ -80,6 +80,9 @@ struct SingleQueries {
 [[nodiscard]] std::unique_ptr<SingleQueries> make_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph,
                                                           Metric metric, Isa isa);
 
+/// Makes what searches of an index share, where several threads will begin at once: each would make it.
+void prepare_searches(const Index& index, Metric metric);
+
 /// In space.
 [[nodiscard]] std::unique_ptr<SingleQueries> make_space_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph,
                                                                 Isa isa);

@@ -37,7 +37,7 @@ void VertexBfs::make_searcher() {
   const PositionsView positions =
       std::visit([&](auto xyz) { return PositionsView(xyz.first(3 * index_->vertex_count())); }, index_->positions);
   found_.emplace(index_->vertex_count());
-  searcher_.emplace(GraphView{positions, graph_->edges_of(*index_).view()});
+  searcher_.emplace(ReferenceAccess::make({positions, graph_->edges_of(*index_)->view()}));
   for (std::size_t leaf = 0; leaf < index_->walls.size(); ++leaf) {
     for_each_lane(index_->walls[leaf], [&](unsigned lane) {
       ReferenceAccess::remove(*searcher_, static_cast<VertexId>(index_->leaf_begin[leaf] + lane));

@@ -20,18 +20,21 @@ using Limits = std::numeric_limits<double>;
 void expect_sorted(const std::vector<double>& lengths) {
   std::vector<Path> paths;
   for (const double length : lengths) paths.push_back({length, static_cast<std::uint32_t>(paths.size() * 7 % 64)});
-  std::vector<Path> expected = paths;
-  std::sort(expected.begin(), expected.end(),
-            [](const Path& a, const Path& b) { return a.length != b.length ? a.length < b.length : a.end < b.end; });
-  const Path first{0, 99};
   PathOrder order;
-  const std::span<const Path> sorted = order.sorted(first, paths);
-  ASSERT_EQ(sorted.size(), paths.size() + 1);
-  EXPECT_EQ(sorted[0].end, first.end);
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    ASSERT_EQ(sorted[i + 1].length, expected[i].length) << "path " << i;
-    ASSERT_EQ(sorted[i + 1].end, expected[i].end) << "path " << i;
-  }
+  const auto expect = [](std::span<const Path> sorted, std::vector<Path> expected) {
+    std::sort(expected.begin(), expected.end(),
+              [](const Path& a, const Path& b) { return a.length != b.length ? a.length < b.length : a.end < b.end; });
+    ASSERT_EQ(sorted.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_EQ(sorted[i].length, expected[i].length) << "path " << i;
+      ASSERT_EQ(sorted[i].end, expected[i].end) << "path " << i;
+    }
+  };
+  expect(order.sorted(paths), paths);
+  const Path shortest{0, 30};
+  std::vector<Path> all = paths;
+  all.push_back(shortest);
+  expect(order.sorted(shortest, paths), all);
 }
 
 TEST(PathOrder, SortsByLengthThenByVertex) {
