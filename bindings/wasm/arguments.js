@@ -10,13 +10,28 @@ function refuseOption(name, known) {
   throw new TypeError(`unknown option '${name}', ${hint}`);
 }
 
+function refuseType(value, name, expected) {
+  const isObject = typeof value === 'object' && value !== null;
+  const found = typeof value === 'string' ? `'${value}'` : isObject ? value.constructor?.name : String(value);
+  throw new TypeError(`${name}: ${found}, expected ${expected}`);
+}
+
+/** The option of long calls. */
+export const PROGRESS = { progress: () => true };
+
+/** What an option must be whose default has this type. Others are checked where they are used. */
+const EXPECTED = { boolean: 'true or false', function: 'a function' };
+
 /** `given` with the defaults of what it leaves out. Other options are refused, or a misspelt one would do nothing. */
 export function withDefaults(given, defaults) {
   if (typeof given !== 'object' || given === null) throw new TypeError(`options: ${String(given)}, expected an object`);
   const options = { ...defaults };
   for (const name of Object.keys(given)) {
     if (!Object.hasOwn(defaults, name)) refuseOption(name, Object.keys(defaults));
-    if (given[name] !== undefined) options[name] = given[name];
+    const [value, type] = [given[name], typeof defaults[name]];
+    if (value === undefined) continue;
+    if (type in EXPECTED && typeof value !== type) refuseType(value, name, EXPECTED[type]);
+    options[name] = value;
   }
   return options;
 }
@@ -31,18 +46,19 @@ export function choose(choices, value, name) {
 
 /** The places of one name, or of several. */
 export function chooseSome(choices, values, name) {
-  return Uint8Array.from(typeof values === 'string' ? [values] : values, (value) => choose(choices, value, name));
+  const list = typeof values === 'string' ? [values] : values;
+  if (!Array.isArray(list)) refuseType(list, name, 'a name or an array of names');
+  return Uint8Array.from(list, (value) => choose(choices, value, name));
 }
 
 export function expectType(value, types, name) {
   if (types.some((type) => value instanceof type)) return;
-  const found = value === null || typeof value !== 'object' ? String(value) : value.constructor?.name;
-  throw new TypeError(`${name}: ${found}, expected ${types.map((type) => type.name).join(' or ')}`);
+  refuseType(value, name, types.map((type) => type.name).join(' or '));
 }
 
 export function expectBytes(value, name) {
   if (value instanceof ArrayBuffer || ArrayBuffer.isView(value)) return;
-  throw new TypeError(`${name}: ${typeof value}, expected an ArrayBuffer or a typed array`);
+  refuseType(value, name, 'an ArrayBuffer or a typed array');
 }
 
 /** `count` is that of the mesh. */

@@ -18,8 +18,8 @@ const MOST_BYTES = 2 ** 32 - PAGE_BYTES;
 const ARGUMENT_ERRORS = new Set(['VertexOutOfRange', 'InvalidRadius', 'InvalidOption', 'InvalidMesh']);
 
 export class MeshhoodError extends Error {
-  constructor(code, message) {
-    super(message);
+  constructor(code, message, options) {
+    super(message, options);
     this.name = 'MeshhoodError';
     this.code = code;
   }
@@ -94,7 +94,7 @@ function isTrap(error) {
 export class Instance {
   #exports;
   #error = null; // what the module reported before it trapped
-  #exception = null; // what a callback threw
+  #exception = null; // { thrown }: what a callback threw, which may be null, too
   #progress = null;
 
   constructor() {
@@ -119,11 +119,10 @@ export class Instance {
         this.#error = new MeshhoodError(CODES[code], text);
       },
       report_progress: (done, total) => {
-        if (this.#progress === null) return 1;
         try {
           return this.#progress(done, total) === false ? 0 : 1;
-        } catch (exception) {
-          this.#exception = exception;
+        } catch (thrown) {
+          this.#exception = { thrown };
           return 0;
         }
       },
@@ -138,7 +137,7 @@ export class Instance {
     try {
       to.grow((from.buffer.byteLength - to.buffer.byteLength) / PAGE_BYTES);
     } catch (error) {
-      throw new MeshhoodError('TooLarge', `not enough memory (${error.message})`);
+      throw new MeshhoodError('TooLarge', 'not enough memory', { cause: error });
     }
     new Uint8Array(to.buffer).set(new Uint8Array(from.buffer));
     return copy;
@@ -167,18 +166,18 @@ export class Instance {
   }
 
   #translate(trap) {
-    const exception = this.#exception ?? this.#error;
+    const [error, exception] = [this.#error, this.#exception];
     this.#error = null;
     this.#exception = null;
-    if (exception instanceof MeshhoodError && ARGUMENT_ERRORS.has(exception.code)) return exception;
-    this.dispose();
-    if (exception !== null) return exception;
-    return isTrap(trap) ? new MeshhoodError('TooLarge', `not enough memory (${trap.message})`) : trap;
+    if (error === null && !isTrap(trap)) return trap; // of a value that is no number, before the module was entered
+    if (!ARGUMENT_ERRORS.has(error?.code)) this.dispose();
+    if (exception !== null) return exception.thrown;
+    return error ?? new MeshhoodError('TooLarge', 'not enough memory', { cause: trap });
   }
 
   /** As `call`; `progress` is called during it. */
   callWithProgress(progress, name, ...values) {
-    this.#progress = progress ?? null;
+    this.#progress = progress;
     try {
       return this.call(name, ...values);
     } finally {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-import { choose, expectBytes, withDefaults } from './arguments.js';
+import { PROGRESS, choose, expectBytes, withDefaults } from './arguments.js';
 import { Instance } from './instance.js';
 
 const FORMATS = ['ply', 'obj', 'off', 'stl'];
 const PRECISIONS = ['file', 'float', 'double'];
 
-const READING = { precision: 'file', strict: false, progress: undefined };
+const READING = { precision: 'file', strict: false, ...PROGRESS };
 
 export function readMesh(bytes, name, options = {}) {
   const { precision, strict, progress } = withDefaults(options, READING);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import {
-  choose, chooseSome, expectBytes, expectNumber, expectPoint, expectSize, expectVertex, expectVertices, toReals,
-  withDefaults, withFaces, withMesh, withPositions,
+  PROGRESS, choose, chooseSome, expectBytes, expectNumber, expectPoint, expectSize, expectVertex, expectVertices,
+  toReals, withDefaults, withFaces, withMesh, withPositions,
 } from './arguments.js';
 import { Curvature } from './curvature.js';
 import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
@@ -22,7 +22,7 @@ const KINDS = [
 ];
 
 // The options of the calls, with their defaults. Made once: a small query takes less time than spreading them.
-const BUILDING = { offsets: null, cut: null, progress: undefined };
+const BUILDING = { offsets: null, cut: null, ...PROGRESS };
 const QUERY = { method: 'exact', ...METRIC, unit: 'mesh' };
 const ANSWER = { sort: null, distances: false };
 const SEARCH = { seeds: null, ...METRIC, ...MASKS };
@@ -106,7 +106,7 @@ export class MeshIndex extends Owner {
   }
 
   static load(bytes, options = {}) {
-    const { progress } = withDefaults(options, { progress: undefined });
+    const { progress } = withDefaults(options, PROGRESS);
     expectBytes(bytes, 'bytes');
     return new MeshIndex(makeInstance((instance) =>
       instance.with([bytes], (file) => instance.callWithProgress(progress, 'load', file, bytes.byteLength))));
@@ -464,7 +464,7 @@ export class MeshIndex extends Owner {
     const place = choose(FITS, fit, 'fit');
     this.#useNormals(faces, normals);
     const { reals, counts } = this.#askRows(r, given, () =>
-      this.instance.call('curvature', place, Boolean(filter), like !== null));
+      this.instance.call('curvature', place, filter, like !== null));
     const parts = [[0, 1], [1, 2], [2, 5], [5, 8]].map((ends) => ends.map((end) => end * counts.length));
     return new Curvature(...parts.map((ends) => reals.slice(...ends)), Uint8Array.from(counts));
   }
@@ -475,7 +475,7 @@ export class MeshIndex extends Owner {
     const places = chooseSome(KINDS, kinds, 'kinds');
     useFaces(this.instance, faces);
     return this.#askRows(r, given, () => this.instance.with([places], (list) =>
-      this.instance.call('features', list, places.length, Boolean(filter)))).reals;
+      this.instance.call('features', list, places.length, filter))).reals;
   }
 
   thickness(options = {}) {

@@ -195,7 +195,14 @@ test('progress is reported, can cancel, and its exceptions are passed on', () =>
   assert.deepEqual(seen, [...seen].sort((a, b) => a - b));
   assert.throws(() => build(mesh, { progress: () => false }), { code: 'Cancelled' });
   const failure = new Error('from the callback');
-  assert.throws(() => build(mesh, { progress() { throw failure; } }), (error) => error === failure);
+  for (const thrown of [failure, null, undefined, 0, new MeshhoodError('InvalidOption', 'of another index')]) {
+    try {
+      build(mesh, { progress() { throw thrown; } });
+      assert.fail();
+    } catch (error) {
+      assert.equal(error, thrown);
+    }
+  }
   assert.throws(() => readMesh(toPly(mesh), 'a.ply', { progress: () => false }), { code: 'Cancelled' });
 });
 

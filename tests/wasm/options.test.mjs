@@ -65,6 +65,30 @@ test('options in other letters are named, too', () => {
   assert.throws(() => index.count(5, 3, { sort: true }), { message: "unknown option 'sort', expected one of method, metric, faces, unit, seeds, walls, ignored" });
 });
 
+const TRUTH = 'true or false';
+const NAMES = 'a name or an array of names';
+
+/** Options of one type: the call, the option, and how a message calls what is expected. */
+const TYPED = [
+  [CALLS.neighborhood, 'distances', TRUTH], [CALLS.neighborhoods, 'distances', TRUTH], [CALLS.curvature, 'filter', TRUTH],
+  [CALLS.features, 'filter', TRUTH], [CALLS.readMesh, 'strict', TRUTH], [CALLS.readMesh, 'progress', 'a function'],
+  [CALLS.MeshIndex, 'progress', 'a function'], [CALLS.load, 'progress', 'a function'], [CALLS.aggregate, 'reduce', NAMES],
+  [CALLS.features, 'kinds', NAMES],
+];
+
+test('options of another type are refused by name, and leave the index usable', () => {
+  const values = [[1, '1'], [2, '2'], [1n, '1'], [{}, 'Object'], [null, 'null'], [new Set(), 'Set']];
+  const truths = [['yes', "'yes'"], ['true', "'true'"], ['0', "'0'"], [[], 'Array']];
+  for (const [[call], name, expected] of TYPED) {
+    for (const [value, found] of expected === NAMES ? values : [...values, ...truths]) {
+      assert.throws(() => call({ [name]: value }), { name: 'TypeError', message: `${name}: ${found}, expected ${expected}` });
+    }
+  }
+  for (const distances of [true, false]) assert.equal(index.neighborhood(5, 3, { distances }).ids !== undefined, distances);
+  assert.throws(() => index.instance.call('nearest_connected', 1n), TypeError); // before the module is entered
+  assert.ok(index.count(5, 3) > 0);
+});
+
 test('options that are no object are refused', () => {
   for (const options of ['edge', null, 3, true]) {
     assert.throws(() => index.neighborhood(5, 3, options), { name: 'TypeError', message: `options: ${options}, expected an object` });
