@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks of arguments that the module cannot make: types, names, and vertices, because whole numbers of JavaScript may
-// have more than the 32 bits of an id. Other numbers are checked in C++.
+// Checks of arguments that the module cannot make: types, names, and whole numbers, which in JavaScript may have more
+// than the 32 bits of an id or a size. Other numbers are checked in C++.
 import { MeshhoodError } from './instance.js';
 import { nearestWord } from './words.js';
 
@@ -76,9 +76,10 @@ export function expectNumber(value, name) {
   if (typeof value !== 'number') throw new TypeError(`${name} ${String(value)}, expected a number`);
 }
 
-/** Of how many vertices. */
-export function expectSize(k, name) {
-  if (!Number.isInteger(k) || k < 0) throw new TypeError(`${name}: ${String(k)}, expected a whole number >= 0`);
+/** By default, what the module takes: sizes have 32 bits there. */
+export function expectSize(value, name, most = 2 ** 32 - 1) {
+  if (!Number.isInteger(value) || value < 0) refuseType(value, name, 'a whole number >= 0');
+  if (value > most) throw new MeshhoodError('InvalidOption', `${name}: ${value}, expected at most ${most}`);
 }
 
 /** Three numbers. A typed array of integers would be a list of vertices. */

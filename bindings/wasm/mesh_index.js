@@ -228,8 +228,9 @@ export class MeshIndex extends Owner {
 
   nearestConnected(start, k, options = {}) {
     const search = withDefaults(options, SEARCH);
-    expectSize(k, 'k');
-    this.#search(start, search, () => this.instance.call('nearest_connected', k));
+    expectSize(k, 'k', Infinity);
+    const most = Math.min(k, this.#vertexCount);
+    this.#search(start, search, () => this.instance.call('nearest_connected', most));
     return { ids: this.instance.takeIds(), radii: this.instance.takeReals() };
   }
 
@@ -430,7 +431,7 @@ export class MeshIndex extends Owner {
     const choices = [
       choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'), choose(NESTINGS, nesting, 'nesting'),
     ];
-    expectSize(ddof, 'ddof');
+    expectSize(ddof, 'ddof', 1);
     expectNumber(q, 'q');
     const weighed = this.#weights(weights, faces);
     return this.#askRows(r, given, () =>

@@ -495,7 +495,7 @@ export class MeshIndex {
    * `changed`, the time depends on the number of these vertices, apart from a sum over all leaves. If arguments are
    * refused, the index stays as it is.
    *
-   * @throws MeshhoodError InvalidMesh, VertexOutOfRange; TooLarge, which disposes the index
+   * @throws MeshhoodError InvalidMesh, VertexOutOfRange; TooLarge, where memory is out, which disposes the index
    */
   refitInPlace(positions: Float32Array | Float64Array, options?: { changed?: Uint32Array | null }): void;
 
@@ -513,8 +513,8 @@ export class MeshIndex {
    * places of `permutation`. Another method than `exact` and the metric `rings` need a vertex as start.
    *
    * @param r the radius, >= 0 or Infinity
-   * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption; TooLarge, which disposes the index. The calls
-   * below throw the same.
+   * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption; TooLarge, which disposes the index if
+   * memory is out. The calls below throw the same.
    */
   neighborhood(start: Start, r: number, options?: StartOptions & AnswerOptions & { distances?: false }): Uint32Array;
   neighborhood(
@@ -653,7 +653,7 @@ export class MeshIndex {
    * @returns #rows by channels by #reductions, with scales #scales by that. NaN where a neighborhood has no values, as
    * that of a wall; 0 for their sum.
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh; TooLarge, which disposes the
-   * index
+   * index if memory is out
    */
   aggregate(
     values: Float64Array | Float32Array | Uint32Array | Int32Array | Uint16Array | Int16Array | Uint8Array | Int8Array,
@@ -679,7 +679,7 @@ export class MeshIndex {
    * null with `scales`. docs/curvature.md explains the numbers.
    *
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh; TooLarge, which disposes the
-   * index
+   * index if memory is out
    */
   curvature(r: Radii | null, options: CurvatureOptions): Curvature;
 

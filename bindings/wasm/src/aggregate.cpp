@@ -15,7 +15,7 @@ namespace meshhood::wasm {
                                                    const double* weights, std::size_t weight_count,
                                                    const Reduce* reductions, std::size_t reduction_count,
                                                    SmoothingKernel kernel, MissingValues missing, Nesting nesting,
-                                                   double ddof, double quantile) {
+                                                   std::size_t ddof, double quantile) {
   const SignalView signal{
       .values = std::span(values, value_count), .channels = channels, .weights = std::span(weights, weight_count)};
   answer.reals = meshhood::aggregate(workspace.searched(), signal,
@@ -26,7 +26,7 @@ namespace meshhood::wasm {
                                       .kernel = kernel,
                                       .missing = missing,
                                       .nesting = nesting,
-                                      .ddof = to_size(ddof),
+                                      .ddof = ddof,
                                       .quantile = quantile});
 }
 

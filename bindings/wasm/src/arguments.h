@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <span>
 
 #include "meshhood/batch.h"
 #include "meshhood/mesh.h"
 
-/// Arguments as JavaScript passes them: an address and a number of elements for each array, numbers as double.
+/// Arguments as JavaScript passes them: an address and a number of elements for each array, numbers as double, and
+/// sizes, which it has checked, with 32 bits.
 namespace meshhood::wasm {
 
 inline std::span<const std::byte> view_bytes(const void* data, std::size_t size) {
@@ -29,12 +28,6 @@ inline BatchVertices view_vertices(const VertexId* vertices, std::size_t count) 
   if (vertices == nullptr) return {};
   const std::span list(vertices, count);
   return list;
-}
-
-/// `number` is a whole number >= 0, as JavaScript has checked. Those of more than 32 bits become the largest.
-inline std::size_t to_size(double number) {
-  constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
-  return number < kMost ? static_cast<std::size_t>(number) : kMost;
 }
 
 }  // namespace meshhood::wasm

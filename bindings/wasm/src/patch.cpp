@@ -45,8 +45,8 @@ void answer_faces(const std::vector<std::size_t>& faces) { answer.counts.assign(
 
 /// Where the patches that follow start.
 [[clang::export_name("patch_at_vertex")]] void patch_at_vertex(VertexId v) { patch_start = v; }
-[[clang::export_name("patch_at_point")]] void patch_at_point(double face, double x, double y, double z) {
-  patch_start = {to_size(face), {x, y, z}};
+[[clang::export_name("patch_at_point")]] void patch_at_point(std::size_t face, double x, double y, double z) {
+  patch_start = {face, {x, y, z}};
 }
 
 /// The counts are the faces of the patch.

@@ -94,8 +94,8 @@ NearestOptions nearest_options() { return {.metric = rows.metric, .radius = rows
 }
 
 /// The ids and reals of the answer have `k` places for each row.
-[[clang::export_name("k_nearest")]] void k_nearest(double k) {
-  KNearest found = meshhood::k_nearest(workspace.searched(), rows.vertices, to_size(k), nearest_options());
+[[clang::export_name("k_nearest")]] void k_nearest(std::size_t k) {
+  KNearest found = meshhood::k_nearest(workspace.searched(), rows.vertices, k, nearest_options());
   answer.ids = std::move(found.ids);
   answer.reals = std::move(found.distances);
 }

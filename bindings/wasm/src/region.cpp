@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Searches from one start, a vertex or a point, by a method or a metric and with masks. `start_at_...` comes first, and
 // borrows its array for the calls that follow; `search_by` comes first, too, and copies the masks.
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -99,9 +98,8 @@ void answer_sizes() { answer.counts.assign(region_sizes.begin(), region_sizes.en
   return workspace.searcher(rows.metric).connecting_radius(origin, w);
 }
 
-[[clang::export_name("nearest_connected")]] void nearest_connected(double k) {
-  const std::size_t most = std::min(to_size(k), workspace.index().vertex_count());
-  workspace.searcher(rows.metric).nearest_connected(origin, most, answer.ids, answer.reals);
+[[clang::export_name("nearest_connected")]] void nearest_connected(std::size_t k) {
+  workspace.searcher(rows.metric).nearest_connected(origin, k, answer.ids, answer.reals);
 }
 
 /// Returns the vertex, which is no wall; the first real of the answer is its distance.
