@@ -105,8 +105,13 @@ function widened(indices) {
   return indices instanceof Uint16Array ? Uint32Array.from(indices) : indices;
 }
 
-/** Calls `use` while these faces are those of a call. */
-export function withFaces(instance, { corners, offsets = null }, use) {
+/** Calls `use` while these faces are those of a call; null are those that the index holds. */
+export function withFaces(instance, faces, use) {
+  if (faces === null) {
+    if (instance.call('take_held_faces')) return use();
+    throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which this index does not have');
+  }
+  const { corners, offsets = null } = faces;
   expectType(corners, INDICES, 'corners');
   if (offsets !== null) expectType(offsets, INDICES, 'offsets');
   return instance.with([widened(corners), widened(offsets)], (ids, begins) => {

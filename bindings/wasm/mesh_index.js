@@ -451,9 +451,6 @@ export class MeshIndex extends Owner {
     if (weights === null) return null;
     if (typeof weights !== 'string') return toReals(weights, 'weights');
     choose(['area'], weights, 'weights');
-    if (faces === null) {
-      throw new MeshhoodError('InvalidOption', "weights: 'area' needs the option faces, which an index does not keep");
-    }
     withFaces(this.instance, faces, () => this.instance.call('areas'));
     return this.instance.takeReals();
   }
@@ -463,7 +460,7 @@ export class MeshIndex extends Owner {
     const { faces, normals, like, fit, filter } = given;
     if (like !== null) choose(['libigl'], like, 'like');
     const place = choose(FITS, fit, 'fit');
-    this.#useNormals(faces, normals);
+    this.#useNormals(given);
     const { reals, counts } = this.#askRows(r, given, () =>
       this.instance.call('curvature', place, filter, like !== null));
     const parts = [[0, 1], [1, 2], [2, 5], [5, 8]].map((ends) => ends.map((end) => end * counts.length));
@@ -490,15 +487,12 @@ export class MeshIndex extends Owner {
     return this.instance.takeAnswer().reals;
   }
 
-  #useNormals(faces, normals) {
-    if ((faces === null) === (normals === null)) {
-      throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, or normals, and not both');
+  #useNormals({ faces, normals, metric }) {
+    if (normals === null) return useFaces(this.instance, faces);
+    if (faces !== null || metric === 'surface') {
+      throw new MeshhoodError('InvalidOption', "normals: expected null with faces, or with metric 'surface'");
     }
-    if (faces !== null) {
-      useFaces(this.instance, faces);
-    } else {
-      const vectors = toReals(normals, 'normals');
-      this.instance.with([vectors], (list) => this.instance.call('use_normals', list, vectors.length));
-    }
+    const vectors = toReals(normals, 'normals');
+    this.instance.with([vectors], (list) => this.instance.call('use_normals', list, vectors.length));
   }
 }

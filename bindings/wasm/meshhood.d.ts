@@ -178,8 +178,9 @@ export type Metric = 'straight' | 'path' | 'surface' | 'rings' | 'space';
 export interface MetricOptions {
   metric?: Metric;
   /**
-   * For metric `surface`: the faces that the index was built from. Their lines, about 150 bytes a vertex for each use
-   * with or without masks, are kept until other faces are given; each call copies and compares the faces.
+   * For metric `surface`: the faces that the index was built from; null for those that it holds. Their lines, about
+   * 150 bytes a vertex for each use with or without masks, are kept until other faces are used; each call compares the
+   * faces.
    */
   faces?: Faces | null;
 }
@@ -335,8 +336,8 @@ export class Curvature {
 
 export interface CurvatureOptions extends RowOptions, Scales {
   /**
-   * The faces that the index was built from, for the normals; or `normals`, one of both. The index keeps the normals
-   * until other faces or normals are given: a call with faces of the same content finds them again.
+   * The faces that the index was built from, for the normals; null for those that it holds, or with `normals`. The
+   * index keeps the normals until other faces or normals are used: a call with the same faces finds them again.
    */
   faces?: Faces | null;
   /** #V by 3, of any length. NaN where a vertex has none. */
@@ -357,11 +358,17 @@ export type Kind =
   | 'crease' | 'mean' | 'gaussian' | 'k1' | 'k2' | 'curvedness' | 'shape_index' | 'area' | 'volume' | 'gap'
   | 'height' | 'variation';
 
-/** Of calls on the surface in a ball; the metric is the distance in space. A face with a wall is not there. */
-export interface SurfaceOptions extends Omit<RowOptions, 'metric'> {
-  /** The faces that the index was built from, counterclockwise seen from outside. What is made of them is kept. */
-  faces: Faces;
+/** Of calls that need the faces. */
+export interface FaceOptions {
+  /**
+   * Those that the index was built from, counterclockwise seen from outside; null for those that it holds. What is made
+   * of them is kept until others are used.
+   */
+  faces?: Faces | null;
 }
+
+/** Of calls on the surface in a ball; the metric is the distance in space. A face with a wall is not there. */
+export type SurfaceOptions = FaceOptions & Omit<RowOptions, 'metric' | 'faces'>;
 
 /** In place of vertices, `points`, #rows by 3, and `face`, the face of each. */
 export interface PointOptions {
@@ -382,8 +389,7 @@ export interface Gaps {
   distance: Float64Array;
 }
 
-export interface PatchOptions {
-  faces: Faces;
+export interface PatchOptions extends FaceOptions {
   /** Of a point. */
   face?: number | null;
   walls?: Uint8Array | null;
@@ -409,8 +415,8 @@ export interface ClippedMesh {
 }
 
 export interface FeatureOptions extends RowOptions, Scales {
-  /** The faces that the index was built from, as for `curvature`. */
-  faces: Faces;
+  /** As for `curvature`. */
+  faces?: Faces | null;
   kinds?: Kind | readonly Kind[];
   /** As for `curvature`. */
   filter?: boolean;
@@ -465,7 +471,7 @@ export class MeshIndex {
   /** The mean length of the edges, each counted once, in the unit of the positions; 0 if there are none. */
   readonly meanEdgeLength: number;
 
-  /** A copy of the faces, if the index was loaded from a file that was saved with them; else null. */
+  /** A copy of the faces that the index holds: those that its file was saved with; else null. */
   readonly faces: { corners: Uint32Array; offsets: Uint32Array | null } | null;
 
   /** A copy of the positions, #V by 3, in the numbering and precision of the mesh. */
@@ -563,11 +569,9 @@ export class MeshIndex {
    * vertices are the seeds of a neighborhood there. Of several faces at the same distance, the one with the smallest
    * number.
    *
-   * @param options `faces`: those that the index was built from. It keeps what it makes of them until others are given,
-   * as for `curvature`.
    * @throws MeshhoodError InvalidMesh, InvalidOption
    */
-  closestPoint(point: Exclude<Start, number>, options: { faces: Faces }): SurfacePoint;
+  closestPoint(point: Exclude<Start, number>, options?: FaceOptions): SurfacePoint;
 
   /**
    * The first point of the surface on the ray from a point along a direction, which is not 0, of any length; null if it
@@ -576,7 +580,7 @@ export class MeshIndex {
   firstHit(
     origin: Exclude<Start, number>,
     direction: Exclude<Start, number>,
-    options: { faces: Faces },
+    options?: FaceOptions,
   ): SurfacePoint | null;
 
   /** The neighborhoods of many vertices, of all by default. */
@@ -601,7 +605,7 @@ export class MeshIndex {
    *
    * @param area > 0, in the square of the unit of the positions
    */
-  discs(area: number, options: DiscOptions): Rows & { distances: Float64Array };
+  discs(area: number, options?: DiscOptions): Rows & { distances: Float64Array };
 
   /**
    * For each vertex the nearest of those in its ball that do not belong to its neighborhood: another sheet, the other
@@ -618,32 +622,32 @@ export class MeshIndex {
    * @param r the radius, or one for each row; null with `scales`, which make the arrays #scales by #rows
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh
    */
-  invariants(r: Radii | null, options: SurfaceOptions & PointOptions & Scales): {
+  invariants(r: Radii | null, options?: SurfaceOptions & PointOptions & Scales): {
     area: Float64Array;
     volume: Float64Array;
   };
 
   /** The gap of each vertex or point: the nearest of the surface within r that is not of its patch. Throws likewise. */
-  gaps(r: Radii | null, options: SurfaceOptions & PointOptions & Scales): Gaps;
+  gaps(r: Radii | null, options?: SurfaceOptions & PointOptions & Scales): Gaps;
 
   /**
    * The numbers of the faces of a patch, ascending. Throws likewise.
    *
    * @param start a vertex; or a point on the face `face`, as `closestPoint` returns them
    */
-  patch(start: Start, r: number, options: PatchOptions): Uint32Array;
+  patch(start: Start, r: number, options?: PatchOptions): Uint32Array;
 
   /** A patch as a mesh of triangles that end at the sphere. Throws likewise. */
-  clip(start: Start, r: number, options: PatchOptions & { tolerance?: number }): ClippedMesh;
+  clip(start: Start, r: number, options?: PatchOptions & { tolerance?: number }): ClippedMesh;
 
   /**
    * Area and volume of one patch: a row of `invariants`, but for rounding, also of a point. Where there is no patch, as
    * of a point farther than r from its face: 0 and NaN. Throws likewise.
    */
-  measure(start: Start, r: number, options: PatchOptions): { area: number; volume: number };
+  measure(start: Start, r: number, options?: PatchOptions): { area: number; volume: number };
 
   /** The gap of one patch: a row of `gaps`, but for rounding, also of a point; null if there is none. Throws likewise. */
-  gap(start: Start, r: number, options: PatchOptions): SurfacePoint | null;
+  gap(start: Start, r: number, options?: PatchOptions): SurfacePoint | null;
 
   /**
    * A sum, a mean or another aggregate of values over the neighborhood of each vertex. No ids are listed.
@@ -681,7 +685,7 @@ export class MeshIndex {
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh; TooLarge, which disposes the
    * index if memory is out
    */
-  curvature(r: Radii | null, options: CurvatureOptions): Curvature;
+  curvature(r: Radii | null, options?: CurvatureOptions): Curvature;
 
   /**
    * Feature vectors without unit, so that scales can be compared. NaN where there is no result. Radii are > 0.
@@ -689,7 +693,7 @@ export class MeshIndex {
    * @returns #rows by #kinds, with scales #scales by #rows by #kinds
    * @throws as `curvature`
    */
-  features(r: Radii | null, options: FeatureOptions): Float64Array;
+  features(r: Radii | null, options?: FeatureOptions): Float64Array;
 
   /**
    * The thickness of the wall at each vertex, or at points of faces: the way against the normal to the surface, or, with
@@ -698,11 +702,10 @@ export class MeshIndex {
    * face, which does not count, nor does another face that has the point on a side. Faces are oriented counterclockwise,
    * seen from outside. Infinity where nothing else is met, NaN for a vertex without a normal or a face without an area.
    *
-   * @param options `faces` as for `closestPoint`. Of the face of each of `points`, the nearest point counts
+   * @param options of the face of each of `points`, the nearest point counts
    * @throws MeshhoodError VertexOutOfRange, InvalidMesh; InvalidOption, also for a face that the mesh does not have
    */
-  thickness(options: PointOptions & {
-    faces: Faces;
+  thickness(options?: FaceOptions & PointOptions & {
     vertices?: Uint32Array | null;
     method?: 'ray' | 'sphere';
   }): Float64Array;
@@ -735,7 +738,7 @@ export interface RimLine {
 
 /**
  * Makes meshes and outlines of the regions of a mesh, for drawing, remeshing and patches. Copies the mesh, and owns
- * memory as a `MeshIndex` does, which does not keep the faces.
+ * memory as a `MeshIndex` does.
  *
  * ids: the vertices of a region, in any order.
  */

@@ -12,11 +12,8 @@ export const SCALED_ROWS = { ...ROWS, scales: null };
 // The places are those of MetricName.
 export const METRICS = ['straight', 'path', 'rings', 'space', 'surface'];
 
-/** Makes the surface of these faces, unless it is that of the last call. */
+/** Makes the surface of these faces, or of those that the index holds, unless it is that of the last call. */
 export function useFaces(instance, faces) {
-  if (faces === null) {
-    throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which an index does not keep');
-  }
   withFaces(instance, faces, () => instance.call('use_faces'));
 }
 

@@ -4,9 +4,9 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { grid, plates, toPly } from './meshes.mjs';
-import { build, library, meshhood, readArrays, write } from './setup.mjs';
+import { build, library, meshhood, read, readArrays, write } from './setup.mjs';
 
-const { initialize } = library;
+const { MeshIndex, initialize } = library;
 await initialize();
 
 const mesh = grid(30, 25, (row, column) => [row, column, Math.sin(0.4 * row) + Math.cos(0.3 * column)], Float64Array);
@@ -114,6 +114,43 @@ test('paths along the surface follow the faces, the masks and the positions', ()
   flat.refitInPlace(sheet.positions.map((x) => 2 * x));
   assert.deepEqual(diagonal(), lengths.map((length) => 2 * length));
   flat.dispose();
+});
+
+const NEED_FACES = {
+  closestPoint: (from, options) => from.closestPoint([3.3, 4.2, 9], options),
+  firstHit: (from, options) => from.firstHit([3.3, 4.2, 9], [0, 0, -1], options),
+  alongSurface: (from, options) => from.neighborhood(400, 4, { metric: 'surface', ...options }),
+  discs: (from, options) => from.discs(8, { vertices, ...options }),
+  smooth: (from, options) => from.smooth(mesh.positions, 3, { vertices, weights: 'area', ...options }),
+  invariants: (from, options) => from.invariants(2, { vertices, ...options }),
+  gaps: (from, options) => from.gaps(2, { vertices, ...options }),
+  patch: (from, options) => from.patch(400, 2, options),
+  clip: (from, options) => from.clip(400, 2, options),
+  measure: (from, options) => from.measure(400, 2, options),
+  gap: (from, options) => from.gap(400, 2, options),
+  curvature: (from, options) => from.curvature(3, { vertices, ...options }),
+  features: (from, options) => from.features(3, { vertices, ...options }),
+  thickness: (from, options) => from.thickness(options),
+};
+
+test('an index that holds the faces uses them where none are given, also after a refit; another asks for them', () => {
+  meshhood('build', 'hills.ply', '--faces', '-o', 'hills.mhi');
+  const held = MeshIndex.load(read('hills.mhi'));
+  const refuse = (call, message) => assert.throws(call, { code: 'InvalidOption', message });
+  const moved = mesh.positions.map((x, i) => x + 0.1 * Math.sin(i));
+  for (const [holding, other] of [[held, index], [held.refit(moved), index.refit(moved)]]) {
+    for (const [name, call] of Object.entries(NEED_FACES)) {
+      assert.deepEqual(call(holding, {}), call(other, { faces: mesh }), name);
+      refuse(() => call(other, {}), 'faces: expected the faces of the mesh, which this index does not have');
+    }
+  }
+  const flipped = { corners: mesh.corners.slice().reverse() };
+  assert.deepEqual(held.curvature(3, { faces: flipped }), index.curvature(3, { faces: flipped }));
+  const normals = mesh.positions;
+  assert.deepEqual(held.curvature(3, { normals }), index.curvature(3, { normals }));
+  for (const needing of [{ faces: mesh }, { metric: 'surface' }]) {
+    refuse(() => held.curvature(3, { normals, ...needing }), "normals: expected null with faces, or with metric 'surface'");
+  }
 });
 
 test('masks whose content changes are other masks, and calls without have none', () => {
@@ -312,7 +349,7 @@ test('discs have the first of the nearest vertices whose areas reach a sum', () 
   assert.deepEqual(disc.ids, index.kNearest(disc.ids.length, { vertices: one, metric: 'path' }).ids);
   assert.ok(disc.ids.length > 3 && disc.ids.length < 12);
   assert.throws(() => index.discs(null, { faces: mesh }), { name: 'TypeError', message: /^area null, expected a number/ });
-  assert.throws(() => index.discs(8), { code: 'InvalidOption', message: /^weights: 'area' needs/ });
+  assert.throws(() => index.discs(8), { code: 'InvalidOption', message: /^faces: expected/ });
   assert.throws(() => index.discs(0, { weights: ones }), { code: 'InvalidOption', message: /^area: 0/ });
 });
 

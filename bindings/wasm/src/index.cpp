@@ -43,6 +43,13 @@ IndicesView view_indices(const void* indices, std::size_t count, bool is_signed)
                                   : FacesView::polygons(view_indices(offsets, offset_count, signed_offsets), flat);
 }
 
+/// The same with the faces that the index holds. Returns whether it holds any.
+[[clang::export_name("take_held_faces")]] bool take_held_faces() {
+  const std::optional<FacesView> faces = workspace.index().faces();
+  if (faces) given.faces = *faces;
+  return faces.has_value();
+}
+
 /// `cut` are the ends of edges that no search crosses, or null.
 [[clang::export_name("build")]] void build(const VertexId* cut, std::size_t cut_count) {
   const Run run{.progress = report_progress};
@@ -96,14 +103,13 @@ IndicesView view_indices(const void* indices, std::size_t count, bool is_signed)
 /// The answer is the faces that the index holds: their corners in `ids`, their offsets in `counts`, none if all are
 /// triangles. Returns whether it holds any.
 [[clang::export_name("held_faces")]] bool held_faces() {
-  const std::optional<FacesView> faces = workspace.index().faces();
-  if (!faces) return false;
+  if (!take_held_faces()) return false;
   const auto copy = [](const IndicesView& from, std::vector<std::uint32_t>& to) {
     to.resize(from.size());
     for (std::size_t i = 0; i < to.size(); ++i) to[i] = static_cast<std::uint32_t>(from[i]);
   };
-  copy(faces->corners(), answer.ids);
-  copy(faces->offsets(), answer.counts);
+  copy(given.faces.corners(), answer.ids);
+  copy(given.faces.offsets(), answer.counts);
   return true;
 }
 
