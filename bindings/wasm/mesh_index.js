@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import {
-  PROGRESS, choose, chooseSome, expectBytes, expectNumber, expectPoint, expectSize, expectVertex, expectVertices,
-  toReals, withDefaults, withFaces, withMesh, withPositions,
+  PROGRESS, choose, chooseSome, expectBytes, expectNumber, expectPoint, expectSize, expectType, expectVertex,
+  expectVertices, toReals, withDefaults, withFaces, withMesh, withPositions,
 } from './arguments.js';
 import { Curvature } from './curvature.js';
 import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
@@ -13,6 +13,7 @@ const UNITS = ['mesh', 'edge'];
 const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count', 'median', 'quantile'];
 const KERNELS = ['box', 'epanechnikov', 'biweight', 'gaussian'];
 const MISSING = ['propagate', 'omit'];
+const CORNERS = ['all', 'any'];
 const NESTINGS = ['own', 'patch'];
 const FITS = ['quadric', 'jet'];
 const THICKNESSES = ['ray', 'sphere'];
@@ -42,6 +43,7 @@ const PATCH = { face: null, faces: null, walls: null, unit: 'mesh' };
 const CLIP = { ...PATCH, tolerance: 1e-3 };
 const FEATURES = { ...SCALED_ROWS, kinds: 'crease', filter: true };
 const ON_FACES = { faces: null };
+const SUBMESH = { corners: 'all', ...ON_FACES };
 const THICKNESS = { ...VERTICES_OR_POINTS, method: 'ray' };
 
 function chooseMethod({ method, metric }) {
@@ -137,8 +139,19 @@ export class MeshIndex extends Owner {
   }
 
   get positions() {
+    return this.#viewPositions().slice();
+  }
+
+  #viewPositions() {
     const Reals = this.instance.call('graph_is_double') ? Float64Array : Float32Array;
-    return this.instance.take(Reals, this.instance.call('graph_positions'), 3 * this.vertexCount);
+    return this.instance.view(Reals, this.instance.call('graph_positions'), 3 * this.vertexCount);
+  }
+
+  #positionsOf(vertices) {
+    const all = this.#viewPositions();
+    const positions = new all.constructor(3 * vertices.length);
+    vertices.forEach((v, row) => positions.set(all.subarray(3 * v, 3 * v + 3), 3 * row));
+    return positions;
   }
 
   get permutation() {
@@ -418,6 +431,46 @@ export class MeshIndex extends Owner {
       else this.instance.call('patch_at_point', face, ...start);
       this.instance.call(name, radius, ...values);
     });
+  }
+
+  // Regions as meshes.
+
+  submesh(ids, options = {}) {
+    const { corners, faces } = withDefaults(options, SUBMESH);
+    const count = this.#callOnRegion('submesh', ids, faces, choose(CORNERS, corners, 'corners')) >>> 0;
+    const { ids: vertices, counts } = this.instance.takeAnswer();
+    const offsets = counts.slice(count, 2 * count + 1);
+    return {
+      positions: this.#positionsOf(vertices),
+      corners: counts.slice(2 * count + 1),
+      offsets: offsets.every((begin, face) => begin === 3 * face) ? null : offsets,
+      vertices,
+      faces: counts.slice(0, count),
+    };
+  }
+
+  rim(ids, start, r, options = {}) {
+    const { faces } = withDefaults(options, ON_FACES);
+    expectNumber(r, 'radius');
+    if (isVertex(start)) expectVertex(start, this.#vertexCount);
+    else expectPoint(start, 'start');
+    this.#callOnRegion('rim', ids, faces, ...(isVertex(start) ? this.#positionsOf([start]) : start), r);
+    const { ids: edges, reals: points, counts } = this.instance.takeAnswer();
+    const lines = (counts.length - 1) / 2; // their offsets, and whether each is closed
+    return Array.from({ length: lines }, (_, line) => {
+      const [begin, end] = [counts[line], counts[line + 1]];
+      return {
+        points: points.slice(3 * begin, 3 * end),
+        edges: edges.slice(2 * begin, 2 * end),
+        isClosed: counts[lines + 1 + line] === 1,
+      };
+    });
+  }
+
+  #callOnRegion(name, ids, faces, ...values) {
+    expectType(ids, [Uint32Array], 'ids');
+    useFaces(this.instance, faces);
+    return this.instance.with([ids], (list) => this.instance.call(name, list, ids.length, ...values));
   }
 
   // Values and shape.

@@ -414,6 +414,28 @@ export interface ClippedMesh {
   area: number;
 }
 
+/** Some faces of a mesh, as a mesh of their own. */
+export interface Submesh {
+  positions: Float32Array | Float64Array;
+  corners: Uint32Array;
+  /** Null: all are triangles. */
+  offsets: Uint32Array | null;
+  /** Its vertices by their ids in the whole mesh, ascending. */
+  vertices: Uint32Array;
+  /** Its faces by their numbers in the whole mesh, ascending. */
+  faces: Uint32Array;
+}
+
+/** A polyline along which a surface leaves a ball. */
+export interface RimLine {
+  /** #points by 3. */
+  points: Float64Array;
+  /** #points by 2: of each point, the end of its edge inside the region, and the other. */
+  edges: Uint32Array;
+  /** A loop, whose last point is joined to its first. */
+  isClosed: boolean;
+}
+
 export interface FeatureOptions extends RowOptions, Scales {
   /** As for `curvature`. */
   faces?: Faces | null;
@@ -650,6 +672,23 @@ export class MeshIndex {
   gap(start: Start, r: number, options?: PatchOptions): SurfacePoint | null;
 
   /**
+   * The faces with all corners in a region, or with at least one, as a mesh.
+   *
+   * @param ids the vertices of the region, in any order
+   * @throws MeshhoodError VertexOutOfRange, InvalidMesh, InvalidOption
+   */
+  submesh(ids: Uint32Array, options?: FaceOptions & { corners?: 'all' | 'any' }): Submesh;
+
+  /**
+   * Where the surface leaves a region: polylines whose points lie on edges, at the distance r from the start. On a
+   * manifold mesh without border all are closed. If the faces are consistently oriented, the region lies to the left.
+   *
+   * @param ids the region of `start` and `r`
+   * @throws MeshhoodError as `submesh`, and InvalidRadius
+   */
+  rim(ids: Uint32Array, start: Start, r: number, options?: FaceOptions): RimLine[];
+
+  /**
    * A sum, a mean or another aggregate of values over the neighborhood of each vertex. No ids are listed.
    *
    * @param values #V numbers, or #V by channels, vertex after vertex; each channel by itself
@@ -709,62 +748,6 @@ export class MeshIndex {
     vertices?: Uint32Array | null;
     method?: 'ray' | 'sphere';
   }): Float64Array;
-
-  /** Gives the memory back. All later calls throw an Error. */
-  dispose(): void;
-  [Symbol.dispose](): void;
-}
-
-/** Some faces of a mesh, as a mesh of their own. */
-export interface Submesh {
-  positions: Float32Array | Float64Array;
-  corners: Uint32Array;
-  offsets: Uint32Array | null;
-  /** Its vertices by their ids in the whole mesh, ascending. */
-  vertices: Uint32Array;
-  /** Its faces by their numbers in the whole mesh, ascending. */
-  faces: Uint32Array;
-}
-
-/** A polyline along which a surface leaves a ball. */
-export interface RimLine {
-  /** #points by 3. */
-  points: Float64Array;
-  /** #points by 2: of each point, the end of its edge inside the region, and the other. */
-  edges: Uint32Array;
-  /** A loop, whose last point is joined to its first. */
-  isClosed: boolean;
-}
-
-/**
- * Makes meshes and outlines of the regions of a mesh, for drawing, remeshing and patches. Copies the mesh, and owns
- * memory as a `MeshIndex` does.
- *
- * ids: the vertices of a region, in any order.
- */
-export class RegionMesh {
-  /** @throws MeshhoodError InvalidMesh, TooLarge */
-  constructor(
-    positions: Float32Array | Float64Array,
-    corners: Indices,
-    options?: { offsets?: Indices | null },
-  );
-
-  readonly memoryBytes: number;
-
-  /** The faces with all corners in `ids`, or with at least one; ascending. */
-  faces(ids: Uint32Array, corners?: 'all' | 'any'): Uint32Array;
-
-  /** These faces as a mesh. */
-  submesh(ids: Uint32Array, corners?: 'all' | 'any'): Submesh;
-
-  /**
-   * Where the surface leaves a region: polylines whose points lie on edges, at the distance r from the start. On a
-   * manifold mesh without border all are closed. If the faces are consistently oriented, the region lies to the left.
-   *
-   * @param ids the region of `start` and `r`
-   */
-  rim(ids: Uint32Array, start: Start, r: number): RimLine[];
 
   /** Gives the memory back. All later calls throw an Error. */
   dispose(): void;

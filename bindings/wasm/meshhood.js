@@ -4,6 +4,5 @@ export { Curvature } from './curvature.js';
 export { MeshhoodError, initialize } from './instance.js';
 export { readMesh } from './mesh_file.js';
 export { MeshIndex } from './mesh_index.js';
-export { RegionMesh } from './region_mesh.js';
 export { version } from './version.js';
 export { weld } from './weld.js';

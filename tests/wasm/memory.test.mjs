@@ -10,7 +10,7 @@ import { test } from 'node:test';
 import { plates, toPly } from './meshes.mjs';
 import { build, library, meshhood, read, write } from './setup.mjs';
 
-const { MeshIndex, RegionMesh, initialize, readMesh, weld } = library;
+const { MeshIndex, initialize, readMesh, weld } = library;
 
 const MEMORY_SECTION = 5;
 const HAS_MAXIMUM = 1;
@@ -91,13 +91,6 @@ const MAKING = {
   weld: () => weld(positions, corners),
   MeshIndex: () => build(mesh).vertexCount,
   load: () => MeshIndex.load(file).vertexCount,
-  RegionMesh: () => new RegionMesh(positions, corners).memoryBytes > 0,
-};
-
-const OF_REGIONS = {
-  faces: (regions) => regions.faces(ids),
-  submesh: (regions) => regions.submesh(ids),
-  rim: (regions) => regions.rim(ids, 150, 40),
 };
 
 const OF_INDEX = {
@@ -131,6 +124,8 @@ const OF_INDEX = {
   clip: (index) => index.clip(5, 2, onFaces),
   measure: (index) => index.measure(5, 2, onFaces),
   gap: (index) => index.gap(5, 2, onFaces),
+  submesh: (index) => index.submesh(ids, onFaces),
+  rim: (index) => index.rim(ids, 150, 40, onFaces),
   aggregate: (index) => index.aggregate(heights, 3),
   smooth: (index) => index.smooth(heights, 3),
   curvature: (index) => index.curvature(3, onFaces),
@@ -174,12 +169,10 @@ function testAll(calls, make) {
 }
 
 testAll(MAKING, () => undefined);
-testAll(OF_REGIONS, () => new RegionMesh(positions, corners));
 testAll(OF_INDEX, () => MeshIndex.load(file));
 
 test('no call is left out', () => {
   const methods = (type) => Object.getOwnPropertyNames(type.prototype).filter((name) => name !== 'constructor');
-  assert.deepEqual(Object.keys(OF_REGIONS), methods(RegionMesh));
   assert.deepEqual(Object.keys(OF_INDEX), methods(MeshIndex).filter((name) => name !== 'vertexCount'));
   const functions = Object.keys(library).filter((name) => !['MeshhoodError', 'Curvature', 'initialize', 'version'].includes(name));
   assert.deepEqual(Object.keys(MAKING).filter((name) => name !== 'load').sort(), functions.sort());

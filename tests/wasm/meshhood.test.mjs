@@ -9,7 +9,7 @@ import { test } from 'node:test';
 import { distance, grid, plates, polygons, random, roll, toPly } from './meshes.mjs';
 import { build, library, meshhood, read as readFile, readArrays, scaled, write } from './setup.mjs';
 
-const { MeshIndex, MeshhoodError, RegionMesh, initialize, readMesh } = library;
+const { MeshIndex, MeshhoodError, initialize, readMesh } = library;
 
 test('nothing works before the module is compiled, and the error says what to call', () => {
   assert.throws(() => new MeshIndex(new Float32Array(), new Uint32Array()), /call initialize\(\) first/);
@@ -180,8 +180,7 @@ test('indices of 16 bits, as three.js makes them, give the same index', () => {
     assert.deepEqual(build(narrow).save(), build(mesh).save());
     assert.deepEqual(build(mesh).curvature(3, { faces: narrow }), build(mesh).curvature(3, { faces: mesh }));
     const ids = build(mesh).neighborhood(7, 3);
-    const regionsOf = ({ positions, corners, offsets }) => new RegionMesh(positions, corners, { offsets });
-    assert.deepEqual(regionsOf(narrow).submesh(ids), regionsOf(mesh).submesh(ids));
+    assert.deepEqual(build(narrow).submesh(ids, { faces: narrow }), build(mesh).submesh(ids, { faces: mesh }));
   }
   assert.throws(() => build({ positions: new Float32Array(9), corners: Uint16Array.of(0, 1, 3) }), { code: 'InvalidMesh', message: /3/ });
 });

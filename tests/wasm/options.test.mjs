@@ -7,7 +7,7 @@ import { test } from 'node:test';
 import { plates, toPly } from './meshes.mjs';
 import { build, library } from './setup.mjs';
 
-const { MeshIndex, RegionMesh, initialize, readMesh } = library;
+const { MeshIndex, initialize, readMesh } = library;
 await initialize();
 
 const mesh = plates(6);
@@ -46,7 +46,8 @@ const CALLS = {
   smooth: [(options) => index.smooth(heights, 2, options), 'weights'],
   curvature: [(options) => index.curvature(2, { faces: mesh, ...options }), 'filter'],
   features: [(options) => index.features(2, { faces: mesh, ...options }), 'kinds'],
-  RegionMesh: [(options) => new RegionMesh(mesh.positions, mesh.corners, options), 'offsets'],
+  submesh: [(options) => index.submesh(Uint32Array.of(1), { faces: mesh, ...options }), 'corners'],
+  rim: [(options) => index.rim(Uint32Array.of(1), 1, 1, { ...options, faces: mesh }), 'faces'],
 };
 
 for (const [name, [call, known]] of Object.entries(CALLS)) {

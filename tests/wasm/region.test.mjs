@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { distance, grid, polygons, random, roll, toPly } from './meshes.mjs';
 import { build, library, meshhood, readArrays, scaled, write } from './setup.mjs';
 
-const { MeshIndex, RegionMesh, initialize } = library;
+const { MeshIndex, initialize } = library;
 await initialize();
 
 const mesh = roll(70, 15, Float64Array);
@@ -197,11 +197,10 @@ test('the mesh and the rim of a region are those of the command line', () => {
   const ids = index.neighborhood(502, 5);
   meshhood('region', 'roll.ply', '-v', '502', '-r', '5', '-o', 'part.ply', '--arrays', 'part.npz');
   const expected = readArrays('part.npz');
-  const regions = new RegionMesh(mesh.positions, mesh.corners);
-  const part = regions.submesh(ids);
+  const faces = mesh;
+  const part = index.submesh(ids, { faces });
   assert.deepEqual([...part.vertices], [...expected.vertices].map(Number));
   assert.deepEqual([...part.faces], [...expected.faces].map(Number));
-  assert.deepEqual(part.faces, regions.faces(ids));
   assert.equal(part.offsets, null);
   part.corners.forEach((corner, i) => {
     const [face, place] = [part.faces[Math.floor(i / 3)], i % 3];
@@ -209,7 +208,7 @@ test('the mesh and the rim of a region are those of the command line', () => {
     const at = 3 * part.vertices[corner];
     assert.deepEqual(part.positions.slice(3 * corner, 3 * corner + 3), mesh.positions.slice(at, at + 3));
   });
-  const rim = regions.rim(ids, 502, 5);
+  const rim = index.rim(ids, 502, 5, { faces });
   assert.deepEqual(rim.flatMap((line) => [...line.points]), [...expected.rim_points]);
   assert.ok(rim.length > 0);
   for (const { points } of rim) {
@@ -217,15 +216,14 @@ test('the mesh and the rim of a region are those of the command line', () => {
       assert.ok(Math.abs(distance([...points.subarray(i, i + 3), ...mesh.positions], 0, 503) - 5) < 1e-9);
     }
   }
-  assert.deepEqual(regions.rim(ids, mesh.positions.subarray(3 * 502, 3 * 503), 5), rim);
-  regions.dispose();
-  assert.throws(() => regions.faces(ids), /has been disposed/);
+  index.count(502, 5, { metric: 'surface', faces, walls }); // masks and paths of another call
+  assert.deepEqual(index.rim(ids, mesh.positions.subarray(3 * 502, 3 * 503), 5, { faces }), rim);
+  assert.deepEqual(index.submesh(ids, { faces }), part);
 });
 
 test('a part of polygons keeps its polygons', () => {
   const mixed = polygons(40, 30);
-  const part = new RegionMesh(mixed.positions, mixed.corners, { offsets: mixed.offsets })
-    .submesh(Uint32Array.from({ length: 25 }, (_, v) => v), 'any');
+  const part = build(mixed).submesh(Uint32Array.from({ length: 25 }, (_, v) => v), { corners: 'any', faces: mixed });
   assert.equal(part.offsets.length, part.faces.length + 1);
   part.faces.forEach((face, i) => {
     const own = part.corners.slice(part.offsets[i], part.offsets[i + 1]).map((corner) => part.vertices[corner]);
@@ -251,10 +249,12 @@ test('wrong arguments of searches from starts give the errors of C++ and leave t
   refuse(() => index.count(1, 1, { seeds: Uint32Array.of(1) }), { code: 'InvalidOption', message: /^seeds/ });
   refuse(() => index.contains(1, vertices, 1), { code: 'VertexOutOfRange' });
   refuse(() => new MeshIndex(new Float32Array(), new Uint32Array()).nearest([0, 0, 0]), { code: 'VertexOutOfRange' });
-  refuse(() => new RegionMesh(mesh.positions, Uint32Array.of(0, 1, vertices)), { code: 'InvalidMesh' });
-  const regions = new RegionMesh(mesh.positions, mesh.corners);
-  refuse(() => regions.faces(Uint32Array.of(vertices)), { code: 'VertexOutOfRange', message: /position 0/ });
-  refuse(() => regions.rim(Uint32Array.of(1), vertices, 1), { code: 'VertexOutOfRange' });
+  const [faces, one] = [mesh, Uint32Array.of(1)];
+  refuse(() => index.submesh(one, { faces: { corners: Uint32Array.of(0, 1, vertices) } }), { code: 'InvalidMesh' });
+  refuse(() => index.submesh(Uint32Array.of(vertices), { faces }), { code: 'VertexOutOfRange', message: /position 0/ });
+  refuse(() => index.submesh(one, { faces, corners: 'one' }), { code: 'InvalidOption', message: /^corners: 'one'/ });
+  refuse(() => index.rim(one, vertices, 1, { faces }), { code: 'VertexOutOfRange' });
+  refuse(() => index.rim(one, 1, -1, { faces }), { code: 'InvalidRadius' });
   assert.deepEqual(index.neighborhood(7, 2), build(mesh).neighborhood(7, 2));
 });
 

@@ -20,7 +20,7 @@ function compile(text, ...options) {
 }
 
 const USE = `
-  import { Curvature, MeshIndex, MeshhoodError, RegionMesh, initialize, readMesh } from 'meshhood';
+  import { Curvature, MeshIndex, MeshhoodError, initialize, readMesh } from 'meshhood';
   import type { Faces, Mesh, Rows, SurfacePoint } from 'meshhood';
 
   await initialize();
@@ -53,9 +53,9 @@ const USE = `
   const lists: Uint32Array[] = [index.viewNeighborhood(42, 2), index.nested(42, scales, { metric: 'rings' }).counts];
   index.smooth(index.aggregate(between, scales, { metric: 'surface', faces, reduce: ['mean'] }), 3, { metric: 'path', walls });
   index.refitInPlace(mesh.positions, { changed: near });
-  const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
+  const part = index.submesh(near, { faces, corners: 'any' });
   const codes: string[] = [new MeshhoodError().code];
-  export const used = [besides, hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, other.vertex, rows.offsets, curvature.mean, part.vertices, codes, volume, between, patch, clipped, measured];
+  export const used = [besides, hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, other.vertex, rows.offsets, curvature.mean, part.vertices, index.rim(near, 42, 2), codes, volume, between, patch, clipped, measured];
 `;
 
 for (const [name, options] of Object.entries({

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The surface: its faces, points on them, the thickness of its walls, and regions as meshes. `use_faces` or
-// `prepare_regions` comes first.
+// The surface: its faces, points on them, the thickness of its walls, and regions as meshes. `use_faces` comes first.
 #include <cstddef>
 #include <span>
 
@@ -56,23 +55,14 @@ Fingerprint hash_faces(const FacesView& faces) {
 
 // Regions as meshes.
 
-[[clang::export_name("prepare_regions")]] void prepare_regions() {
-  workspace.replace_index(meshhood::build(given));
-  workspace.use_faces(given.faces, {});
-}
-
-/// The counts of the answer are faces.
-[[clang::export_name("faces")]] void faces(const VertexId* ids, std::size_t count, Corners corners) {
-  const auto found = workspace.surface().faces({ids, count}, corners);
-  answer.counts.assign(found.begin(), found.end());
-}
-
-/// The ids of the answer are the vertices, and the counts first the offsets of the faces, then the corners.
-[[clang::export_name("submesh")]] void submesh(const VertexId* ids, std::size_t count, Corners corners) {
+/// The ids of the answer are the vertices, and the counts the faces, their offsets, and the corners. Returns the number
+/// of faces.
+[[clang::export_name("submesh")]] std::size_t submesh(const VertexId* ids, std::size_t count, Corners corners) {
   const Submesh part = workspace.surface().submesh({ids, count}, corners);
-  answer.ids.assign(part.vertices.begin(), part.vertices.end());
-  answer.counts.assign(part.offsets.begin(), part.offsets.end());
+  answer = {.ids = part.vertices, .reals = {}, .counts = {part.faces.begin(), part.faces.end()}};
+  answer.counts.insert(answer.counts.end(), part.offsets.begin(), part.offsets.end());
   answer.counts.insert(answer.counts.end(), part.corners.begin(), part.corners.end());
+  return part.faces.size();
 }
 
 /// The reals of the answer are the points, the ids the ends of their edges, and the counts first the offsets, then
