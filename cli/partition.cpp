@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -40,9 +41,7 @@ struct PartitionCommand {
 std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const Progress& progress) {
   const std::filesystem::path file = path_of(options.mesh.file);
   if (!options.faces.empty()) return parts::open_arrays(file, path_of(options.faces));
-  // A mesh that is read into memory takes several times the bytes of its file.
-  constexpr std::uint64_t kMemoryPerByte = 4;
-  const std::uint64_t most = options.memory / kMemoryPerByte;
+  const std::uint64_t most = options.memory / parts::kMemoryPerByte;
   if (options.mesh.weld.empty() && options.mesh.precision.empty()) {
     try {
       return parts::open_mesh(file, most, progress);
@@ -58,13 +57,16 @@ std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const 
 
 parts::PartitionResult run(const PartitionCommand& options) {
   Task task("partitioning " + options.mesh.file);
+  std::vector<std::filesystem::path> inputs{path_of(options.mesh.file)};
+  if (!options.faces.empty()) inputs.push_back(path_of(options.faces));
   return partition(*open(options, task.progress()), path_of(options.output),
                    {.parts = options.parts,
                     .vertices_per_part = options.vertices_per_part,
                     .halo = parse_radius("halo", options.halo),
                     .halo_in_edges = options.unit == "edge",
                     .memory = options.memory,
-                    .resume = !options.no_resume},
+                    .resume = !options.no_resume,
+                    .inputs = std::move(inputs)},
                    {.threads = options.threads, .progress = task.progress()});
 }
 

@@ -156,7 +156,7 @@ void complete(Bytes& bytes) {
     static_cast<void>(partition_into(one.path));
     if (contents(one.path) != one.expected) fail("a run kept a changed file");
   } catch (const Error& error) {
-    expect_clear(error, {ErrorCode::MalformedIndex}, ".json");
+    expect_clear(error, {ErrorCode::MalformedIndex}, one.path.string() + "/");
   }
   one.restore();
 }

@@ -85,6 +85,9 @@ class ChunkedMesh {
   std::uint64_t next_face_ = 0;
 };
 
+/// A mesh that is read into memory takes several times the bytes of its file.
+inline constexpr std::uint64_t kMemoryPerByte = 4;
+
 /// Opens a mesh file. A binary PLY file whose vertices have a fixed size is read in chunks, and may have any size. Any
 /// other file is read into memory, if it has at most `max_bytes` bytes, with `progress`.
 /// Throws as `io::read_mesh`; Error{TooLarge}, naming the formats that are read in chunks.

@@ -3,14 +3,32 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "io/messages.h"
 #include "io/system.h"
 
-/// What a run holds of the folder into which it writes. All errors are Error{IoFailure}.
+/// What a run holds of the folder into which it writes, and what it may remove there: only what a run has written. All
+/// errors are Error{IoFailure}, but where another is named.
 namespace meshhood::parts {
+
+inline constexpr std::string_view kTemporaryFolder = ".partition.tmp";
+
+/// Whether a name is that of the folder of a part, of any number.
+[[nodiscard]] bool is_part_name(const std::filesystem::path& name);
+
+/// Throws Error{MalformedIndex}, naming the entry, if the manifest or the temporary folder was not written by a run;
+/// or, without a manifest, if `folder` has anything besides parts.
+void check_folder(const std::filesystem::path& folder);
+
+/// Throws Error{MalformedIndex}, naming what is in the way, unless `remove_part` removes only what a run has written: a
+/// folder with the files of a part, and beside a manifest or with its own record. It may be damaged or not exist.
+void check_part(const std::filesystem::path& part);
+
+/// Removes the files of a part, the one by which `check_part` knows it last, and then the folder, if that is empty.
+void remove_part(const std::filesystem::path& part);
 
 /// An exclusive lock of a folder, so that one run at a time writes into it. The system releases it when the process
 /// ends in any way, and no file remains. The error has EWOULDBLOCK if another run has it.

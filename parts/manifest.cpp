@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -22,6 +23,7 @@
 namespace meshhood::parts {
 namespace {
 
+constexpr std::string_view kJsonBegin = "{\"checksum\": \"";
 constexpr std::string_view kFloat = "float";
 constexpr std::string_view kDouble = "double";
 
@@ -40,9 +42,7 @@ std::uint64_t number_of(std::string_view hex_digits) {
 
 std::uint64_t checksum_of(std::string_view text) { return checksum({std::as_bytes(std::span(text))}); }
 
-std::string first_line(std::string_view rest) {
-  return fmt::format("{{\"checksum\": \"{}\",\n", hex(checksum_of(rest)));
-}
+std::string first_line(std::string_view rest) { return fmt::format("{}{}\",\n", kJsonBegin, hex(checksum_of(rest))); }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, std::string_view reason) {
   raise(ErrorCode::MalformedIndex, fmt::format("{}: {}", io::printable_name(file.string()), reason));
@@ -196,6 +196,14 @@ void verify_file(const std::filesystem::path& file, std::span<const std::byte> c
 void write_part(const std::filesystem::path& part_folder, const Plan& plan, std::size_t number, const Part& part) {
   write_json(part_folder / kPartFile,
              fmt::format("{},\n \"number\": {},\n \"part\": {}\n}}\n", json_of(plan), number, json_of(part, " ")));
+}
+
+bool begins_as_json(const std::filesystem::path& file) {
+  std::string begin(kJsonBegin.size(), '\0');
+  if (std::filesystem::is_regular_file(file)) {
+    std::ifstream(file, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  }
+  return begin == kJsonBegin;
 }
 
 std::optional<Part> read_part(const std::filesystem::path& part_folder, const Plan& plan, std::size_t number) {

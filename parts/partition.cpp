@@ -30,8 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kTemporaryFolder = ".partition.tmp";
-
 /// How the memory is divided. A chunk of faces takes about 100 bytes a corner, with all that is derived from it.
 struct Budget {
   std::uint64_t memory;
@@ -65,6 +63,17 @@ void check_number_of_parts(std::uint64_t parts, std::uint64_t sample_bytes) {
   raise(ErrorCode::TooLarge, fmt::format("{} parts need more memory than is allowed; use fewer parts", parts));
 }
 
+/// A part may be replaced, and must not have a file of the mesh, not even by way of a link.
+void check_inputs(std::span<const fs::path> inputs, const fs::path& folder) {
+  for (const fs::path& input : inputs) {
+    const fs::path inside = fs::relative(input, folder);
+    if (inside.empty() || !is_part_name(*inside.begin())) continue;
+    raise(ErrorCode::InvalidOption,
+          fmt::format("{}: is in a part of {}, expected a mesh outside of the parts",
+                      io::printable_name(input.string()), io::printable_name(folder.string())));
+  }
+}
+
 /// One call of `partition`.
 class Partitioning {
  public:
@@ -78,6 +87,7 @@ class Partitioning {
 
   PartitionResult run() {
     const FolderLock lock(folder_);
+    check_folder(folder_);
     const std::uint64_t parts = number_of_parts(options_, mesh_.vertex_count());
     check_number_of_parts(parts, budget_.sample_bytes);
     stages_.begin(0.05);
@@ -134,7 +144,10 @@ class Partitioning {
     if (fs::exists(folder_ / kManifestFile)) check_plan(read_manifest(folder_).plan);
     for (std::size_t part = 0; part < plan().parts; ++part) {
       std::optional<Part> found = read_part(folder_of(part), plan(), part);
-      if (!found || !is_whole(folder_of(part), *found)) continue;
+      if (!found || !is_whole(folder_of(part), *found)) {
+        check_part(folder_of(part));
+        continue;
+      }
       result_.manifest.parts[part] = std::move(*found);
       finished_[part] = true;
       ++result_.kept;
@@ -161,12 +174,13 @@ class Partitioning {
   }
 
   void remove_old() const {
-    fs::remove(folder_ / kManifestFile);
     std::vector<fs::path> old;
     for (const auto& entry : fs::directory_iterator(folder_)) {
-      if (fs::exists(entry.path() / kPartFile)) old.push_back(entry.path());
+      if (is_part_name(entry.path().filename())) old.push_back(entry.path());
     }
-    for (const fs::path& path : old) fs::remove_all(path);
+    for (const fs::path& part : old) check_part(part);
+    fs::remove(folder_ / kManifestFile);
+    for (const fs::path& part : old) remove_part(part);
   }
 
   void write_parts(CutTree& tree, std::uint64_t corners, const fs::path& temporary) {
@@ -217,8 +231,7 @@ class Partitioning {
     Part written =
         write_part_files(work, contents, part, tree, plan().is_double, {.threads = threads_, .progress = progress});
     write_part(work, plan(), part, written);
-    // A damaged one.
-    fs::remove_all(folder_of(part));
+    remove_part(folder_of(part));  // a damaged one
     fs::rename(work, folder_of(part));
     fs::remove(contents.vertices.file(part));
     fs::remove(contents.faces.file(part));
@@ -240,6 +253,7 @@ class Partitioning {
 PartitionResult partition(ChunkedMesh& mesh, const fs::path& folder, const PartitionOptions& options, const Run& run) {
   check(options);
   try {
+    check_inputs(options.inputs, folder);
     std::error_code error;
     fs::create_directory(folder, error);
     // A file of this name is refused when the folder is opened.

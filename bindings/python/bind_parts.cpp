@@ -35,18 +35,17 @@ std::vector<std::string> partition_file(const Path& mesh, const std::optional<Pa
                                         std::uint64_t parts, std::uint64_t vertices_per_part, double halo,
                                         bool halo_in_edges, std::uint64_t memory, unsigned threads, bool resume,
                                         nb::handle progress) {
-  // A mesh that is read into memory takes several times the bytes of its file.
-  constexpr std::uint64_t kMemoryPerByte = 4;
   const parts::PartitionOptions options{.parts = parts,
                                         .vertices_per_part = vertices_per_part,
                                         .halo = halo,
                                         .halo_in_edges = halo_in_edges,
                                         .memory = memory,
-                                        .resume = resume};
+                                        .resume = resume,
+                                        .inputs = faces ? std::vector{mesh, *faces} : std::vector{mesh}};
   const Run run{.threads = threads, .progress = progress_to(progress)};
   return without_lock([&] {
     const auto opened =
-        faces ? parts::open_arrays(mesh, *faces) : parts::open_mesh(mesh, memory / kMemoryPerByte, run.progress);
+        faces ? parts::open_arrays(mesh, *faces) : parts::open_mesh(mesh, memory / parts::kMemoryPerByte, run.progress);
     return parts::partition(*opened, folder, options, run).warnings;
   });
 }

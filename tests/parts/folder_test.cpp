@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -127,6 +128,9 @@ TEST_F(Folder, HasItsDamagedPartsWrittenAgain) {
       ++damaged;
     }
   }
+  fs::remove(folder / parts::part_name(2) / parts::kPartFile);
+  EXPECT_EQ(run(folder).kept, 3U);
+  EXPECT_EQ(contents(folder), expected);
   std::printf("%zu damaged files were found and written again\n", damaged);
   EXPECT_GE(damaged, 4U * 4 * 3);
 }
@@ -211,6 +215,89 @@ TEST_F(Folder, IsRefusedIfItHasPartsOfAnotherMesh) {
   again.resume = false;
   EXPECT_EQ(partition(*chunked(moved), folder, again).kept, 0U);
   EXPECT_EQ(partition(*chunked(moved), folder, kOptions).kept, 4U);
+}
+
+TEST_F(Folder, KeepsTheFilesOfTheUser) {
+  struct Case {
+    bool has_parts;  ///< of an earlier run
+    bool resume;
+    std::vector<std::string> files;
+    std::string named;  ///< in the error
+  };
+  for (const auto& [has_parts, resume, files, named] : std::vector<Case>{
+           {false, true, {"part-00000/thesis/data.txt"}, "part-00000/thesis"},
+           {false, true, {"part-00000/mesh.ply"}, "part-00000/mesh.ply"},
+           {false, true, {"part-00000/vertices.npy"}, "part-00000"},
+           {false, true, {"part-00000/index.mhi/x"}, "part-00000/index.mhi"},
+           {false, true, {"part-00003"}, "part-00003"},
+           {false, true, {"thesis.txt"}, "thesis.txt"},
+           {false, true, {"manifest.json"}, "manifest.json"},
+           {true, true, {".partition.tmp/x"}, ".partition.tmp/x"},
+           {false, true, {".partition.tmp/part-00000/thesis/index.mhi"}, ".partition.tmp/part-00000/thesis"},
+           {false, true, {".partition.tmp"}, ".partition.tmp"},
+           {false, false, {"mywork/part.json", "mywork/x"}, "mywork"},
+           {false, false, {"part-00009/part.json"}, "part-00009"},
+           {false, false, {"part-mine/part.json"}, "part-mine"},
+           {false, false, {"manifest.json"}, "manifest.json"},
+           {true, false, {"manifest.json"}, "manifest.json"},
+           {true, false, {"part-00001/owned.txt"}, "part-00001/owned.txt"},
+           {true, true, {"part-00001/owned.npy", "part-00001/owned.txt"}, "part-00001/owned.txt"}}) {
+    SCOPED_TRACE(testing::PrintToString(files));
+    fs::remove_all(folder);
+    if (has_parts) run(folder);
+    for (const std::string& file : files) {
+      fs::create_directories((folder / file).parent_path());
+      overwrite(folder / file, "mine");
+    }
+    const auto before = contents(folder);
+    PartitionOptions options = kOptions;
+    options.resume = resume;
+    expect_refused(ErrorCode::MalformedIndex, (folder / named).string() + ": was not written by a partition; expected",
+                   [&] { partition(*chunked(mesh), folder, options); });
+    EXPECT_EQ(contents(folder), before);
+  }
+}
+
+TEST_F(Folder, KeepsThePlaceToWhichAPartIsALink) {
+  run(folder);
+  const fs::path place = scratch.path() / "place";
+  fs::rename(folder / parts::part_name(0), place);
+  fs::create_directory_symlink(place, folder / parts::part_name(0));
+  EXPECT_EQ(run(folder).kept, 4U);
+  overwrite(place / parts::kIndexFile, "damaged");
+  expect_refused(ErrorCode::MalformedIndex, "part-00000: was not written by a partition", [&] { run(folder); });
+  EXPECT_EQ(read_file(place / parts::kIndexFile), "damaged");
+}
+
+TEST_F(Folder, KeepsTheMeshThatItIsMadeOf) {
+  const auto expected = whole();
+  PartitionOptions options = kOptions;
+  options.inputs = {folder / "mesh.ply", folder / parts::part_name(1) / parts::kVerticesFile};
+  expect_refused(ErrorCode::InvalidOption, "part-00001/vertices.npy: is in a part of ",
+                 [&] { partition(*chunked(mesh), folder, options); });
+  options.inputs.pop_back();
+  run(folder);
+  overwrite(folder / "mesh.ply", "mesh");  // beside the parts
+  EXPECT_EQ(partition(*chunked(mesh), folder, options).kept, 4U);
+}
+
+// Whatever a run has in its temporary folder at any time, and a part of which it has removed some files.
+TEST_F(Folder, HasWhatAStoppedRunHasLeftRemoved) {
+  const fs::path left = scratch.path() / "left";
+  run(folder, [&](std::size_t, std::size_t) {
+    const fs::path now = folder / parts::kTemporaryFolder;
+    constexpr auto kAll = fs::copy_options::recursive | fs::copy_options::overwrite_existing;
+    if (fs::exists(now)) fs::copy(now, left, kAll);
+    return true;
+  });
+  fs::copy(folder / parts::part_name(1), left / parts::part_name(1));
+  EXPECT_GT(contents(left).size(), 15U);
+  const auto expected = contents(folder);
+  fs::remove(folder / parts::kManifestFile);
+  fs::remove(folder / parts::part_name(1) / parts::kIndexFile);
+  fs::rename(left, folder / parts::kTemporaryFolder);
+  EXPECT_EQ(run(folder).kept, 3U);
+  EXPECT_EQ(contents(folder), expected);
 }
 
 TEST_F(Folder, IsRefusedIfItsPartsHaveOtherNumbers) {

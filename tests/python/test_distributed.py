@@ -287,6 +287,13 @@ def test_partition_refuses_wrong_arguments(mesh, tmp_path):
     ):
         with pytest.raises(ValueError, match=message):
             meshhood.partition(file, tmp_path / "parts", **options)
+    with pytest.raises(ValueError, match="mesh.ply: was not written by a partition"):
+        meshhood.partition(file, tmp_path, halo=1, parts=2)
+    (tmp_path / "parts" / "part-00000").mkdir(parents=True)
+    inside = file.rename(tmp_path / "parts" / "part-00000" / "mesh.ply")
+    with pytest.raises(ValueError, match="part-00000/mesh.ply: is in a part of"):
+        meshhood.partition(inside, tmp_path / "parts", halo=1, parts=2)
+    inside.rename(file)
     with pytest.raises(FileNotFoundError):
         meshhood.partition(tmp_path / "none.ply", tmp_path / "parts", parts=2, halo=1)
     with pytest.warns(UserWarning, match="2 of 2 parts are as large as the mesh"):
