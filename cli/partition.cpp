@@ -3,9 +3,12 @@
 #include "parts/partition.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +19,8 @@
 #include "meshhood/error.h"
 
 #include "commands.h"
+#include "io/number.h"
+#include "io/text.h"
 #include "options.h"
 #include "output.h"
 #include "system.h"
@@ -37,6 +42,30 @@ struct PartitionCommand {
   bool json = false;
   std::string output;
 };
+
+/// Accepts digits and a unit, as `partition` of Python does, and makes them a number of bytes.
+std::string parse_size(std::string& text) {
+  constexpr Names<std::uint64_t, 9> kUnits{{{"", 1},
+                                            {"k", 1'000},
+                                            {"m", 1'000'000},
+                                            {"g", 1'000'000'000},
+                                            {"t", 1'000'000'000'000},
+                                            {"ki", std::uint64_t{1} << 10},
+                                            {"mi", std::uint64_t{1} << 20},
+                                            {"gi", std::uint64_t{1} << 30},
+                                            {"ti", std::uint64_t{1} << 40}}};
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+  const std::optional<std::uint64_t> number = io::parse_count(text.substr(0, digits));
+  std::string unit = io::lower_case(text.substr(digits));
+  unit.erase(0, unit.find_first_not_of(' '));
+  if (unit.ends_with('b')) unit.pop_back();
+  const auto known = std::ranges::find(kUnits, unit, [](const auto& named) { return named.first; });
+  if (!number || known == kUnits.end() || *number > std::numeric_limits<std::uint64_t>::max() / known->second) {
+    return fmt::format("'{}', expected a number of bytes or a text such as '4GiB'", text);
+  }
+  text = std::to_string(*number * known->second);
+  return {};
+}
 
 std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const Progress& progress) {
   const std::filesystem::path file = path_of(options.mesh.file);
@@ -124,7 +153,7 @@ void add_partition(CLI::App& program) {
       ->required();
   add_unit(command, "halo", options.unit);
   command.add_option("--memory", options.memory, "most bytes of memory, for example 500MB or 4GiB (default: 1GiB)")
-      ->transform(CLI::AsSizeValue(true))
+      ->transform(CLI::Validator(parse_size, ""))
       ->type_name("SIZE")
       ->default_val("1GiB");
   add_threads(command, options.threads);

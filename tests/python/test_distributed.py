@@ -282,6 +282,7 @@ def test_partition_refuses_wrong_arguments(mesh, tmp_path):
         ({"halo": -1, "parts": 2}, "halo: -1"),
         ({"halo": float("inf"), "parts": 2}, "halo: inf"),
         ({"halo": 1, "parts": 2, "memory": "lots"}, "memory: 'lots'"),
+        ({"halo": 1, "parts": 2, "memory": "99999999TB"}, "memory: 99999999000000000000, expected 0 to"),
         ({"halo": 1, "parts": 2, "memory": 5}, "a memory of 5 bytes"),
         ({"halo": 1, "parts": 2, "unit": "inch"}, "unit: 'inch'"),
     ):

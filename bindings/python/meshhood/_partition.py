@@ -84,4 +84,4 @@ def _bytes(memory):
     match = re.fullmatch(r"(\d+)\s*([kmgt]i?)?b?", memory.strip().lower())
     if match is None:
         raise ValueError(f"memory: {memory!r}, expected a number of bytes or a text such as '4GiB'")
-    return int(match[1]) * _UNITS[match[2] or ""]
+    return _convert.integer(int(match[1]) * _UNITS[match[2] or ""], "memory", 0, 2**63)
