@@ -125,7 +125,6 @@ std::vector<VertexId> kept_of_mesh(const io::Mesh& mesh, double eps) {
 }  // namespace
 
 double eps_of(const std::string& weld) {
-  if (weld == "true") return 0;  // what CLI11 stores for a flag without a value
   if (const auto number = io::parse_real<double>(weld)) return *number;
   wrong_option("--weld={}, expected a finite number >= 0", io::quote(weld));
 }

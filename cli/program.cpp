@@ -166,8 +166,9 @@ bool are_numbers(std::span<const std::string> words) {
 }
 
 /// Turns `--point X Y Z` into `--point X,Y,Z`, as an option of CLI11 with one to three values would also take the FILE
-/// that follows `--point X,Y,Z`; and `--weld EPS` into `--weld=EPS`, as a flag of CLI11 takes no value after a blank. A
-/// FILE whose name is a number is given as ./7.
+/// that follows `--point X,Y,Z`; and `--weld EPS` into `--weld=EPS`, as a flag of CLI11 takes no value after a blank,
+/// and
+/// `--weld` into `--weld=0`, as it would store a word. A FILE whose name is a number is given as ./7.
 void join_values(std::vector<std::string>& arguments) {
   constexpr std::size_t kAxes = 3;
   std::vector<std::string> joined;
@@ -182,9 +183,10 @@ void join_values(std::vector<std::string>& arguments) {
     if (name == "--point" && rest.size() >= kAxes && are_numbers(rest.first(kAxes))) {
       joined.push_back(fmt::format("{}", fmt::join(rest.first(kAxes), ",")));
       rest = rest.subspan(kAxes);
-    } else if (name == "--weld" && !rest.empty() && are_numbers(rest.first(1))) {
-      joined.back() += '=' + rest.front();
-      rest = rest.subspan(1);
+    } else if (name == "--weld") {
+      const bool has_eps = !rest.empty() && are_numbers(rest.first(1));
+      joined.back() += '=' + (has_eps ? rest.front() : "0");
+      if (has_eps) rest = rest.subspan(1);
     }
   }
   arguments = std::move(joined);
