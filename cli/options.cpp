@@ -182,7 +182,7 @@ CLI::Validator whole_number(std::uint64_t most) {
 
 CLI::Option* add_numbers(CLI::App& command, const std::string& name, const std::string& description,
                          std::vector<std::uint64_t>& values) {
-  return add_number(command, name, description, values)->delimiter(',')->allow_extra_args(false);
+  return add_list(command, name, description, values, whole_number())->type_name("NUMBER");
 }
 
 CLI::Option* add_vertices(CLI::App& command, const std::string& name, const std::string& description,
@@ -190,11 +190,7 @@ CLI::Option* add_vertices(CLI::App& command, const std::string& name, const std:
   const auto check = [stream = input_name(name), number = whole_number()](std::string& text) {
     return text == kStream ? stream(text) : number(text);
   };
-  return command.add_option(name, vertices, description)
-      ->transform(CLI::Validator(check, ""))
-      ->type_name("NUMBER")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  return add_list(command, name, description, vertices, CLI::Validator(check, ""))->type_name("NUMBER");
 }
 
 CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::string& description,
@@ -208,13 +204,10 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::s
 
 CLI::Option* add_choices(CLI::App& command, const std::string& name, const std::string& description,
                          std::vector<std::string> values, std::vector<std::string>& chosen) {
-  return command
-      .add_option(name, chosen, fmt::format("{}, separated by commas: {}", description, fmt::join(values, ", ")))
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(one_of(std::move(values)))
+  const std::string all = fmt::format("{}, separated by commas: {}", description, fmt::join(values, ", "));
+  return add_list(command, name, all, chosen, one_of(std::move(values)))
       ->type_name("NAMES")
-      ->capture_default_str();
+      ->default_str(fmt::format("[{}]", fmt::join(chosen, ",")));
 }
 
 std::array<CLI::Option*, 2> add_reading(CLI::App& command, Reading& reading) {
@@ -276,18 +269,10 @@ CLI::Option* add_radius(CLI::App& command, Radius& radius) {
 }
 
 CLI::Option* add_radii(CLI::App& command, Radii& radii) {
-  const auto store = [&radii](const std::vector<std::string>& lists) {
-    // The last comma keeps an empty part at the end, which is then refused: a shell makes it of an unset variable.
-    for (const std::string& list : lists) {
-      for (std::string& value : CLI::detail::split(list + ',', ',')) radii.values.push_back(std::move(value));
-    }
-  };
   CLI::Option* const option =
-      command
-          .add_option_function<std::vector<std::string>>(
-              "-r,--radius", store,
-              "radius of the ball, or several, separated by commas; a vertex at exactly this distance is inside")
-          ->allow_extra_args(false)
+      add_list(command, "-r,--radius",
+               "radius of the ball, or several, separated by commas; a vertex at exactly this distance is inside",
+               radii.values)
           ->type_name("NUMBER")
           ->required();
   add_unit(command, "radius", radii.unit);

@@ -74,7 +74,25 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, const std::s
   return command.add_option(name, value, description)->transform(whole_number(most))->type_name("NUMBER");
 }
 
-/// An option whose values are whole numbers, separated by commas or given one by one.
+/// An option whose values are separated by commas or given one by one, each as `accept` makes it. The delimiter of
+/// CLI11 would drop an empty one, which a shell makes of an unset variable.
+template <class Value>
+CLI::Option* add_list(CLI::App& command, const std::string& name, const std::string& description,
+                      std::vector<Value>& values, const CLI::Validator& accept = {}) {
+  const auto store = [&values, accept,
+                      option = name.substr(name.rfind(',') + 1)](const std::vector<std::string>& lists) {
+    values.clear();
+    for (const std::string& list : lists) {
+      for (std::string& value : CLI::detail::split(list + ',', ',')) {
+        if (const std::string fault = accept(value); !fault.empty()) throw CLI::ValidationError(option, fault);
+        CLI::detail::lexical_cast(value, values.emplace_back());
+      }
+    }
+  };
+  return command.add_option_function<std::vector<std::string>>(name, store, description)->allow_extra_args(false);
+}
+
+/// The same for whole numbers.
 CLI::Option* add_numbers(CLI::App& command, const std::string& name, const std::string& description,
                          std::vector<std::uint64_t>& values);
 

@@ -52,7 +52,7 @@ SpacePoint parse_point(const std::vector<std::string>& point) {
 }
 
 CLI::Option* add_point(CLI::App& command, const std::string& description, std::vector<std::string>& point) {
-  return command.add_option("--point", point, description)->delimiter(',')->allow_extra_args(false)->type_name("X,Y,Z");
+  return add_list(command, "--point", description, point)->type_name("X,Y,Z");
 }
 
 void add_start(CLI::App& command, const std::string& vertex, StartOptions& options) {
