@@ -46,16 +46,17 @@ class FreeSurferReader {
     text.finish_line();
   }
 
-  template <class T>
-  [[nodiscard]] T value(std::string_view what, uint64_t number) {
+  /// `what` and `which` are what the message names: the number of vertices, vertex 7.
+  template <class T, class Which>
+  [[nodiscard]] T value(std::string_view what, const Which& which) {
     begin_ = input_.offset();
     T value = {};
-    if (!load(input_, std::endian::big, value)) malformed(fmt::format("the file ends in {} {}", what, number));
+    if (!load(input_, std::endian::big, value)) malformed(fmt::format("the file ends in {} {}", what, which));
     return value;
   }
 
   uint64_t read_count(std::string_view what) {
-    const auto count = value<std::int32_t>("the number of", 0);
+    const auto count = value<std::int32_t>("the number of", what);
     if (count < 0) malformed(fmt::format("{} {}, expected at least 0", count, what));
     return static_cast<uint64_t>(count);
   }

@@ -44,6 +44,8 @@ TEST(FreeSurfer, ACenterThatIsNotAddedIsAWarning) {
 
 TEST(FreeSurfer, TruncationAtAnyByteIsRefused) {
   const std::string whole = surface(3, 1, big(0, 1, 2));
+  expect_malformed("lh.white", kHead, "the file ends in the number of vertices");
+  expect_malformed("lh.white", kHead + big(3), "the file ends in the number of faces");
   for (std::size_t length = 3; length < whole.size(); ++length) {
     EXPECT_TRUE(refusal("lh.white", whole.substr(0, length)).refused) << length;
   }
