@@ -326,6 +326,7 @@ void info_of_mesh(const InfoCommand& options, Input& input) {
 void info(const InfoCommand& options) {
   Input input(options.reading);
   if (input.mesh() != nullptr) return info_of_mesh(options, input);
+  if (options.index) wrong_option("--index: {} is an index, expected a mesh", printable_name(input.name()));
   const IndexHeader& header = input.header();
   Report report = report_of(input.name(), header);
   const Report index =
