@@ -52,8 +52,9 @@ template <class Read>
 auto read_file(const std::string& file, Read&& read) {
   io::FileSource source(path_of(file));
   io::InputBuffer input(source, file, io::ReadOptions{}.max_bytes);
-  refuse_xml(input);
   try {
+    io::take_byte_order_mark(input);
+    refuse_xml(input);
     return read(input);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::MalformedFile && error.code() != ErrorCode::UnsupportedFormat) throw;

@@ -63,14 +63,6 @@ std::optional<Format> format_of_extension(const std::string& name) {
   return std::nullopt;
 }
 
-void take_byte_order_mark(InputBuffer& input) {
-  const auto head = input.ahead(3);
-  if (head.starts_with("\xef\xbb\xbf")) input.skip(3);
-  if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff")) {
-    raise(ErrorCode::UnsupportedFormat, input.name() + ": UTF-16 text is not supported, expected UTF-8 or ASCII");
-  }
-}
-
 void refuse_compressed(InputBuffer& input) {
   for (const auto& [mark, name, command] : kCompressions) {
     if (!input.ahead(mark.size()).starts_with(mark)) continue;

@@ -17,6 +17,14 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+void take_byte_order_mark(InputBuffer& input) {
+  const auto head = input.ahead(3);
+  if (head.starts_with("\xef\xbb\xbf")) input.skip(3);
+  if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff")) {
+    raise(ErrorCode::UnsupportedFormat, input.name() + ": UTF-16 text is not supported, expected UTF-8 or ASCII");
+  }
+}
+
 bool Text::next_line() {
   leave_line();
   if (input_.ahead(1).empty()) {

@@ -23,6 +23,9 @@ namespace meshhood::inline v0_1::io {
 /// What separates tokens: blanks in a line, and line ends.
 inline constexpr std::string_view kBlanks = " \t\v\f\r\n";
 
+/// Skips the byte-order mark of UTF-8. Throws Error{UnsupportedFormat} for one of UTF-16.
+void take_byte_order_mark(InputBuffer& input);
+
 inline constexpr char kAnyLineEnd = 0;
 
 /// The lexical rules of a text format.
