@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "meshhood/mesh.h"
@@ -27,6 +29,10 @@ inline constexpr Color kOtherColor{217, 219, 224};
 
 /// Writes a mesh as PLY, with progress. Throws as `io::write_ply`.
 void write_ply(const std::string& file, const MeshView& mesh, io::PlyOptions options = {});
+
+/// A value of a vertex as the float that `holder` ("a page") holds. Throws Error{InvalidOption}, naming `values`, if a
+/// finite one would become infinite.
+[[nodiscard]] float to_float(double value, std::string_view values, std::size_t vertex, std::string_view holder);
 
 /// Vertices of one color.
 struct Layer {

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -142,20 +140,13 @@ void write_csv(const std::string& file, const RowTable& table) {
   csv.commit();
 }
 
-/// Infinite if it is too large.
-float to_float(double value) {
-  constexpr auto kMost = static_cast<double>(std::numeric_limits<float>::max());
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  if (std::abs(value) > kMost) return value < 0 ? -kInfinity : kInfinity;
-  return static_cast<float>(value);
-}
-
 std::vector<float> values_of(const RowTable& table, const Property& property) {
   std::vector<float> values;
   values.reserve(table.rows * property.width);
   for (std::size_t row = 0; row < table.rows; ++row) {
-    for_each_number(table, property, row,
-                    [&](auto number) { values.push_back(to_float(static_cast<double>(number))); });
+    for_each_number(table, property, row, [&](auto number) {
+      values.push_back(to_float(static_cast<double>(number), property.name, row, "a mesh"));
+    });
   }
   return values;
 }

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +24,7 @@
 #include "io/file_writer.h"
 #include "io/messages.h"
 #include "io/system.h"
+#include "mesh_file.h"
 #include "options.h"
 #include "output.h"
 #include "system.h"
@@ -67,17 +67,11 @@ std::string base64(std::span<const char> bytes) {
 }
 
 /// In base 64, as float, and little-endian, as this machine is (an index can be loaded on no other). Values that are
-/// not finite get no color; others must not become infinite.
+/// not finite get no color.
 std::string encode(const std::vector<double>& values) {
-  constexpr double kMost = std::numeric_limits<float>::max();
   std::vector<float> result;
   result.reserve(values.size());
-  for (const double value : values) {
-    if (std::isfinite(value) && std::abs(value) > kMost) {
-      wrong_option("values: vertex {}: {}, but a page holds numbers of at most {:.3g}", result.size(), value, kMost);
-    }
-    result.push_back(static_cast<float>(value));
-  }
+  for (const double value : values) result.push_back(to_float(value, "values", result.size(), "a page"));
   return base64({reinterpret_cast<const char*>(result.data()), result.size() * sizeof(float)});
 }
 
