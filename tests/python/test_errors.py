@@ -3,6 +3,7 @@
 
 import errno
 import os
+import pickle
 import resource
 import sys
 from pathlib import Path
@@ -182,6 +183,32 @@ def test_a_method_that_is_called_on_the_class_asks_for_an_instance(name):
     with pytest.raises(TypeError, match=rf"MeshIndex.{name}: called on the class, expected on an instance"):
         getattr(meshhood.MeshIndex, name)(3, 2.0)
     assert getattr(meshhood.MeshIndex, name).__doc__ == getattr(INDEX, name).__doc__
+
+
+def doubled(x):
+    return 2 * x
+
+
+class OfUser(meshhood.MeshIndex):
+    h = doubled
+
+    @staticmethod
+    def unit(x):
+        return x
+
+    def m(self):
+        return len(self)
+
+
+def test_what_a_user_adds_to_the_class_stays_as_it_is():
+    assert OfUser.unit(5) == 5 and OfUser.h is doubled and doubled.__qualname__ == "doubled"
+    assert pickle.loads(pickle.dumps(OfUser.m)) is OfUser.m
+
+
+def test_methods_are_pickled():
+    for method in (meshhood.MeshIndex.count, meshhood.MeshIndex.curvature, OfUser.counts):
+        assert pickle.loads(pickle.dumps(method)) is method
+    assert meshhood.MeshIndex.count(INDEX, 3, 2.0) == INDEX.count(3, 2.0)
 
 
 def test_the_class_can_be_used_as_others():

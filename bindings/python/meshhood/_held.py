@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _convert, _core
 from ._curvature import normals_of
+from ._instance import check_instance
 from ._mesh import face_arrays, without_them
 from ._methods import Methods, core_metric
 from ._types import METRICS
@@ -24,9 +25,12 @@ class Held:
     """The base of the classes that make up `MeshIndex`."""
 
     def __init_subclass__(cls) -> None:
-        for name, member in vars(cls).items():
-            if isinstance(member, FunctionType):
-                member.__qualname__ = f"MeshIndex.{name}"  # which the error for an unknown argument says
+        if cls.__module__.startswith(f"{__package__}."):  # not what a user adds to a class of his own
+            for name, member in vars(cls).items():
+                if isinstance(member, FunctionType):  # the error for an unknown argument, and a pickle, say this name
+                    member.__module__, member.__qualname__ = f"{__package__}._index", f"MeshIndex.{name}"
+                    if not name.startswith("_"):
+                        check_instance(member)
 
     _exact: Any
     _faces: Any  # corners and offsets, as `face_arrays` returns them, or None

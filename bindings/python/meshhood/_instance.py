@@ -6,27 +6,29 @@ from __future__ import annotations
 import functools
 from abc import ABCMeta  # so that subclasses may have it, too
 from types import FunctionType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Callable
+
+_checked: dict[FunctionType, Callable[..., Any]] = {}  # methods of this package, by the functions that they call
+
+
+def check_instance(method: FunctionType) -> None:
+    """Lets the method, where it is called on a class, say that it needs an instance."""
+
+    @functools.wraps(method)
+    def call(*arguments: Any, **words: Any) -> Any:
+        if not (arguments and isinstance(type(arguments[0]), NeedsInstance)):
+            cls, _, name = method.__qualname__.partition(".")
+            raise TypeError(f"{cls}.{name}: called on the class, expected on an instance: {cls}(V, F).{name}(...)")
+        return method(*arguments, **words)
+
+    _checked[method] = call
 
 
 class NeedsInstance(ABCMeta):
-    """Of a class whose methods, where they are called on the class itself, say that they need an instance. Calls on an
-    instance do not come here, and take no longer."""
+    """Of a class with such methods. Calls on an instance do not come here, and take no longer."""
 
     if not TYPE_CHECKING:
 
         def __getattribute__(cls, name: str) -> Any:
             found = super().__getattribute__(name)
-            if name.startswith("_") or not isinstance(found, FunctionType):
-                return found
-
-            @functools.wraps(found)
-            def method(*arguments: Any, **words: Any) -> Any:
-                if not (arguments and isinstance(arguments[0], cls)):
-                    raise TypeError(
-                        f"{cls.__name__}.{name}: called on the class, expected on an instance: "
-                        f"{cls.__name__}(V, F).{name}(...)"
-                    )
-                return found(*arguments, **words)
-
-            return method
+            return _checked.get(found, found) if isinstance(found, FunctionType) else found
