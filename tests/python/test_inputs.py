@@ -150,6 +150,7 @@ MASKED = np.ma.masked_greater(V, 3)
         (V, ([0.0, 3.0], [0, 1, 2]), TypeError, r"F\[0\]: .*float64"),
         (V, ([0, 3], [[0, 1, 2]]), ValueError, r"F\[1\]: .*\(1, 3\)"),
         (V, (0, 1, 2), ValueError, "F: .*3 parts"),
+        (V, [[0, 1, 2], [3, 4, 5, 6]], ValueError, r"F: rows of different lengths; .* tuple \(offsets, corners\)"),
         (V, [3, 0, 1, 2, 3, 0, 1], ValueError, "F: face 1 begins at 4 with 3 corners"),
         (V, [3, 0, 1, 2, -1], ValueError, "F: face 1 begins at 4 with -1 corners"),
         (V, csr_array((3, 3)), ValueError, r"F: .*\(3, 3\), expected \(36, 36\)"),
@@ -224,8 +225,54 @@ def test_refused_queries(v, r, error, message, method):
         (lambda: INDEX.iter_neighborhoods(1, chunk=0), ValueError, "chunk: 0"),
         (lambda: INDEX.iter_neighborhoods(1, order="file"), ValueError, "order: 'file'"),
         (lambda: meshhood.MeshIndex(V, F, workers=5000), ValueError, "workers: 5000"),
+        (lambda: INDEX.neighborhoods(1, 3), TypeError, r"vertices: one vertex, expected a list: \[3\]"),
+        (lambda: INDEX.neighborhoods(1, {1, 2}), TypeError, "vertices: expected an integer, not set"),
+        (lambda: INDEX.neighborhoods(1, slice(0, 5)), TypeError, "vertices: expected an integer, not slice"),
+        (lambda: INDEX.smooth(V[:, 0], [6, 8]), ValueError, "^fwhm: expected one number, or one for each of 36 rows"),
+        (lambda: INDEX.smoothing_matrix([6], vertices=3), ValueError, "^fwhm: expected one number, not an array"),
+        (lambda: INDEX.stroke(V[:3], [1, 2]), ValueError, r"r: .* one for each of 3 rows, not an array of shape \(2,\)$"),
     ),
 )
 def test_refused_options(call, error, message):
     with pytest.raises(error, match=message):
         call()
+
+
+OF_START = INDEX.neighborhood, INDEX.count, lambda start, r, **words: INDEX.nested(start, [r], **words)
+
+
+@pytest.mark.parametrize("value", (np.array(["exact", "bfs"]), np.array([1, 2])), ids=("names", "numbers"))
+@pytest.mark.parametrize("option", ("metric", "unit", "method"))
+def test_options_that_are_arrays_are_refused_by_name(option, value):
+    for call, start in ((call, start) for call in OF_START for start in (3, V[3] + 0.1)):
+        if (call, option) != (OF_START[2], "method"):
+            with pytest.raises((TypeError, ValueError), match=f"^{option}: "):
+                call(start, 1.0, **{option: value})
+    with pytest.raises((TypeError, ValueError), match=f"^{option}: "):
+        INDEX.counts(1.0, **{option: value})
+
+
+@pytest.mark.parametrize(
+    ("call", "name"),
+    (
+        (lambda rows: INDEX.counts(1.0, rows), "vertices"),
+        (lambda rows: INDEX.neighborhoods(1.0, rows), "vertices"),
+        (lambda rows: INDEX.neighborhood(rows, 1.0), "start"),
+        (lambda rows: INDEX.neighborhood(V[3], 1.0, seeds=rows), "seeds"),
+        (lambda rows: INDEX.counts(1.0, walls=rows), "walls"),
+        (lambda rows: INDEX.stroke(rows, 1.0), "points"),
+        (lambda rows: INDEX.stroke(V[:2], 1.0, seeds=rows), "seeds"),
+        (lambda rows: INDEX.stroke(V[:2], 1.0, face=rows), "face"),
+        (lambda rows: INDEX.nearest(rows), "points"),
+        (lambda rows: INDEX.closest_point(rows), "q"),
+        (lambda rows: INDEX.rim([3], rows, 1.0), "start"),
+        (lambda rows: INDEX.gap(rows, 1.0), "start"),
+        (lambda rows: INDEX.clip(rows, 1.0, face=0), "start"),
+        (lambda rows: INDEX.gaps(1.0, points=V[:2], face=rows), "face"),
+        (lambda rows: INDEX.thickness(points=V[:2], face=rows), "face"),
+        (lambda rows: INDEX.smooth(V[:, 0], rows), "fwhm"),
+    ),
+)
+def test_rows_of_different_lengths_are_refused_by_name(call, name):
+    with pytest.raises(ValueError, match=f"^{name}: rows of different lengths"):
+        call([[1, 2], [3]])

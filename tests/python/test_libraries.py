@@ -9,6 +9,7 @@ import pytest
 V, QUADS = meshes.grid(8)
 V[:, 2] = V[:, 0] * V[:, 1] / 16
 F = meshes.triangles(QUADS)
+INDEX = meshhood.MeshIndex(V, F)
 WANTED = meshhood.MeshIndex(V, F).neighborhoods(2.0, sort="id")[1]
 
 
@@ -53,6 +54,34 @@ def test_other_arrays_are_read_in_place_of_every_array(kind):
     rows = np.array([3, 9, 27])
     counts = index.counts(kind(np.array([1.0, 2.0, 3.0])), kind(rows))
     np.testing.assert_array_equal(counts, index.counts([1.0, 2.0, 3.0], rows))
+
+
+@pytest.mark.parametrize(
+    ("call", "given"),
+    (
+        (lambda points: [INDEX.stroke(points, 1.5)], np.array([1, 9, 20])),
+        (lambda points: [INDEX.stroke(points, 1.5)], V[:4]),
+        (lambda points: INDEX.nearest(points), V[3]),
+        (lambda points: INDEX.nearest(points), V[3:4]),
+        (lambda points: INDEX.closest_point(points), V[3]),
+        (lambda points: INDEX.first_hit(points, [0, 0, 1.0]), V[3] - [0, 0, 5]),
+        (lambda start: [INDEX.neighborhood(start, 1.5)], V[3] + 0.1),
+        (lambda start: [INDEX.neighborhood(start, 1.5)], np.array(3)),
+        (lambda seeds: [INDEX.neighborhood(V[3] + 0.1, 1.5, seeds=seeds)], np.array([3, 4])),
+        (lambda seeds: [INDEX.neighborhood(V[3] + 0.1, 1.5, seeds=seeds)], np.array(3)),
+        (lambda seeds: [INDEX.stroke(V[:2], 1.5, seeds=seeds)], np.array([0, 1])),
+        (lambda face: [INDEX.stroke(V[:2], 1.5, face=face)], np.array([0, 1])),
+        (lambda face: [INDEX.thickness(points=V[3], face=face)], np.array(2)),
+        (lambda face: [INDEX.thickness(points=V[:2], face=face)], np.array([0, 1])),
+        (lambda start: INDEX.rim([0], start, 0.5)[0], np.array(0)),
+        (lambda start: INDEX.rim([0], start, 0.5)[0], V[0] + 0.0),
+        (lambda fwhm: [INDEX.smooth(V[:, 2], fwhm)], np.array(1.5)),
+    ),
+)
+def test_a_tensor_is_one_or_many_as_the_array_is(call, given):
+    for found, wanted in zip(call(WithDlpack(given)), call(given)):
+        assert np.shape(found) == np.shape(wanted)
+        np.testing.assert_array_equal(found, wanted)
 
 
 class OnAnotherDevice(WithDlpack):

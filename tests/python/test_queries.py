@@ -91,6 +91,11 @@ def test_wrong_arguments_are_refused_by_name(call, message):
         call(meshhood.MeshIndex(*grid(6)))
 
 
+def test_an_empty_list_has_no_seeds():
+    index = meshhood.MeshIndex(*grid(5))
+    assert index.count([2.0, 2.0, 0.0], 1.5, seeds=[]) == index.count([2.0, 2.0, 0.0], 1.5, seeds=()) == 0
+
+
 FAR = "point is farther than r from the vertices where its search starts"
 
 

@@ -191,7 +191,7 @@ class Aggregates(Held):
         >>> index = meshhood.MeshIndex(V, F)
         >>> smooth = index.smooth(V[:, 2], 0.5, metric="surface", walls=V[:, 2] < -0.9)
         """
-        r, scales = _smoothing_radii(fwhm, scales)
+        r, scales, vertices = _smoothing_radii(fwhm, scales, vertices, self._count)
         return self.aggregate(
             values, r, kernel="gaussian", vertices=vertices, scales=scales, weights=weights, nan=nan, F=F, metric=metric,
             walls=walls, ignored=ignored, unit=unit, dtype=dtype, max_bytes=max_bytes, workers=workers, progress=progress,
@@ -229,10 +229,7 @@ class Aggregates(Held):
         """
         csr_array = optional("scipy.sparse", "smoothing_matrix").csr_array
         areas = area_weights(self, weights, F)
-        r, scales = _smoothing_radii(fwhm, scales)
-        if vertices is not None:  # before `progress` may change them
-            convert = _convert.vertex if _convert.is_single(vertices) else _convert.vertices
-            vertices = convert(vertices, self._count)
+        r, scales, vertices = _smoothing_radii(fwhm, scales, vertices, self._count)
         graph = self.radius_neighbors_graph(
             r, vertices, scales=scales, mode="distance", metric=metric, walls=walls, ignored=ignored, unit=unit,
             max_bytes=max_bytes, workers=workers, progress=progress,
@@ -262,14 +259,22 @@ def _nan_where_empty(graph: Any, rows: Any) -> Any:
     return type(graph)((data, indices, indptr), shape=graph.shape)
 
 
-def _smoothing_radii(fwhm: Any, scales: Any) -> tuple[Any, Any]:
-    """The radii of the kernels, one of which is None."""
+def _smoothing_radii(fwhm: Any, scales: Any, vertices: Any, count: int) -> tuple[Any, Any, Any]:
+    """The radii of the kernels and of their scales, one of which is None, and the vertices, as `progress` may not change
+    them."""
     check_one_given(fwhm, scales, "fwhm")
-    return _kernel_radii(fwhm, "fwhm"), _kernel_radii(scales, "scales")
+    is_one = False
+    if vertices is not None:
+        is_one, ids = _convert.one_or_many(vertices, count)
+        vertices, count = int(ids[0]) if is_one else ids, len(ids)
+    radii = _kernel_radii(fwhm, "fwhm")
+    if radii is not None:  # which rows they belong to, by the name that they have here
+        radii = _convert.radius(radii, "fwhm") if is_one else _convert.radii(radii, count, "fwhm")
+    return radii, _kernel_radii(scales, "scales"), vertices
 
 
 def _kernel_radii(fwhm: Any, name: str) -> Any:
-    if fwhm is None or np.ndim(fwhm) == 0:
+    if fwhm is None or _convert.is_single(fwhm, name):
         return None if fwhm is None else smoothing_radius(_convert.finite(fwhm, name, or_zero=False))
     widths = _copied(fwhm, name, "iuf")
     wrong = np.argwhere(~((widths > 0) & (widths < np.inf)))

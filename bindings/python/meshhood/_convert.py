@@ -41,7 +41,7 @@ def faces(f, count, name):
 
 def faces_of_points(face, points, count):
     """The same, one for each of the points; a single one may be an integer."""
-    numbered = faces([face] if np.ndim(face) == 0 else face, count, "face")
+    numbered = faces(listed(face, "face"), count, "face")
     if len(numbered) != points:
         raise ValueError(f"face: expected one for each of {points} points, not {len(numbered)}")
     return numbered
@@ -58,9 +58,7 @@ def numbers(values, name, kinds="iuf"):
 def _numbers_of(values, count, name, one, many):
     """The result is a copy even if `values` already have the type of ids: another thread, or a `progress` function, may
     write to them during the call."""
-    array = np.array(as_array(values, name))
-    if array.size == 0 and not isinstance(values, np.ndarray):
-        array = array.astype(np.int32)
+    array = np.array(_ids(values, name))
     if array.dtype.kind == "b" and array.ndim:
         if array.shape != (count,):
             raise ValueError(f"{name}: a bool mask of shape {array.shape}, expected ({count},)")
@@ -89,8 +87,26 @@ def vertex(v, count, name="vertices"):
     return v
 
 
-def is_single(v):
-    return isinstance(v, int) or np.ndim(np.from_dlpack(v) if _has_only_dlpack(v) else v) == 0
+def is_single(values, name):
+    """Whether they are one, as an integer is, rather than a list."""
+    return isinstance(values, (int, np.integer)) or as_array(values, name).ndim == 0
+
+
+def is_point(values, name):
+    """Whether they are one point, of those that `points` takes."""
+    array = as_array(values, name)
+    return array.ndim == 1 and array.size > 0
+
+
+def listed(values, name):
+    """`values`, or an array of it if it is a single one."""
+    return as_array(values, name).reshape(1) if is_single(values, name) else values
+
+
+def one_or_many(v, count):
+    """Whether `v` is one vertex, and an array of it or of many."""
+    is_one = is_single(v, "vertices")
+    return is_one, np.array([vertex(v, count)], np.int32) if is_one else vertices(v, count)
 
 
 def radius(r, name="r"):
@@ -104,38 +120,38 @@ def radius(r, name="r"):
     return r
 
 
-def radii(r, rows):
-    """`r` as a float, or as a new float64 array in C order with one radius for each row. All are >= 0."""
-    array = np.array(as_array(r, "r"))
+def radii(r, rows, name="r", advice="; several radii for all rows are scales="):
+    """`r` as a float, or as a new float64 array in C order with one radius for each row. All are >= 0. `advice` ends the
+    error for another shape."""
+    array = np.array(as_array(r, name))
     if array.ndim == 0:
-        return radius(array)
-    array = numbers(array, "r")
+        return radius(array, name)
+    array = numbers(array, name)
     if array.shape != (rows,):
         raise ValueError(
-            f"r: expected one number, or one for each of {rows} rows, not an array of shape {array.shape}; several "
-            "radii for all rows are scales="
+            f"{name}: expected one number, or one for each of {rows} rows, not an array of shape {array.shape}{advice}"
         )
+    _check_radii(array, name, "row")
+    return array.astype(np.float64, copy=False)
+
+
+def _check_radii(array, name, row):
     wrong = np.flatnonzero(~(array >= 0))
     if wrong.size:
-        raise ValueError(f"r: row {wrong[0]}: radius {array[wrong[0]]}, expected a number >= 0")
-    return array.astype(np.float64, copy=False)
+        raise ValueError(f"{name}: {row} {wrong[0]}: radius {array[wrong[0]]}, expected a number >= 0")
 
 
 def ascending(values, name):
     """`values` as a new float64 array of radii, each larger than the one before."""
-    array = np.array(as_array(values, name))
-    if array.size == 0 and not isinstance(values, np.ndarray):
-        array = array.astype(np.float64)
-    if array.dtype.kind not in "iuf":
-        raise TypeError(f"{name}: expected numbers, not {array.dtype}")
+    array = numbers(values, name)
     if array.ndim != 1:
         raise ValueError(f"{name}: expected one dimension, not an array of shape {array.shape}")
     array = array.astype(np.float64)
-    for row, value in enumerate(array):
-        if not value >= 0:
-            raise ValueError(f"{name}: value {row}: radius {value}, expected a number >= 0")
-        if row > 0 and not array[row - 1] < value:
-            raise ValueError(f"{name}: value {row}: radius {value}, expected more than {array[row - 1]} before it")
+    _check_radii(array, name, "value")
+    wrong = np.flatnonzero(~(array[:-1] < array[1:]))
+    if wrong.size:
+        before, value = array[wrong[0] : wrong[0] + 2]
+        raise ValueError(f"{name}: value {wrong[0] + 1}: radius {value}, expected more than {before} before it")
     return array
 
 
@@ -173,20 +189,17 @@ def point(value, name, meant):
 
 def seed_rows(values, rows, count):
     """`values`, (rows,) or (rows, k), as a new int32 array (rows, k), each value in [0, count)."""
-    array = np.array(as_array(values, "seeds"))
-    if array.ndim == 1:
-        array = array.reshape(-1, 1)
+    given = np.array(as_array(values, "seeds"))
+    array = given.reshape(-1, 1) if given.ndim == 1 else given
     if array.ndim != 2 or len(array) != rows:
-        raise ValueError(f"seeds: expected ({rows},) or ({rows}, k), not an array of shape {np.shape(values)}")
+        raise ValueError(f"seeds: expected ({rows},) or ({rows}, k), not an array of shape {given.shape}")
     return vertex_rows(array.reshape(-1), count, "seeds").reshape(array.shape)
 
 
 def integers(values, name):
     """`values` as a new array of 32 or 64 bits in C order. A copy, because another thread may write to `values` after
     they are checked."""
-    array = as_array(values, name)
-    if array.size == 0 and not isinstance(values, np.ndarray):
-        array = array.astype(np.int32)
+    array = _ids(values, name)
     if array.dtype.kind not in "iu":
         raise TypeError(f"{name}: expected integers, not {array.dtype}")
     if array.dtype.itemsize < 4:
@@ -311,6 +324,8 @@ def _integer(value, name):
     try:
         return operator.index(value)
     except TypeError:
+        if _has_only_dlpack(value):
+            return _integer(as_array(value, name), name)
         raise TypeError(f"{name}: expected an integer, not {type(value).__name__}") from None
 
 
@@ -323,6 +338,12 @@ def _number(value, name):
     return float(array)
 
 
+def _ids(values, name):
+    """`values` as an array, which for an empty list has the type of ids instead of NumPy's float64."""
+    array = as_array(values, name)
+    return array.astype(np.int32) if array.size == 0 and not isinstance(values, np.ndarray) else array
+
+
 def as_array(values, name):
     """`values` as an array in the byte order of this machine."""
     if np.ma.is_masked(values):
@@ -330,7 +351,8 @@ def as_array(values, name):
     try:
         array = np.from_dlpack(values) if _has_only_dlpack(values) else np.asarray(values)
     except (ValueError, BufferError) as error:
-        raise ValueError(f"{name}: {error}") from None
+        is_ragged = "inhomogeneous" in str(error)
+        raise ValueError(f"{name}: {'rows of different lengths' if is_ragged else error}") from None
     except (TypeError, RuntimeError) as error:  # a tensor on another device, or one that needs a gradient
         raise TypeError(f"{name}: {error}") from None
     if array.dtype.kind in "US":

@@ -14,8 +14,7 @@ from . import _convert, _core
 from ._curvature import normals_of
 from ._instance import check_instance
 from ._mesh import face_arrays, without_them
-from ._methods import Methods, core_metric
-from ._types import METRICS
+from ._methods import Methods, core_metric, is_exact
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -60,25 +59,19 @@ class Held:
 
     def _method(self, method: Any, metric: Any) -> Any:
         """What answers the queries of these arguments."""
-        metric = _convert.choice(metric, "metric", METRICS)
-        if metric != "straight":
-            if method != "exact":
-                raise ValueError(f"method: {method!r}, expected 'exact' with metric={metric!r}")
-            return self._methods[core_metric(metric)]
-        try:
+        exact = is_exact(method)
+        if metric == "straight":
             return self._methods[method]
-        except TypeError:
-            if method.__hash__ is not None:
-                raise
-            raise TypeError(f"method: expected a name or a Paper, not {type(method).__name__}") from None
+        if not exact:
+            raise ValueError(f"method: {method!r}, expected 'exact' with metric={metric!r}")
+        return self._methods[core_metric(metric)]
 
     def _scale(self, unit: Any, metric: str = "straight") -> float:
         """The factor from `unit` to the unit of the positions."""
-        if unit == "mesh":
+        if _convert.choice(unit, "unit", ("mesh", "edge")) == "mesh":
             return 1.0
         if metric == "rings":
             raise ValueError("unit: expected 'mesh' with metric='rings', whose radii are numbers of edges")
-        _convert.choice(unit, "unit", ("mesh", "edge"))
         length = self._methods.mean_edge_length
         if length == 0:
             raise ValueError("unit: 'edge', but the mesh has no edges of positive length")

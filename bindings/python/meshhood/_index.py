@@ -305,8 +305,9 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         >>> int(indices[indptr[1]])
         43
         """
-        if vertices is not None and _convert.is_single(vertices):
-            raise TypeError("vertices: one vertex, expected a list; neighborhood(start, r) answers one")
+        if vertices is not None and _convert.is_single(vertices, "vertices"):
+            v = _convert.vertex(vertices, self._count)
+            raise TypeError(f"vertices: one vertex, expected a list: [{v}]; neighborhood(start, r) answers one")
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         searched = rows.index._method(method, metric)
         indptr, indices, distances = self._rows_of(

@@ -90,7 +90,10 @@ def _as_float64(array, name):
 
 def _faces(F):
     """(#F, k): polygons of k corners each; one dimension: VTK's padded faces."""
-    array = integers(F, "F")
+    try:
+        array = integers(F, "F")
+    except ValueError as error:  # as of rows of different lengths
+        raise ValueError(f"{error}; expected (#F, k), or polygons as a tuple (offsets, corners)") from None
     if array.ndim == 1:
         return _padded(array)
     if array.ndim != 2 or array.shape[1] == 0:

@@ -48,6 +48,12 @@ class Paper:
 Method = Union[Literal["exact", "paper", "bfs", "ball"], Paper]
 
 
+def is_exact(method: Any) -> bool:
+    if not isinstance(method, (str, Paper)):
+        raise TypeError(f"method: expected a name or a Paper, not {type(method).__name__}")
+    return method == "exact"
+
+
 def core_metric(metric: str) -> Any:
     """By this the index of `Held._searched` is searched."""
     return _core.Metric.path if metric == "surface" else getattr(_core.Metric, metric)

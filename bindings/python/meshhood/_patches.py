@@ -300,7 +300,7 @@ class Patches(Held):
         radius = self._scale(unit) * _convert.radius(r)
         surface = self._with_masks(walls, None)._surface(F)
         if face is None:
-            if not _convert.is_single(start):
+            if not _convert.is_single(start, "start"):
                 raise TypeError("start: a point, expected its face, too: face=, as closest_point or first_hit returns it")
             return surface, _convert.vertex(start, self._count, "start"), radius
         point = _convert.point(start, "start", "invariants, gaps")[0].tolist()

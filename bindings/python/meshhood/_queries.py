@@ -12,11 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _convert
 from ._held import Held
-from ._methods import Method
+from ._methods import Method, is_exact
 from ._progress import Progress, reporter
 from ._repr import shown_in_a_line
 from ._rows import check_sort, result_dtype, sorted_rows
-from ._types import Counts, Floats, Ids, Mask, Metric, Number, Reals, Scales, Sort, Unit
+from ._types import METRICS, Counts, Floats, Ids, Mask, Metric, Number, Reals, Scales, Sort, Unit
 
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike
@@ -120,8 +120,9 @@ class Queries(Held):
         """
         if (
             None is seeds is face is sort is walls is ignored is dtype
+            and type(metric) is type(unit) is type(method) is str  # an array is compared element by element
             and (return_distance, metric, unit, method) == (False, "straight", "mesh", "exact")
-            and _convert.is_single(start)
+            and _convert.is_single(start, "start")
         ):  # a microsecond, of which the arguments below would be a half
             return self._exact.neighborhood(_convert.vertex(start, self._count, "start"), _convert.radius(r))
         check_sort(sort)
@@ -188,17 +189,17 @@ class Queries(Held):
         >>> ids = index.stroke([[0.0, 0.0, 1.0], [0.1, 0.0, 1.0]], 0.2)
         """
         by_id = _convert.choice(sort, "sort", ("index", "id")) == "id"
-        centers: Any = None
-        if np.ndim(points) == 1 and np.asarray(points).dtype.kind in "iu":
+        centers, given = None, _convert.as_array(points, "points")
+        if given.ndim == 1 and given.dtype.kind in "iu":
             if seeds is not None or face is not None:
                 raise ValueError("seeds, face: expected None, because the points are vertices")
-            seeds = _convert.vertex_rows(points, self._count, "points")
+            seeds = _convert.vertex_rows(given, self._count, "points")
             count = len(seeds)
         else:
-            centers = _convert.points(points, "points")
+            centers = _convert.points(given, "points")
             count = len(centers)
         searched = self._method_for(centers, metric, walls, ignored, wanted="points: expected vertices")
-        radii = np.array(np.broadcast_to(_convert.radii(r, count), count)) * self._scale(unit, metric)
+        radii = np.array(np.broadcast_to(_convert.radii(r, count, advice=""), count)) * self._scale(unit, metric)
         if face is not None:
             rows = self._corners_of(face, count, seeds)
         else:
@@ -345,7 +346,7 @@ class Queries(Held):
             raise ValueError("points: the mesh has no vertices")
         with reporter(progress, "nearest", "points", len(rows)) as report:
             vertices, distances = self._exact.nearest(rows, threads=_convert.threads(workers), progress=report)
-        is_one = np.ndim(points) == 1 and len(rows) == 1
+        is_one = _convert.is_point(points, "points")
         return (int(vertices[0]), float(distances[0])) if is_one else (vertices, distances)
 
     def _asked(
@@ -361,15 +362,16 @@ class Queries(Held):
         wanted: str = "start: expected a vertex",
     ) -> Any:  # fmt: skip
         """The method for a point, or for a vertex if `center` is None."""
+        metric = _convert.choice(metric, "metric", METRICS)
         if center is not None and metric == "rings":
             raise ValueError(f"{wanted} with metric={metric!r}, because a point has no edges")
-        if center is not None and method != "exact":
+        if center is not None and not is_exact(method):
             raise ValueError(f"method: {method!r}, expected 'exact' around a point")
         return self._searched(metric, walls, ignored)._method(method, metric)
 
     def _start(self, start: Any, seeds: Any, face: Any, meant: str) -> tuple[tuple[float, float, float] | None, Ids]:
         """The center and the seeds; for a vertex, None and the vertex. `meant`: the call for several vertices."""
-        if _convert.is_single(start):
+        if _convert.is_single(start, "start"):
             if face is not None:
                 raise ValueError("face: expected None, because the start is a vertex")
             if seeds is not None:
@@ -383,7 +385,7 @@ class Queries(Held):
         elif seeds is None:
             first = self._exact.nearest(point)[0] if self._count else np.empty(0, np.int32)
         else:
-            first = _convert.vertices(np.atleast_1d(seeds), self._count, "seeds")
+            first = _convert.vertices(_convert.listed(seeds, "seeds"), self._count, "seeds")
         x, y, z = point[0]
         return (float(x), float(y), float(z)), first
 

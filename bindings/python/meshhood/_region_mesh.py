@@ -185,7 +185,7 @@ class RegionMesh:
         return [RimLine(points[part], edges[part], bool(is_closed)) for part, is_closed in zip(parts, closed)]
 
     def _center(self, start: Any) -> tuple[float, float, float]:
-        if np.ndim(start) == 0:
+        if _convert.is_single(start, "start"):
             center = self._positions[_convert.vertex(start, len(self._positions), "start")].astype(np.float64)
         else:
             center = _convert.point(start, "start", "a call for each")[0]

@@ -66,11 +66,9 @@ def read_rows(
             raise ValueError("points: expected points and the face of each, or vertices")
         array = _convert.points(points, "points")
         face_points = (_convert.faces_of_points(face, len(array), index._surface(F).face_count), array)
-        is_one, count = np.ndim(face) == 0, len(array)
+        is_one, count = _convert.is_single(face, "face"), len(array)
     elif vertices is not None:
-        is_one = _convert.is_single(vertices)
-        one = np.array([_convert.vertex(vertices, index._count)], np.int32) if is_one else None
-        ids = _convert.vertices(vertices, index._count) if one is None else one
+        is_one, ids = _convert.one_or_many(vertices, index._count)
         count = len(ids)
     metric = _convert.choice(metric, "metric", METRICS)
     radii = _radii(r, scales, None if is_one else count, index._scale(unit, metric))

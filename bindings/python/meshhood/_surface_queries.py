@@ -197,7 +197,7 @@ class SurfaceQueries(Held):
         points = _convert.points(q, "q")
         with reporter(progress, "closest_point", "points", len(points)) as report:
             found = self._surface_columns("closest", F, workers, report, points)
-        return ClosestPoint(*_of_one(q, found))
+        return ClosestPoint(*(_of_one(found) if _convert.is_point(q, "q") else found))
 
     def first_hit(
         self, origins: ArrayLike, directions: ArrayLike, *, F: Any = None, workers: int = -1, progress: Progress = None
@@ -221,7 +221,7 @@ class SurfaceQueries(Held):
         starts, ways = _convert.points(origins, "origins"), _convert.points(directions, "directions")
         with reporter(progress, "first_hit", "rays", len(starts)) as report:
             found = self._surface_columns("first_hits", F, workers, report, starts, ways)
-        return FirstHit(*_of_one(origins, found))
+        return FirstHit(*(_of_one(found) if _convert.is_point(origins, "origins") else found))
 
     def _surface_columns(self, name: str, F: Any, workers: int, report: Any, *points: Any) -> Any:
         """Faces, barycentric coordinates in them, points and distances, as a call of the surface of `F` finds them."""
@@ -377,9 +377,7 @@ def _of_polygons(places: Any, weights: Any, corners: int) -> Reals:
     return wide
 
 
-def _of_one(q: ArrayLike, found: Any) -> Any:
-    """Faces, barycentric coordinates, points and distances for `q`: without the axis of rows if it is one point."""
-    if np.ndim(q) != 1 or len(found[0]) != 1:
-        return found
+def _of_one(found: Any) -> Any:
+    """Face, barycentric coordinates, point and distance of one point, without the axis of rows."""
     face, barycentric, point, distance = (part[0] for part in found)
     return int(face), barycentric, point, float(distance)
