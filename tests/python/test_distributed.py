@@ -282,9 +282,11 @@ def test_partition_refuses_wrong_arguments(mesh, tmp_path):
         ({"halo": -1, "parts": 2}, "halo: -1"),
         ({"halo": float("inf"), "parts": 2}, "halo: inf"),
         ({"halo": 1, "parts": 2, "memory": "lots"}, "memory: 'lots'"),
-        ({"halo": 1, "parts": 2, "memory": "99999999TB"}, "memory: 99999999000000000000, expected 0 to"),
         ({"halo": 1, "parts": 2, "memory": 5}, "a memory of 5 bytes"),
         ({"halo": 1, "parts": 2, "unit": "inch"}, "unit: 'inch'"),
+        ({"halo": 1, "parts": 2**70}, f"parts: {2**70}, expected 1 to"),
+        ({"halo": 1, "vertices_per_part": 2**70}, f"vertices_per_part: {2**70}, expected 1 to"),
+        ({"halo": 1, "parts": 2, "memory": "99999999999999GiB"}, f"memory: {99999999999999 * 2**30}, expected 0 to"),
     ):
         with pytest.raises(ValueError, match=message):
             meshhood.partition(file, tmp_path / "parts", **options)
@@ -295,6 +297,8 @@ def test_partition_refuses_wrong_arguments(mesh, tmp_path):
     with pytest.raises(ValueError, match="part-00000/mesh.ply: is in a part of"):
         meshhood.partition(inside, tmp_path / "parts", halo=1, parts=2)
     inside.rename(file)
+    with pytest.raises(ValueError, match="mesh: a tuple of 3, expected a path, or a tuple of those of positions and faces"):
+        meshhood.partition(("a", "b", "c"), tmp_path / "parts", parts=2, halo=1)
     with pytest.raises(FileNotFoundError):
         meshhood.partition(tmp_path / "none.ply", tmp_path / "parts", parts=2, halo=1)
     with pytest.warns(UserWarning, match="2 of 2 parts are as large as the mesh"):

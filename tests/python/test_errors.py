@@ -17,6 +17,8 @@ from meshhood import _convert
 
 METHODS = ("exact", "paper", "bfs", "ball", meshhood.Paper(levels=3))
 INDEX = meshhood.MeshIndex(*meshes.two_plates(5))
+POINTS = meshhood.MeshIndex.from_points(INDEX.positions, link=1.0)
+MASK = np.arange(len(INDEX)) < 9
 
 
 def save(path):
@@ -232,11 +234,34 @@ def test_the_class_can_be_used_as_others():
         (lambda: INDEX.smooth(np.ones(50), 1.0, scales=[1.0]), TypeError, "fwhm: given, but so are scales"),
         (lambda: INDEX.smooth(np.ones(50), 1.0, weights=-np.ones(50)), ValueError, "weights: vertex 0: -1.0"),
         (lambda: INDEX.refit("hand.stl"), TypeError, r"V: a path, .* read_mesh\(path\)"),
+        (lambda: POINTS.curvature(1.0), ValueError, "F: expected the faces or normals=, because this index has none"),
+        (lambda: POINTS.discs(1.0), ValueError, "F: expected the faces or numbers as weights=, because this index has"),
+        (lambda: POINTS.invariants(1.0), ValueError, "F: expected the faces, because this index has none"),
+        (lambda: meshhood.MeshIndex.from_points(np.eye(3)), TypeError, "^MeshIndex.from_points.*'link'"),
+        (lambda: meshhood.padded([0, 2], [1, 2], width=3, fill=None), ValueError, "fill: None, expected one value of int64"),
+        (lambda: INDEX.counts(1.0, walls=np.where(MASK)), ValueError, r"walls: .*; .* np.flatnonzero\(mask\) the list"),
+        (lambda: INDEX.counts(1.0, walls=np.zeros((50, 2), int)), ValueError, "walls: .* or a bool mask of 50, not an"),
+        (lambda: INDEX.iter_neighborhoods(1.0, chunk=2**70), ValueError, f"chunk: {2**70}, expected 1 to {2**63 - 1}"),
     ),
 )
 def test_an_error_says_what_is_missing_or_what_helps(call, error, message):
     with pytest.raises(error, match=message):
         call()
+
+
+@pytest.mark.parametrize("extension", ("ply", "vtk", "vtp"))
+@pytest.mark.parametrize(
+    ("values", "error", "message"),
+    (
+        ({5: np.ones(50)}, TypeError, "values: the name 5, expected text"),
+        ({"h": np.where(MASK, 1.0, -1e300)}, ValueError, r"values\['h'\]: vertex 9: -1e\+300, but a file holds .* 3.4e\+38"),
+        ({"n": np.where(MASK, 1, 1e39)[:, None] * np.ones(3)}, ValueError, r"values\['n'\]: vertex 9: 1e\+39"),
+    ),
+)
+def test_values_that_a_file_cannot_hold_are_refused(tmp_path, extension, values, error, message):
+    with pytest.raises(error, match=message):
+        meshhood.write_mesh(tmp_path / f"a.{extension}", *meshes.two_plates(5), values=values)
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_mesh_file_is_not_an_index_file(tmp_path):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Mesh files that other libraries read and write, and those of other programs that the C++ library reads."""
 
+import gzip
 import json
 import os
 import struct
@@ -177,6 +178,16 @@ def test_gifti(tmp_path, end):
         expect(meshhood.read_mesh(renamed(tmp_path / f"a.{end}")))
     with pytest.warns(UserWarning, match="b.gii: the coordinates are in the space 'aligned'; .* to 'talairach' is not"):
         expect(meshhood.read_mesh(gifti(nibabel, tmp_path / "b.gii", np.diag([2.0, 2, 2, 1]))))
+
+
+def test_a_gifti_file_unpacks_to_a_bounded_size(tmp_path, monkeypatch):
+    nibabel = pytest.importorskip("nibabel")
+    file = gifti(nibabel, tmp_path / "a.gii")
+    (tmp_path / "b.gii.gz").write_bytes(gzip.compress(file.read_bytes() + b" " * 10**7))
+    expect(meshhood.read_mesh(tmp_path / "b.gii.gz"))
+    monkeypatch.setattr(meshhood._other_files, "_UNPACKED", 1 << 20)
+    with pytest.raises(ValueError, match=r"b.gii.gz: .* unpacks to more than 1048576 bytes; gunzip unpacks it"):
+        meshhood.read_mesh(tmp_path / "b.gii.gz")
 
 
 def test_surfaces_of_freesurfer(tmp_path):

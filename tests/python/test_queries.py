@@ -44,6 +44,15 @@ def test_cut_edges_are_not_crossed():
     assert len(meshhood.MeshIndex(V, quads).neighborhood(0, np.inf)) == 36
 
 
+def test_a_cut_line_stays_joined_to_both_sides_and_what_crosses_it_separates_them():
+    V, quads = grid(4)
+    line, across = [(4 * i + 1, 4 * i + 5) for i in range(3)], [(4 * i + 1, 4 * i + 2) for i in range(4)]
+    assert meshhood.MeshIndex(V, quads, cut=line).count(0, np.inf) == 16
+    separate = meshhood.MeshIndex(V, quads, cut=across)
+    assert separate.count(0, np.inf) == 8
+    assert separate.measure(0, 9.0).area == 9.0
+
+
 def test_faces_and_submesh_of_a_region(mesh):
     V, F, index = mesh
     mesher = meshhood.RegionMesh(V, F)

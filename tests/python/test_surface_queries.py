@@ -228,6 +228,12 @@ def test_points_without_faces_given_as_a_mesh_warn_and_name_from_points():
         meshhood.MeshIndex(V, triangle_graph(len(V), np.empty((0, 3), int)))  # a graph may have no edges
 
 
+@pytest.mark.parametrize(("library", "kind"), (("trimesh", "PointCloud"), ("pyvista", "PolyData")))
+def test_from_points_takes_what_a_mesh_without_faces_is_refused_for(library, kind):
+    cloud = getattr(pytest.importorskip(library), kind)(grid(3)[0])
+    assert meshhood.MeshIndex.from_points(cloud, link=1.0).count(4, 1.0) == 5
+
+
 def test_of_faces_joins_faces_across_edges():
     V, quads = grid(5)
     F = triangles(quads)

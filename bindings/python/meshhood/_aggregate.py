@@ -40,7 +40,8 @@ def smoothing_radius(fwhm: Number) -> float:
 
 def vertex_areas(V: Any, F: Any = None) -> NDArray[np.float64]:
     """The area that each vertex represents: each face gives equal shares to its corners, a third of a triangle. (#V,)
-    float64, in the square of the unit of V. V and F as for `MeshIndex`.
+    float64, in the square of the unit of V. V and F as for `MeshIndex`. The area of a polygon is the length
+    of its vector area: of one that is not plane, less than that of its triangles, which patches measure.
 
     >>> bool(abs(meshhood.vertex_areas(V, F).sum() - 4 * np.pi) < 0.2)
     True
@@ -109,7 +110,7 @@ class Aggregates(Held):
             missing value, which is left out.
         nesting : what scales mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the largest,
             and of them the vertices within each smaller radius. With metric="path" or "rings" both are the same.
-        ddof : "var" and "std" divide by the number of values minus this, 0 or 1.
+        ddof : "var" and "std" divide by the number of values minus this, 0 or 1; 1 is refused with weights.
         q : for "quantile", 0 to 1, with linear interpolation as in numpy.quantile.
         dtype : of the result, float32 or float64. Without it, that of `values` if float32, else float64. All sums are
             computed in float64.
@@ -260,8 +261,8 @@ def _nan_where_empty(graph: Any, rows: Any) -> Any:
 
 
 def _smoothing_radii(fwhm: Any, scales: Any, vertices: Any, count: int) -> tuple[Any, Any, Any]:
-    """The radii of the kernels and of their scales, one of which is None, and the vertices, as `progress` may not change
-    them."""
+    """The radii of the kernels and of their scales, one of which is None, and the vertices, read before `progress` may
+    change them."""
     check_one_given(fwhm, scales, "fwhm")
     is_one = False
     if vertices is not None:
@@ -306,7 +307,7 @@ def area_weights(index: Held, weights: Any, F: Any) -> Any:
         return None
     if isinstance(weights, str):
         _convert.choice(weights, "weights", ("area",))
-        return _core.vertex_areas((index._methods.positions, *index._face_arrays(F)))
+        return _core.vertex_areas((index._methods.positions, *index._face_arrays(F, " or numbers as weights=")))
     array = _copied(weights, "weights", "biuf")
     if array.shape != (index._count,):
         raise ValueError(f"weights: expected an array of shape ({index._count},), not {array.shape}")

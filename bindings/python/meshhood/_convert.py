@@ -55,6 +55,16 @@ def numbers(values, name, kinds="iuf"):
     return array
 
 
+def as_float32(array, name, place):
+    """Numbers of vertices as float32 in C order; NaN and inf stay. `place`: what will hold them."""
+    most = np.finfo(np.float32).max
+    beyond = np.argwhere(np.isfinite(array) & (np.abs(array) > most))
+    if beyond.size:
+        at = tuple(beyond[0])
+        raise ValueError(f"{name}: vertex {at[0]}: {array[at]}, but {place} holds numbers of at most {most:.3g}")
+    return np.ascontiguousarray(array, np.float32)
+
+
 def _numbers_of(values, count, name, one, many):
     """The result is a copy even if `values` already have the type of ids: another thread, or a `progress` function, may
     write to them during the call."""
@@ -71,7 +81,10 @@ def _numbers_of(values, count, name, one, many):
         raise ValueError(f"{name}: one {one}, expected a list of {many}: [{array}]")
     if array.ndim != 1:
         hint = "; faces are passed as F=" if array.ndim == 2 and array.shape[1] in (3, 4) else ""
-        raise ValueError(f"{name}: expected one {one} or a list of {many}, not an array of shape {array.shape}{hint}")
+        if isinstance(values, tuple):
+            hint = "; np.where(mask) is a tuple of arrays, np.flatnonzero(mask) the list"
+        expected = f"a list of {many}, or a bool mask of {count}"
+        raise ValueError(f"{name}: expected {expected}, not an array of shape {array.shape}{hint}")
     wrong = np.flatnonzero((array < 0) | (array >= count))
     if wrong.size:
         raise ValueError(f"{name}: row {wrong[0]}: {one} {array[wrong[0]]}, but the mesh has {count} {many}")
@@ -121,8 +134,8 @@ def radius(r, name="r"):
 
 
 def radii(r, rows, name="r", advice="; several radii for all rows are scales="):
-    """`r` as a float, or as a new float64 array in C order with one radius for each row. All are >= 0. `advice` ends the
-    error for another shape."""
+    """`r` as a float, or as a new float64 array in C order with one radius for each row. All are >= 0. `advice` ends
+    the error for another shape."""
     array = np.array(as_array(r, name))
     if array.ndim == 0:
         return radius(array, name)
@@ -288,7 +301,7 @@ def real_type(dtype):
     return found
 
 
-def integer(value, name, lowest, highest):
+def integer(value, name, lowest=1, highest=2**63 - 1):
     value = _integer(value, name)
     if not lowest <= value <= highest:
         raise ValueError(f"{name}: {value}, expected {lowest} to {highest}")
@@ -308,13 +321,6 @@ def share(value, name):
     value = _number(value, name)
     if not 0 <= value <= 1:
         raise ValueError(f"{name}: {value}, expected 0 to 1")
-    return value
-
-
-def positive(value, name):
-    value = _integer(value, name)
-    if value < 1:
-        raise ValueError(f"{name}: {value}, expected at least 1")
     return value
 
 

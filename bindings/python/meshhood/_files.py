@@ -112,6 +112,9 @@ def write_mesh(
     positions = mesh[0]
     if values is not None and not isinstance(values, Mapping):
         raise TypeError(f"values: {type(values).__name__}, expected a dict of arrays by name, as {{'height': array}}")
+    unnamed = [name for name in values or {} if not isinstance(name, str)]
+    if unnamed:
+        raise TypeError(f"values: the name {unnamed[0]!r}, expected text")
     named = [(name, _scalars(numbers, f"values[{name!r}]", len(positions))) for name, numbers in (values or {}).items()]
     if colors is not None:
         colors = np.ascontiguousarray(_convert.as_array(colors, "colors"))
@@ -137,7 +140,7 @@ def _scalars(numbers: Any, name: str, count: int) -> NDArray[np.float32]:
     array = _convert.numbers(numbers, name, "biuf")
     if array.shape not in ((count,), (count, 3)):
         raise ValueError(f"{name}: expected an array of shape ({count},) or ({count}, 3), not {array.shape}")
-    return np.ascontiguousarray(array, np.float32)
+    return _convert.as_float32(array, name, "a file")
 
 
 def load(

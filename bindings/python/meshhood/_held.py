@@ -26,10 +26,11 @@ class Held:
     def __init_subclass__(cls) -> None:
         if cls.__module__.startswith(f"{__package__}."):  # not what a user adds to a class of his own
             for name, member in vars(cls).items():
-                if isinstance(member, FunctionType):  # the error for an unknown argument, and a pickle, say this name
-                    member.__module__, member.__qualname__ = f"{__package__}._index", f"MeshIndex.{name}"
-                    if not name.startswith("_"):
-                        check_instance(member)
+                function = getattr(member, "__func__", member)
+                if isinstance(function, FunctionType):  # the error for an unknown argument, and a pickle, say this name
+                    function.__module__, function.__qualname__ = f"{__package__}._index", f"MeshIndex.{name}"
+                    if function is member and not name.startswith("_"):
+                        check_instance(function)
 
     _exact: Any
     _faces: Any  # corners and offsets, as `face_arrays` returns them, or None
@@ -137,16 +138,16 @@ class Held:
         places[self._exact.permutation] = np.arange(self._count, dtype=np.int32)
         return places
 
-    def _face_arrays(self, F: Any) -> tuple[Any, Any]:
-        """Corners and offsets of `F`, or of the faces that the index keeps."""
-        return self._keyed_faces(F)[1]
+    def _face_arrays(self, F: Any, instead: str = "") -> tuple[Any, Any]:
+        """Corners and offsets of `F`, or of the faces that the index keeps. `instead`: what else the call takes."""
+        return self._keyed_faces(F, instead)[1]
 
-    def _keyed_faces(self, F: Any) -> tuple[bytes, tuple[Any, Any]]:
+    def _keyed_faces(self, F: Any, instead: str = "") -> tuple[bytes, tuple[Any, Any]]:
         """The same, and what tells them from other faces. Those of another mesh are refused."""
         if self._whole is not None:
-            return self._whole._keyed_faces(F)
+            return self._whole._keyed_faces(F, instead)
         if F is None:
-            return b"", self._own_faces("F: expected the faces, because")
+            return b"", self._own_faces(f"F: expected the faces{instead}, because")
         arrays = face_arrays(F)
         key = _digest(arrays)
         if key != self._checked:
@@ -163,10 +164,10 @@ class Held:
             )
         return self._faces
 
-    def _surface(self, F: Any, normals: Any = None, needs_faces: bool = False) -> Any:
+    def _surface(self, F: Any, normals: Any = None, needs_faces: bool = False, instead: str = "") -> Any:
         """The surface of the faces, the last of which is kept, or one with these normals."""
         if normals is None:
-            return self._surface_of(*self._keyed_faces(F))
+            return self._surface_of(*self._keyed_faces(F, instead))
         if self._whole is not None:
             return self._whole._surface(F, normals, needs_faces).on(self._exact)
         if F is not None and not needs_faces:

@@ -97,7 +97,9 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         a tuple (offsets, corners): polygon i has the corners corners[offsets[i]:offsets[i + 1]];
         one dimension, VTK's padded faces: each face begins with the number of its corners;
         a scipy.sparse matrix (#V, #V): a graph. Each stored entry is an edge, in either direction, whatever its value.
-    cut : edges that no search crosses, as pairs of vertices (#cut, 2) in either order.
+    cut : edges that no search crosses, as pairs of vertices (#cut, 2) in either order. Vertices of a line of cut edges
+        stay joined to both of its sides: to separate two sides, cut the edges that cross the line between them. Areas,
+        patches and gaps are those of the faces, and cross a cut edge.
     keep_faces : keep a copy of the faces, 4 bytes for each corner and, unless all are triangles, for each face. Without
         it, or from a graph, the calls that need faces need them as their argument F: the faces, or a mesh. Faces of
         another mesh are refused.
@@ -434,7 +436,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         >>> sum(len(part.vertices) for part in index.iter_neighborhoods(0.3, chunk=100))
         642
         """
-        chunk = _convert.positive(chunk, "chunk")
+        chunk = _convert.integer(chunk, "chunk")
         in_index_order = _convert.choice(order, "order", ("query", "index")) == "index"
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, None)
         check_sort(sort)

@@ -31,7 +31,7 @@ def principal_curvature(
 
     >>> PD1, PD2, PV1, PV2, bad = meshhood.principal_curvature(V, F, radius=3)
     """
-    radius = _convert.positive(radius, "radius")
+    radius = _convert.integer(radius, "radius")
     if radius < 2:
         warnings.warn("radius: 1, which libigl raises to 2", stacklevel=2)
         radius = 2

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import gzip
+import itertools
 import os
 import tempfile
 from collections.abc import Iterable
@@ -20,6 +21,7 @@ _Read = tuple[Any, Any, list[str]]
 
 
 _GZIP = b"\x1f\x8b"
+_UNPACKED = 1 << 28  # bytes that any compressed file may unpack to; a large one to 64 times its size
 _HEAD = 1 << 16  # as in `io/detect_format.cpp`
 
 
@@ -116,9 +118,7 @@ def _format_of(head: bytes) -> Optional[_Format]:
 
 
 def _read_gifti(nibabel: Any, path: str) -> _Read:
-    with open(path, "rb") as file:
-        data = file.read()
-    image = nibabel.GiftiImage.from_bytes(gzip.decompress(data) if data.startswith(_GZIP) else data)
+    image = nibabel.GiftiImage.from_bytes(_unpacked(path))
     codes = nibabel.nifti1.xform_codes.label
     notes = []
     for array in image.get_arrays_from_intent("NIFTI_INTENT_POINTSET"):
@@ -127,6 +127,21 @@ def _read_gifti(nibabel: Any, path: str) -> _Read:
             space, other = codes[system.dataspace], codes[system.xformspace]
             notes.append(f"the coordinates are in the space {space!r}; the transform to {other!r} is not applied")
     return image, None, notes
+
+
+def _unpacked(path: str) -> bytes:
+    """The content of a file that may be compressed. A forged one of 10 MB would unpack to 10 GB."""
+    with open(path, "rb") as file:
+        data = file.read()
+    if not data.startswith(_GZIP):
+        return data
+    limit = max(_UNPACKED, 64 * len(data))
+    with gzip.open(path) as unpacked:
+        pieces = iter(lambda: unpacked.read(_HEAD), b"")
+        data = b"".join(itertools.islice(pieces, limit // _HEAD))
+        if unpacked.read(1):
+            raise ValueError(f"unpacks to more than {limit} bytes; gunzip unpacks it")
+    return data
 
 
 def _read_quads(freesurfer: Any, path: str) -> _Read:

@@ -62,8 +62,8 @@ def padded(
         row = int(np.argmax(lengths > width))
         raise ValueError(f"width: {width}, but row {row} has {lengths[row]} values; truncate=True keeps the first of them")
     with np.errstate(invalid="ignore"):
-        filler = one.astype(rows.dtype)
-    if one.ndim or (rows.dtype.kind != "f" and filler != one):
+        filler = one.astype(one.dtype if one.dtype.kind == "O" else rows.dtype)
+    if filler.dtype != rows.dtype or one.ndim or (rows.dtype.kind != "f" and filler != one):
         raise ValueError(f"fill: {fill!r}, expected one value of {rows.dtype}")
     shape = (len(lengths), width)
     check_size(shape, rows.itemsize * math.prod(rows.shape[1:]) + 1, max_bytes)

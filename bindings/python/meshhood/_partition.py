@@ -56,11 +56,13 @@ def partition(
     >>> meshhood.partition(("V.npy", "F.npy"), "parts", parts=2, halo=0.3)
     <meshhood.distributed.Parts: 642 vertices in 2 parts, halo 0.3>
     """
+    if isinstance(mesh, tuple) and len(mesh) != 2:
+        raise ValueError(f"mesh: a tuple of {len(mesh)}, expected a path, or a tuple of those of positions and faces")
     vertices, faces = mesh if isinstance(mesh, tuple) else (mesh, None)
     folder = _convert.path(folder)
     options = {
-        "parts": 0 if parts is None else _convert.positive(parts, "parts"),
-        "vertices_per_part": 0 if vertices_per_part is None else _convert.positive(vertices_per_part, "vertices_per_part"),
+        "parts": 0 if parts is None else _convert.integer(parts, "parts"),
+        "vertices_per_part": 0 if vertices_per_part is None else _convert.integer(vertices_per_part, "vertices_per_part"),
         "halo": _convert.finite(halo, "halo", or_zero=True),
         "halo_in_edges": _convert.choice(unit, "unit", ("mesh", "edge")) == "edge",
         "memory": _bytes(memory),
@@ -79,9 +81,9 @@ def partition(
 
 
 def _bytes(memory):
-    if not isinstance(memory, str):
-        return _convert.integer(memory, "memory", 0, 2**63)
-    match = re.fullmatch(r"(\d+)\s*([kmgt]i?)?b?", memory.strip().lower())
-    if match is None:
-        raise ValueError(f"memory: {memory!r}, expected a number of bytes or a text such as '4GiB'")
-    return _convert.integer(int(match[1]) * _UNITS[match[2] or ""], "memory", 0, 2**63)
+    if isinstance(memory, str):
+        match = re.fullmatch(r"(\d+)\s*([kmgt]i?)?b?", memory.strip().lower())
+        if match is None:
+            raise ValueError(f"memory: {memory!r}, expected a number of bytes or a text such as '4GiB'")
+        memory = int(match[1]) * _UNITS[match[2] or ""]
+    return _convert.integer(memory, "memory", 0, 2**63)

@@ -315,7 +315,7 @@ class Queries(Held):
         42
         """
         center, first = self._start(start, seeds, face, "k_nearest(k, vertices), or seeds= around a point")
-        k = _convert.integer(k, "k", 1, 2**63 - 1)
+        k = _convert.integer(k, "k")
         return Connected(*self._method_for(center, metric, walls, ignored).nearest_connected(center, first, k))
 
     @overload

@@ -57,7 +57,10 @@ class Submesh(NamedTuple):
         if not len(self.corners):
             return whole[self.vertices]
         if whole.dtype.kind != "f":
-            raise TypeError(f"values: expected floats for a clipped mesh, not {whole.dtype}; values.astype(float)")
+            raise TypeError(
+                f"values: expected floats for a clipped mesh, not {whole.dtype}, because they are interpolated; take labels "
+                "at `vertices`, and at the entry of each row of `corners` with the largest of `weights`"
+            )
         weights = self.weights.reshape(*self.weights.shape, *[1] * (whole.ndim - 1))
         between = (weights * whole[self.corners]).sum(axis=1)
         return np.concatenate([whole[self.vertices], between.astype(whole.dtype)])

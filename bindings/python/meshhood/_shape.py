@@ -77,7 +77,8 @@ class Shape(Held):
             raise ValueError(f"like: {like!r}, expected None with fit='jet'")
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
-        found = rows.ask(rows.index._surface(F, normals).curvature, filter=bool(filter), **options)
+        surface = rows.index._surface(F, normals, instead=" or normals=")
+        found = rows.ask(surface.curvature, filter=bool(filter), **options)
         return Curvature(*(_of_type(rows.shaped(array), dtype) for array in found))
 
     def corrected_curvature(

@@ -96,7 +96,8 @@ class SurfaceQueries(Held):
     ) -> Self:
         """The index of points without faces: any two points at most `link` apart are joined by an edge.
 
-        P : (#V, 3) float32 or float64, the points, as V of `MeshIndex`.
+        P : (#V, 3) float32 or float64, the points, as V of `MeshIndex`; or what has them as `vertices` or `points`, as
+            point clouds of trimesh, Open3D and PyVista do.
         link : a finite number >= 0, in the unit of P. Points at exactly this distance, and at the same place, are
             joined. A link less than about a millionth of the extent of all points takes long.
         max_edges : refuse a graph with more edges; by default, as many as the memory of the machine may hold.
@@ -106,7 +107,7 @@ class SurfaceQueries(Held):
 
         >>> index = meshhood.MeshIndex.from_points(V, link=0.1)
         """
-        points = positions_of(P, "P")
+        points = positions_of(getattr(P, "vertices", getattr(P, "points", P)), "P")
         distance = _convert.finite(link, "link", or_zero=True)
         edges = _convert.max_bytes(None) // _BYTES_OF_EDGE if max_edges is None else max_edges
         options = {
@@ -318,7 +319,7 @@ class SurfaceQueries(Held):
         """
         rows = read_rows(self, vertices, r, None, metric, walls, ignored, unit, workers, progress)
         limit = _limit(rows, max_bytes, 1)
-        k = _convert.integer(k, "k", 1, 2**63 - 1)
+        k = _convert.integer(k, "k")
         fill = _convert.integer(fill, "fill", -(2**31), 2**31 - 1)
         ids, distances = rows.ask(_core.k_nearest, rows.index._exact, max_bytes=limit, k=k)
         if fill != -1:

@@ -11,8 +11,6 @@ import webbrowser
 from pathlib import Path
 from typing import Any, Optional, Union
 
-import numpy as np
-
 from . import _convert, _core
 from ._mesh import mesh_arrays, placed
 from ._other_files import binary_ply
@@ -139,9 +137,5 @@ def _encode(values: Any, count: int) -> str:
     array = _convert.numbers(values, "values", "biuf")
     if array.shape != (count,):
         raise ValueError(f"values: an array of shape {array.shape}, expected ({count},)")
-    most = np.finfo(np.float32).max
-    beyond = np.flatnonzero(np.isfinite(array) & (np.abs(array.astype(np.float64)) > most))
-    if beyond.size:
-        v = beyond[0]
-        raise ValueError(f"values: vertex {v}: {array[v]}, but a page holds numbers of at most {most:.3g}")
-    return base64.b64encode(array.astype("<f4").tobytes()).decode("ascii")
+    numbers = _convert.as_float32(array, "values", "a page")
+    return base64.b64encode(numbers.astype("<f4").tobytes()).decode("ascii")
