@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string>
@@ -150,7 +151,7 @@ class SurfaceGraph {
     }
   }
 
-  /// Lines across sides of two triangles, and the sides within a polygon.
+  /// Lines across sides that have exactly two opposite corners, and the sides within a polygon.
   template <class F>
   void for_each_line(const Lists<SharedSide, std::size_t>& sides, F&& f) const {
     for (VertexId a = 0; a < sides.size(); ++a) {
@@ -159,9 +160,10 @@ class SurfaceGraph {
         const VertexId b = first->to;
         const auto end = std::find_if(first, row.end(), [&](const SharedSide& side) { return side.to != b; });
         if (!is_edge(a, b)) f(a, b, length(index_.position(b) - index_.position(a)));
-        if (end - first == 2 && first->opposite != first[1].opposite) {
-          const VertexId c = first->opposite;
-          const VertexId d = first[1].opposite;
+        const VertexId c = first->opposite;
+        const VertexId d = std::prev(end)->opposite;
+        const auto is_one = [&](const SharedSide& side) { return side.opposite == c || side.opposite == d; };
+        if (c != d && std::all_of(first, end, is_one)) {  // a face may be listed twice
           const double length =
               unfolded_length(index_.position(a), index_.position(b), index_.position(c), index_.position(d));
           if (length != kNoLine) f(c, d, length);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Paths along a surface: against the algorithm of Dijkstra on lines found by angles, and on a sphere.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -33,18 +35,18 @@ Pair sorted(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
 class PlainLines {
  public:
   PlainLines(const TestMesh& mesh, const std::vector<std::uint8_t>& walls) : mesh_(mesh), walls_(walls) {
-    std::map<Pair, std::vector<std::uint32_t>> opposite;
+    std::map<Pair, std::set<std::uint32_t>> opposite;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
       const auto face = mesh.face(f);
       for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t a = face[i];
         const std::uint32_t b = face[(i + 1) % 3];
         if (a != b) offer(a, b, distance(a, b));
-        if (is_open(face)) opposite[sorted(a, b)].push_back(face[(i + 2) % 3]);
+        if (is_open(face)) opposite[sorted(a, b)].insert(face[(i + 2) % 3]);
       }
     }
     for (const auto& [side, corners] : opposite) {
-      if (corners.size() == 2 && corners[0] != corners[1]) cross(side, corners[0], corners[1]);
+      if (corners.size() == 2) cross(side, *corners.begin(), *corners.rbegin());
     }
   }
 
@@ -172,6 +174,16 @@ TEST(SurfacePaths, CrossASideAsIfItWereFlat) {
     const TestMesh mesh = folded_square(angle);
     const Surface surface(build(mesh.view()), mesh.view());
     EXPECT_NEAR(lengths_from(surface_paths(surface), 2)[3], 2, 1e-15);
+  }
+}
+
+TEST(SurfacePaths, CrossASideOfFacesThatAreListedTwice) {
+  TestMesh mesh = folded_square(0);
+  for (const auto& [a, b, c] : {std::array{0U, 1U, 2U}, {3U, 0U, 1U}, {1U, 0U, 2U}}) {
+    mesh.add_face({a, b, c});
+    mesh.finish(false);
+    const Surface surface(build(mesh.view()), mesh.view());
+    EXPECT_NEAR(lengths_from(surface_paths(surface), 2)[3], 2, 1e-15) << mesh.face_count() << " faces";
   }
 }
 
