@@ -208,7 +208,13 @@ void Surface::refit_in_place(const Index& index, const IndicesView& changed) {
   const bool is_in_frame = same(state_->frame, IndexAccess::view(index).frame);
   refit_in_place(index);
   if (!is_in_frame) return;
-  if (made.use_count() > 1) made = made->copy();  // for another surface, or a searcher that was made before
+  if (made.use_count() > 1) {
+    made = made->copy();  // for another surface, or a searcher that was made before
+  } else {
+    // Another thread may have let go of it just now. `use_count` does not order what that thread has read before what
+    // is written here; to let go of a copy does, since this changes the same counter.
+    std::shared_ptr(made).reset();
+  }
   // If memory runs out meanwhile, all is made again.
   state_->renew(*made, moved);
   made->areas.drop();
