@@ -204,7 +204,7 @@ void set_path_weights(const PathLengths& lengths, const PathLengths& radii, Smoo
   });
 }
 
-/// What a node adds to each row if the parenthesis of `AggregateKernels::add_moments` is not squared, and if it is.
+/// See `AggregateKernels::add_moments`.
 // With q the offset of a vertex from c, and t that of c from the query vertex, d^2 = |q + t|^2, so
 //   sum of s d^2 = sum s|q|^2 + 2 t . sum s q + |t|^2 sum s
 //   sum of s d^4 = sum s|q|^4 + 4 t . sum s|q|^2 q + 4 t^T (sum s q q^T) t + 2 |t|^2 sum s|q|^2

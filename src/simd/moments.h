@@ -139,9 +139,9 @@ struct MomentKernels {
   /// Contracts the moments with the axes of the frames.
   void (*rotate)(const QueryMoments& moments, const QueryFrames& frames, FrameMoments& out);
 
-  /// Solves the normal equations of the least-squares fits, eight queries at once. `determinant` is the least of their
-  /// leading determinants, scaled to a diagonal of ones: the condition of such a matrix is at most 12 / determinant. It
-  /// is not > 0 if there is no unique solution.
+  /// Solves the normal equations of the least-squares fits. `determinant` is the least of their leading determinants,
+  /// scaled to a diagonal of ones: the condition of such a matrix is at most 12 / determinant. It is not > 0 if there is
+  /// no unique solution.
   void (*fit_quadrics)(const FrameMoments& moments, QueryQuadrics& out);
 
   /// The same with a constant term, which `out` leaves out.
