@@ -77,8 +77,7 @@ class RimArcs {
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
 
-  /// The area behind, in [0, 4 pi). What is less than the error below 4 pi is 0: a sheet without thickness rather than
-  /// a crack without width.
+  /// The area behind, in [0, 4 pi). What is less than the error below 4 pi is 0, from which the arcs do not tell it.
   [[nodiscard]] double area_behind() const;
 
  private:
@@ -129,7 +128,7 @@ class PatchSums {
   /// In the unit of the mesh.
   [[nodiscard]] double area(const PatchBall& ball) const;
 
-  /// NaN if a border is in the ball. Of a patch, which has a triangle.
+  /// NaN if a border is in the ball, else not negative. Of a patch, which has a triangle.
   [[nodiscard]] double volume(const PatchBall& ball) const;
 
  private:

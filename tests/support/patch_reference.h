@@ -152,11 +152,11 @@ class PatchReference {
     answer.faces = queue;
     std::sort(answer.faces.begin(), answer.faces.end());
     answer.area = static_cast<double>(sums.area);
-    Real solid = std::fmod(-sums.solid, 4 * kPi);
-    if (!sums.has_rim) solid = sums.moment < 0 ? 4 * kPi : 0;
-    if (solid < Real(-1e-13)) solid += 4 * kPi;
-    answer.volume = has_border ? std::numeric_limits<double>::quiet_NaN()
-                               : static_cast<double>((sums.moment + radius * radius * radius * solid) / 3);
+    const Real sphere = 4 * kPi;
+    const Real solid = sums.has_rim ? -sums.solid - sphere * std::floor(Real(1e-14) - sums.solid / sphere) : 0;
+    Real tripled = sums.moment + radius * radius * radius * solid;
+    if (tripled < Real(-0x1p-40) * sums.area * radius) tripled += radius * radius * radius * sphere;
+    answer.volume = has_border ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(tripled / 3);
     return answer;
   }
 
