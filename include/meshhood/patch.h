@@ -22,7 +22,7 @@
 /// The **patch** of a point of the surface and a radius is the component, with the point, of the surface inside the
 /// closed ball. The part of a triangle in a ball is convex, so the patch is a set of faces: those with a point in the
 /// ball, joined where a corner or a side that they share has a point in the ball. It has the neighborhood of a vertex,
-/// and does not change if faces are divided.
+/// and does not change if faces are divided. A side that misses the ball by up to 2^-46 radii touches it.
 ///
 ///     const meshhood::Surface surface(index, faces);
 ///     const auto [area, volume] = meshhood::invariants(surface, {.radius = 1.5});

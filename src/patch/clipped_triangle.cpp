@@ -10,6 +10,10 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+/// A side whose nearest point is so far from the sphere touches it, on either side: twice that, in radii. It is more
+/// than the error of that point (see `kFar`).
+constexpr double kTouch = 0x1p-45;
+
 RealVector<double> as_vector(const Point& p) { return {p.x, p.y, p.z}; }
 
 template <class Real>
@@ -29,7 +33,8 @@ ClippedTriangle::ClippedTriangle(const PatchBall& ball, const PatchTriangle& tri
     sides_[i].is_cut = triangle.inside[i] || triangle.inside[after(i)];
     if (sides_[i].is_cut || !may_dip(i)) continue;
     find_nearest(i);
-    sides_[i].is_cut = sides_[i].dips = sides_[i].is_between && dot(sides_[i].nearest, sides_[i].nearest) <= 1;
+    const double square = dot(sides_[i].nearest, sides_[i].nearest);
+    sides_[i].is_cut = sides_[i].dips = sides_[i].is_between && square <= 1 + kTouch;
   }
 }
 
@@ -174,10 +179,9 @@ void ClippedTriangle::find_outline() {
 }
 
 bool ClippedTriangle::touches(std::size_t i) const {
-  constexpr double kDepth = 0x1p-45;  // twice that of the deepest point
   const Side& side = sides_[i];
   const double deepest = std::clamp(0.0, side.from, std::max(side.from, side.to));
-  return (side.half - deepest) * (side.half + deepest) <= kDepth;
+  return (side.half - deepest) * (side.half + deepest) <= kTouch;
 }
 
 ClippedTriangle::Arc ClippedTriangle::arc_from(std::size_t i) const {

@@ -74,7 +74,8 @@ class ClippedTriangle {
   [[nodiscard]] Arc arc_from(std::size_t i) const;
 
  private:
-  /// All but the flags is set only where the side is cut.
+  /// `nearest`, `along` and `is_between` are set where the side is cut or may dip; the other numbers by `find_outline`,
+  /// where it is cut.
   struct Side {
     Point nearest;  // of its line
     Point along;    // a unit vector; 0 if the corners are at the same place

@@ -633,6 +633,38 @@ TEST(Patch, OfACavityIsTheBallWithoutIt) {
   }
 }
 
+/// A side through n + k u, for an integer k, where n and u are orthogonal: it touches the sphere of the radius |n|, and
+/// all these numbers are integers.
+TEST(Patch, HasWhatIsBehindASideThatTouchesTheSphere) {
+  std::size_t count = 0;
+  for (int x = 0; x < 25; ++x) {
+    for (int y = 1; y < 50; ++y) {
+      for (int z = 1; z < 50; ++z) {
+        const double square = x * x + y * y + z * z;
+        const double r = std::round(std::sqrt(square));
+        if (r * r != square) continue;
+        const Point n = Point(x, y, z);
+        const Point u = (x + y) % 2 == 0 ? Point(0, z, -y) : cross(n, Point(0, z, -y));
+        for (const auto& [from, to] : {std::pair{-1, 1}, {-1, 20}, {-30, 7}, {-45, 3}, {-1000, 1000}}) {
+          TestMesh mesh;
+          for (const Point& p : {Point{0, 0, 0}, n + from * u, n + to * u, 2.0 * n}) mesh.add_vertex(p.x, p.y, p.z);
+          mesh.add_face({0, 1, 2});
+          mesh.add_face({1, 3, 2});
+          const auto [given, index, surface] = with_surface(mesh.finish(false));
+          SCOPED_TRACE(testing::Message() << x << ", " << y << ", " << z << ", from " << from << " to " << to);
+          PatchSearcher searcher(surface);
+          EXPECT_THAT(searcher.patch(0, r), testing::ElementsAre(0, 1));
+          EXPECT_EQ(searcher.gap(0, r).face, kNoFace);
+          EXPECT_EQ(gaps(surface, {.radius = r})[0].face, kNoFace);
+          EXPECT_THAT(searcher.patch(0, r * (1 - 1e-13)), testing::ElementsAre(0));
+          ++count;
+        }
+      }
+    }
+  }
+  EXPECT_GT(count, 1000);
+}
+
 /// A long box in the ball is a band with two rims.
 TEST(Patch, OfSeveralRims) {
   Case beam(make_box({1, 1, 40}, 1));
