@@ -197,20 +197,18 @@ void Triangles::gather_sides(std::uint32_t first, std::vector<GivenSide>& sides)
   sides.clear();
   for (const TriangleId t : fans[first]) {
     for (std::uint32_t i = 0; i < 3; ++i) {
-      if (const Side side = side_of(t, i); side.first == first) sides.push_back({side, t, i});
+      const Side side = side_of(t, i);
+      if (side.first == first) sides.push_back({side, {corners[t][i] == first, corners[t][(i + 2) % 3]}, t, i});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const GivenSide& a, const GivenSide& b) {
-    return std::tie(a.side.last, a.side.owner) < std::tie(b.side.last, b.side.owner);
-  });
+  std::ranges::sort(sides, {}, [](const GivenSide& s) { return std::tuple(s.side.last, s.side.owner, s.way); });
 }
 
-bool Triangles::are_balanced(std::span<const GivenSide> same) const {
-  const auto& [first, last, owner] = same.front().side;
-  if (first == last) return true;  // a corner that is listed twice is no side
+bool Triangles::are_balanced(std::span<const GivenSide> same) {
+  if (same.front().side.first == same.front().side.last) return true;  // a corner that is listed twice is no side
   std::int64_t balance = 0;
-  for (const GivenSide& given : same) balance += corners[given.triangle][given.number] == first ? 1 : -1;
-  return balance == 0;
+  for (const GivenSide& given : same) balance += given.way.first ? 1 : -1;
+  return balance == 0 && std::ranges::adjacent_find(same, {}, &GivenSide::way) == same.end();
 }
 
 void Triangles::find_borders(const IndexView& index, TaskContext& task) {
@@ -228,9 +226,9 @@ void Triangles::find_borders(const IndexView& index, TaskContext& task) {
       if (end != sides.end()) ++end;
       const std::span<const GivenSide> same(begin, end);
       if (!are_balanced(same)) {
-        for (const auto& [side, triangle, number] : same) {
+        for (const GivenSide& given : same) {
           // Another thread may mark another side of the triangle.
-          std::atomic_ref(borders[triangle]).fetch_or(static_cast<std::uint8_t>(1U << number));
+          std::atomic_ref(borders[given.triangle]).fetch_or(static_cast<std::uint8_t>(1U << given.number));
         }
       }
       if (begin->side.owner == Side::kShared && begin->side.last != first) ends.push_back(begin->side.last);

@@ -10,6 +10,7 @@
 #include <memory>
 #include <ranges>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/frame.h"
@@ -72,8 +73,8 @@ struct Triangles {
   /// The sum of the vector areas of some triangles, in the frame.
   [[nodiscard]] Point normal_of(const IndexView& index, std::span<const TriangleId> some) const;
 
-  /// Whether a side does not have as many triangles in one direction as in the other: a border of the surface, or where
-  /// its orientation changes.
+  /// Whether a side does not have as many triangles in one direction as in the other, or one twice: a border of the
+  /// surface, where its orientation changes, or where a face is listed again.
   [[nodiscard]] bool is_border(TriangleId t, unsigned side) const { return (flags[t] >> side & 1U) != 0; }
   [[nodiscard]] bool is_diagonal(TriangleId t, unsigned side) const { return (flags[t] >> (3 + side) & 1U) != 0; }
   [[nodiscard]] bool has_border(TriangleId t) const { return (flags[t] & 7U) != 0; }
@@ -107,6 +108,7 @@ struct Triangles {
 
   struct GivenSide {
     Side side;
+    std::pair<bool, std::uint32_t> way;  // whether it is from its first end on in the triangle; and the third corner
     TriangleId triangle;
     std::uint32_t number;  // of the side there
   };
@@ -123,8 +125,8 @@ struct Triangles {
   /// Those whose first end is a place, sorted so that the same ones follow each other.
   void gather_sides(std::uint32_t first, std::vector<GivenSide>& sides) const;
 
-  /// Whether the triangles at one side are as many in one direction as in the other.
-  [[nodiscard]] bool are_balanced(std::span<const GivenSide> same) const;
+  /// Whether the triangles at one side are as many in one direction as in the other, and each is listed once.
+  [[nodiscard]] static bool are_balanced(std::span<const GivenSide> same);
 };
 
 /// Sums over the triangles of a meshlet. Lengths are in the frame, points in the unit of the mesh.

@@ -694,6 +694,21 @@ TEST(Patch, HasNoVolumeAtABorder) {
   EXPECT_LT(test.measure(v, 4.1).area, kPi * 4.1 * 4.1);
 }
 
+TEST(Patch, HasNoVolumeAtAFaceThatIsListedTwice) {
+  TestMesh mesh = make_box({1, 1, 1}, 1);
+  const std::size_t faces = mesh.face_count();
+  for (const std::size_t count : {std::size_t{1}, faces}) {  // all of them have as many on each side
+    TestMesh twice = mesh;
+    for (std::size_t f = 0; f < count; ++f) {
+      const auto face = mesh.face(f);
+      twice.add_face({face[1], face[2], face[0]});
+    }
+    Case test(twice.finish(false));
+    EXPECT_TRUE(std::isnan(test.measure(mesh.face(0)[0], 0.5).volume));
+    EXPECT_TRUE(std::isnan(test.measure(mesh.face(0)[0], 3).volume));
+  }
+}
+
 /// Two boxes that share an edge are one solid there; a wing at an edge bounds nothing.
 TEST(Patch, AtEdgesThatAreNotManifold) {
   TestMesh boxes = make_box({1, 1, 1}, 1);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -43,7 +44,7 @@ class PatchReference {
         const auto [a, b] = side(f, i);
         faces_of_vertex_[a].push_back(f);
         faces_of_side_[key(f, i)].push_back(f);
-        if (a != b) balance_[key(f, i)] += a < b ? 1 : -1;
+        if (a != b) at_sides_[key(f, i)].add(a < b, triangles_[f][(i + 2) % 3]);
       }
     }
   }
@@ -84,6 +85,20 @@ class PatchReference {
     Real moment = 0;  // of distance times area
     Real solid = 0;   // minus the solid angle behind the patch, modulo 4 pi
     bool has_rim = false;
+  };
+
+  /// The triangles at a side, by their directions there and their third corners.
+  struct AtSide {
+    int balance = 0;
+    std::set<std::pair<bool, std::uint32_t>> ways;
+    bool has_one_twice = false;
+
+    void add(bool ascends, std::uint32_t third) {
+      balance += ascends ? 1 : -1;
+      has_one_twice |= !ways.emplace(ascends, third).second;
+    }
+
+    [[nodiscard]] bool is_border() const { return balance != 0 || has_one_twice; }
   };
 
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> side(std::size_t f, std::size_t i) const {
@@ -144,7 +159,7 @@ class PatchReference {
         if (length(p[i]) <= radius) push(faces_of_vertex_[a]);
         if (distance_of_segment(p[i], p[(i + 1) % 3]) > radius) continue;
         push(faces_of_side_.at(key(f, i)));
-        has_border |= a != b && balance_.at(key(f, i)) != 0;
+        has_border |= a != b && at_sides_.at(key(f, i)).is_border();
       }
       if (radius > 0) add(p, radius, sums);
     }
@@ -249,7 +264,7 @@ class PatchReference {
   std::vector<Triangle> owners_;
   std::vector<std::vector<std::size_t>> faces_of_vertex_;
   std::map<Triangle, std::vector<std::size_t>> faces_of_side_;
-  std::map<Triangle, int> balance_;
+  std::map<Triangle, AtSide> at_sides_;
 };
 
 }  // namespace meshhood::test
