@@ -39,20 +39,6 @@ double far_distance(const Point& q, const std::array<Point, 3>& corners, double 
   return (has_foot ? std::abs(static_cast<double>(dot(area, p[0]))) / size : least) / scale;
 }
 
-/// The patch of a search, as the first of a packet.
-class OnePatch {
- public:
-  explicit OnePatch(const PatchSearch& search) : search_(&search) {}
-
-  [[nodiscard]] const PatchBall& ball(std::size_t /*query*/) const { return search_->ball(); }
-  [[nodiscard]] bool has(std::size_t /*query*/, TriangleId t) const { return search_->has_seen(t); }
-  [[nodiscard]] QueryWord having(TriangleId t) const { return search_->has_seen(t) ? 1 : 0; }
-  [[nodiscard]] QueryWord having_all(MeshletId meshlet) const { return search_->has_taken(meshlet) ? 1 : 0; }
-
- private:
-  const PatchSearch* search_;
-};
-
 /// The nearest triangles that patches do not have. Those of a packet are near each other, so their centers are compared
 /// with a triangle at once. Only what surely is too far is left out, so the order of the triangles changes no answer.
 template <class Patches>
@@ -169,7 +155,7 @@ class GapSearch {
 
 SurfacePoint PatchSearch::gap() const {
   SurfacePoint gap;
-  if (exists()) GapSearch(*state_, OnePatch(*this), 1).run({&gap, 1});
+  if (exists()) GapSearch(*state_, *this, 1).run({&gap, 1});
   return gap;
 }
 

@@ -14,6 +14,7 @@
 #include "patch/meshlets.h"
 #include "patch/sums.h"
 #include "shared/distance.h"
+#include "simd/patches.h"
 
 namespace meshhood::inline v0_1 {
 
@@ -45,10 +46,13 @@ class PatchSearch {
   /// As a mesh, without its area. `radius`: that of the run.
   [[nodiscard]] ClippedMesh clip(double radius, double tolerance) const;
 
-  [[nodiscard]] const PatchBall& ball() const { return ball_; }
-  /// A triangle is of the patch if it was seen, or its meshlet taken.
-  [[nodiscard]] bool has_seen(TriangleId t) const { return seen_.has(t); }
-  [[nodiscard]] bool has_taken(MeshletId c) const { return kinds_.is_known(c) && kinds_[c] == Kind::Taken; }
+  // As those of `PacketPatches`, for its first query. A triangle is of the patch if it was seen, or its meshlet taken.
+  [[nodiscard]] const PatchBall& ball(std::size_t /*query*/) const { return ball_; }
+  [[nodiscard]] bool has(std::size_t /*query*/, TriangleId t) const { return seen_.has(t); }
+  [[nodiscard]] QueryWord having(TriangleId t) const { return seen_.has(t) ? 1 : 0; }
+  [[nodiscard]] QueryWord having_all(MeshletId m) const {
+    return kinds_.is_known(m) && kinds_[m] == Kind::Taken ? 1 : 0;
+  }
 
   /// By the numbers of their faces.
   [[nodiscard]] std::vector<TriangleId> triangles() const;
