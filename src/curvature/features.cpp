@@ -29,8 +29,6 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-constexpr double kNoFeature = kNan;
-
 /// What a kind follows from.
 enum class Source : std::uint8_t { Curvatures, Moments, Patches };
 
@@ -55,14 +53,14 @@ double curvature_feature(Feature kind, double k1, double k2) {
     case Feature::K2: return k2;
     case Feature::Curvedness: return curvedness(k1, k2);
     case Feature::ShapeIndex: return shape_index(k1, k2);
-    default: return kNoFeature;
+    default: return kNan;
   }
 }
 
 /// From the neighborhood of one row around a vertex with this normal.
 double moment_feature(Feature kind, const PrincipalComponents& found, std::size_t row, const Point& normal,
                       double radius) {
-  if (!(found.weight[row] > 0)) return kNoFeature;
+  if (!(found.weight[row] > 0)) return kNan;
   if (kind == Feature::Variation) {
     const double* const variances = &found.variances[3 * row];
     return surface_variation(variances[0], variances[1], variances[2]);
@@ -73,8 +71,8 @@ double moment_feature(Feature kind, const PrincipalComponents& found, std::size_
 
 double patch_feature(Feature kind, const RowPatch& patch) {
   const double r = patch.radius;
-  if (kind == Feature::Gap) return patch.gap.face == kNoFace ? kNoFeature : patch.gap.distance / r;
-  if (!(patch.area > 0)) return kNoFeature;
+  if (kind == Feature::Gap) return patch.gap.face == kNoFace ? kNan : patch.gap.distance / r;
+  if (!(patch.area > 0)) return kNan;
   if (kind == Feature::Area) return patch.area / r / r / std::numbers::pi;
   return patch.volume / r / r / r / (4 * std::numbers::pi / 3);
 }
@@ -213,7 +211,7 @@ class FeatureExtraction {
       fit(numbered_by_query(packet));
       write(Source::Curvatures, packet, [&](Feature kind, std::size_t q, double radius) {
         const bool has_fit = k->state[q] != CurvatureState::TooFew && k->state[q] != CurvatureState::NoNormal;
-        return has_fit ? curvature_feature(kind, radius * k->k1[q], radius * k->k2[q]) : kNoFeature;
+        return has_fit ? curvature_feature(kind, radius * k->k1[q], radius * k->k2[q]) : kNan;
       });
     };
   }
