@@ -27,22 +27,15 @@ namespace {
 using GivenTriangle = std::uint32_t;
 constexpr GivenTriangle kLast = GivenTriangle{1} << 31U;
 
-/// The triangles of the faces whose corners that come first in index order are in one leaf; they follow each other.
-struct TriangleRun {
-  LeafId leaf;
-  std::uint32_t begin;
-};
-
 /// The parts of a few triangles that are joined by corners.
 class LeafParts {
  public:
-  LeafParts(const std::vector<Triangle>& all, std::vector<std::uint32_t> numbers)
-      : numbers_(std::move(numbers)), parents_(numbers_.size()) {
+  explicit LeafParts(std::span<const Triangle> triangles) : parents_(triangles.size()) {
     std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
     std::vector<std::pair<std::uint32_t, std::uint32_t>> at_places;  // place and triangle
-    at_places.reserve(3 * numbers_.size());
-    for (std::uint32_t i = 0; i < numbers_.size(); ++i) {
-      for (const std::uint32_t place : all[numbers_[i]].corners) at_places.emplace_back(place, i);
+    at_places.reserve(3 * triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+      for (const std::uint32_t place : triangles[i].corners) at_places.emplace_back(place, i);
     }
     std::sort(at_places.begin(), at_places.end());
     for (std::size_t i = 1; i < at_places.size(); ++i) {
@@ -50,15 +43,15 @@ class LeafParts {
     }
   }
 
-  /// Sorted by their parts, each named by its first triangle, then by their numbers.
-  void append(std::vector<GivenTriangle>& out) {
+  /// Sorted by their parts, each named by its first triangle, then by their numbers, of which the first is `first`.
+  void append(std::size_t first, std::vector<GivenTriangle>& out) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> by_parts;
-    by_parts.reserve(numbers_.size());
-    for (std::uint32_t i = 0; i < numbers_.size(); ++i) by_parts.emplace_back(root(i), numbers_[i]);
+    by_parts.reserve(parents_.size());
+    for (std::uint32_t i = 0; i < parents_.size(); ++i) by_parts.emplace_back(root(i), i);
     std::sort(by_parts.begin(), by_parts.end());
     for (std::size_t i = 0; i < by_parts.size(); ++i) {
       const bool is_last = i + 1 == by_parts.size() || by_parts[i + 1].first != by_parts[i].first;
-      out.push_back(by_parts[i].second | (is_last ? kLast : 0));
+      out.push_back((static_cast<GivenTriangle>(first) + by_parts[i].second) | (is_last ? kLast : 0));
     }
   }
 
@@ -74,7 +67,6 @@ class LeafParts {
     parents_[std::max(i, j)] = std::min(i, j);
   }
 
-  std::vector<std::uint32_t> numbers_;
   std::vector<std::uint32_t> parents_;
 };
 
@@ -86,7 +78,7 @@ std::size_t Triangles::bytes() const {
 }
 
 Triangles::Triangles(const IndexView& index, const StoredFaces& faces, TaskContext& task) {
-  make_meshlets(index, triangles_in_index_order(index, faces, task), task);
+  make_meshlets(triangles_of_leaves(index, faces, task), task);
   if (size() == 0) raise(ErrorCode::InvalidMesh, "every face of the mesh has a wall, expected one without");
   make_fans(index.vertex_count());
   find_borders(index, task);
@@ -101,61 +93,20 @@ Point Triangles::normal_of(const IndexView& index, std::span<const TriangleId> s
   return sum;
 }
 
-namespace {
-
-/// The end of the face that begins at a triangle.
-std::size_t end_of_face(const std::vector<Triangle>& all, std::size_t begin) {
-  std::size_t end = begin;
-  while (end < all.size() && all[end].face == all[begin].face) ++end;
-  return end;
-}
-
-/// Triangles in index order are in the order of the leaves already.
-std::vector<TriangleRun> runs_of_leaves(const IndexView& index, const std::vector<Triangle>& all) {
-  std::vector<TriangleRun> runs;
-  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-    end = end_of_face(all, begin);
-    std::uint32_t first = all[begin].corners[0];
-    for (std::size_t i = begin; i < end; ++i) first = std::min(first, std::ranges::min(all[i].corners));
-    const LeafId leaf = leaf_of(index.slot_at(first));
-    if (runs.empty() || runs.back().leaf != leaf) runs.push_back({leaf, static_cast<std::uint32_t>(begin)});
+void Triangles::make_meshlets(const Lists<Triangle, std::size_t>& all, TaskContext& task) {
+  if (all.elements.size() > std::numeric_limits<std::uint32_t>::max() / 3) {
+    raise(ErrorCode::TooLarge, std::to_string(all.elements.size()) + " triangles, expected at most 2^32 / 3");
   }
-  runs.push_back({0, static_cast<std::uint32_t>(all.size())});
-  return runs;
-}
-
-/// The numbers of the triangles from `begin` to `end` whose faces have no walls.
-std::vector<std::uint32_t> without_walls(const IndexView& index, const std::vector<Triangle>& all, std::size_t begin,
-                                         std::size_t end) {
-  std::vector<std::uint32_t> numbers;
-  for (std::size_t next = 0; begin < end; begin = next) {
-    next = end_of_face(all, begin);
-    bool has_wall = false;
-    for (std::size_t i = begin; i < next; ++i) {
-      for (const std::uint32_t place : all[i].corners) has_wall = has_wall || index.is_wall_at(place);
-    }
-    for (std::size_t i = begin; !has_wall && i < next; ++i) numbers.push_back(static_cast<std::uint32_t>(i));
-  }
-  return numbers;
-}
-
-}  // namespace
-
-void Triangles::make_meshlets(const IndexView& index, const std::vector<Triangle>& all, TaskContext& task) {
-  if (all.size() > std::numeric_limits<std::uint32_t>::max() / 3) {
-    raise(ErrorCode::TooLarge, std::to_string(all.size()) + " triangles, expected at most 2^32 / 3");
-  }
-  const std::vector<TriangleRun> runs = runs_of_leaves(index, all);
-  const auto append = [&](std::size_t run, std::vector<GivenTriangle>& out) {
-    LeafParts(all, without_walls(index, all, runs[run].begin, runs[run + 1].begin)).append(out);
+  const auto append = [&](std::size_t leaf, std::vector<GivenTriangle>& out) {
+    LeafParts(all[leaf]).append(all.offsets[leaf], out);
   };
-  const Lists<GivenTriangle> in_order = collect_rows<GivenTriangle>(runs.size() - 1, task, append);
+  const Lists<GivenTriangle> in_order = collect_rows<GivenTriangle>(all.size(), task, append);
   corners.reserve(in_order.elements.size());
   face.reserve(in_order.elements.size());
   flags.reserve(in_order.elements.size());
   first_of_meshlet.push_back(0);
   for (const GivenTriangle given : in_order.elements) {
-    const Triangle& triangle = all[given & ~kLast];
+    const Triangle& triangle = all.elements[given & ~kLast];
     corners.push_back(triangle.corners);
     face.push_back(triangle.face);
     flags.push_back(static_cast<std::uint8_t>(triangle.diagonals << 3U));

@@ -118,7 +118,8 @@ struct Triangles {
     return {first, last, is_diagonal(t, static_cast<unsigned>(i)) ? face[t] : Side::kShared};
   }
 
-  void make_meshlets(const IndexView& index, const std::vector<Triangle>& all, TaskContext& task);
+  /// `all`: by leaf.
+  void make_meshlets(const Lists<Triangle, std::size_t>& all, TaskContext& task);
   void make_fans(std::size_t places);
   void find_borders(const IndexView& index, TaskContext& task);
 

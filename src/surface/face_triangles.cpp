@@ -42,27 +42,33 @@ void Triangulator::run(std::uint32_t face, std::span<const VertexId> corners, Tr
   }
 }
 
-std::vector<Triangle> triangles_in_index_order(const IndexView& index, const StoredFaces& faces, TaskContext& task) {
-  constexpr std::size_t kFacesOfTask = 1024;
+Lists<Triangle, std::size_t> triangles_of_leaves(const IndexView& index, const StoredFaces& faces, TaskContext& task) {
+  constexpr std::size_t kLeavesOfTask = 32;
   std::size_t count = 0;
   for (std::size_t face = 0; face < faces.size(); ++face) count += triangle_count(faces[face].size());
   check_triangle_count(count);
+  const auto is_wall = [&](VertexId v) { return index.is_wall_at(index.place(v)); };
   const auto by_first_place = gather_lists<std::uint32_t, std::size_t>(index.vertex_count(), [&](auto&& f) {
     for (std::size_t face = faces.size(); face-- > 0;) {
-      if (faces[face].size() >= 3) f(first_place(index, faces[face]), static_cast<std::uint32_t>(face));
+      if (faces[face].size() < 3 || std::ranges::any_of(faces[face], is_wall)) continue;
+      f(first_place(index, faces[face]), static_cast<std::uint32_t>(face));
     }
   });
-  const std::span<const std::uint32_t> in_order = by_first_place.elements;
-  std::vector<std::size_t> first_of_task;
-  for (std::size_t i = 0, next = 0; i < in_order.size(); ++i) {
-    if (i % kFacesOfTask == 0) first_of_task.push_back(next);
-    next += triangle_count(faces[in_order[i]].size());
+  const auto faces_from = [&](std::size_t begin, std::size_t end) {
+    const auto first_of = [&](std::size_t leaf) { return by_first_place.offsets[index.leaf_begin[leaf]]; };
+    return std::span(by_first_place.elements).subspan(first_of(begin), first_of(end) - first_of(begin));
+  };
+  Lists<Triangle, std::size_t> triangles;
+  count = 0;
+  for (std::size_t leaf = 0; leaf < index.leaf_count(); ++leaf) {
+    for (const std::uint32_t face : faces_from(leaf, leaf + 1)) count += triangle_count(faces[face].size());
+    triangles.offsets.push_back(count);
   }
-  std::vector<Triangle> triangles(count);
-  task.parallel_for(in_order.size(), kFacesOfTask, [&](unsigned, std::size_t begin, std::size_t end) {
+  triangles.elements.resize(count);
+  task.parallel_for(index.leaf_count(), kLeavesOfTask, [&](unsigned, std::size_t begin, std::size_t end) {
     Triangulator triangulator(index);
-    Triangle* next = triangles.data() + first_of_task[begin / kFacesOfTask];
-    for (const std::uint32_t face : in_order.subspan(begin, end - begin)) {
+    Triangle* next = triangles.elements.data() + triangles.offsets[begin];
+    for (const std::uint32_t face : faces_from(begin, end)) {
       triangulator.run(face, faces[face], next);
       next += triangle_count(faces[face].size());
     }

@@ -12,6 +12,7 @@
 #include "meshhood/error.h"
 #include "meshhood/surface.h"
 
+#include "base/lists.h"
 #include "base/triangulate.h"
 #include "exact/layout.h"
 #include "exact/stored_faces.h"
@@ -108,10 +109,11 @@ inline void check_triangle_count(std::size_t triangles) {
   if (triangles == 0) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
 }
 
-/// Those of all faces, at least one, in the order of the first corner of their face in index order, then of their
-/// faces. Throws Error{Cancelled}.
-[[nodiscard]] std::vector<Triangle> triangles_in_index_order(const IndexView& index, const StoredFaces& faces,
-                                                             TaskContext& task);
+/// By leaf: the triangles of the faces without a wall whose first corner in index order is there, in the order of these
+/// corners, then of the faces. Throws Error{InvalidMesh} if no face, with or without a wall, has a triangle, and
+/// Error{Cancelled}.
+[[nodiscard]] Lists<Triangle, std::size_t> triangles_of_leaves(const IndexView& index, const StoredFaces& faces,
+                                                               TaskContext& task);
 
 /// The positions of the corners of a triangle.
 [[nodiscard]] std::array<Point, 3> corners_of(const IndexView& index, const std::array<std::uint32_t, 3>& places);

@@ -78,7 +78,7 @@ class SurfaceGraph {
   SurfaceGraph(const SurfaceState& surface, TaskContext& task)
       : index_(*surface.index),
         faces_(surface.faces()),
-        triangles_(triangles_in_index_order(index_, faces_, task)),
+        triangles_(triangles_of_leaves(index_, faces_, task).elements),
         edges_(&edges_of(surface)) {}
 
   [[nodiscard]] WeightedGraph make() const {
@@ -127,13 +127,13 @@ class SurfaceGraph {
     return std::ranges::binary_search(edges_->edges->view()[a], b);
   }
 
-  /// Whether lines may run over a face: none of its corners is a wall, and none of its sides is cut.
+  /// Whether lines may run over a face without a wall: none of its sides is cut.
   [[nodiscard]] bool is_open(std::span<const VertexId> corners) const {
     auto previous = static_cast<VertexId>(index_.place(corners.back()));
     return std::ranges::all_of(corners, [&](VertexId corner) {
       const auto place = static_cast<VertexId>(index_.place(corner));
       const VertexId before = std::exchange(previous, place);
-      return !index_.is_wall_at(place) && (before == place || is_edge(before, place));
+      return before == place || is_edge(before, place);
     });
   }
 
