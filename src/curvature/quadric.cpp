@@ -80,19 +80,17 @@ void orthogonalize(SmallMatrix<N>& a, SmallMatrix<N>& v) {
   }
 }
 
-/// A solution, and whether it is the only one.
-template <std::size_t N>
-struct RowFit {
-  SmallVector<N> solution;
-  bool unique;
-};
-
-/// Fits rows of N coefficients and a right-hand side: `columns`, all of one length. The solution with the smallest
-/// coefficients if there are several. By a QR decomposition and the singular values of its factor, of which those below
-/// N epsilon of the largest count as 0.
-template <std::size_t N>
-RowFit<N> fit_rows(std::array<std::vector<double>, N + 1>& columns) {
-  for (std::vector<double>& column : columns) column.resize(std::max(column.size(), N));
+/// Fits the rows of the points: N coefficients, of which the first five are those of the quadric, and a right-hand
+/// side. The solution with the smallest coefficients if there are several. By a QR decomposition and the singular
+/// values of its factor, of which those below N epsilon of the largest count as 0.
+template <std::size_t N, class RowOf>
+PointFit fit_rows(std::span<const Point> points, RowOf&& row_of) {
+  std::array<std::vector<double>, N + 1> columns;
+  for (std::vector<double>& column : columns) column.resize(std::max(points.size(), N));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::array<double, N + 1> row = row_of(points[i]);
+    for (std::size_t j = 0; j <= N; ++j) columns[j][i] = row[j];
+  }
   triangularize<N>(columns);
   SmallMatrix<N> a{};
   SmallMatrix<N> v{};
@@ -102,14 +100,14 @@ RowFit<N> fit_rows(std::array<std::vector<double>, N + 1>& columns) {
   for (std::size_t j = 0; j < N; ++j) squares[j] = product(a[j], a[j]);
   const double largest = std::sqrt(*std::max_element(squares.begin(), squares.end()));
   const double least = static_cast<double>(N) * std::numeric_limits<double>::epsilon() * largest;
-  RowFit<N> result{{}, true};
+  PointFit result{{}, true};
   for (std::size_t j = 0; j < N; ++j) {
     if (!(std::sqrt(squares[j]) > least)) {
       result.unique = false;
       continue;
     }
     const double factor = product(a[j], std::span(columns[N]).first(N)) / squares[j];
-    for (std::size_t i = 0; i < N; ++i) result.solution[i] += factor * v[j][i];
+    for (std::size_t i = 0; i < result.quadric.size(); ++i) result.quadric[i] += factor * v[j][i];
   }
   return result;
 }
@@ -161,14 +159,7 @@ double smallest_determinant(const FrameMoments& s, std::size_t query, double sec
 }
 
 PointFit fit_points(std::span<const Point> points) {
-  std::array<std::vector<double>, 6> columns;
-  for (std::vector<double>& column : columns) column.reserve(points.size());
-  for (const Point& p : points) {
-    const std::array<double, 6> row{p.x * p.x, p.x * p.y, p.y * p.y, p.x, p.y, p.z};
-    for (std::size_t j = 0; j < row.size(); ++j) columns[j].push_back(row[j]);
-  }
-  const RowFit<5> fit = fit_rows<5>(columns);
-  return {fit.solution, fit.unique};
+  return fit_rows<5>(points, [](const Point& p) { return std::array{p.x * p.x, p.x * p.y, p.y * p.y, p.x, p.y, p.z}; });
 }
 
 TangentFrame jet_frame(const Eigen3& axes, const Point& normal) {
@@ -188,16 +179,12 @@ JetFit fit_jet(std::span<const Point> points, const Point& normal) {
                   covariance.yy + q.y * q.y, covariance.yz + q.y * q.z, covariance.zz + q.z * q.z};
   }
   const TangentFrame frame = jet_frame(eigen(covariance), normal);
-  std::array<std::vector<double>, 7> columns;
-  for (const Point& p : points) {
+  const auto row_of = [&](const Point& p) {
     const double x = dot(p, frame.u);
     const double y = dot(p, frame.v);
-    const std::array<double, 7> row{x * x, x * y, y * y, x, y, 1, dot(p, frame.n)};
-    for (std::size_t j = 0; j < row.size(); ++j) columns[j].push_back(row[j]);
-  }
-  const RowFit<6> fit = fit_rows<6>(columns);
-  const auto& [a, b, c, d, e, f] = fit.solution;
-  return {frame, {{a, b, c, d, e}, fit.unique}};
+    return std::array{x * x, x * y, y * y, x, y, 1.0, dot(p, frame.n)};
+  };
+  return {frame, fit_rows<6>(points, row_of)};
 }
 
 void principal_curvatures(const MomentKernels& kernels, const QueryQuadrics& quadrics, const QueryFrames& frames,
