@@ -226,9 +226,10 @@ class Surface {
 /// nearer to a geodesic than one along the edges (docs/queries.md). All calls by other metrics answer as before, and
 /// `Surface::on` makes a surface of it.
 ///
-/// A line crosses a side inside, and only one of exactly two triangles. None runs over a face with a wall, or with a
-/// side that is cut (see `cut_edges`). The triangles of a polygon are those of `Surface`; the sides between them are
-/// lines, too. The length of a line is computed in double, off by a few units in the last place of the longest side.
+/// A line crosses a side inside, and only one with exactly two opposite corners, however often a face is listed. None
+/// runs over a face with a wall, or with a side that is cut (see `cut_edges`). The triangles of a polygon are those of
+/// `Surface`; the sides between them are lines, too. The length of a line is computed in double, off by a few units in
+/// the last place of the longest side.
 ///
 /// The arrays of the index are shared. Memory: 150 bytes a vertex of a mesh of triangles, 12 for each line in both
 /// directions and 4; three times that meanwhile, and what the surface needs for closest points. O(#V + #F), on one
