@@ -22,8 +22,8 @@ class Invariants(NamedTuple):
     """Area and volume of the surface in each ball (see `MeshIndex.invariants`).
 
     area : (#rows,) of the patch, in the square of the unit of V.
-    volume : (#rows,) of the part of the ball behind the patch. NaN where a border of the mesh, or a side at which the
-        orientation changes, lies in the patch, or where there is no patch.
+    volume : (#rows,) of the part of the ball behind the patch. NaN where a border of the mesh, a side at which the
+        orientation changes, or one of a face that is listed twice lies in the patch, or where there is no patch.
 
     With `scales` each array has a leading axis.
 
@@ -252,8 +252,7 @@ class Patches(Held):
         start, face, F, walls, unit : as for `patch`. A point at exactly `r` counts. A vertex or a face that the mesh
             does not have, and a negative radius, are a ValueError, a point without its face a TypeError.
 
-        Returns `Measure`: area, in the square of the unit of V, and volume, in its cube; NaN where a border of the mesh,
-        or a side at which the orientation changes, lies in the patch, or where there is no patch, whose area is 0. They
+        Returns `Measure`: area, in the square of the unit of V, and volume, in its cube; NaN as in `Invariants`. They
         are as accurate as `invariants`, which is faster for many vertices. O(k) for k triangles near the sphere.
 
         >>> index = meshhood.MeshIndex(V, F)
