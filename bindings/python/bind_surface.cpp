@@ -69,8 +69,6 @@ class SurfaceColumns {
   Column<SpacePoint> points_;
 };
 
-Corners corners_of(bool all) { return all ? Corners::All : Corners::Any; }
-
 /// The columns of the points that `find(visit)` visits, with the places of corners in the face.
 template <class Find>
 auto columns(std::size_t rows, const Find& find) {
@@ -109,12 +107,8 @@ Output<double> measure_thickness(const Surface& surface, const Call& call, bool 
   }));
 }
 
-Output<std::int64_t> faces(const Surface& surface, const Ids& ids, bool all) {
-  return owned<std::int64_t>(surface.faces(ids_of(ids), corners_of(all)));
-}
-
 auto submesh(const Surface& surface, const Ids& ids, bool all) {
-  Submesh part = surface.submesh(ids_of(ids), corners_of(all));
+  Submesh part = surface.submesh(ids_of(ids), all ? Corners::All : Corners::Any);
   return std::tuple(owned<std::int32_t>(std::move(part.vertices)), owned<std::int64_t>(std::move(part.faces)),
                     owned<std::int64_t>(std::move(part.offsets)), owned<std::int32_t>(std::move(part.corners)));
 }
@@ -210,15 +204,6 @@ SharedSurface of_faces(const ExactMethod& method, const Faces& given) {
   return SharedSurface(without_lock([&] { return Surface(method.index(), faces); }));
 }
 
-/// With an index of its own.
-SharedSurface of_mesh(const Mesh& given) {
-  const MeshView mesh = mesh_of(given);
-  return SharedSurface(without_lock([&] {
-    const Index index = build(mesh);
-    return Surface(index, mesh.faces);
-  }));
-}
-
 SharedSurface of_normals(const ExactMethod& method, const Reals& normals, const std::optional<Faces>& given) {
   const FacesView faces = given ? faces_of(*given) : FacesView{};
   return SharedSurface(without_lock([&] {
@@ -230,7 +215,6 @@ SharedSurface of_normals(const ExactMethod& method, const Reals& normals, const 
 
 nb::class_<Surface> bind_surface(nb::module_& module) {
   module.def("surface_of_faces", &of_faces);
-  module.def("surface_of_mesh", &of_mesh);
   module.def("surface_of_normals", &of_normals, nb::arg(), nb::arg(), nb::arg("faces").none());
   nb::class_<Surface> surface(module, "Surface");
   surface.def_prop_ro("face_count", &Surface::face_count)
@@ -245,7 +229,6 @@ nb::class_<Surface> bind_surface(nb::module_& module) {
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("first_hits", &first_hits, nb::arg(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("thickness", &measure_thickness, nb::arg(), nb::arg("by_sphere"))
-      .def("faces", &faces)
       .def("submesh", &submesh)
       .def("rim", &rim);
   nb::class_<SharedSurface, Surface>(module, "SharedSurface")

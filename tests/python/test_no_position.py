@@ -74,9 +74,7 @@ def test_what_would_lose_the_walls_is_refused(done, call, tmp_path, monkeypatch)
         call(scanned())
 
 
-@pytest.mark.parametrize(
-    "call", (meshhood.weld, meshhood.vertex_areas, meshhood.RegionMesh, meshhood.MeshIndex.of_faces)
-)
+@pytest.mark.parametrize("call", (meshhood.weld, meshhood.vertex_areas, meshhood.MeshIndex.of_faces))
 def test_the_way_out_that_an_error_names_leads_out(call, tmp_path):
     V, F = scan()
     with pytest.raises(ValueError, match=rf"^V: 12 vertices .* \(NaN\), the first of which is {HOLES[0]}, expected") as error:

@@ -694,9 +694,6 @@ CALLS_ELSE = {
     meshhood.MeshIndex.submesh: lambda folder, **words: INDEX.submesh(REGION, **words)[::2],  # positions and vertices
     meshhood.MeshIndex.rim: lambda folder, **words: [line.points for line in INDEX.rim(REGION, 4711, 3.0, **words)],
     meshhood.MeshIndex.save: saved,
-    meshhood.RegionMesh: lambda folder, F=F: meshhood.RegionMesh(V, F).faces(REGION),
-    meshhood.RegionMesh.faces: lambda folder, **words: meshhood.RegionMesh(V, F).faces(REGION, **words),
-    meshhood.RegionMesh.submesh: lambda folder, **words: tuple(meshhood.RegionMesh(V, F).submesh(REGION, **words)),
     meshhood.load: saved,
     meshhood.read_mesh: lambda folder, **words: (written(folder), tuple(meshhood.read_mesh(folder / "m.ply", **words)))[1],
     meshhood.write_mesh: lambda folder, F=F, **words: written(folder, **words),
@@ -780,8 +777,8 @@ def test_options_of_how_do_not_change_an_answer(method, tmp_path):
 def test_every_call_has_its_pairs():
     known = {call.name for call in CALLS} | set(CALLS_OF_START) | WITHOUT_PAIRS
     known |= {method.__name__ for method in CALLS_ELSE} | {"of_faces", "from_points"}
-    places = [meshhood.MeshIndex, meshhood.RegionMesh, *(getattr(meshhood, name) for name in meshhood.__all__)]
-    calls = {name for cls in places[:2] for name in dir(cls) if callable(getattr(cls, name))}
+    places = [getattr(meshhood, name) for name in meshhood.__all__]
+    calls = {name for name in dir(meshhood.MeshIndex) if callable(getattr(meshhood.MeshIndex, name))}
     calls |= {place.__name__ for place in places if inspect.isfunction(place)}
     missing = sorted(name for name in calls if not name.startswith("_") and name not in known)
     assert not missing, f"no pairs of options for {', '.join(missing)}"

@@ -53,14 +53,12 @@ def test_a_cut_line_stays_joined_to_both_sides_and_what_crosses_it_separates_the
     assert separate.measure(0, 9.0).area == 9.0
 
 
-def test_faces_and_submesh_of_a_region(mesh):
+def test_submesh_of_a_region(mesh):
     V, F, index = mesh
-    mesher = meshhood.RegionMesh(V, F)
     ids = index.neighborhood(5, 3.2)
-    inside = np.isin(F, ids)
-    np.testing.assert_array_equal(mesher.faces(ids), np.flatnonzero(inside.all(axis=1)))
-    np.testing.assert_array_equal(mesher.faces(ids, "any"), np.flatnonzero(inside.any(axis=1)))
-    part = mesher.submesh(ids, "any")
+    inside, part = np.isin(F, ids), index.submesh(ids, "any")
+    np.testing.assert_array_equal(index.submesh(ids).faces, np.flatnonzero(inside.all(axis=1)))
+    np.testing.assert_array_equal(part.faces, np.flatnonzero(inside.any(axis=1)))
     np.testing.assert_array_equal(part.vertices[part.F], F[part.faces])
     np.testing.assert_array_equal(part.V, V[part.vertices])
     np.testing.assert_array_equal(meshhood.MeshIndex(part).faces, part.F)
@@ -70,7 +68,7 @@ def test_rim_of_polygons_on_a_sheet_is_one_loop():
     V, quads = grid(12)
     index = meshhood.MeshIndex(V, quads)
     center = 6 * 12 + 6
-    (line,) = meshhood.RegionMesh(V, quads).rim(index.neighborhood(center, 3.3), center, 3.3)
+    (line,) = index.rim(index.neighborhood(center, 3.3), center, 3.3)
     assert line.closed
 
 
@@ -87,12 +85,12 @@ def test_rim_of_polygons_on_a_sheet_is_one_loop():
         (lambda i: i.connecting_radius(0, -1), r"w: vertex -1"),
         (lambda i: i.nearest_connected(0, -1), r"k: -1"),
         (lambda i: i.nested(36, range(2), metric="rings"), r"start: vertex 36"),
-        (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], [], 1), r"start: expected a vertex or 3 numbers, not .* \(0,\)"),
+        (lambda i: i.rim([8], [], 1), r"start: expected a vertex or 3 numbers, not .* \(0,\)"),
         (lambda i: i.neighborhood(0, 1, metric="path", method="bfs"), r"method: 'bfs', expected 'exact'"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 1), (0, 8)]), r"cut: edge 1: vertices 0 and 8"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 9)]), r"^cut: edge 0: vertex 9, but the mesh has 9 vertices"),
-        (lambda i: meshhood.RegionMesh(*grid(3)).faces([9]), r"ids: row 0: vertex 9"),
-        (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], 0, 1), r"vertex 8 is not within the radius 1"),
+        (lambda i: i.submesh([36]), r"ids: row 0: vertex 36"),
+        (lambda i: i.rim([8], 0, 1), r"vertex 8 is not within the radius 1"),
     ],
 )
 def test_wrong_arguments_are_refused_by_name(call, message):

@@ -12,7 +12,7 @@ component that contains v.
 The calls, by what they answer; those without a dot are of `MeshIndex`, and help(meshhood.MeshIndex.count) shows one:
 
 - neighborhoods: neighborhood, neighborhoods, iter_neighborhoods, nested, stroke, contains, count, counts
-- the same as a mesh or a graph: faces, submesh, rim, radius_neighbors_graph, meshhood.RegionMesh, meshhood.padded
+- the same as a mesh or a graph: faces, submesh, rim, radius_neighbors_graph, meshhood.padded
 - nearest vertices: k_nearest, nearest_connected, nearest_unconnected, connecting_radius, discs
 - from points in space: nearest, closest_point, first_hit, neighborhood
 - the surface in the ball: invariants, measure, gaps, gap, patch, clip; through a wall: thickness
@@ -44,7 +44,7 @@ from ._partition import partition
 from ._patches import Gap, Gaps, Invariants, Measure
 from ._plot import plot_neighborhood
 from ._queries import Connected, Nested
-from ._region_mesh import RegionMesh, RimLine, Submesh
+from ._regions import RimLine, Submesh
 from ._surface_queries import ClosestPoint, Discs, FirstHit, Nearest, Unconnected
 from ._view import Page, view
 from ._weld import Welded, weld
@@ -85,7 +85,6 @@ __all__ = [
     "Persistence",
     "PrincipalComponents",
     "Quality",
-    "RegionMesh",
     "RimLine",
     "Submesh",
     "Unconnected",

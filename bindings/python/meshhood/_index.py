@@ -31,7 +31,7 @@ from ._optional import optional
 from ._patches import Patches
 from ._progress import Progress, in_parts, reporter
 from ._queries import Queries
-from ._region_mesh import Regions
+from ._regions import Regions
 from ._repr import shown_in_a_line
 from ._rows import Rows, check_size, check_sort, read_rows, result_dtype, sorted_rows
 from ._shape import Shape

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert
 from ._held import Held
 from ._progress import Progress
-from ._region_mesh import Submesh
+from ._regions import Submesh
 from ._repr import shown_in_a_line
 from ._rows import read_rows
 from ._types import AnyVertices, Ids, Mask, Radii, Reals, Scales, Unit

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Regions as meshes: their faces, submeshes and outlines."""
+"""Regions as meshes: their submeshes and outlines."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from typing import Any, Literal, NamedTuple, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _convert, _core
+from . import _convert
 from ._aggregate import vertex_areas
 from ._held import Held
-from ._mesh import poly_data, whole_mesh_arrays
+from ._mesh import poly_data
 from ._optional import optional
 from ._repr import shown_in_a_line
 from ._types import Ids
@@ -121,116 +121,56 @@ class RimLine(NamedTuple):
     closed: bool  #: a loop, whose last point is joined to its first
 
 
-class RegionMesh:
-    """Makes meshes and outlines of the regions of a mesh, for drawing, remeshing and patches.
+class Regions(Held):
+    """The part of `MeshIndex` that makes meshes and outlines of regions, for drawing, remeshing and patches."""
 
-    V, F : the mesh, as for `MeshIndex`. Both are copied.
+    def submesh(self, ids: ArrayLike, corners: Corners = "all", *, F: Any = None) -> Submesh:
+        """The faces with all corners in `ids`, or with at least one, as a mesh. Those that the surface of a ball cuts,
+        and their area, are left out with "all", and whole with "any"; `clip` cuts them.
 
-    `ids` are the vertices of a region, in any order, as the queries of `MeshIndex` return them; or a bool mask (#V,).
-    Builds an index of the mesh, if there is none: `MeshIndex.submesh` needs no other.
-    The cost of a call is that of sorting the faces around them. Raises ValueError or TypeError, naming the argument and
-    the element.
+        ids : the vertices of a region, in any order, or a bool mask (#V,).
+        F : other faces than those that the index keeps.
 
-    >>> mesher = meshhood.RegionMesh(V, F)
-    >>> part = mesher.submesh(meshhood.MeshIndex(V, F).neighborhood(42, 0.5))
-    """
+        The cost is that of sorting the faces around the region.
 
-    def __init__(self, V: Any, F: Any = None) -> None:
-        mesh = positions, _, offsets = whole_mesh_arrays(V, F)
-        self._hold(positions.copy(), _core.surface_of_mesh(mesh), offsets is None)
-
-    def _hold(self, positions: Any, surface: Any, is_triangles: bool) -> None:
-        self._positions = positions
-        self._surface = surface
-        self._triangles = is_triangles
-
-    def __repr__(self) -> str:
-        return f"<meshhood.RegionMesh: {len(self._positions)} vertices, {self._surface.face_count} faces>"
-
-    def faces(self, ids: ArrayLike, corners: Corners = "all") -> NDArray[np.int64]:
-        """The faces with all corners in `ids`, or with at least one; ascending.
-
-        >>> meshhood.RegionMesh(V, F).faces(F[7]).tolist()
-        [7]
-        """
-        return self._surface.faces(self._ids(ids), self._all(corners))
-
-    def submesh(self, ids: ArrayLike, corners: Corners = "all") -> Submesh:
-        """These faces as a mesh. With corners="all", faces that the surface of the ball cuts are left out, and so is
-        their area: see `MeshIndex.clip`.
-
-        >>> mesher, ids = meshhood.RegionMesh(V, F), meshhood.MeshIndex(V, F).neighborhood(42, 0.5)
-        >>> mesher.submesh(ids).area < mesher.submesh(ids, "any").area
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> ids = index.neighborhood(42, 0.5)
+        >>> part = index.submesh(ids)
+        >>> len(part.V) == len(part.vertices) and part.area < index.submesh(ids, "any").area
         True
         """
-        vertices, faces, offsets, flat = self._surface.submesh(self._ids(ids), self._all(corners))
-        triangles = flat.reshape(-1, 3) if self._triangles else (offsets, flat)
-        points, none = self._positions[vertices], (np.empty((0, 3), np.int32), np.empty((0, 3)))
+        region = _convert.vertices(ids, self._count, "ids")
+        is_all = _convert.choice(corners, "corners", ("all", "any")) == "all"
+        key, arrays = self._keyed_faces(F)
+        vertices, faces, offsets, flat = self._surface_of(key, arrays).submesh(region, is_all)
+        triangles = flat.reshape(-1, 3) if arrays[1] is None else (offsets, flat)
+        points, none = self._methods.positions[vertices], (np.empty((0, 3), np.int32), np.empty((0, 3)))
         area = float(vertex_areas(points, triangles).sum())
-        return Submesh(points, triangles, vertices, faces, area, *none, len(self._positions))
+        return Submesh(points, triangles, vertices, faces, area, *none, self._count)
 
-    def rim(self, ids: ArrayLike, start: Any, r: Any) -> list[RimLine]:
+    def rim(self, ids: ArrayLike, start: Any, r: Any, *, F: Any = None) -> list[RimLine]:
         """Where the surface leaves a region: polylines whose points lie on edges, at the distance `r` from `start`.
 
-        ids : the region of `start` and `r` (see `MeshIndex.neighborhood`).
+        ids, F : as for `submesh`; the region of `start` and `r` (see `neighborhood`).
         start : the center of the ball, a vertex or a point in space (3 numbers).
 
         On a manifold mesh without border all polylines are closed. The others end at the border of the mesh, or where
         three or more of them meet. If the faces are consistently oriented, the region lies to the left. If an edge
         leads from the region to a wall inside the ball, the point on this edge is the wall.
 
-        >>> ids = meshhood.MeshIndex(V, F).neighborhood(42, 0.5)
-        >>> [line.closed for line in meshhood.RegionMesh(V, F).rim(ids, 42, 0.5)]
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> [line.closed for line in index.rim(index.neighborhood(42, 0.5), 42, 0.5)]
         [True]
         """
-        points, edges, offsets, closed = self._surface.rim(self._ids(ids), self._center(start), _convert.radius(r))
+        region = _convert.vertices(ids, self._count, "ids")
+        points, edges, offsets, closed = self._surface(F).rim(region, self._center(start), _convert.radius(r))
         parts = [slice(begin, end) for begin, end in zip(offsets[:-1], offsets[1:])]
         return [RimLine(points[part], edges[part], bool(is_closed)) for part, is_closed in zip(parts, closed)]
 
     def _center(self, start: Any) -> tuple[float, float, float]:
         if _convert.is_single(start, "start"):
-            center = self._positions[_convert.vertex(start, len(self._positions), "start")].astype(np.float64)
+            center = self._methods.positions[_convert.vertex(start, self._count, "start")].astype(np.float64)
         else:
             center = _convert.point(start, "start", "a call for each")[0]
         x, y, z = (float(value) for value in center)
         return x, y, z
-
-    def _ids(self, ids: Any) -> Ids:
-        return _convert.vertices(ids, len(self._positions), "ids")
-
-    def _all(self, corners: Any) -> bool:
-        return _convert.choice(corners, "corners", ("all", "any")) == "all"
-
-
-class Regions(Held):
-    """The part of `MeshIndex` that makes meshes of regions."""
-
-    def submesh(self, ids: ArrayLike, corners: Corners = "all", *, F: Any = None) -> Submesh:
-        """The faces with all corners in `ids`, or with at least one, as a mesh: see `RegionMesh.submesh`. Those that the
-        surface of a ball cuts are left out with "all", and whole with "any"; `clip` cuts them.
-
-        ids : the vertices of a region, in any order, or a bool mask (#V,).
-        F : other faces than those that the index keeps.
-
-        >>> index = meshhood.MeshIndex(V, F)
-        >>> ids = index.neighborhood(42, 0.5)
-        >>> part = index.submesh(ids)
-        >>> len(part.V) == len(part.vertices)
-        True
-        """
-        return self._region_mesh(F).submesh(ids, corners)
-
-    def rim(self, ids: ArrayLike, start: Any, r: Any, *, F: Any = None) -> list[RimLine]:
-        """Where the surface leaves a region: see `RegionMesh.rim`.
-
-        >>> index = meshhood.MeshIndex(V, F)
-        >>> [line.closed for line in index.rim(index.neighborhood(42, 0.5), 42, 0.5)]
-        [True]
-        """
-        return self._region_mesh(F).rim(ids, start, r)
-
-    def _region_mesh(self, F: Any) -> RegionMesh:
-        mesh = RegionMesh.__new__(RegionMesh)
-        key, arrays = self._keyed_faces(F)
-        mesh._hold(self._methods.positions, self._surface_of(key, arrays), arrays[1] is None)
-        return mesh
