@@ -13,9 +13,9 @@
 namespace meshhood::test {
 namespace {
 
-class RealRegionMeshes : public testing::TestWithParam<const char*> {};
+class RealSubmeshes : public testing::TestWithParam<const char*> {};
 
-TEST_P(RealRegionMeshes, HaveTheFacesOfTheirVerticesAndTheirRim) {
+TEST_P(RealSubmeshes, HaveTheFacesOfTheirVerticesAndTheirRim) {
   MESHHOOD_NEED_SHARED_MESHES();
   std::size_t regions = 0;
   const std::size_t meshes = for_each_shared_mesh(GetParam(), [&](const TestMesh& mesh) {
@@ -41,7 +41,7 @@ TEST_P(RealRegionMeshes, HaveTheFacesOfTheirVerticesAndTheirRim) {
   EXPECT_GT(meshes, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Folders, RealRegionMeshes, shared_folders(), shared_folder_case);
+INSTANTIATE_TEST_SUITE_P(Folders, RealSubmeshes, shared_folders(), shared_folder_case);
 
 }  // namespace
 }  // namespace meshhood::test

@@ -26,7 +26,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-class RegionMeshes : public testing::TestWithParam<Family> {
+class Submeshes : public testing::TestWithParam<Family> {
  protected:
   /// Calls `f(region)` for regions of meshes of many sizes.
   template <class F>
@@ -50,13 +50,13 @@ class RegionMeshes : public testing::TestWithParam<Family> {
   }
 };
 
-TEST_P(RegionMeshes, HaveTheFacesOfTheirVertices) { for_each_region(expect_faces_of_vertices); }
+TEST_P(Submeshes, HaveTheFacesOfTheirVertices) { for_each_region(expect_faces_of_vertices); }
 
-TEST_P(RegionMeshes, HaveARimOfTheSegmentsOfTheirFaces) { for_each_region(expect_rim_of_segments); }
+TEST_P(Submeshes, HaveARimOfTheSegmentsOfTheirFaces) { for_each_region(expect_rim_of_segments); }
 
-TEST_P(RegionMeshes, HaveARimAtTheRadius) { for_each_region(expect_rim_at_radius); }
+TEST_P(Submeshes, HaveARimAtTheRadius) { for_each_region(expect_rim_at_radius); }
 
-INSTANTIATE_TEST_SUITE_P(All, RegionMeshes, testing::ValuesIn(families()), family_name);
+INSTANTIATE_TEST_SUITE_P(All, Submeshes, testing::ValuesIn(families()), family_name);
 
 TEST(Rim, OfABallOnAGridIsOneLoopWithTheRegionOnItsLeft) {
   const TestMesh mesh = make_grid(11, 11, false);
