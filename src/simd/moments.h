@@ -140,8 +140,8 @@ struct MomentKernels {
   void (*rotate)(const QueryMoments& moments, const QueryFrames& frames, FrameMoments& out);
 
   /// Solves the normal equations of the least-squares fits. `determinant` is the least of their leading determinants,
-  /// scaled to a diagonal of ones: the condition of such a matrix is at most 12 / determinant. It is not > 0 if there is
-  /// no unique solution.
+  /// scaled to a diagonal of ones: the condition of such a matrix is at most 12 / determinant. It is not > 0 if there
+  /// is no unique solution.
   void (*fit_quadrics)(const FrameMoments& moments, QueryQuadrics& out);
 
   /// The same with a constant term, which `out` leaves out.
