@@ -51,7 +51,7 @@ def test_an_index_without_faces_says_so(tmp_path):
         meshhood.load(tmp_path / "plates.mhi"),
     ):
         assert index.faces is None
-        with pytest.raises(ValueError, match=r"F: expected the faces, because this index has none.*saved without faces=True"):
+        with pytest.raises(ValueError, match=r"F: expected the faces or normals=, because this index has none.*saved without faces=True"):
             index.curvature(2.5)
         index.curvature(2.5, F=TRIANGLES)
 

@@ -86,7 +86,7 @@ ERRORS = (
     ("index.neighborhoods()", TypeError,
         "r: missing, expected a number, or one for each row, or several for all rows as scales"),
     ("index.neighborhoods(1, 3)", TypeError,
-        "vertices: one vertex, expected a list; neighborhood(start, r) answers one"),
+        "vertices: one vertex, expected a list: [3]; neighborhood(start, r) answers one"),
     ("index.neighborhoods([1, 2], [3])", ValueError,
         "r: expected one number, or one for each of 1 rows, not an array of shape (2,); several radii for "
         "all rows are scales="),
@@ -102,7 +102,8 @@ ERRORS = (
         "the result of 50 rows, at least 5000 bytes, exceeds max_bytes, 10; iter_neighborhoods returns the "
         "rows in chunks"),
     ("index.counts(1, F)", ValueError,
-        "vertices: expected one vertex or a list of vertices, not an array of shape (64, 3); faces are passed as F="),
+        "vertices: expected a list of vertices, or a bool mask of 50, not an array of shape (64, 3); faces are passed as "
+        "F="),
     ("index.counts(1, np.ones(5, bool))", ValueError,
         "vertices: a bool mask of shape (5,), expected (50,)"),
     ("index.counts(1, np.ones(N, int))", TypeError,
@@ -132,8 +133,8 @@ ERRORS = (
     ("index.curvature(1, normals=V[:3])", ValueError,
         "normals: expected an array of shape (50, 3), not (3, 3)"),
     ("points.curvature(1)", ValueError,
-        "F: expected the faces, because this index has none: it was built with keep_faces=False, from a graph or "
-        "from points, or loaded from a file that was saved without faces=True"),
+        "F: expected the faces or normals=, because this index has none: it was built with keep_faces=False, from a "
+        "graph or from points, or loaded from a file that was saved without faces=True"),
     ("meshhood.weld((V, F), 1e-5)", TypeError,
         "F: 1e-05, expected faces; the distance is eps=1e-05"),
     ('meshhood.write_mesh("values.ply", V, F, values=V[:, 0])', TypeError,
