@@ -138,8 +138,8 @@ struct AggregateQuery {
 /// earlier calls, the number of threads or the processor. Minimum, maximum and count are exact. Values are scaled by a
 /// power of two before they are squared or added, so that only a result too large for a double overflows; large values
 /// elsewhere have no effect. Infinite values give what IEEE arithmetic gives. With a smoothing kernel, a call of more
-/// than 16 channels may sum in another way than one of fewer, one with a list of radii, or one with values above 2^300,
-/// so that the last bits differ.
+/// than 16 channels may sum in another way than one of fewer, one with a list of radii or patches of several scales, or
+/// one with values above 2^300, so that the last bits differ.
 ///
 /// With `Metric::Path`, each row takes the time of a search of a `Searcher` at the largest radius, and the first call
 /// for an index computes the lengths of its edges. In space, each row is searched alone. Else the neighborhoods of one

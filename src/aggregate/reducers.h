@@ -86,13 +86,13 @@ struct VarianceOptions {
 // A row is the sum of its terms in index order. Its rounding error grows with their number, so that large neighborhoods
 // would miss the accuracy of `aggregate`, and so would sums without a smoothing kernel, of which it is greater.
 
-/// Whether `sum_listed` is the faster way, and as accurate. Depends on the index, the radius and the signal alone, not
-/// on the rows: the bits of a row must not depend on the others.
+/// Whether `sum_listed` is the faster way, and as accurate. Does not depend on the rows of the query, nor on `run`: the
+/// bits of a row must not depend on the others.
 [[nodiscard]] bool is_better_listed(const Index& index, const SignalView& signal, const AggregateQuery& query,
-                                    double radius, const Run& run = {});
+                                    double radius, const Run& run);
 
 /// Writes `result`, #rows by channels by #reductions. The query has been checked, and has a smoothing kernel.
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
-                std::span<double> result, const Run& run = {});
+                std::span<double> result, const Run& run);
 
 }  // namespace meshhood::inline v0_1

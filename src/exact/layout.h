@@ -34,7 +34,7 @@ inline constexpr std::size_t kMaxLeaves = std::numeric_limits<std::uint32_t>::ma
 
 /// The largest number of levels of the tree: each has at most three quarters of the nodes below it (`LevelGrouping`),
 /// and 2^27 (3/4)^66 < 1. Searches may descend recursively.
-inline constexpr std::size_t kMaxLevels = 67;
+inline constexpr std::size_t kMaxLevels = 66;
 
 /// A *slot* names a vertex by its leaf and lane: 32 times the leaf, plus the lane.
 [[nodiscard]] constexpr LeafId leaf_of(std::uint32_t slot) { return slot / kLeafCapacity; }

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A side whose nearest point is so far from the sphere touches it, on either side: twice that, in radii. It is more
-/// than the error of that point (see `kFar`).
+/// A side touches the sphere, whose radius is 1, if the square of its nearest point is off by no more: 2^-46 radii.
+/// That is more than the error of the point of a side whose corners are near (see `kFar`).
 constexpr double kTouch = 0x1p-45;
 
 RealVector<double> as_vector(const Point& p) { return {p.x, p.y, p.z}; }

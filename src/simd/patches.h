@@ -58,7 +58,7 @@ inline constexpr std::array kArctangentBelow{2.485846490142306297962e1, 1.650270
 }
 
 /// A corner farther away than so many radii is far. In double, the nearest point of a line is off by a few 2^-53 of its
-/// corners' distance: below 1e-13 of the radius, unless a corner is far.
+/// corners' distance: about 2^-47 of the radius or less, unless a corner is far.
 inline constexpr double kFar = 64;
 
 /// Whether a side that touches the ball dips into it is decided by its nearest point; of one that misses the ball by

@@ -64,7 +64,7 @@ TEST_P(ListedSumsOf, ManyChannelsAreThoseOfEachByItself) {
                                    .reduce = {reduce},
                                    .kernel = kernel,
                                    .missing = gaps ? MissingValues::Omit : MissingValues::Propagate};
-        listed += is_better_listed(index, drawn.view(), query, radius) ? 1 : 0;
+        listed += is_better_listed(index, drawn.view(), query, radius, {}) ? 1 : 0;
         const std::vector<double> together = aggregate(index, drawn.view(), query, {.threads = 2});
         EXPECT_THAT(aggregate(index, drawn.view(), query, {.threads = 1}),
                     testing::Pointwise(testing::NanSensitiveDoubleEq(), together));
@@ -90,19 +90,19 @@ TEST(ListedSums, AreForManyChannelsOfModerateValuesOverSmallNeighborhoods) {
   const auto [mesh, index] = indexed(make_grid(40, 40, false));
   const AggregateQuery mean{.radius = 3.0, .kernel = SmoothingKernel::Biweight};
   Values drawn = draw(mesh.size(), false);
-  EXPECT_TRUE(is_better_listed(index, drawn.view(), mean, 3));
-  EXPECT_FALSE(is_better_listed(index, drawn.view(), mean, 100));
-  EXPECT_FALSE(is_better_listed(index, drawn.view(), {.radius = 3.0}, 3));
+  EXPECT_TRUE(is_better_listed(index, drawn.view(), mean, 3, {}));
+  EXPECT_FALSE(is_better_listed(index, drawn.view(), mean, 100, {}));
+  EXPECT_FALSE(is_better_listed(index, drawn.view(), {.radius = 3.0}, 3, {}));
   const std::vector<double> few(mesh.size() * 16, 1.0);
-  EXPECT_FALSE(is_better_listed(index, {few, 16}, mean, 3));
+  EXPECT_FALSE(is_better_listed(index, {few, 16}, mean, 3, {}));
   // The weights of a Gaussian serve some channels without a list, too.
   const AggregateQuery smooth{.radius = 3.0, .kernel = SmoothingKernel::Gaussian};
   const std::vector<double> many(mesh.size() * 48, 1.0);
-  EXPECT_TRUE(is_better_listed(index, drawn.view(), smooth, 3));
-  EXPECT_FALSE(is_better_listed(index, drawn.view(), smooth, 6));
-  EXPECT_TRUE(is_better_listed(index, {many, 48}, smooth, 6));
+  EXPECT_TRUE(is_better_listed(index, drawn.view(), smooth, 3, {}));
+  EXPECT_FALSE(is_better_listed(index, drawn.view(), smooth, 6, {}));
+  EXPECT_TRUE(is_better_listed(index, {many, 48}, smooth, 6, {}));
   drawn.values[5] = 1e200;
-  EXPECT_FALSE(is_better_listed(index, drawn.view(), mean, 3));
+  EXPECT_FALSE(is_better_listed(index, drawn.view(), mean, 3, {}));
 }
 
 }  // namespace

@@ -296,7 +296,7 @@ TEST(IndexVerify, RejectsATreeOfTooManyLevels) {
     chain.levels.push_back(static_cast<std::uint32_t>(chain.records.size()));
   }
   const std::vector<std::byte> bytes = saved(IndexAccess::make(std::move(chain)));
-  expect_refused(ErrorCode::MalformedIndex, "68 levels, expected at most 67", [&] { return load(bytes); });
+  expect_refused(ErrorCode::MalformedIndex, "67 levels, expected at most 66", [&] { return load(bytes); });
 }
 
 TEST(IndexVerify, RejectsAWrongForest) {

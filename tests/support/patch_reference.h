@@ -144,6 +144,7 @@ class PatchReference {
     std::sort(queue.begin(), queue.end());
     queue.erase(std::unique(queue.begin(), queue.end()), queue.end());
     bool has_border = false;
+    Real farthest = 0;  // of the corners
     Sums sums;
     const auto push = [&](const std::vector<std::size_t>& faces) {
       for (const std::size_t f : faces) {
@@ -156,6 +157,7 @@ class PatchReference {
       const auto p = relative(f, center);
       for (std::size_t i = 0; i < 3; ++i) {
         const auto [a, b] = side(f, i);
+        farthest = std::max(farthest, length(p[i]));
         if (length(p[i]) <= radius) push(faces_of_vertex_[a]);
         if (distance_of_segment(p[i], p[(i + 1) % 3]) > radius) continue;
         push(faces_of_side_.at(key(f, i)));
@@ -170,7 +172,7 @@ class PatchReference {
     const Real sphere = 4 * kPi;
     const Real solid = sums.has_rim ? -sums.solid - sphere * std::floor(Real(1e-14) - sums.solid / sphere) : 0;
     Real tripled = sums.moment + radius * radius * radius * solid;
-    if (tripled < Real(-0x1p-40) * sums.area * radius) tripled += radius * radius * radius * sphere;
+    if (tripled < Real(-0x1p-40) * sums.area * std::min(radius, farthest)) tripled += radius * radius * radius * sphere;
     answer.volume = has_border ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(tripled / 3);
     return answer;
   }

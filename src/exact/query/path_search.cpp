@@ -241,11 +241,11 @@ std::span<const Path> PathOrder::sorted(std::span<const Path> paths) {
   return result;
 }
 
-std::span<const Path> PathOrder::sorted(const Path& shortest, std::span<const Path> paths) {
+std::span<const Path> PathOrder::sorted(const Path& one, std::span<const Path> paths) {
   static_cast<void>(sorted(paths));
-  sorted_.front() = shortest;
+  sorted_.front() = one;
   for (std::size_t i = 1; i < sorted_.size() && comes_before(sorted_[i], sorted_[i - 1]); ++i) {
-    std::swap(sorted_[i], sorted_[i - 1]);  // those of vertices at the same place
+    std::swap(sorted_[i], sorted_[i - 1]);
   }
   return sorted_;
 }

@@ -141,8 +141,8 @@ class PathOrder {
   /// The paths in order. Their lengths are finite, and not negative. Valid until the next call.
   [[nodiscard]] std::span<const Path> sorted(std::span<const Path> paths);
 
-  /// The same with one more, which none is shorter than.
-  [[nodiscard]] std::span<const Path> sorted(const Path& shortest, std::span<const Path> paths);
+  /// The same with one more, which hardly any is shorter than.
+  [[nodiscard]] std::span<const Path> sorted(const Path& one, std::span<const Path> paths);
 
  private:
   void sort_by_comparison(std::span<const Path> paths, std::span<Path> result) const;
