@@ -188,6 +188,16 @@ def test_a_gifti_file_unpacks_to_a_bounded_size(tmp_path, monkeypatch):
     monkeypatch.setattr(meshhood._other_files, "_UNPACKED", 1 << 20)
     with pytest.raises(ValueError, match=r"b.gii.gz: .* unpacks to more than 1048576 bytes; gunzip unpacks it"):
         meshhood.read_mesh(tmp_path / "b.gii.gz")
+    for old, new, message in (
+        ('Dim0="', 'Dim0="99999', r"an array of shape \(99999\d+, 3\), beyond the limit of 1048576 bytes"),
+        ('Dim0="', 'Dim0="-', r"an array of shape \(-\d+, 3\), beyond the limit"),
+        (f'Dim0="{len(V)}"', 'Dim0="2"', r"an array of shape \(2, 3\) that unpacks to more than \d+ bytes"),
+        (f'Dim0="{len(F)}"', 'Dim0="1"', r"an array of shape \(1, 3\) that unpacks to more than 12 bytes"),
+    ):
+        assert old in file.read_text()
+        (tmp_path / "c.gii").write_text(file.read_text().replace(old, new))
+        with pytest.raises(ValueError, match=f"c.gii: a GIFTI surface that nibabel cannot read: has {message}"):
+            meshhood.read_mesh(tmp_path / "c.gii")
 
 
 def test_surfaces_of_freesurfer(tmp_path):

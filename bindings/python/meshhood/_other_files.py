@@ -3,12 +3,16 @@
 
 from __future__ import annotations
 
+import base64
 import gzip
 import itertools
+import math
 import os
 import tempfile
+import zlib
 from collections.abc import Iterable
 from typing import Any, Callable, NamedTuple, Optional
+from xml.parsers import expat
 
 import numpy as np
 
@@ -118,7 +122,9 @@ def _format_of(head: bytes) -> Optional[_Format]:
 
 
 def _read_gifti(nibabel: Any, path: str) -> _Read:
-    image = nibabel.GiftiImage.from_bytes(_unpacked(path))
+    data = _unpacked(path)
+    _check_arrays(nibabel, data, _limit(path))
+    image = nibabel.GiftiImage.from_bytes(data)
     codes = nibabel.nifti1.xform_codes.label
     notes = []
     for array in image.get_arrays_from_intent("NIFTI_INTENT_POINTSET"):
@@ -129,13 +135,44 @@ def _read_gifti(nibabel: Any, path: str) -> _Read:
     return image, None, notes
 
 
+def _check_arrays(nibabel: Any, data: bytes, limit: int) -> None:
+    """Refuses GIFTI with an array that unpacks to more than it declares, or with packed arrays beyond the limit."""
+    codes, types = nibabel.gifti.util.gifti_encoding_codes.label, nibabel.nifti1.data_type_codes.dtype
+    array, text, is_data, left = dict[str, str](), list[str](), False, limit
+
+    def at_tag(name: str, attributes: Any = None) -> None:
+        nonlocal array, is_data, left
+        if is_data and text and codes[array.get("Encoding", "B64GZ")] == "B64GZ":
+            shape = [int(array[f"Dim{axis}"]) for axis in range(int(array["Dimensionality"]))]
+            size = types[array["DataType"]].itemsize * math.prod(shape)
+            if not 0 <= size <= left:
+                raise ValueError(f"has an array of shape {tuple(shape)}, beyond the limit of {limit} bytes")
+            if len(zlib.decompressobj().decompress(base64.b64decode("".join(text)), size + 1)) > size:
+                raise ValueError(f"has an array of shape {tuple(shape)} that unpacks to more than {size} bytes")
+            left -= size
+        text.clear()
+        if name == "DataArray" and attributes is not None:
+            array = attributes
+        is_data = attributes is not None if name == "Data" else is_data
+
+    parser = expat.ParserCreate()
+    parser.StartElementHandler = parser.EndElementHandler = at_tag
+    parser.CharacterDataHandler = text.append
+    parser.buffer_text = True
+    parser.Parse(data, True)
+
+
+def _limit(path: str) -> int:
+    return max(_UNPACKED, 64 * os.path.getsize(path))
+
+
 def _unpacked(path: str) -> bytes:
     """The content of a file that may be compressed. A forged one of 10 MB would unpack to 10 GB."""
     with open(path, "rb") as file:
         data = file.read()
     if not data.startswith(_GZIP):
         return data
-    limit = max(_UNPACKED, 64 * len(data))
+    limit = _limit(path)
     with gzip.open(path) as unpacked:
         pieces = iter(lambda: unpacked.read(_HEAD), b"")
         data = b"".join(itertools.islice(pieces, limit // _HEAD))
