@@ -11,8 +11,8 @@ function refuseOption(name, known) {
 }
 
 function refuseType(value, name, expected) {
-  const isObject = typeof value === 'object' && value !== null;
-  const found = typeof value === 'string' ? `'${value}'` : isObject ? value.constructor?.name : String(value);
+  const kind = typeof value === 'object' && value !== null ? value.constructor?.name ?? 'object' : String(value);
+  const found = typeof value === 'string' ? `'${value}'` : kind;
   throw new TypeError(`${name}: ${found}, expected ${expected}`);
 }
 
@@ -29,7 +29,7 @@ export function withDefaults(given, defaults) {
   for (const name of Object.keys(given)) {
     if (!Object.hasOwn(defaults, name)) refuseOption(name, Object.keys(defaults));
     const [value, type] = [given[name], typeof defaults[name]];
-    if (value === undefined) continue;
+    if (value === undefined || (value === null && type === 'function')) continue; // null means none
     if (type in EXPECTED && typeof value !== type) refuseType(value, name, EXPECTED[type]);
     options[name] = value;
   }

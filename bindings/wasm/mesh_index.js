@@ -101,6 +101,7 @@ function move(instance, positions, options = {}) {
 export class MeshIndex extends Owner {
   #vertexCount;
   #hasWarned = false;
+  #holdsOffsets = null; // not known yet
 
   constructor(positions, corners, options) {
     super(positions instanceof Instance ? positions : build(positions, corners, options));
@@ -443,10 +444,16 @@ export class MeshIndex extends Owner {
     return {
       positions: this.#positionsOf(vertices),
       corners: counts.slice(2 * count + 1),
-      offsets: offsets.every((begin, face) => begin === 3 * face) ? null : offsets,
+      offsets: this.#haveOffsets(faces) ? offsets : null,
       vertices,
       faces: counts.slice(0, count),
     };
+  }
+
+  /** Of the whole mesh, or the form would depend on the region. */
+  #haveOffsets(faces) {
+    if (faces !== null) return (faces.offsets ?? null) !== null;
+    return this.#holdsOffsets ??= this.faces.offsets !== null;
   }
 
   rim(ids, start, r, options = {}) {

@@ -112,7 +112,7 @@ export interface ReadOptions {
   precision?: 'file' | 'float' | 'double';
   /** Treat deviations from the format as errors. */
   strict?: boolean;
-  progress?: Progress;
+  progress?: Progress | null;
 }
 
 /**
@@ -418,7 +418,7 @@ export interface ClippedMesh {
 export interface Submesh {
   positions: Float32Array | Float64Array;
   corners: Uint32Array;
-  /** Null: all are triangles. */
+  /** Null: all faces of the whole mesh are triangles. */
   offsets: Uint32Array | null;
   /** Its vertices by their ids in the whole mesh, ascending. */
   vertices: Uint32Array;
@@ -465,7 +465,7 @@ export class MeshIndex {
       offsets?: Indices | null;
       /** Edges that no search crosses: #cut by 2 vertices, in either order. */
       cut?: Uint32Array | null;
-      progress?: Progress;
+      progress?: Progress | null;
     },
   );
 
@@ -476,7 +476,7 @@ export class MeshIndex {
    * @throws MeshhoodError MalformedIndex, naming the section, the byte, what it contains and what was expected;
    * TooLarge
    */
-  static load(bytes: Bytes, options?: { progress?: Progress }): MeshIndex;
+  static load(bytes: Bytes, options?: { progress?: Progress | null }): MeshIndex;
 
   /** The bytes of an index file. The same mesh gives the same bytes on every machine. */
   save(): Uint8Array;

@@ -78,13 +78,15 @@ const TYPED = [
 ];
 
 test('options of another type are refused by name, and leave the index usable', () => {
-  const values = [[1, '1'], [2, '2'], [1n, '1'], [{}, 'Object'], [null, 'null'], [new Set(), 'Set']];
+  const values = [[1, '1'], [2, '2'], [1n, '1'], [{}, 'Object'], [new Set(), 'Set'], [Object.create(null), 'object']];
   const truths = [['yes', "'yes'"], ['true', "'true'"], ['0', "'0'"], [[], 'Array']];
   for (const [[call], name, expected] of TYPED) {
-    for (const [value, found] of expected === NAMES ? values : [...values, ...truths]) {
+    const others = expected === NAMES ? values : [...values, ...truths];
+    for (const [value, found] of expected === 'a function' ? others : [...others, [null, 'null']]) {
       assert.throws(() => call({ [name]: value }), { name: 'TypeError', message: `${name}: ${found}, expected ${expected}` });
     }
   }
+  for (const call of [CALLS.readMesh, CALLS.MeshIndex, CALLS.load]) call[0]({ progress: null });
   for (const distances of [true, false]) assert.equal(index.neighborhood(5, 3, { distances }).ids !== undefined, distances);
   assert.throws(() => index.instance.call('nearest_connected', 1n), TypeError); // before the module is entered
   assert.ok(index.count(5, 3) > 0);

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { distance, grid, polygons, random, roll, toPly } from './meshes.mjs';
-import { build, library, meshhood, readArrays, scaled, write } from './setup.mjs';
+import { build, library, meshhood, read, readArrays, scaled, write } from './setup.mjs';
 
 const { MeshIndex, initialize } = library;
 await initialize();
@@ -230,6 +230,19 @@ test('a part of polygons keeps its polygons', () => {
     assert.deepEqual(own, mixed.corners.slice(mixed.offsets[face], mixed.offsets[face + 1]));
   });
   assert.ok(part.faces.length > 5);
+});
+
+test('a part has offsets if the whole mesh has, also a part of triangles alone', () => {
+  const positions = Float64Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0);
+  const house = { positions, corners: Uint32Array.of(0, 1, 2, 3, 1, 4, 2), offsets: Uint32Array.of(0, 4, 7) };
+  const triangle = Uint32Array.of(1, 4, 2);
+  assert.deepEqual([...build(house).submesh(triangle, { faces: house }).offsets], [0, 3]);
+  for (const [whole, expected] of [[house, [0, 3]], [mesh, null]]) {
+    write('whole.ply', toPly(whole));
+    meshhood('build', 'whole.ply', '--faces', '-o', 'whole.mhi');
+    const { offsets } = MeshIndex.load(read('whole.mhi')).submesh(triangle);
+    assert.deepEqual(offsets && [...offsets], expected);
+  }
 });
 
 test('wrong arguments of searches from starts give the errors of C++ and leave the index usable', () => {
