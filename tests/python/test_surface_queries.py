@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """What is nearest: on the surface, connected, and not connected; points without faces, faces as vertices, patches."""
 
+import pathlib
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -183,7 +185,7 @@ def test_nearest_vertices_refuse_wrong_arguments(mesh):
     with pytest.raises(MemoryError, match="k: 4611686018427387904 vertices for each"):
         index.k_nearest(2**62)
     for call in (lambda: index.k_nearest(0, 3), lambda: index.nearest_connected(3, 0)):
-        with pytest.raises(ValueError, match="k: 0, expected 1 to"):
+        with pytest.raises(ValueError, match="k: 0, expected at least 1$"):
             call()
     with pytest.raises(ValueError, match="weights: vertex 2: -1.0, expected a finite number >= 0"):
         index.discs(1.0, weights=np.where(np.arange(len(V)) == 2, -1.0, 1.0))
@@ -232,6 +234,50 @@ def test_points_without_faces_given_as_a_mesh_warn_and_name_from_points():
 def test_from_points_takes_what_a_mesh_without_faces_is_refused_for(library, kind):
     cloud = getattr(pytest.importorskip(library), kind)(grid(3)[0])
     assert meshhood.MeshIndex.from_points(cloud, link=1.0).count(4, 1.0) == 5
+
+
+def vtk_points(P):
+    vtk = pytest.importorskip("vtk")
+    points, mesh = vtk.vtkPoints(), vtk.vtkPolyData()
+    for p in P:
+        points.InsertNextPoint(p)
+    mesh.SetPoints(points)
+    return mesh
+
+
+def open3d_tensors(P):
+    tensor = SimpleNamespace(cpu=lambda: SimpleNamespace(numpy=lambda: P))
+    return SimpleNamespace(vertex=SimpleNamespace(positions=tensor))
+
+
+POINTS_OF = {
+    "a submesh": lambda P: meshhood.MeshIndex(P, triangles(grid(3)[1])).submesh(range(9)),
+    "a mesh": lambda P: meshhood.Mesh(P, grid(3)[1]),
+    "what has vertices by id": lambda P: SimpleNamespace(points=P, vertices=np.arange(4)),
+    "a frame": lambda P: pytest.importorskip("pandas").DataFrame(P, columns=["points", "vertices", "V"]),
+    "VTK": vtk_points,
+    "vedo": lambda P: pytest.importorskip("vedo").Points(P),
+    "tensors": open3d_tensors,
+    "a list": lambda P: P.tolist(),
+}
+
+
+@pytest.mark.parametrize("kind", POINTS_OF)
+def test_from_points_takes_the_points_of_what_has_other_attributes_too(kind):
+    P = grid(3)[0]
+    np.testing.assert_array_equal(meshhood.MeshIndex.from_points(POINTS_OF[kind](P), link=1.0).positions, P)
+
+
+def test_from_points_takes_the_points_of_scipy_and_of_clips():
+    spatial = pytest.importorskip("scipy.spatial")
+    P = np.random.default_rng(3).random((30, 3))
+    for kind in (spatial.Voronoi, spatial.ConvexHull, spatial.Delaunay):
+        np.testing.assert_array_equal(meshhood.MeshIndex.from_points(kind(P), link=0.5).positions, P)
+    V, quads = grid(5)
+    part = meshhood.MeshIndex(V, quads).clip(12, 1.3)
+    np.testing.assert_array_equal(meshhood.MeshIndex.from_points(part, link=1.0).positions, part.V)
+    with pytest.raises(TypeError, match="^P: a path"):
+        meshhood.MeshIndex.from_points(pathlib.Path("a.ply"), link=1.0)
 
 
 def test_of_faces_joins_faces_across_edges():

@@ -92,8 +92,10 @@ def _faces(F):
     """(#F, k): polygons of k corners each; one dimension: VTK's padded faces."""
     try:
         array = integers(F, "F")
-    except ValueError as error:  # as of rows of different lengths
-        raise ValueError(f"{error}; expected (#F, k), or polygons as a tuple (offsets, corners)") from None
+    except ValueError as error:
+        is_ragged = "rows of different lengths" in str(error)
+        hint = "; expected (#F, k), or polygons as a tuple (offsets, corners)" if is_ragged else ""
+        raise ValueError(f"{error}{hint}") from None
     if array.ndim == 1:
         return _padded(array)
     if array.ndim != 2 or array.shape[1] == 0:
@@ -228,19 +230,38 @@ def _is_mesh(V):
     return any(hasattr(V, name) for name in names)
 
 
-def _parts(mesh):
-    """Positions and faces of a mesh of another library or of this package."""
-    _refuse_path(mesh, "V")
+def points_of(P):
+    """The positions of an array, or of points or a mesh of another library or of this package."""
+    if not any(hasattr(P, name) for name in ("__array__", "__array_interface__", "__dlpack__")):
+        P = _unwrapped(P, "P")
+        if hasattr(P, "agg_data"):
+            P = _gifti_data(P, "pointset", "P")
+        elif hasattr(P, "GetPoints") and not hasattr(P, "n_points"):  # not PyVista's own class
+            P = _vtk_points(P, "P")
+        elif hasattr(P, "vertex"):  # Open3D's tensors
+            P = P.vertex.positions.cpu().numpy()
+        else:  # of some, such as a Submesh or a hull of SciPy, `vertices` are ids
+            P = next((getattr(P, name) for name in ("V", "coordinates", "points", "vertices") if hasattr(P, name)), P)
+    return positions_of(P, "P")
+
+
+def _unwrapped(mesh, name):
+    """What nilearn and vedo have a mesh in."""
+    _refuse_path(mesh, name)
     if hasattr(mesh, "mesh") and hasattr(mesh, "data"):  # nilearn's SurfaceImage
         mesh = mesh.mesh
     if hasattr(mesh, "parts"):
-        mesh = only_part(mesh.parts, "V")
+        mesh = only_part(mesh.parts, name)
+    return getattr(mesh, "dataset", mesh)  # vedo's
+
+
+def _parts(mesh):
+    """Positions and faces of a mesh of another library or of this package."""
+    mesh = _unwrapped(mesh, "V")
     if hasattr(mesh, "coordinates") and hasattr(mesh, "faces"):  # nilearn's InMemoryMesh and FileMesh
         return mesh.coordinates, mesh.faces
     if hasattr(mesh, "agg_data"):
-        return _gifti_data(mesh, "pointset"), _gifti_data(mesh, "triangle")
-    if hasattr(mesh, "dataset"):  # vedo
-        mesh = mesh.dataset
+        return _gifti_data(mesh, "pointset", "V"), _gifti_data(mesh, "triangle", "V")
     if hasattr(mesh, "GetPolys") and not hasattr(mesh, "n_points"):  # not PyVista's own class
         return _vtk_parts(mesh)
     if hasattr(mesh, "triangle") and hasattr(mesh, "vertex"):  # Open3D's tensors
@@ -291,11 +312,11 @@ def only_part(parts, name):
     return next(iter(parts.values()))
 
 
-def _gifti_data(image, intent):
+def _gifti_data(image, intent, name):
     """The one array of this intent in an image of nibabel. Coordinates are not transformed."""
     found = [array.data for array in image.darrays if array.intent == _GIFTI_INTENTS[intent]]
     if len(found) != 1:
-        raise ValueError(f"V: has {len(found)} arrays of intent {intent!r}, expected one")
+        raise ValueError(f"{name}: has {len(found)} arrays of intent {intent!r}, expected one")
     return found[0]
 
 
@@ -306,13 +327,20 @@ def _vtk_parts(mesh):
     """Of vtkPolyData."""
     for kind in ("Strips", "Lines"):
         _refuse_cells(getattr(mesh, f"GetNumberOf{kind}")(), kind.lower(), "vtkTriangleFilter with PassLinesOff()")
-    if mesh.GetPoints() is None:
-        raise ValueError("V: has no points")
+    points = _vtk_points(mesh, "V")
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     polygons = mesh.GetPolys()
     faces = vtk_to_numpy(polygons.GetOffsetsArray()), vtk_to_numpy(polygons.GetConnectivityArray())
-    return vtk_to_numpy(mesh.GetPoints().GetData()), faces
+    return points, faces
+
+
+def _vtk_points(mesh, name):
+    if mesh.GetPoints() is None:
+        raise ValueError(f"{name}: has no points")
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    return vtk_to_numpy(mesh.GetPoints().GetData())
 
 
 def _pyvista_faces(mesh):

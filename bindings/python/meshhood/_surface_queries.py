@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._aggregate import area_weights
 from ._held import Held
-from ._mesh import positions_of, warn_if_coarse, warn_if_link_is_coarse, whole_mesh_arrays
+from ._mesh import points_of, warn_if_coarse, warn_if_link_is_coarse, whole_mesh_arrays
 from ._progress import Progress, reporter
 from ._repr import shown_in_a_line
 from ._rows import Rows, read_rows
@@ -96,8 +96,8 @@ class SurfaceQueries(Held):
     ) -> Self:
         """The index of points without faces: any two points at most `link` apart are joined by an edge.
 
-        P : (#V, 3) float32 or float64, the points, as V of `MeshIndex`; or what has them as `vertices` or `points`, as
-            point clouds of trimesh, Open3D and PyVista do.
+        P : (#V, 3) float32 or float64, the points, as V of `MeshIndex`; or a `Submesh`, a point cloud of trimesh,
+            Open3D, PyVista, VTK or vedo, or another mesh that `MeshIndex` takes, whose faces do not count.
         link : a finite number >= 0, in the unit of P. Points at exactly this distance, and at the same place, are
             joined. A link less than about a millionth of the extent of all points takes long.
         max_edges : refuse a graph with more edges; by default, as many as the memory of the machine may hold.
@@ -107,7 +107,7 @@ class SurfaceQueries(Held):
 
         >>> index = meshhood.MeshIndex.from_points(V, link=0.1)
         """
-        points = positions_of(getattr(P, "vertices", getattr(P, "points", P)), "P")
+        points = points_of(P)
         distance = _convert.finite(link, "link", or_zero=True)
         edges = _convert.max_bytes(None) // _BYTES_OF_EDGE if max_edges is None else max_edges
         options = {
