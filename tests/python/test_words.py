@@ -195,8 +195,7 @@ def test_a_region_as_a_mesh_needs_no_faces():
     ids = INDEX.neighborhood(40, 2.0)
     assert len(INDEX.rim(ids, 40, 2.0)) == 1
     bare = meshhood.MeshIndex(V, F, keep_faces=False)
-    for a, b in zip(bare.submesh(ids, F=F), INDEX.submesh(ids)):
-        np.testing.assert_array_equal(a, b)
+    np.testing.assert_array_equal(bare.submesh(ids, F=F).faces, np.flatnonzero(np.isin(F, ids).all(axis=1)))
     with pytest.raises(ValueError, match="F: expected the faces"):
         bare.submesh(ids)
 

@@ -131,7 +131,8 @@ class Regions(Held):
         ids : the vertices of a region, in any order, or a bool mask (#V,).
         F : other faces than those that the index keeps.
 
-        The cost is that of sorting the faces around the region.
+        The cost is that of sorting the faces around the region. With `F`, all faces are read at each call, too; for
+        many regions use an index that keeps them.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> ids = index.neighborhood(42, 0.5)
