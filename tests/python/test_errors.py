@@ -6,6 +6,8 @@ import os
 import pickle
 import resource
 import sys
+import tracemalloc
+import weakref
 from pathlib import Path
 
 import meshes
@@ -210,7 +212,8 @@ def test_what_a_user_adds_to_the_class_stays_as_it_is():
 def test_methods_are_pickled():
     for method in (meshhood.MeshIndex.count, meshhood.MeshIndex.curvature, OfUser.counts):
         assert pickle.loads(pickle.dumps(method)) is method
-    assert meshhood.MeshIndex.count(INDEX, 3, 2.0) == INDEX.count(3, 2.0)
+    for instance in (INDEX, weakref.proxy(INDEX)):
+        assert meshhood.MeshIndex.count(instance, 3, 2.0) == INDEX.count(3, 2.0)
 
 
 def test_the_class_can_be_used_as_others():
@@ -247,6 +250,14 @@ def test_the_class_can_be_used_as_others():
 def test_an_error_says_what_is_missing_or_what_helps(call, error, message):
     with pytest.raises(error, match=message):
         call()
+
+
+def test_values_that_every_file_holds_need_no_memory_for_a_check():
+    values = np.ones(10**5, np.float32)
+    tracemalloc.start()
+    assert _convert.as_float32(values, "values", "a file") is values
+    assert tracemalloc.get_traced_memory()[1] < values.nbytes
+    tracemalloc.stop()
 
 
 @pytest.mark.parametrize("extension", ("ply", "vtk", "vtp"))

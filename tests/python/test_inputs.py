@@ -115,6 +115,11 @@ def test_nothing(faces):
     np.testing.assert_array_equal(lonely.neighborhood(3, np.inf), [3])
 
 
+class Unreadable:
+    def __array__(self, dtype=None, copy=None):
+        raise ValueError("the file is closed")
+
+
 def with_value(array, at, value):
     array = array.copy()
     array[at] = value
@@ -151,6 +156,7 @@ MASKED = np.ma.masked_greater(V, 3)
         (V, ([0, 3], [[0, 1, 2]]), ValueError, r"F\[1\]: .*\(1, 3\)"),
         (V, (0, 1, 2), ValueError, "F: .*3 parts"),
         (V, [[0, 1, 2], [3, 4, 5, 6]], ValueError, r"F: rows of different lengths; .* tuple \(offsets, corners\)"),
+        (V, Unreadable(), ValueError, "^F: the file is closed$"),
         (V, [3, 0, 1, 2, 3, 0, 1], ValueError, "F: face 1 begins at 4 with 3 corners"),
         (V, [3, 0, 1, 2, -1], ValueError, "F: face 1 begins at 4 with -1 corners"),
         (V, csr_array((3, 3)), ValueError, r"F: .*\(3, 3\), expected \(36, 36\)"),
@@ -222,12 +228,17 @@ def test_refused_queries(v, r, error, message, method):
         (lambda: INDEX.neighborhoods(1, [0], workers=True), TypeError, "workers: .*bool"),
         (lambda: INDEX.radius_neighbors_graph(1, mode="far"), ValueError, "mode: 'far'"),
         (lambda: INDEX.neighborhoods(1, [0], unit=["edge"]), ValueError, r"unit: \['edge'\]"),
-        (lambda: INDEX.iter_neighborhoods(1, chunk=0), ValueError, "chunk: 0"),
+        (lambda: INDEX.iter_neighborhoods(1, chunk=0), ValueError, "chunk: 0, expected at least 1$"),
         (lambda: INDEX.iter_neighborhoods(1, order="file"), ValueError, "order: 'file'"),
         (lambda: meshhood.MeshIndex(V, F, workers=5000), ValueError, "workers: 5000"),
         (lambda: INDEX.neighborhoods(1, 3), TypeError, r"vertices: one vertex, expected a list: \[3\]"),
         (lambda: INDEX.neighborhoods(1, {1, 2}), TypeError, "vertices: expected an integer, not set"),
         (lambda: INDEX.neighborhoods(1, slice(0, 5)), TypeError, "vertices: expected an integer, not slice"),
+        (lambda: INDEX.neighborhoods(1, np.array(3.0)), TypeError, "vertices: expected an integer, not float64"),
+        (lambda: INDEX.k_nearest(np.array([1, 2])), TypeError, "k: expected an integer, not ndarray"),
+        (lambda: INDEX.counts(1, walls=((1, 2), (3, 4))), ValueError, r"walls: expected a list .* shape \(2, 2\)$"),
+        (lambda: INDEX.nested(3, [1, 2, 2]), ValueError, "radii: value 2: radius 2.0, expected more than 2.0"),
+        (lambda: INDEX.nested(3, [1, np.nan]), ValueError, "radii: value 1: radius nan, expected a number >= 0"),
         (lambda: INDEX.smooth(V[:, 0], [6, 8]), ValueError, "^fwhm: expected one number, or one for each of 36 rows"),
         (lambda: INDEX.smoothing_matrix([6], vertices=3), ValueError, "^fwhm: expected one number, not an array"),
         (lambda: INDEX.stroke(V[:3], [1, 2]), ValueError, r"r: .* one for each of 3 rows, not an array of shape \(2,\)$"),

@@ -102,8 +102,8 @@ ERRORS = (
         "the result of 50 rows, at least 5000 bytes, exceeds max_bytes, 10; iter_neighborhoods returns the "
         "rows in chunks"),
     ("index.counts(1, F)", ValueError,
-        "vertices: expected a list of vertices, or a bool mask of 50, not an array of shape (64, 3); faces are passed as "
-        "F="),
+        "vertices: expected one vertex, a list of vertices, or a bool mask of 50, not an array of shape (64, 3); faces "
+        "are passed as F="),
     ("index.counts(1, np.ones(5, bool))", ValueError,
         "vertices: a bool mask of shape (5,), expected (50,)"),
     ("index.counts(1, np.ones(N, int))", TypeError,

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Rows of different lengths as one array with a mask."""
 
+from decimal import Decimal
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from meshes import grid, triangles
@@ -75,6 +78,14 @@ def test_what_are_no_rows_is_refused(indptr, values, message):
 
 @pytest.mark.parametrize("fill", (0.5, np.nan, 2**40, [7, 8]))
 def test_a_fill_that_the_values_cannot_hold_is_refused(fill):
+    with pytest.raises(ValueError, match="fill: .*, expected one value of int32"):
+        meshhood.padded(INDPTR, INDICES, fill=fill)
+
+
+@pytest.mark.parametrize(("fill", "held"), ((None, np.nan), (Decimal("0.5"), 0.5), (Fraction(1, 4), 0.25)))
+def test_objects_that_are_floats_fill_only_floats(fill, held):
+    array, mask = meshhood.padded(INDPTR, DISTANCES, fill=fill)
+    np.testing.assert_array_equal(array[~mask], held)
     with pytest.raises(ValueError, match="fill: .*, expected one value of int32"):
         meshhood.padded(INDPTR, INDICES, fill=fill)
 

@@ -2,6 +2,8 @@
 """Nearest vertices, cut edges, faces and rims, parameters of the paper; refused arguments. test_pairs.py has the answers
 of all calls, and test_newcomer.py whole messages."""
 
+import warnings
+
 import numpy as np
 import pytest
 from meshes import folded, grid
@@ -101,6 +103,10 @@ def test_wrong_arguments_are_refused_by_name(call, message):
 def test_an_empty_list_has_no_seeds():
     index = meshhood.MeshIndex(*grid(5))
     assert index.count([2.0, 2.0, 0.0], 1.5, seeds=[]) == index.count([2.0, 2.0, 0.0], 1.5, seeds=()) == 0
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # no seed is far
+        for points, seeds in (([], []), ([[2.0, 2.0, 0.0]] * 2, [[], []])):
+            assert len(index.stroke(points, 1.5, seeds=seeds)) == 0
 
 
 FAR = "point is farther than r from the vertices where its search starts"

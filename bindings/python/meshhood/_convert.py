@@ -13,11 +13,11 @@ from ._memory import free_bytes
 _MOST_THREADS = 1024
 
 
-def vertices(v, count, name="vertices"):
+def vertices(v, count, name="vertices", single=""):
     """`v` as a new int32 array in C order, each value in [0, count). `v` may be a bool mask of `count` values; a mask of
-    numbers is refused."""
+    numbers is refused. `single`: what an error says of a call that takes one vertex, too."""
     _refuse_mask_of_numbers(as_array(v, name), count, name)
-    return vertex_rows(v, count, name)
+    return vertex_rows(v, count, name, single)
 
 
 def _refuse_mask_of_numbers(array, count, name):
@@ -29,9 +29,9 @@ def _refuse_mask_of_numbers(array, count, name):
         raise TypeError(f"{name}: {count} numbers 0 or {most:g}, expected vertices, or a bool mask: {name} == {most:g}")
 
 
-def vertex_rows(v, count, name):
+def vertex_rows(v, count, name, single=""):
     """The same where a vertex may occur any number of times."""
-    return _numbers_of(v, count, name, "vertex", "vertices").astype(np.int32, copy=False)
+    return _numbers_of(v, count, name, "vertex", "vertices", single).astype(np.int32, copy=False)
 
 
 def faces(f, count, name):
@@ -57,15 +57,16 @@ def numbers(values, name, kinds="iuf"):
 
 def as_float32(array, name, place):
     """Numbers of vertices as float32 in C order; NaN and inf stay. `place`: what will hold them."""
-    most = np.finfo(np.float32).max
-    beyond = np.argwhere(np.isfinite(array) & (np.abs(array) > most))
-    if beyond.size:
-        at = tuple(beyond[0])
-        raise ValueError(f"{name}: vertex {at[0]}: {array[at]}, but {place} holds numbers of at most {most:.3g}")
+    if array.dtype.kind == "f" and array.itemsize > 4:  # others are not larger, and need no memory for a check
+        most = np.finfo(np.float32).max
+        beyond = np.argwhere(np.isfinite(array) & (np.abs(array) > most))
+        if beyond.size:
+            at = tuple(beyond[0])
+            raise ValueError(f"{name}: vertex {at[0]}: {array[at]}, but {place} holds numbers of at most {most:.3g}")
     return np.ascontiguousarray(array, np.float32)
 
 
-def _numbers_of(values, count, name, one, many):
+def _numbers_of(values, count, name, one, many, single=""):
     """The result is a copy even if `values` already have the type of ids: another thread, or a `progress` function, may
     write to them during the call."""
     array = np.array(_ids(values, name))
@@ -81,9 +82,9 @@ def _numbers_of(values, count, name, one, many):
         raise ValueError(f"{name}: one {one}, expected a list of {many}: [{array}]")
     if array.ndim != 1:
         hint = "; faces are passed as F=" if array.ndim == 2 and array.shape[1] in (3, 4) else ""
-        if isinstance(values, tuple):
+        if isinstance(values, tuple) and all(isinstance(part, np.ndarray) for part in values):
             hint = "; np.where(mask) is a tuple of arrays, np.flatnonzero(mask) the list"
-        expected = f"a list of {many}, or a bool mask of {count}"
+        expected = f"{single}a list of {many}, or a bool mask of {count}"
         raise ValueError(f"{name}: expected {expected}, not an array of shape {array.shape}{hint}")
     wrong = np.flatnonzero((array < 0) | (array >= count))
     if wrong.size:
@@ -119,7 +120,7 @@ def listed(values, name):
 def one_or_many(v, count):
     """Whether `v` is one vertex, and an array of it or of many."""
     is_one = is_single(v, "vertices")
-    return is_one, np.array([vertex(v, count)], np.int32) if is_one else vertices(v, count)
+    return is_one, np.array([vertex(v, count)], np.int32) if is_one else vertices(v, count, single="one vertex, ")
 
 
 def radius(r, name="r"):
@@ -160,11 +161,12 @@ def ascending(values, name):
     if array.ndim != 1:
         raise ValueError(f"{name}: expected one dimension, not an array of shape {array.shape}")
     array = array.astype(np.float64)
-    _check_radii(array, name, "value")
-    wrong = np.flatnonzero(~(array[:-1] < array[1:]))
-    if wrong.size:
-        before, value = array[wrong[0] : wrong[0] + 2]
-        raise ValueError(f"{name}: value {wrong[0] + 1}: radius {value}, expected more than {before} before it")
+    is_larger = array[1:] > array[:-1]
+    if not ((array[:1] >= 0).all() and is_larger.all()):
+        _check_radii(array, name, "value")
+        at = int(np.argmin(is_larger))
+        before, value = array[at : at + 2]
+        raise ValueError(f"{name}: value {at + 1}: radius {value}, expected more than {before} before it")
     return array
 
 
@@ -202,7 +204,7 @@ def point(value, name, meant):
 
 def seed_rows(values, rows, count):
     """`values`, (rows,) or (rows, k), as a new int32 array (rows, k), each value in [0, count)."""
-    given = np.array(as_array(values, "seeds"))
+    given = np.array(_ids(values, "seeds"))
     array = given.reshape(-1, 1) if given.ndim == 1 else given
     if array.ndim != 2 or len(array) != rows:
         raise ValueError(f"seeds: expected ({rows},) or ({rows}, k), not an array of shape {given.shape}")
@@ -304,7 +306,8 @@ def real_type(dtype):
 def integer(value, name, lowest=1, highest=2**63 - 1):
     value = _integer(value, name)
     if not lowest <= value <= highest:
-        raise ValueError(f"{name}: {value}, expected {lowest} to {highest}")
+        expected = f"at least {lowest}" if value < lowest and highest >= 2**63 - 1 else f"{lowest} to {highest}"
+        raise ValueError(f"{name}: {value}, expected {expected}")
     return value
 
 
@@ -332,7 +335,8 @@ def _integer(value, name):
     except TypeError:
         if _has_only_dlpack(value):
             return _integer(as_array(value, name), name)
-        raise TypeError(f"{name}: expected an integer, not {type(value).__name__}") from None
+        is_one = isinstance(value, np.ndarray) and value.ndim == 0
+        raise TypeError(f"{name}: expected an integer, not {value.dtype if is_one else type(value).__name__}") from None
 
 
 def _number(value, name):

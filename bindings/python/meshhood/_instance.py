@@ -16,7 +16,8 @@ def check_instance(method: FunctionType) -> None:
 
     @functools.wraps(method)
     def call(*arguments: Any, **words: Any) -> Any:
-        if not (arguments and isinstance(type(arguments[0]), NeedsInstance)):
+        # `__class__`, because the type of a weak reference is another.
+        if not (arguments and isinstance(arguments[0].__class__, NeedsInstance)):
             cls, _, name = method.__qualname__.partition(".")
             raise TypeError(f"{cls}.{name}: called on the class, expected on an instance: {cls}(V, F).{name}(...)")
         return method(*arguments, **words)

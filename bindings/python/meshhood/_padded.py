@@ -61,8 +61,8 @@ def padded(
     if not truncate and (lengths > width).any():
         row = int(np.argmax(lengths > width))
         raise ValueError(f"width: {width}, but row {row} has {lengths[row]} values; truncate=True keeps the first of them")
-    with np.errstate(invalid="ignore"):
-        filler = one.astype(one.dtype if one.dtype.kind == "O" else rows.dtype)
+    with np.errstate(invalid="ignore"):  # as floats, None is NaN; as integers, other objects would be rounded
+        filler = one if one.dtype.kind == "O" and rows.dtype.kind != "f" else one.astype(rows.dtype)
     if filler.dtype != rows.dtype or one.ndim or (rows.dtype.kind != "f" and filler != one):
         raise ValueError(f"fill: {fill!r}, expected one value of {rows.dtype}")
     shape = (len(lengths), width)

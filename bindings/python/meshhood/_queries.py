@@ -207,7 +207,7 @@ class Queries(Held):
                 seeds = self._exact.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
             rows = _convert.seed_rows(seeds, count, self._count)
         indices, has_seeds = searched.stroke(centers, rows, radii)
-        _warn_unless(has_seeds, "points: a")
+        _warn_unless(has_seeds or not rows.size, "points: a")
         if by_id:
             indices.sort()
         return indices
@@ -385,7 +385,7 @@ class Queries(Held):
         elif seeds is None:
             first = self._exact.nearest(point)[0] if self._count else np.empty(0, np.int32)
         else:
-            first = _convert.vertices(_convert.listed(seeds, "seeds"), self._count, "seeds")
+            first = _convert.vertices(_convert.listed(seeds, "seeds"), self._count, "seeds", "one vertex, ")
         x, y, z = point[0]
         return (float(x), float(y), float(z)), first
 
