@@ -277,7 +277,7 @@ const paper::Index& Input::paper_index() {
 }
 
 io::Mesh read_mesh(const Reading& reading, unsigned threads, std::uint64_t max_bytes) {
-  io::Mesh mesh = read_with<io::Mesh>(io::read_mesh, reading, {.threads = threads, .max_bytes = max_bytes});
+  auto mesh = read_with<io::Mesh>(io::read_mesh, reading, {.threads = threads, .max_bytes = max_bytes});
   print_warnings(mesh, reading.file);
   return mesh;
 }

@@ -166,9 +166,8 @@ bool are_numbers(std::span<const std::string> words) {
 }
 
 /// Turns `--point X Y Z` into `--point X,Y,Z`, as an option of CLI11 with one to three values would also take the FILE
-/// that follows `--point X,Y,Z`; and `--weld EPS` into `--weld=EPS`, as a flag of CLI11 takes no value after a blank,
-/// and
-/// `--weld` into `--weld=0`, as it would store a word. A FILE whose name is a number is given as ./7.
+/// that follows `--point X,Y,Z`; and `--weld EPS` into `--weld=EPS`, as a flag of CLI11 takes no value after a blank.
+/// `--weld` alone becomes `--weld=0`: CLI11 would store the word true. A FILE whose name is a number is given as ./7.
 void join_values(std::vector<std::string>& arguments) {
   constexpr std::size_t kAxes = 3;
   std::vector<std::string> joined;
