@@ -157,7 +157,10 @@ void add_partition(CLI::App& program) {
       ->type_name("SIZE")
       ->default_val("1GiB");
   add_threads(command, options.threads);
-  command.add_flag("--no-resume", options.no_resume, "remove the parts that an earlier run has finished");
+  command.add_flag(
+      "--no-resume", options.no_resume,
+      "remove the parts that an earlier run has finished; if one is a link or has other files, that is an error, "
+      "and nothing is removed");
   command.add_option("-o,--output", options.output, "folder to write; created if it does not exist")
       ->check(stored_name("--output"))
       ->type_name("FOLDER")

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cerrno>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -16,19 +18,26 @@ namespace meshhood::parts {
 
 inline constexpr std::string_view kTemporaryFolder = ".partition.tmp";
 
-/// Whether a name is that of the folder of a part, of any number.
-[[nodiscard]] bool is_part_name(const std::filesystem::path& name);
+/// The number of the part whose folder has this name; nothing for every other name.
+[[nodiscard]] std::optional<std::uint64_t> part_number(const std::filesystem::path& name);
 
-/// Throws Error{MalformedIndex}, naming the entry, if the manifest or the temporary folder was not written by a run;
-/// or, without a manifest, if `folder` has anything besides parts.
+/// Whether a part has its own record, which may be damaged after its beginning.
+[[nodiscard]] bool has_record(const std::filesystem::path& part);
+
+/// Throws Error{MalformedIndex}, naming the entry, if the manifest or the temporary folder was not written by a run.
+/// What else is beside the parts stays as it is.
 void check_folder(const std::filesystem::path& folder);
 
-/// Throws Error{MalformedIndex}, naming what is in the way, unless `remove_part` removes only what a run has written: a
-/// folder with the files of a part, and beside a manifest or with its own record. It may be damaged or not exist.
-void check_part(const std::filesystem::path& part);
+/// How many parts the manifest of a folder lists: 0 if it is damaged, or there is none.
+[[nodiscard]] std::uint64_t listed_parts(const std::filesystem::path& folder);
 
-/// Removes the files of a part, the one by which `check_part` knows it last, and then the folder, if that is empty.
-void remove_part(const std::filesystem::path& part);
+/// Throws Error{MalformedIndex}, naming what is in the way, unless a run has written the folder of a part: it has only
+/// files of a part, and its own record or a number below `listed`. It may be damaged or not exist.
+void check_part(const std::filesystem::path& part, std::uint64_t listed);
+
+/// Checks a part and removes it by way of the temporary folder: a run that is stopped leaves no half of it in its
+/// place.
+void remove_part(const std::filesystem::path& part, std::uint64_t listed, const std::filesystem::path& temporary);
 
 /// An exclusive lock of a folder, so that one run at a time writes into it. The system releases it when the process
 /// ends in any way, and no file remains. The error has EWOULDBLOCK if another run has it.

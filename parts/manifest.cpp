@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -55,11 +54,15 @@ void write_json(const std::filesystem::path& file, const std::string& rest) {
   writer.commit();
 }
 
+std::string_view text_of(const io::MappedFile& file) {
+  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
+}
+
 /// Calls `read(values)`. Every fault of the text becomes an error that names the file.
 template <class F>
 auto read_json(const std::filesystem::path& file, F&& read) {
   const io::MappedFile mapped(file);
-  const std::string text(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
+  const std::string text(text_of(mapped));
   const std::size_t line = std::min(text.find('\n'), text.size() - 1) + 1;
   const std::string rest = text.substr(line);
   if (text.empty() || text.substr(0, line) != first_line(rest)) {
@@ -199,11 +202,7 @@ void write_part(const std::filesystem::path& part_folder, const Plan& plan, std:
 }
 
 bool begins_as_json(const std::filesystem::path& file) {
-  std::string begin(kJsonBegin.size(), '\0');
-  if (std::filesystem::is_regular_file(file)) {
-    std::ifstream(file, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  }
-  return begin == kJsonBegin;
+  return std::filesystem::is_regular_file(file) && text_of(io::MappedFile(file)).starts_with(kJsonBegin);
 }
 
 std::optional<Part> read_part(const std::filesystem::path& part_folder, const Plan& plan, std::size_t number) {

@@ -63,13 +63,13 @@ void check_number_of_parts(std::uint64_t parts, std::uint64_t sample_bytes) {
   raise(ErrorCode::TooLarge, fmt::format("{} parts need more memory than is allowed; use fewer parts", parts));
 }
 
-/// A part may be replaced, and must not have a file of the mesh, not even by way of a link.
+/// A part may be replaced, and temporary files are removed: a file of the mesh is not there, not even by way of a link.
 void check_inputs(std::span<const fs::path> inputs, const fs::path& folder) {
   for (const fs::path& input : inputs) {
     const fs::path inside = fs::relative(input, folder);
-    if (inside.empty() || !is_part_name(*inside.begin())) continue;
+    if (inside.empty() || !(part_number(*inside.begin()) || *inside.begin() == kTemporaryFolder)) continue;
     raise(ErrorCode::InvalidOption,
-          fmt::format("{}: is in a part of {}, expected a mesh outside of the parts",
+          fmt::format("{}: is in a part or the temporary folder of {}, expected a mesh outside of them",
                       io::printable_name(input.string()), io::printable_name(folder.string())));
   }
 }
@@ -94,7 +94,7 @@ class Partitioning {
     Survey found = survey(mesh_, sample_size(parts), stages_);
     const TemporaryFolder temporary(folder_ / kTemporaryFolder);
     make_plan(found, parts, temporary.path());
-    keep_finished_parts();
+    keep_finished_parts(temporary.path());
     if (result_.kept < plan().parts) {
       CutTree tree(std::exchange(found.sample, {}), plan().parts);
       write_parts(tree, found.corners, temporary.path());
@@ -137,15 +137,18 @@ class Partitioning {
   [[nodiscard]] fs::path folder_of(std::size_t part) const { return folder_ / part_name(part); }
 
   /// Determines which parts need not be written. A folder of another plan is an error.
-  void keep_finished_parts() {
+  void keep_finished_parts(const fs::path& temporary) {
     finished_.resize(plan().parts);
     result_.manifest.parts.resize(plan().parts);
-    if (!options_.resume) return remove_old();
-    if (fs::exists(folder_ / kManifestFile)) check_plan(read_manifest(folder_).plan);
+    if (!options_.resume) return remove_old(temporary);
+    if (fs::exists(folder_ / kManifestFile)) {
+      check_plan(read_manifest(folder_).plan);
+      listed_ = plan().parts;
+    }
     for (std::size_t part = 0; part < plan().parts; ++part) {
       std::optional<Part> found = read_part(folder_of(part), plan(), part);
       if (!found || !is_whole(folder_of(part), *found)) {
-        check_part(folder_of(part));
+        check_part(folder_of(part), listed_);
         continue;
       }
       result_.manifest.parts[part] = std::move(*found);
@@ -173,14 +176,19 @@ class Partitioning {
     }
   }
 
-  void remove_old() const {
+  void remove_old(const fs::path& temporary) {
+    listed_ = listed_parts(folder_);
     std::vector<fs::path> old;
     for (const auto& entry : fs::directory_iterator(folder_)) {
-      if (is_part_name(entry.path().filename())) old.push_back(entry.path());
+      if (part_number(entry.path().filename())) old.push_back(entry.path());
     }
-    for (const fs::path& part : old) check_part(part);
+    for (const fs::path& part : old) check_part(part, listed_);
+    // If the run is stopped, the next one must know what is left: a part without a record only by the manifest.
+    for (const fs::path& part : old) {
+      if (!has_record(part)) remove_part(part, listed_, temporary);
+    }
     fs::remove(folder_ / kManifestFile);
-    for (const fs::path& part : old) remove_part(part);
+    for (const fs::path& part : old) remove_part(part, listed_, temporary);
   }
 
   void write_parts(CutTree& tree, std::uint64_t corners, const fs::path& temporary) {
@@ -222,6 +230,7 @@ class Partitioning {
   }
 
   void write_one(std::size_t part, const PartContents& contents, const CutTree& tree, const fs::path& temporary) {
+    remove_part(folder_of(part), listed_, temporary);  // a damaged one
     const fs::path work = temporary / part_name(part);
     const Progress progress = [this](std::size_t done, std::size_t total) {
       stages_.report(done, total);
@@ -231,7 +240,6 @@ class Partitioning {
     Part written =
         write_part_files(work, contents, part, tree, plan().is_double, {.threads = threads_, .progress = progress});
     write_part(work, plan(), part, written);
-    remove_part(folder_of(part));  // a damaged one
     fs::rename(work, folder_of(part));
     fs::remove(contents.vertices.file(part));
     fs::remove(contents.faces.file(part));
@@ -246,6 +254,7 @@ class Partitioning {
   Stages stages_;
   PartitionResult result_;
   std::vector<bool> finished_;
+  std::uint64_t listed_ = 0;  ///< parts, in the manifest of an earlier run
 };
 
 }  // namespace

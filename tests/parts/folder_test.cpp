@@ -230,16 +230,17 @@ TEST_F(Folder, KeepsTheFilesOfTheUser) {
            {false, true, {"part-00000/vertices.npy"}, "part-00000"},
            {false, true, {"part-00000/index.mhi/x"}, "part-00000/index.mhi"},
            {false, true, {"part-00003"}, "part-00003"},
-           {false, true, {"thesis.txt"}, "thesis.txt"},
            {false, true, {"manifest.json"}, "manifest.json"},
            {true, true, {".partition.tmp/x"}, ".partition.tmp/x"},
            {false, true, {".partition.tmp/part-00000/thesis/index.mhi"}, ".partition.tmp/part-00000/thesis"},
            {false, true, {".partition.tmp"}, ".partition.tmp"},
-           {false, false, {"mywork/part.json", "mywork/x"}, "mywork"},
+           {true, true, {".partition.tmp/.thesis.meshhood-1-2.tmp"}, ".partition.tmp/.thesis.meshhood-1-2.tmp"},
+           {true, true, {".partition.tmp/index.mhi.meshhood-1"}, ".partition.tmp/index.mhi.meshhood-1"},
            {false, false, {"part-00009/part.json"}, "part-00009"},
-           {false, false, {"part-mine/part.json"}, "part-mine"},
+           {true, false, {"part-00009/vertices.npy"}, "part-00009"},
+           {true, false, {"part-123456/vertices.npy"}, "part-123456"},
            {false, false, {"manifest.json"}, "manifest.json"},
-           {true, false, {"manifest.json"}, "manifest.json"},
+           {false, false, {"manifest.json/x"}, "manifest.json"},
            {true, false, {"part-00001/owned.txt"}, "part-00001/owned.txt"},
            {true, true, {"part-00001/owned.npy", "part-00001/owned.txt"}, "part-00001/owned.txt"}}) {
     SCOPED_TRACE(testing::PrintToString(files));
@@ -258,6 +259,61 @@ TEST_F(Folder, KeepsTheFilesOfTheUser) {
   }
 }
 
+TEST_F(Folder, KeepsWhatIsBesideItsParts) {
+  const std::vector<std::string> files{"thesis.txt",
+                                       "mywork/part.json",
+                                       "part-mine/part.json",
+                                       "part-2024-05-01/x.py",
+                                       "part-2024-05-01/vertices.npy",
+                                       "part-0001/owned.npy",
+                                       "part-000001/part.json"};
+  auto expected = whole();
+  for (const std::string& file : files) {
+    expected[file] = "mine";
+    fs::create_directories((folder / file).parent_path());
+    overwrite(folder / file, "mine");
+  }
+  fs::create_directory(folder / "part-7-8");
+  PartitionOptions options = kOptions;
+  for (const bool resume : {true, false, true}) {
+    options.resume = resume;
+    partition(*chunked(mesh), folder, options);
+    EXPECT_EQ(contents(folder), expected);
+    EXPECT_TRUE(fs::exists(folder / "part-7-8"));
+  }
+}
+
+TEST_F(Folder, HasAnEmptyPartReplacedOnlyIfItsManifestListsIt) {
+  const auto expected = whole();
+  PartitionOptions options = kOptions;
+  for (options.resume = true;; options.resume = false) {
+    fs::create_directories(folder / parts::part_name(1));
+    expect_refused(ErrorCode::MalformedIndex, "part-00001: was not written by a partition",
+                   [&] { partition(*chunked(mesh), folder, options); });
+    fs::remove_all(folder);
+    run(folder);
+    fs::remove_all(folder / parts::part_name(1));
+    fs::create_directory(folder / parts::part_name(1));
+    EXPECT_EQ(partition(*chunked(mesh), folder, options).kept, options.resume ? 3U : 0U);
+    EXPECT_EQ(contents(folder), expected);
+    fs::remove_all(folder);
+    if (!options.resume) break;
+  }
+}
+
+TEST_F(Folder, IsWrittenAgainWithoutItsDamagedManifest) {
+  const auto expected = whole();
+  PartitionOptions options = kOptions;
+  options.resume = false;
+  fs::create_directory(folder);
+  for (const std::string& text : {std::string(), "X" + expected.at("manifest.json").substr(1), std::string("X")}) {
+    overwrite(folder / parts::kManifestFile, text);
+    expect_refused(ErrorCode::MalformedIndex, "manifest.json: has been changed or truncated", [&] { run(folder); });
+    EXPECT_EQ(partition(*chunked(mesh), folder, options).kept, 0U);
+    EXPECT_EQ(contents(folder), expected);
+  }
+}
+
 TEST_F(Folder, KeepsThePlaceToWhichAPartIsALink) {
   run(folder);
   const fs::path place = scratch.path() / "place";
@@ -272,9 +328,13 @@ TEST_F(Folder, KeepsThePlaceToWhichAPartIsALink) {
 TEST_F(Folder, KeepsTheMeshThatItIsMadeOf) {
   const auto expected = whole();
   PartitionOptions options = kOptions;
-  options.inputs = {folder / "mesh.ply", folder / parts::part_name(1) / parts::kVerticesFile};
-  expect_refused(ErrorCode::InvalidOption, "part-00001/vertices.npy: is in a part of ",
-                 [&] { partition(*chunked(mesh), folder, options); });
+  options.inputs = {folder / "mesh.ply", {}};
+  for (const fs::path& inside : {fs::path("part-00001") / parts::kVerticesFile,
+                                 ".partition.tmp" / fs::path("index.mhi"), fs::path(".partition.tmp")}) {
+    options.inputs.back() = folder / inside;
+    expect_refused(ErrorCode::InvalidOption, inside.string() + ": is in a part or the temporary folder of ",
+                   [&] { partition(*chunked(mesh), folder, options); });
+  }
   options.inputs.pop_back();
   run(folder);
   overwrite(folder / "mesh.ply", "mesh");  // beside the parts

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <string>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -43,6 +44,43 @@ TEST_F(StoppedFolder, IsCompletedAfterAKill) {
     EXPECT_EQ(contents(folder), expected);
   }
   std::printf("%zu kills left temporary files, which the next run has removed\n", with_leftovers);
+}
+
+TEST_F(StoppedFolder, IsWrittenAgainAfterAKillThatLeftAPartWithoutARecord) {
+  const auto expected = whole();
+  parts::PartitionOptions options = kOptions;
+  options.resume = false;
+  for (std::size_t trial = 0; trial < scaled(40, 10); ++trial) {
+    run(folder);
+    fs::remove(folder / parts::part_name(trial % 4) / parts::kPartFile);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      partition(*chunked(mesh), folder, options);
+      ::_exit(0);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(150 * trial));
+    ::kill(child, SIGKILL);
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    partition(*chunked(mesh), folder, options);
+    EXPECT_EQ(contents(folder), expected);
+  }
+}
+
+TEST_F(StoppedFolder, IsNotCalledForeignIfItMayNotBeRead) {
+  constexpr uid_t kNobody = 65534;
+  run(folder);
+  fs::permissions(scratch.path(), fs::perms::all);
+  fs::permissions(folder / parts::kManifestFile, fs::perms::none);
+  const uid_t user = ::geteuid();
+  ASSERT_EQ(::seteuid(user == 0 ? kNobody : user), 0);
+  try {
+    run(folder);
+    ADD_FAILURE() << "was read";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()), (folder / parts::kManifestFile).string() + ": Permission denied");
+    EXPECT_EQ(error.code(), ErrorCode::IoFailure);
+  }
+  ASSERT_EQ(::seteuid(user), 0);
 }
 
 TEST_F(StoppedFolder, IsFreeAfterARunDuringWhichTheProcessWasForked) {
