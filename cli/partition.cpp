@@ -43,7 +43,7 @@ struct PartitionCommand {
   std::string output;
 };
 
-/// Accepts digits and a unit, as `partition` of Python does, and makes them a number of bytes.
+/// Accepts digits and a unit, with blanks around each, as `partition` of Python does, and makes them a number of bytes.
 std::string parse_size(std::string& text) {
   constexpr Names<std::uint64_t, 9> kUnits{{{"", 1},
                                             {"k", 1'000},
@@ -54,10 +54,12 @@ std::string parse_size(std::string& text) {
                                             {"mi", std::uint64_t{1} << 20},
                                             {"gi", std::uint64_t{1} << 30},
                                             {"ti", std::uint64_t{1} << 40}}};
-  const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
-  const std::optional<std::uint64_t> number = io::parse_count(text.substr(0, digits));
-  std::string unit = io::lower_case(text.substr(digits));
+  const std::size_t begin = std::min(text.find_first_not_of(' '), text.size());
+  const std::size_t end = std::min(text.find_first_not_of("0123456789", begin), text.size());
+  const std::optional<std::uint64_t> number = io::parse_count(text.substr(begin, end - begin));
+  std::string unit = io::lower_case(text.substr(end));
   unit.erase(0, unit.find_first_not_of(' '));
+  unit.erase(unit.find_last_not_of(' ') + 1);
   if (unit.ends_with('b')) unit.pop_back();
   const auto known = std::ranges::find(kUnits, unit, [](const auto& named) { return named.first; });
   if (!number || known == kUnits.end() || *number > std::numeric_limits<std::uint64_t>::max() / known->second) {
