@@ -51,7 +51,7 @@ bool is_temporary(std::string_view name) {
 
 [[noreturn]] void refuse_unknown(const fs::path& entry) {
   raise(ErrorCode::MalformedIndex,
-        fmt::format("{}: was not written by a partition; expected an empty folder, or one with parts of an earlier run",
+        fmt::format("{}: was not written by a partition, so it is not removed; move it, or choose another folder",
                     io::printable_name(entry.string())));
 }
 

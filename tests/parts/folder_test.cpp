@@ -253,7 +253,8 @@ TEST_F(Folder, KeepsTheFilesOfTheUser) {
     const auto before = contents(folder);
     PartitionOptions options = kOptions;
     options.resume = resume;
-    expect_refused(ErrorCode::MalformedIndex, (folder / named).string() + ": was not written by a partition; expected",
+    expect_refused(ErrorCode::MalformedIndex,
+                   (folder / named).string() + ": was not written by a partition, so it is not",
                    [&] { partition(*chunked(mesh), folder, options); });
     EXPECT_EQ(contents(folder), before);
   }

@@ -87,7 +87,6 @@ void PathSearch::begin(std::span<const Path> starts, double radius) {
   forget();
   is_complete_ = false;
   radius_ = radius;
-  has_one_start_ = starts.size() == 1;
   queue_.clear(starts.empty() ? 0 : mean_length_near(starts.front().end) / kBucketsPerEdge);
   for (const Path& start : starts) {
     if (index_->is_wall_at(start.end) || !(start.length <= radius) || lengths_[start.end] <= start.length) continue;
@@ -225,12 +224,11 @@ void PathSearch::push_shorter() {
 
 std::span<const Path> PathSearch::found_in_order() {
   if (found_.empty()) return {};
-  if (!has_one_start_) std::iter_swap(found_.begin(), std::ranges::min_element(found_, comes_before));
   return order_.sorted(found_.front(), std::span(found_).subspan(1));
 }
 
 std::span<const Path> PathOrder::sorted(std::span<const Path> paths) {
-  sorted_.resize(paths.size() + 1);  // of which the other function uses the first
+  sorted_.resize(paths.size() + 1);  // the first is for the function below
   const std::span<Path> result = std::span(sorted_).subspan(1);
   if (paths.size() <= kernels_->few_numbers) {
     sort_by_comparison(paths, result);

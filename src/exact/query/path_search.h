@@ -141,7 +141,7 @@ class PathOrder {
   /// The paths in order. Their lengths are finite, and not negative. Valid until the next call.
   [[nodiscard]] std::span<const Path> sorted(std::span<const Path> paths);
 
-  /// The same with one more, which hardly any is shorter than.
+  /// The same with one more path, by a step for each path that comes before it.
   [[nodiscard]] std::span<const Path> sorted(const Path& one, std::span<const Path> paths);
 
  private:
@@ -222,7 +222,6 @@ class PathSearch {
   const WeightedGraph* graph_;
   const Adjacency* edges_;  // of the graph
   double radius_ = 0;
-  bool has_one_start_ = true;
   std::vector<double> lengths_;      // by vertex: of the shortest path so far, also beyond the radius
   std::vector<std::uint32_t> left_;  // vertices with such a length that are not found: beyond the radius, or walls
   bool is_complete_ = true;          // else the last run threw
