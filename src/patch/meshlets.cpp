@@ -8,7 +8,6 @@
 #include <iterator>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -18,6 +17,7 @@
 
 #include "base/vector.h"
 #include "exact/neighbors.h"
+#include "shared/disjoint_sets.h"
 #include "shared/parallel.h"
 
 namespace meshhood::inline v0_1 {
@@ -30,24 +30,24 @@ constexpr GivenTriangle kLast = GivenTriangle{1} << 31U;
 /// The parts of a few triangles that are joined by corners.
 class LeafParts {
  public:
-  explicit LeafParts(std::span<const Triangle> triangles) : parents_(triangles.size()) {
-    std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
+  explicit LeafParts(std::span<const Triangle> triangles) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> at_places;  // place and triangle
     at_places.reserve(3 * triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+      parts_.add();
       for (const std::uint32_t place : triangles[i].corners) at_places.emplace_back(place, i);
     }
     std::sort(at_places.begin(), at_places.end());
     for (std::size_t i = 1; i < at_places.size(); ++i) {
-      if (at_places[i].first == at_places[i - 1].first) unite(at_places[i].second, at_places[i - 1].second);
+      if (at_places[i].first == at_places[i - 1].first) parts_.unite(at_places[i].second, at_places[i - 1].second);
     }
   }
 
   /// Sorted by their parts, each named by its first triangle, then by their numbers, of which the first is `first`.
   void append(std::size_t first, std::vector<GivenTriangle>& out) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> by_parts;
-    by_parts.reserve(parents_.size());
-    for (std::uint32_t i = 0; i < parents_.size(); ++i) by_parts.emplace_back(root(i), i);
+    by_parts.reserve(parts_.size());
+    for (std::uint32_t i = 0; i < parts_.size(); ++i) by_parts.emplace_back(parts_.first_of(i), i);
     std::sort(by_parts.begin(), by_parts.end());
     for (std::size_t i = 0; i < by_parts.size(); ++i) {
       const bool is_last = i + 1 == by_parts.size() || by_parts[i + 1].first != by_parts[i].first;
@@ -56,18 +56,7 @@ class LeafParts {
   }
 
  private:
-  [[nodiscard]] std::uint32_t root(std::uint32_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-
-  void unite(std::uint32_t i, std::uint32_t j) {
-    i = root(i);
-    j = root(j);
-    parents_[std::max(i, j)] = std::min(i, j);
-  }
-
-  std::vector<std::uint32_t> parents_;
+  DisjointSets parts_;
 };
 
 }  // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "exact/search/open_elements.h"
 
-#include <algorithm>
-
 #include "exact/node_search.h"
 
 namespace meshhood::inline v0_1 {
@@ -19,7 +17,8 @@ void OpenElements::unite(Reach& reach, HomeMarks& marks) {
   reach_ = &reach;
   states_ = &reach.states();
   marks_ = &marks;
-  parents_.assign(1, kMarked);
+  sets_.clear();
+  sets_.add();  // kMarked, which is the smallest element and so names its set
   number_nodes();
   cut_leaves();
   for (const std::uint32_t group : marks.open_groups()) {
@@ -39,12 +38,12 @@ void OpenElements::number_nodes() {
   for (const std::uint32_t group : marks_->open_groups()) {
     const NodeSet open = open_nodes((*states_)[group]);
     leaves_.add(group, open);
-    first_element_[group] = static_cast<Element>(parents_.size());
-    for_each_node(open, [&](unsigned) { parents_.push_back(static_cast<Element>(parents_.size())); });
+    first_element_[group] = sets_.size();
+    for_each_node(open, [&](unsigned) { sets_.add(); });
     for_each_node(open, [&](unsigned i) {
       const auto before = static_cast<NodeSet>(index_->records[group].linked[i] & open & (node_at(i) - 1U));
       for_each_node(before,
-                    [&](unsigned k) { unite(element_of(group * kFanOut + i), element_of(group * kFanOut + k)); });
+                    [&](unsigned k) { sets_.unite(element_of(group * kFanOut + i), element_of(group * kFanOut + k)); });
     });
   }
 }
@@ -62,8 +61,8 @@ void OpenElements::cut_leaves() {
     }
   }
   first_piece_.resize(leaves.size() + 1, static_cast<std::uint32_t>(pieces_.size()));
-  first_piece_element_ = static_cast<Element>(parents_.size());
-  for (std::size_t i = 0; i < pieces_.size(); ++i) parents_.push_back(static_cast<Element>(parents_.size()));
+  first_piece_element_ = sets_.size();
+  for (std::size_t i = 0; i < pieces_.size(); ++i) sets_.add();
 }
 
 /// Unites the whole nodes of a group with those that their links lead to, of the same level or larger.
@@ -75,7 +74,7 @@ void OpenElements::unite_nodes(std::uint32_t group) {
     if (mine == 0) continue;
     const NodeId other = states_->whole_node(link.node());
     if (other == kNoNode) continue;
-    for_each_node(mine, [&](unsigned i) { unite(element_of(group * kFanOut + i), element_of(other)); });
+    for_each_node(mine, [&](unsigned i) { sets_.unite(element_of(group * kFanOut + i), element_of(other)); });
   }
 }
 
@@ -118,13 +117,13 @@ void OpenElements::unite_whole_leaves(std::uint32_t group) {
     const Element mine = element_of(group * kFanOut + i);
     for (const Link& link : index_->links_of(group * kFanOut + i)) {
       if (marks_->has(link.leaf) != 0) {
-        unite(mine, kMarked);
+        sets_.unite(mine, kMarked);
       } else if (leaves_.has(link.leaf) != 0) {
-        unite(mine, element_of(states_->whole_node(link.leaf)));
+        sets_.unite(mine, element_of(states_->whole_node(link.leaf)));
       } else if (const std::size_t place = reach_->place_of(link.leaf); place != Reach::kNoPlace) {
         const LaneMask met = kernels_->cross_edges(index_->cross_edges_of(link), ~LaneMask{0});
         for_each_element(place, met & reach_->surface_leaves()[place].lanes,
-                         [&](Element theirs, LaneMask) { unite(mine, theirs); });
+                         [&](Element theirs, LaneMask) { sets_.unite(mine, theirs); });
       }
     }
   });
@@ -136,7 +135,7 @@ void OpenElements::unite_with_nodes(std::size_t place) {
   for (const Link& link : index_->links_of(leaf)) {
     if ((link.boundary & lanes) == 0 || leaves_.has(link.leaf) == 0) continue;
     const Element other = element_of(states_->whole_node(link.leaf));
-    for_each_element(place, link.boundary & lanes, [&](Element mine, LaneMask) { unite(mine, other); });
+    for_each_element(place, link.boundary & lanes, [&](Element mine, LaneMask) { sets_.unite(mine, other); });
   }
 }
 
@@ -150,7 +149,7 @@ void OpenElements::unite_with_leaves(std::size_t place) {
     if (other == Reach::kNoPlace) continue;
     for_each_element(place, link.boundary & open, [&](Element mine, LaneMask piece) {
       const LaneMask met = kernels_->cross_edges(index_->cross_edges_of(link), piece) & leaves[other].lanes;
-      for_each_element(other, met, [&](Element theirs, LaneMask) { unite(mine, theirs); });
+      for_each_element(other, met, [&](Element theirs, LaneMask) { sets_.unite(mine, theirs); });
     });
   }
 }
@@ -161,13 +160,13 @@ void OpenElements::mark_united() {
     NodeSet united = 0;
     Element element = first_element_[group];
     for_each_node(open_nodes((*states_)[group]), [&](unsigned i) {
-      if (root_of(element++) == kMarked) united |= node_at(i);
+      if (sets_.first_of(element++) == kMarked) united |= node_at(i);
     });
     marks_->add_nodes(group, united);
   }
   for (const std::size_t place : marks_->open_places()) {
     for (std::uint32_t piece = first_piece_[place]; piece < first_piece_[place + 1]; ++piece) {
-      if (root_of(first_piece_element_ + piece) == kMarked) marks_->add_lanes(place, pieces_[piece]);
+      if (sets_.first_of(first_piece_element_ + piece) == kMarked) marks_->add_lanes(place, pieces_[piece]);
     }
   }
 }
@@ -187,19 +186,6 @@ void OpenElements::for_each_element(std::size_t place, LaneMask touching, F&& f)
   for (std::uint32_t piece = first_piece_[place]; piece < first_piece_[place + 1]; ++piece) {
     if ((pieces_[piece] & touching) != 0) f(first_piece_element_ + piece, pieces_[piece]);
   }
-}
-
-/// Shortens the path to the root on the way.
-OpenElements::Element OpenElements::root_of(Element element) {
-  while (parents_[element] != element) element = parents_[element] = parents_[parents_[element]];
-  return element;
-}
-
-/// The smaller number becomes the root, so that the set of all that is marked has the root `kMarked`.
-void OpenElements::unite(Element a, Element b) {
-  a = root_of(a);
-  b = root_of(b);
-  parents_[std::max(a, b)] = std::min(a, b);
 }
 
 }  // namespace meshhood::inline v0_1

@@ -9,6 +9,7 @@
 #include "exact/layout.h"
 #include "exact/search/home_marks.h"
 #include "exact/search/reach.h"
+#include "shared/disjoint_sets.h"
 #include "simd/kernels.h"
 
 namespace meshhood::inline v0_1 {
@@ -46,8 +47,6 @@ class OpenElements {
   [[nodiscard]] Element element_of(NodeId whole) const;
   template <class F>
   void for_each_element(std::size_t place, LaneMask lanes, F&& f) const;
-  Element root_of(Element element);
-  void unite(Element a, Element b);
 
   const IndexView* index_;
   const Kernels* kernels_;
@@ -59,7 +58,7 @@ class OpenElements {
   std::vector<LaneMask> pieces_;
   std::vector<std::uint32_t> first_piece_;  // by place of a surface leaf, and one more
   Element first_piece_element_ = 0;
-  std::vector<Element> parents_;  // by element: another of its set, or itself
+  DisjointSets sets_;  // of the elements
 };
 
 }  // namespace meshhood::inline v0_1
