@@ -11,7 +11,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -88,16 +87,13 @@ std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const 
 
 parts::PartitionResult run(const PartitionCommand& options) {
   Task task("partitioning " + options.mesh.file);
-  std::vector<std::filesystem::path> inputs{path_of(options.mesh.file)};
-  if (!options.faces.empty()) inputs.push_back(path_of(options.faces));
   return partition(*open(options, task.progress()), path_of(options.output),
                    {.parts = options.parts,
                     .vertices_per_part = options.vertices_per_part,
                     .halo = parse_radius("halo", options.halo),
                     .halo_in_edges = options.unit == "edge",
                     .memory = options.memory,
-                    .resume = !options.no_resume,
-                    .inputs = std::move(inputs)},
+                    .resume = !options.no_resume},
                    {.threads = options.threads, .progress = task.progress()});
 }
 
@@ -161,8 +157,8 @@ void add_partition(CLI::App& program) {
   add_threads(command, options.threads);
   command.add_flag(
       "--no-resume", options.no_resume,
-      "remove the parts that an earlier run has finished; if one is a link or has other files, that is an error, "
-      "and nothing is removed");
+      "remove the parts that an earlier run has finished; if one has files of others, that is an error, and nothing is "
+      "removed");
   command.add_option("-o,--output", options.output, "folder to write; created if it does not exist")
       ->check(stored_name("--output"))
       ->type_name("FOLDER")

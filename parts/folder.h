@@ -2,42 +2,39 @@
 #pragma once
 
 #include <cerrno>
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "io/messages.h"
 #include "io/system.h"
 
-/// What a run holds of the folder into which it writes, and what it may remove there: only what a run has written. All
-/// errors are Error{IoFailure}, but where another is named.
+/// What a run holds of the folder into which it writes, and what it may remove there. All errors are Error{IoFailure},
+/// but where another is named.
 namespace meshhood::parts {
 
 inline constexpr std::string_view kTemporaryFolder = ".partition.tmp";
 
-/// The number of the part whose folder has this name; nothing for every other name.
-[[nodiscard]] std::optional<std::uint64_t> part_number(const std::filesystem::path& name);
+/// The mark of a folder that was empty when a partition began: an empty file. There, the manifest, the parts and the
+/// temporary folder are those of partitions; what is beside them stays.
+inline constexpr std::string_view kMarkFile = ".partition";
 
-/// Whether a part has its own record, which may be damaged after its beginning.
-[[nodiscard]] bool has_record(const std::filesystem::path& part);
+void mark_folder(const std::filesystem::path& folder);
 
-/// Throws Error{MalformedIndex}, naming the entry, if the manifest or the temporary folder was not written by a run.
-/// What else is beside the parts stays as it is.
-void check_folder(const std::filesystem::path& folder);
+/// Throws Error{MalformedIndex} unless the folder is empty or has the mark.
+void check_mark(const std::filesystem::path& folder);
 
-/// How many parts the manifest of a folder lists: 0 if it is damaged, or there is none.
-[[nodiscard]] std::uint64_t listed_parts(const std::filesystem::path& folder);
+/// The numbers of the parts in a folder, ascending.
+[[nodiscard]] std::vector<std::size_t> parts_in(const std::filesystem::path& folder);
 
-/// Throws Error{MalformedIndex}, naming what is in the way, unless a run has written the folder of a part: it has only
-/// files of a part, and its own record or a number below `listed`. It may be damaged or not exist.
-void check_part(const std::filesystem::path& part, std::uint64_t listed);
+/// Throws Error{MalformedIndex}, naming the file, if a part has one that no partition has written.
+void check_part(const std::filesystem::path& part);
 
-/// Checks a part and removes it by way of the temporary folder: a run that is stopped leaves no half of it in its
-/// place.
-void remove_part(const std::filesystem::path& part, std::uint64_t listed, const std::filesystem::path& temporary);
+/// Removes a part by way of the temporary folder: a run that is stopped leaves no half of it in its place.
+void remove_part(const std::filesystem::path& part, const std::filesystem::path& temporary);
 
 /// An exclusive lock of a folder, so that one run at a time writes into it. The system releases it when the process
 /// ends in any way, and no file remains. The error has EWOULDBLOCK if another run has it.

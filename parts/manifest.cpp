@@ -22,7 +22,6 @@
 namespace meshhood::parts {
 namespace {
 
-constexpr std::string_view kJsonBegin = "{\"checksum\": \"";
 constexpr std::string_view kFloat = "float";
 constexpr std::string_view kDouble = "double";
 
@@ -41,7 +40,9 @@ std::uint64_t number_of(std::string_view hex_digits) {
 
 std::uint64_t checksum_of(std::string_view text) { return checksum({std::as_bytes(std::span(text))}); }
 
-std::string first_line(std::string_view rest) { return fmt::format("{}{}\",\n", kJsonBegin, hex(checksum_of(rest))); }
+std::string first_line(std::string_view rest) {
+  return fmt::format("{{\"checksum\": \"{}\",\n", hex(checksum_of(rest)));
+}
 
 [[noreturn]] void refuse(const std::filesystem::path& file, std::string_view reason) {
   raise(ErrorCode::MalformedIndex, fmt::format("{}: {}", io::printable_name(file.string()), reason));
@@ -54,15 +55,11 @@ void write_json(const std::filesystem::path& file, const std::string& rest) {
   writer.commit();
 }
 
-std::string_view text_of(const io::MappedFile& file) {
-  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
-}
-
 /// Calls `read(values)`. Every fault of the text becomes an error that names the file.
 template <class F>
 auto read_json(const std::filesystem::path& file, F&& read) {
   const io::MappedFile mapped(file);
-  const std::string text(text_of(mapped));
+  const std::string text(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
   const std::size_t line = std::min(text.find('\n'), text.size() - 1) + 1;
   const std::string rest = text.substr(line);
   if (text.empty() || text.substr(0, line) != first_line(rest)) {
@@ -199,10 +196,6 @@ void verify_file(const std::filesystem::path& file, std::span<const std::byte> c
 void write_part(const std::filesystem::path& part_folder, const Plan& plan, std::size_t number, const Part& part) {
   write_json(part_folder / kPartFile,
              fmt::format("{},\n \"number\": {},\n \"part\": {}\n}}\n", json_of(plan), number, json_of(part, " ")));
-}
-
-bool begins_as_json(const std::filesystem::path& file) {
-  return std::filesystem::is_regular_file(file) && text_of(io::MappedFile(file)).starts_with(kJsonBegin);
 }
 
 std::optional<Part> read_part(const std::filesystem::path& part_folder, const Plan& plan, std::size_t number) {

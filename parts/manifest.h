@@ -73,10 +73,6 @@ inline constexpr std::string_view kPartFile = "part.json";
 /// Writes PART_FOLDER/part.json. Throws Error{IoFailure}.
 void write_part(const std::filesystem::path& part_folder, const Plan& plan, std::size_t number, const Part& part);
 
-/// Whether a file begins as the JSON files of a run do. The rest of it may be damaged.
-/// Throws Error{IoFailure} if it cannot be read.
-[[nodiscard]] bool begins_as_json(const std::filesystem::path& file);
-
 /// Reads PART_FOLDER/part.json; nothing if there is none.
 /// Throws Error{MalformedIndex} if it has been changed or belongs to another plan or number.
 [[nodiscard]] std::optional<Part> read_part(const std::filesystem::path& part_folder, const Plan& plan,

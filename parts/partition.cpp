@@ -63,17 +63,6 @@ void check_number_of_parts(std::uint64_t parts, std::uint64_t sample_bytes) {
   raise(ErrorCode::TooLarge, fmt::format("{} parts need more memory than is allowed; use fewer parts", parts));
 }
 
-/// A part may be replaced, and temporary files are removed: a file of the mesh is not there, not even by way of a link.
-void check_inputs(std::span<const fs::path> inputs, const fs::path& folder) {
-  for (const fs::path& input : inputs) {
-    const fs::path inside = fs::relative(input, folder);
-    if (inside.empty() || !(part_number(*inside.begin()) || *inside.begin() == kTemporaryFolder)) continue;
-    raise(ErrorCode::InvalidOption,
-          fmt::format("{}: is in a part or the temporary folder of {}, expected a mesh outside of them",
-                      io::printable_name(input.string()), io::printable_name(folder.string())));
-  }
-}
-
 /// One call of `partition`.
 class Partitioning {
  public:
@@ -87,11 +76,12 @@ class Partitioning {
 
   PartitionResult run() {
     const FolderLock lock(folder_);
-    check_folder(folder_);
+    check_mark(folder_);
     const std::uint64_t parts = number_of_parts(options_, mesh_.vertex_count());
     check_number_of_parts(parts, budget_.sample_bytes);
     stages_.begin(0.05);
     Survey found = survey(mesh_, sample_size(parts), stages_);
+    mark_folder(folder_);
     const TemporaryFolder temporary(folder_ / kTemporaryFolder);
     make_plan(found, parts, temporary.path());
     keep_finished_parts(temporary.path());
@@ -136,25 +126,27 @@ class Partitioning {
 
   [[nodiscard]] fs::path folder_of(std::size_t part) const { return folder_ / part_name(part); }
 
-  /// Determines which parts need not be written. A folder of another plan is an error.
+  /// Determines which parts need not be written, and removes the others. A folder of another plan is an error.
   void keep_finished_parts(const fs::path& temporary) {
     finished_.resize(plan().parts);
     result_.manifest.parts.resize(plan().parts);
-    if (!options_.resume) return remove_old(temporary);
-    if (fs::exists(folder_ / kManifestFile)) {
-      check_plan(read_manifest(folder_).plan);
-      listed_ = plan().parts;
+    if (options_.resume && fs::exists(folder_ / kManifestFile)) check_plan(read_manifest(folder_).plan);
+    const std::vector<std::size_t> found = parts_in(folder_);
+    for (const std::size_t part : found) check_part(folder_of(part));
+    if (!options_.resume) fs::remove(folder_ / kManifestFile);
+    for (const std::size_t part : found) {
+      if (!options_.resume || !keep(part)) remove_part(folder_of(part), temporary);
     }
-    for (std::size_t part = 0; part < plan().parts; ++part) {
-      std::optional<Part> found = read_part(folder_of(part), plan(), part);
-      if (!found || !is_whole(folder_of(part), *found)) {
-        check_part(folder_of(part), listed_);
-        continue;
-      }
-      result_.manifest.parts[part] = std::move(*found);
-      finished_[part] = true;
-      ++result_.kept;
-    }
+  }
+
+  /// False if the part is damaged, or cannot be one of the plan.
+  bool keep(std::size_t part) {
+    std::optional<Part> found = read_part(folder_of(part), plan(), part);
+    if (!found || part >= plan().parts || !is_whole(folder_of(part), *found)) return false;
+    result_.manifest.parts[part] = std::move(*found);
+    finished_[part] = true;
+    ++result_.kept;
+    return true;
   }
 
   void check_plan(const Plan& old) {
@@ -174,21 +166,6 @@ class Partitioning {
       if (error.code() != ErrorCode::MalformedIndex && error.code() != ErrorCode::IoFailure) throw;
       return false;  // written again
     }
-  }
-
-  void remove_old(const fs::path& temporary) {
-    listed_ = listed_parts(folder_);
-    std::vector<fs::path> old;
-    for (const auto& entry : fs::directory_iterator(folder_)) {
-      if (part_number(entry.path().filename())) old.push_back(entry.path());
-    }
-    for (const fs::path& part : old) check_part(part, listed_);
-    // If the run is stopped, the next one must know what is left: a part without a record only by the manifest.
-    for (const fs::path& part : old) {
-      if (!has_record(part)) remove_part(part, listed_, temporary);
-    }
-    fs::remove(folder_ / kManifestFile);
-    for (const fs::path& part : old) remove_part(part, listed_, temporary);
   }
 
   void write_parts(CutTree& tree, std::uint64_t corners, const fs::path& temporary) {
@@ -230,7 +207,6 @@ class Partitioning {
   }
 
   void write_one(std::size_t part, const PartContents& contents, const CutTree& tree, const fs::path& temporary) {
-    remove_part(folder_of(part), listed_, temporary);  // a damaged one
     const fs::path work = temporary / part_name(part);
     const Progress progress = [this](std::size_t done, std::size_t total) {
       stages_.report(done, total);
@@ -254,7 +230,6 @@ class Partitioning {
   Stages stages_;
   PartitionResult result_;
   std::vector<bool> finished_;
-  std::uint64_t listed_ = 0;  ///< parts, in the manifest of an earlier run
 };
 
 }  // namespace
@@ -262,7 +237,6 @@ class Partitioning {
 PartitionResult partition(ChunkedMesh& mesh, const fs::path& folder, const PartitionOptions& options, const Run& run) {
   check(options);
   try {
-    check_inputs(options.inputs, folder);
     std::error_code error;
     fs::create_directory(folder, error);
     // A file of this name is refused when the folder is opened.

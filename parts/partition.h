@@ -31,9 +31,6 @@ struct PartitionOptions {
   /// Keep the parts that an earlier run on the same mesh with the same halo and number of parts has finished.
   /// Otherwise they are removed.
   bool resume = true;
-
-  /// The files of the mesh: none may be in a part of the folder, which could be replaced.
-  std::vector<std::filesystem::path> inputs = {};
 };
 
 inline constexpr std::uint64_t kLeastMemory = std::uint64_t{64} << 20;
@@ -57,7 +54,7 @@ struct PartitionResult {
 ///
 /// Throws Error{InvalidOption, InvalidRadius}; what `ChunkedMesh` throws; Error{IoFailure}, also if another run writes
 /// into `folder`; Error{MalformedIndex} if `folder` has the parts of another mesh, halo or number of parts, or
-/// something that no run has written where this one would write or remove; Error{TooLarge} if a part needs more memory;
+/// files, but not of a partition, or a part has a file of another; Error{TooLarge} if a part needs more memory;
 /// Error{Cancelled}. O(#V log #V + #F log #F) in memory of fixed size.
 PartitionResult partition(ChunkedMesh& mesh, const std::filesystem::path& folder, const PartitionOptions& options,
                           const Run& run = {});

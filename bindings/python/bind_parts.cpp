@@ -40,8 +40,7 @@ std::vector<std::string> partition_file(const Path& mesh, const std::optional<Pa
                                         .halo = halo,
                                         .halo_in_edges = halo_in_edges,
                                         .memory = memory,
-                                        .resume = resume,
-                                        .inputs = faces ? std::vector{mesh, *faces} : std::vector{mesh}};
+                                        .resume = resume};
   const Run run{.threads = threads, .progress = progress_to(progress)};
   return without_lock([&] {
     const auto opened =

@@ -56,6 +56,7 @@ TEST_F(Folder, LosesNoFinishedPartWhenARunIsCancelled) {
     EXPECT_FALSE(fs::exists(folder / parts::kManifestFile));
     std::size_t finished = 0;
     for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.path().filename() == parts::kMarkFile) continue;
       EXPECT_TRUE(entry.path().filename().string().starts_with("part-")) << entry.path() << " was left";
       ++finished;
     }
@@ -129,6 +130,9 @@ TEST_F(Folder, HasItsDamagedPartsWrittenAgain) {
     }
   }
   fs::remove(folder / parts::part_name(2) / parts::kPartFile);
+  EXPECT_EQ(run(folder).kept, 3U);
+  fs::remove_all(folder / parts::part_name(3));
+  fs::create_directory(folder / parts::part_name(3));
   EXPECT_EQ(run(folder).kept, 3U);
   EXPECT_EQ(contents(folder), expected);
   std::printf("%zu damaged files were found and written again\n", damaged);
@@ -209,6 +213,9 @@ TEST_F(Folder, IsRefusedIfItHasPartsOfAnotherMesh) {
   fs::remove(folder / parts::kManifestFile);
   expect_refused(ErrorCode::MalformedIndex, "is a part of another mesh",
                  [&] { partition(*chunked(moved), folder, kOptions); });
+  for (const std::size_t part : {0U, 1U}) fs::remove_all(folder / parts::part_name(part));
+  expect_refused(ErrorCode::MalformedIndex, "part-00002/part.json: is a part of another mesh, or of another number",
+                 [&] { partition(*chunked(mesh), folder, {.parts = 2, .halo = 3}); });
 
   // Without `resume`, the old parts are removed.
   PartitionOptions again = kOptions;
@@ -217,59 +224,46 @@ TEST_F(Folder, IsRefusedIfItHasPartsOfAnotherMesh) {
   EXPECT_EQ(partition(*chunked(moved), folder, kOptions).kept, 4U);
 }
 
-TEST_F(Folder, KeepsTheFilesOfTheUser) {
-  struct Case {
-    bool has_parts;  ///< of an earlier run
-    bool resume;
-    std::vector<std::string> files;
-    std::string named;  ///< in the error
-  };
-  for (const auto& [has_parts, resume, files, named] : std::vector<Case>{
-           {false, true, {"part-00000/thesis/data.txt"}, "part-00000/thesis"},
-           {false, true, {"part-00000/mesh.ply"}, "part-00000/mesh.ply"},
-           {false, true, {"part-00000/vertices.npy"}, "part-00000"},
-           {false, true, {"part-00000/index.mhi/x"}, "part-00000/index.mhi"},
-           {false, true, {"part-00003"}, "part-00003"},
-           {false, true, {"manifest.json"}, "manifest.json"},
-           {true, true, {".partition.tmp/x"}, ".partition.tmp/x"},
-           {false, true, {".partition.tmp/part-00000/thesis/index.mhi"}, ".partition.tmp/part-00000/thesis"},
-           {false, true, {".partition.tmp"}, ".partition.tmp"},
-           {true, true, {".partition.tmp/.thesis.meshhood-1-2.tmp"}, ".partition.tmp/.thesis.meshhood-1-2.tmp"},
-           {true, true, {".partition.tmp/index.mhi.meshhood-1"}, ".partition.tmp/index.mhi.meshhood-1"},
-           {false, false, {"part-00009/part.json"}, "part-00009"},
-           {true, false, {"part-00009/vertices.npy"}, "part-00009"},
-           {true, false, {"part-123456/vertices.npy"}, "part-123456"},
-           {false, false, {"manifest.json"}, "manifest.json"},
-           {false, false, {"manifest.json/x"}, "manifest.json"},
-           {true, false, {"part-00001/owned.txt"}, "part-00001/owned.txt"},
-           {true, true, {"part-00001/owned.npy", "part-00001/owned.txt"}, "part-00001/owned.txt"}}) {
-    SCOPED_TRACE(testing::PrintToString(files));
+TEST_F(Folder, IsRefusedIfItHasFilesOfOthers) {
+  for (const std::string file : {"thesis.txt", "part-00000/vertices.npy", "part-00003", "manifest.json",
+                                 ".partition.tmp/index.mhi", "part-00000/part.json"}) {
     fs::remove_all(folder);
-    if (has_parts) run(folder);
-    for (const std::string& file : files) {
-      fs::create_directories((folder / file).parent_path());
-      overwrite(folder / file, "mine");
+    fs::create_directories((folder / file).parent_path());
+    overwrite(folder / file, "mine");
+    PartitionOptions options = kOptions;
+    for (const bool resume : {true, false}) {
+      options.resume = resume;
+      expect_refused(ErrorCode::MalformedIndex, "parts: has files, but not of a partition",
+                     [&] { partition(*chunked(mesh), folder, options); });
+      EXPECT_EQ(contents(folder), (std::map<std::string, std::string>{{file, "mine"}}));
     }
+  }
+}
+
+TEST_F(Folder, KeepsFilesOfOthersInItsParts) {
+  for (const std::string file : {"part-00001/owned.txt", "part-00009/vertices.npz", "part-123456/thesis/part.json",
+                                 "part-00001/index.mhi/x", "part-00009/vertices.npy/x"}) {
+    fs::remove_all(folder);
+    run(folder);
+    if (file.ends_with("/x")) fs::remove((folder / file).parent_path());
+    fs::create_directories((folder / file).parent_path());
+    overwrite(folder / file, "mine");
     const auto before = contents(folder);
     PartitionOptions options = kOptions;
-    options.resume = resume;
-    expect_refused(ErrorCode::MalformedIndex,
-                   (folder / named).string() + ": was not written by a partition, so it is not",
-                   [&] { partition(*chunked(mesh), folder, options); });
-    EXPECT_EQ(contents(folder), before);
+    for (const bool resume : {true, false}) {
+      options.resume = resume;
+      expect_refused(ErrorCode::MalformedIndex, "was not written by a partition, which would remove it",
+                     [&] { partition(*chunked(mesh), folder, options); });
+      EXPECT_EQ(contents(folder), before);
+    }
   }
 }
 
 TEST_F(Folder, KeepsWhatIsBesideItsParts) {
-  const std::vector<std::string> files{"thesis.txt",
-                                       "mywork/part.json",
-                                       "part-mine/part.json",
-                                       "part-2024-05-01/x.py",
-                                       "part-2024-05-01/vertices.npy",
-                                       "part-0001/owned.npy",
-                                       "part-000001/part.json"};
   auto expected = whole();
-  for (const std::string& file : files) {
+  run(folder);
+  for (const std::string file : {"thesis.txt", "mywork/part.json", "part-mine/part.json", "part-2024-05-01/x.py",
+                                 "part-2024-05-01/vertices.npy", "part-0001/owned.npy", "part-000001/part.json"}) {
     expected[file] = "mine";
     fs::create_directories((folder / file).parent_path());
     overwrite(folder / file, "mine");
@@ -284,29 +278,11 @@ TEST_F(Folder, KeepsWhatIsBesideItsParts) {
   }
 }
 
-TEST_F(Folder, HasAnEmptyPartReplacedOnlyIfItsManifestListsIt) {
-  const auto expected = whole();
-  PartitionOptions options = kOptions;
-  for (options.resume = true;; options.resume = false) {
-    fs::create_directories(folder / parts::part_name(1));
-    expect_refused(ErrorCode::MalformedIndex, "part-00001: was not written by a partition",
-                   [&] { partition(*chunked(mesh), folder, options); });
-    fs::remove_all(folder);
-    run(folder);
-    fs::remove_all(folder / parts::part_name(1));
-    fs::create_directory(folder / parts::part_name(1));
-    EXPECT_EQ(partition(*chunked(mesh), folder, options).kept, options.resume ? 3U : 0U);
-    EXPECT_EQ(contents(folder), expected);
-    fs::remove_all(folder);
-    if (!options.resume) break;
-  }
-}
-
 TEST_F(Folder, IsWrittenAgainWithoutItsDamagedManifest) {
-  const auto expected = whole();
+  run(folder);
+  const auto expected = contents(folder);
   PartitionOptions options = kOptions;
   options.resume = false;
-  fs::create_directory(folder);
   for (const std::string& text : {std::string(), "X" + expected.at("manifest.json").substr(1), std::string("X")}) {
     overwrite(folder / parts::kManifestFile, text);
     expect_refused(ErrorCode::MalformedIndex, "manifest.json: has been changed or truncated", [&] { run(folder); });
@@ -317,29 +293,15 @@ TEST_F(Folder, IsWrittenAgainWithoutItsDamagedManifest) {
 
 TEST_F(Folder, KeepsThePlaceToWhichAPartIsALink) {
   run(folder);
+  const auto expected = contents(folder);
   const fs::path place = scratch.path() / "place";
   fs::rename(folder / parts::part_name(0), place);
   fs::create_directory_symlink(place, folder / parts::part_name(0));
   EXPECT_EQ(run(folder).kept, 4U);
   overwrite(place / parts::kIndexFile, "damaged");
-  expect_refused(ErrorCode::MalformedIndex, "part-00000: was not written by a partition", [&] { run(folder); });
+  EXPECT_EQ(run(folder).kept, 3U);
+  EXPECT_EQ(contents(folder), expected);
   EXPECT_EQ(read_file(place / parts::kIndexFile), "damaged");
-}
-
-TEST_F(Folder, KeepsTheMeshThatItIsMadeOf) {
-  const auto expected = whole();
-  PartitionOptions options = kOptions;
-  options.inputs = {folder / "mesh.ply", {}};
-  for (const fs::path& inside : {fs::path("part-00001") / parts::kVerticesFile,
-                                 ".partition.tmp" / fs::path("index.mhi"), fs::path(".partition.tmp")}) {
-    options.inputs.back() = folder / inside;
-    expect_refused(ErrorCode::InvalidOption, inside.string() + ": is in a part or the temporary folder of ",
-                   [&] { partition(*chunked(mesh), folder, options); });
-  }
-  options.inputs.pop_back();
-  run(folder);
-  overwrite(folder / "mesh.ply", "mesh");  // beside the parts
-  EXPECT_EQ(partition(*chunked(mesh), folder, options).kept, 4U);
 }
 
 // Whatever a run has in its temporary folder at any time, and a part of which it has removed some files.

@@ -66,23 +66,6 @@ TEST_F(StoppedFolder, IsWrittenAgainAfterAKillThatLeftAPartWithoutARecord) {
   }
 }
 
-TEST_F(StoppedFolder, IsNotCalledForeignIfItMayNotBeRead) {
-  constexpr uid_t kNobody = 65534;
-  run(folder);
-  fs::permissions(scratch.path(), fs::perms::all);
-  fs::permissions(folder / parts::kManifestFile, fs::perms::none);
-  const uid_t user = ::geteuid();
-  ASSERT_EQ(::seteuid(user == 0 ? kNobody : user), 0);
-  try {
-    run(folder);
-    ADD_FAILURE() << "was read";
-  } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()), (folder / parts::kManifestFile).string() + ": Permission denied");
-    EXPECT_EQ(error.code(), ErrorCode::IoFailure);
-  }
-  ASSERT_EQ(::seteuid(user), 0);
-}
-
 TEST_F(StoppedFolder, IsFreeAfterARunDuringWhichTheProcessWasForked) {
   pid_t child = -1;
   run(folder, [&](std::size_t done, std::size_t) {

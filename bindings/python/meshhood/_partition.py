@@ -43,7 +43,7 @@ def partition(
         an error, which says how to avoid it.
     workers, progress : as for `MeshIndex`.
     resume : keep the parts that an earlier run on the same mesh with the same `halo` and `parts` has finished. Otherwise
-        they are removed; if one is a link or has other files, that is an error, and nothing is removed.
+        they are removed; if one has files of others, that is an error, and nothing is removed.
 
     Each vertex is owned by one part. A part also has every vertex within the halo of one that it owns, and all faces
     around these. So it answers queries of the vertices that it owns exactly, without the other parts.
