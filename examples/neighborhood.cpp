@@ -8,7 +8,7 @@
 #include <meshhood/meshhood.h>
 
 int main() {
-  const auto mesh = meshhood::io::read_mesh("hand.ply");  // PLY, OBJ, OFF or STL
+  const auto mesh = meshhood::io::read_mesh("hand.ply");  // PLY, OBJ, OFF, STL, VTK or FreeSurfer
   const auto index = meshhood::build(mesh.view());        // once for each mesh
   meshhood::Searcher searcher(index);                     // one for each thread; answers any number of queries
   const auto near = searcher.neighborhood(42, 1.5);       // of vertex 42; the radius has the unit of the positions
