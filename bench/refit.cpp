@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The time to refit an index after its vertices have moved, beside the time to build it again: all vertices, those
-// under a brush, and as many anywhere. "In place" is a frame of an animation: `refit_in_place`, and `rebind` of a
-// searcher. Then the time of queries with the refitted index and with a new one. Interleaved in one run, on one thread.
+// under a brush, and as many anywhere. "In place" is an update of an animation: `refit_in_place`, and `rebind` of a
+// searcher. Then the time of queries with the refitted index and a new one. Interleaved in one run, on one thread.
 //
 //   bench_refit MESH [CHANGED VERTICES]
 #include <algorithm>

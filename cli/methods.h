@@ -42,7 +42,7 @@ void add_metric(CLI::App& command, std::string& metric);
 /// Error{InvalidOption} if the metric needs faces, and the input has none.
 [[nodiscard]] Metric choose_metric(const std::string& name, Input& input);
 
-/// Of the index of the input. Throws as `choose_metric`.
+/// A searcher of the index of the input by a metric. Throws as `choose_metric`.
 [[nodiscard]] Searcher make_searcher(const std::string& metric, Input& input);
 
 /// Throws Error{InvalidOption} if the metric has no radii of this unit.
@@ -51,8 +51,8 @@ void check_metric(const std::string& name, const std::string& unit);
 /// Throws Error{InvalidOption} if the options contradict each other, masks, --weld, or the unit of the radius.
 void check_method(const MethodOptions& options, const Reading& reading, bool has_masks, const std::string& unit);
 
-/// Of the straight metric: a query of the exact index has its own. Borrows `input`. `settings` are those of the method
-/// paper; `threads` build the index. Throws Error{InvalidOption} if the method needs edges and the input has none.
+/// The method by the straight metric; queries of the exact index have their own. Borrows `input`. `settings` are those
+/// of the method paper; `threads` build the index. Throws Error{InvalidOption} if it needs edges and there are none.
 [[nodiscard]] SearchMethod method_of(const MethodOptions& options, Input& input,
                                      const paper::QueryOptions& settings = {}, unsigned threads = kAllProcessors);
 

@@ -190,7 +190,7 @@ auto k_nearest_of(const ExactMethod& method, const Call& call, std::size_t k) {
   return std::pair(found.ids.attr("reshape")(rows, k), found.distances.attr("reshape")(rows, k));
 }
 
-/// Likewise.
+/// The rows have one radius.
 auto discs_of(const ExactMethod& method, const Call& call, double area, const Reals& areas) {
   const BatchQuery query = call.query();
   const NearestOptions options{.metric = query.metric, .radius = query.radius.common()};

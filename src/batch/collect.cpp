@@ -40,7 +40,7 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
   limit.check_sample(sizes, "about ");
 }
 
-/// Of the result.
+/// The limit on the bytes of the result.
 SizeLimit limit_of(const BatchOptions& options, const Run& run, std::size_t rows) {
   return {run.max_bytes, sizeof(VertexId) + (options.distances ? sizeof(double) : 0), rows};
 }

@@ -52,10 +52,10 @@ struct SingleQueries {
   /// The neighborhood, valid until the next call. Checks its arguments.
   [[nodiscard]] virtual VertexSet& search(const Start& start, double radius) = 0;
 
-  /// Its center.
+  /// The center of the ball of a start.
   [[nodiscard]] Point center_of(const Start& start) const;
 
-  /// Its size. Checks its arguments.
+  /// The size of the neighborhood. Checks its arguments.
   [[nodiscard]] virtual std::size_t count(const Start& start, double radius) { return search(start, radius).count(); }
 
   /// Refills `out` with its ids, and `distances` unless that is null. Checks its arguments, and changes nothing if it
@@ -76,18 +76,18 @@ struct SingleQueries {
   virtual void nearest(const Start& start, std::size_t k, std::vector<VertexId>& ids, std::vector<double>& radii) = 0;
 };
 
-/// By the metric. Each part is made when it is first needed.
+/// Makes the queries of a metric. Each part is made when it is first needed.
 [[nodiscard]] std::unique_ptr<SingleQueries> make_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph,
                                                           Metric metric, Isa isa);
 
 /// Makes what searches of an index share, where several threads will begin at once: each would make it.
 void prepare_searches(const Index& index, Metric metric);
 
-/// In space.
+/// Makes the queries of `Metric::Space`.
 [[nodiscard]] std::unique_ptr<SingleQueries> make_space_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph,
                                                                 Isa isa);
 
-/// By path distance or number of edges.
+/// Makes the queries of `Metric::Path` and `Metric::Rings`.
 [[nodiscard]] std::unique_ptr<SingleQueries> make_length_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph,
                                                                  Metric metric, Isa isa);
 
