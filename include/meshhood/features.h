@@ -81,7 +81,7 @@ struct Persistence {
 /// values     #radii by #rows, one kind of feature. A NaN ends a run.
 /// radii      strictly ascending.
 /// threshold  > 0.
-/// Throws Error{InvalidOption, InvalidRadius}.
+/// O(#values), on one thread. Throws Error{InvalidOption, InvalidRadius}.
 [[nodiscard]] Persistence persistence(std::span<const double> values, std::span<const double> radii, double threshold);
 
 MESHHOOD_API_END

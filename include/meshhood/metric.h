@@ -22,7 +22,7 @@ enum class Metric : std::uint8_t {
 template <class Number>
 concept RadiusNumber = std::is_arithmetic_v<Number> && !std::same_as<Number, bool>;
 
-/// The radius of one query.
+/// The radius of one query. A call that takes it refuses NaN and negative ones: Error{InvalidRadius}.
 class Radius {
  public:
   template <RadiusNumber Number>
