@@ -52,8 +52,7 @@ class SearchMethod {
   SearchMethod(const paper::Index&&, const paper::QueryOptions& = {}) = delete;
 
   /// The exact neighborhoods without an index (see `ReferenceSearcher`). Each thread copies the positions and
-  /// checks the graph, in O(#V + #E log(valence)).
-  /// Throws Error{InvalidMesh, TooLarge} if the graph is invalid.
+  /// checks the graph, in O(#V + #E log(valence)). Throws Error{InvalidMesh, TooLarge} if the graph is invalid.
   [[nodiscard]] static SearchMethod breadth_first(const GraphView& graph);
 
   /// The method of the same `Index` by a metric: `make_searcher` then makes a `Searcher` by it. In a batch, the metric
@@ -235,6 +234,7 @@ void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, 
                                                        const Run& run = {});
 
 /// Returns the number of vertices of each row; #radii by #rows if there are scales. Throws as `for_each_neighborhood`.
+/// Memory: the result, a copy of the query, 8 bytes a row of up to 2^22, and a search for each thread (docs/joint.md).
 [[nodiscard]] std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& query,
                                                 const Run& run = {});
 

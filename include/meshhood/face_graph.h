@@ -13,7 +13,7 @@ MESHHOOD_API_BEGIN
 /// with each other. `build` of its view gives an index whose ids are numbers of faces.
 ///
 /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid; InvalidMesh also for a face without corners, which has no
-/// place; and TooLarge beyond `kMaxNeighbors`. O(#corners log #corners), and the number of neighbors.
+/// place; and TooLarge beyond `kMaxNeighbors`. O(n log n) for n corners and neighbors. One thread.
 [[nodiscard]] GraphData face_graph(const MeshView& mesh);
 
 MESHHOOD_API_END

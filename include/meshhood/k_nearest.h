@@ -20,8 +20,8 @@ MESHHOOD_API_BEGIN
 
 struct NearestOptions {
   /// By what vertices are near. Straight: the connecting radius, as for `Searcher::nearest_connected`; then the
-  /// distance, then the id. Path: the path distance; rings: the number of edges; each then by
-  /// the place in index order. Not `Space`, in which nothing is connected.
+  /// distance, then the id. Path: the path distance; rings: the number of edges; each then by the place in index order.
+  /// Error{InvalidOption} for `Space`, in which nothing is connected.
   Metric metric = Metric::Straight;
 
   /// Only vertices of this connecting radius, path distance or number of edges, or less. >= 0 or infinite.
@@ -57,9 +57,9 @@ void k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k,
 /// areas  of each vertex, such as `vertex_areas`: #V, >= 0 and finite.
 /// area   > 0 and finite, in the unit of `areas`.
 ///
-/// The result is held twice while its rows are joined. Throws as `k_nearest`;
-/// InvalidOption also for `area` and `areas`, naming the vertex. A result above `run.max_bytes` is refused as that
-/// of `neighborhoods`.
+/// O(k log k) for a row of k vertices on most surfaces; the result is held twice while its rows are joined. Throws as
+/// `k_nearest`; InvalidOption also for `area` and `areas`, naming the vertex. A result above `run.max_bytes` is refused
+/// as that of `neighborhoods`.
 [[nodiscard]] Neighborhoods discs(const Index& index, const BatchVertices& vertices, double area,
                                   std::span<const double> areas, const NearestOptions& options = {},
                                   const Run& run = {});
