@@ -285,10 +285,15 @@ void add_unit(CLI::App& command, const std::string& length, std::string& unit) {
              {"mesh", "edge"}, unit);
 }
 
-double parse_radius(std::string_view name, const std::string& text) {
+std::optional<double> parse_number(std::string_view text) {
   const auto number = io::parse_real<double>(text);
-  const bool is_overflow = number && std::isinf(*number) && text.find_first_of("0123456789") != std::string::npos;
-  if (!number || is_overflow) {
+  const bool is_overflow = number && std::isinf(*number) && text.find_first_of("0123456789") != std::string_view::npos;
+  return is_overflow ? std::nullopt : number;
+}
+
+double parse_radius(std::string_view name, const std::string& text) {
+  const auto number = parse_number(text);
+  if (!number) {
     raise(ErrorCode::InvalidRadius,
           fmt::format("{} {}, expected a number >= 0 in the range of double", name, io::quote(text)));
   }

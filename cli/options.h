@@ -163,7 +163,10 @@ void add_unit(CLI::App& command, const std::string& length, std::string& unit);
 [[nodiscard]] double resolve(const Radius& radius, Input& input);
 [[nodiscard]] std::vector<double> resolve(const Radii& radii, Input& input);
 
-/// The double nearest to `text`; `name` is for the message. Throws Error{InvalidRadius}.
+/// The double nearest to `text`; nothing if it is no number, or one in digits beyond the range of double.
+[[nodiscard]] std::optional<double> parse_number(std::string_view text);
+
+/// The same of a radius; `name` is for the message. Throws Error{InvalidRadius}.
 [[nodiscard]] double parse_radius(std::string_view name, const std::string& text);
 
 /// Vertex `v` of the file, or the one that it has become (see `Welding`). Throws Error{VertexOutOfRange} unless the

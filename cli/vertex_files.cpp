@@ -77,9 +77,9 @@ VertexId parse_vertex(const io::Text& text, std::string_view token, std::size_t 
 std::optional<double> next_number(io::Text& text) {
   const std::string_view token = text.token_on_line();
   if (token.empty()) return std::nullopt;
-  const std::optional<double> number = io::parse_real<double>(token);
-  if (!number) text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected a number", io::quote(token)));
-  return number;
+  const std::optional<double> number = parse_number(token);
+  if (number) return number;
+  text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected a number in the range of double", io::quote(token)));
 }
 
 Channels read_text(io::InputBuffer& input, std::optional<std::size_t> vertices) {
