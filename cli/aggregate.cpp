@@ -83,6 +83,7 @@ class AggregateQuantity : public Quantity {
   RowTable compute(const RowTask& task) override {
     RowTable table = task.table();
     if (fwhm_) std::ranges::transform(table.radii, table.radii.begin(), smoothing_radius);
+    for (const double radius : table.radii) task.input.need_halo(radius);
     const Channels values = read_channels(values_, task.input.vertex_count());
     const std::vector<double> weights = weights_of(task.input);
     const SignalView signal{values.numbers, values.channels, weights};

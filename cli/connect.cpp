@@ -44,13 +44,13 @@ Connections connections_of(const ConnectCommand& options, Input& input) {
   if (options.nearest) {
     const std::size_t k = std::min<std::size_t>(*options.nearest, input.vertex_count());
     searcher.nearest_connected(start, k, found.vertices, found.radii);
-    return found;
   }
   for (const std::uint64_t target : options.targets) {
     const VertexId w = resolve_vertex(target, input);
     found.vertices.push_back(w);
     found.radii.push_back(searcher.connecting_radius(start, w));
   }
+  for (const double radius : found.radii) input.need_halo(radius);  // another part may have a shorter way
   return found;
 }
 

@@ -168,6 +168,10 @@ Input::Input(const Reading& reading, unsigned threads) : name_(reading.file) {
   header_ = loaded.header;
   if (auto* exact = std::get_if<Index>(&loaded.index)) exact_ = std::move(*exact);
   if (auto* paper = std::get_if<paper::Index>(&loaded.index)) paper_ = std::move(*paper);
+#ifndef MESHHOOD_DEMO  // which knows no parts
+  const std::filesystem::path path = path_of(name_);
+  if (path.filename() == parts::kIndexFile) plan_ = parts::read_plan(path.parent_path());
+#endif
 }
 
 std::string Input::other_as_ply() const {
@@ -175,6 +179,13 @@ std::string Input::other_as_ply() const {
   const std::optional<OtherFile> other = other_reader(name_);
   if (!other) raise(ErrorCode::IoFailure, name_ + ": has changed since it was read, expected the same mesh");
   return other->ply;
+}
+
+void Input::need_halo(double radius) const {
+  if (!plan_ || radius <= plan_->halo) return;
+  raise(ErrorCode::InvalidRadius,
+        fmt::format("{}: the radius {} is larger than the halo {} of these parts; partition the mesh with --halo {}",
+                    printable_name(name_), radius, plan_->halo, radius));
 }
 
 std::size_t Input::vertex_count() const {

@@ -18,6 +18,7 @@
 
 #include "io/mesh_io.h"
 #include "io/readers.h"
+#include "parts/manifest.h"
 #include "task.h"
 
 namespace meshhood::cli {
@@ -81,7 +82,7 @@ struct OwnedMasks {
 class Input {
  public:
   /// Reads the file, prints the warnings of the reader, and welds the mesh as --weld says. Throws as `io::read_mesh`,
-  /// `io::load` and `Welding`; Error{InvalidOption} if `reading` says anything of an index.
+  /// `io::load`, `Welding` and `parts::read_plan`; Error{InvalidOption} if `reading` says anything of an index.
   explicit Input(const Reading& reading, unsigned threads = kAllProcessors);
 
   /// As on the command line.
@@ -96,6 +97,13 @@ class Input {
 
   /// The header of the index. The file must be an index.
   [[nodiscard]] const IndexHeader& header() const { return *header_; }
+
+  /// Of the index of a part, what its folder says of the whole mesh; otherwise null.
+  [[nodiscard]] const parts::Plan* plan() const { return plan_ ? &*plan_ : nullptr; }
+
+  /// Throws Error{InvalidRadius} if the file is the index of a part, which knows no more than its halo, and the radius
+  /// is larger.
+  void need_halo(double radius) const;
 
   [[nodiscard]] std::size_t vertex_count() const;
 
@@ -149,6 +157,7 @@ class Input {
   Welding welding_;
   std::optional<Adjacency> adjacency_;  // of the mesh
   std::optional<IndexHeader> header_;
+  std::optional<parts::Plan> plan_;
   std::optional<Index> exact_;
   OwnedMasks masks_;
   std::optional<Index> masked_;

@@ -32,6 +32,10 @@ void add_metric(CLI::App& command, std::string& metric) {
 }
 
 Metric choose_metric(const std::string& name, Input& input) {
+  if (name == "rings" && input.plan() != nullptr) {
+    wrong_option("--metric rings: {} is the index of a part, whose halo is a length, expected another metric",
+                 printable_name(input.name()));
+  }
   if (name == "surface") {
     input.need_faces("--metric surface");
     input.change_index([&input](const Index& index, unsigned threads) {

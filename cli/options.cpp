@@ -45,7 +45,7 @@ std::string mesh_formats() {
 
 double edge_unit(Input& input) {
   input.need_edges("--unit edge");
-  const double mean = mean_edge_length(input.graph());
+  const double mean = input.plan() != nullptr ? input.plan()->mean_edge_length : mean_edge_length(input.graph());
   if (mean > 0) return mean;
   wrong_option("--unit edge: the mean edge length of {} is 0, expected a length > 0", printable_name(input.name()));
 }
@@ -301,9 +301,13 @@ double parse_radius(std::string_view name, const std::string& text) {
   return *number;
 }
 
+double length_of_unit(const std::string& unit, Input& input) { return unit == "edge" ? edge_unit(input) : 1; }
+
 double resolve(const Radius& radius, Input& input) {
-  const double value = parse_radius("radius", radius.value);
-  return radius.unit == "edge" ? edge_unit(input) * value : value;
+  const double typed = parse_radius("radius", radius.value);
+  const double value = length_of_unit(radius.unit, input) * typed;
+  input.need_halo(value);
+  return value;
 }
 
 std::vector<double> resolve(const Radii& radii, Input& input) {

@@ -159,7 +159,11 @@ CLI::Option* add_radii(CLI::App& command, Radii& radii);
 /// --unit. `length` is what has the unit: "radius".
 void add_unit(CLI::App& command, const std::string& length, std::string& unit);
 
-/// In the unit of the positions. Throws Error{InvalidRadius, InvalidOption}.
+/// The length of a unit, in that of the positions: of the index of a part, of the whole mesh. Throws
+/// Error{InvalidOption}.
+[[nodiscard]] double length_of_unit(const std::string& unit, Input& input);
+
+/// In the unit of the positions. Throws Error{InvalidRadius, InvalidOption}, and as `Input::need_halo`.
 [[nodiscard]] double resolve(const Radius& radius, Input& input);
 [[nodiscard]] std::vector<double> resolve(const Radii& radii, Input& input);
 

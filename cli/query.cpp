@@ -74,10 +74,10 @@ std::string advice_to_weld(const std::vector<VertexId>& component, Input& input)
 }
 
 /// An answer of all vertices of a component is a sign of a radius in the wrong unit, or of a mesh of unconnected
-/// triangles. Of several radii, `radius` is the largest.
+/// triangles. Of several radii, `radius` is the largest. A part knows no component of the mesh.
 template <NeighborhoodSearcher S>
 void note_whole_component(S& searcher, double radius, const Answer& answer, Input& input) {
-  if (std::isinf(radius) || input.is_wall(*answer.vertex)) return;
+  if (std::isinf(radius) || input.is_wall(*answer.vertex) || input.plan() != nullptr) return;
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   if (answer.counts.back() != searcher.count(*answer.vertex, kUnlimited)) return;
   std::vector<VertexId> component;

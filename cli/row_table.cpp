@@ -43,13 +43,14 @@ std::optional<std::vector<SpacePoint>> points_of(const std::string& file) {
 std::vector<double> radii_of(const RowOptions& options, std::size_t rows, Input& input) {
   if (options.row_radii.empty()) return resolve(options.radii, input);
   std::vector<double> radii = read_channel(options.row_radii, rows, "radii");
-  const double unit = resolve(Radius{"1", options.radii.unit}, input);
+  const double unit = length_of_unit(options.radii.unit, input);
   for (std::size_t row = 0; row < rows; ++row) {
     if (!(radii[row] >= 0)) {
       raise(ErrorCode::InvalidRadius, fmt::format("{}: row {}: radius {}, expected a number >= 0",
                                                   printable_name(options.row_radii), row, radii[row]));
     }
     radii[row] *= unit;
+    input.need_halo(radii[row]);
   }
   return radii;
 }

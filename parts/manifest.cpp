@@ -210,6 +210,13 @@ std::optional<Part> read_part(const std::filesystem::path& part_folder, const Pl
   });
 }
 
+std::optional<Plan> read_plan(const std::filesystem::path& part_folder) {
+  const std::filesystem::path file = part_folder / kPartFile;
+  std::error_code unknown;
+  if (!std::filesystem::exists(file, unknown)) return std::nullopt;
+  return read_json(file, plan_from);
+}
+
 void verify_part(const std::filesystem::path& part_folder, const Part& part) {
   for (const PartFile& expected : part.files) {
     const std::filesystem::path file = part_folder / expected.name;

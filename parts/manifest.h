@@ -78,6 +78,10 @@ void write_part(const std::filesystem::path& part_folder, const Plan& plan, std:
 [[nodiscard]] std::optional<Part> read_part(const std::filesystem::path& part_folder, const Plan& plan,
                                             std::size_t number);
 
+/// What PART_FOLDER/part.json says of the whole mesh; nothing if there is none.
+/// Throws Error{MalformedIndex} if it has been changed.
+[[nodiscard]] std::optional<Plan> read_plan(const std::filesystem::path& part_folder);
+
 /// Throws Error{MalformedIndex}, naming the file, unless it has the size.
 void verify_size(const std::filesystem::path& file, std::uint64_t bytes, const PartFile& expected);
 
