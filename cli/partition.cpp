@@ -140,7 +140,11 @@ void add_partition(CLI::App& program) {
       command.add_option("--faces", options.faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
           ->check(stored_name("--faces"))
           ->type_name("FILE");
-  for (CLI::Option* option : add_reading(command, options.mesh)) option->excludes(faces);
+  const auto reading = add_reading(command, options.mesh);
+  for (CLI::Option* option : reading) option->excludes(faces);
+  reading.front()->description(
+      "join vertices at equal positions, or at most EPS apart; all keep their numbers, and the parts answer for those "
+      "that were joined to another as for vertices without edges");
   CLI::Option* parts = add_number(command, "--parts", "number of parts", options.parts);
   add_number(command, "--vertices-per-part",
              "approximate number of vertices of a part without its halo; sets the number of parts",

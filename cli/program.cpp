@@ -41,8 +41,8 @@ constexpr const char* kDescription =
     "indexed.";
 
 constexpr const char* kFooter =
-    "FILE may be - for standard input, and --output - is standard output; what is printed then goes to standard "
-    "error.\n"
+    "FILE may be - for standard input, except of partition and view, and --output - is standard output, except of "
+    "partition; what is printed then goes to standard error.\n"
     "Exit codes: 0 done, 2 wrong usage, 3 not a valid mesh, 4 not a valid index, 5 failed to read or write, 6 a limit, "
     "the memory or the disk is too small, 130 interrupted.";
 
