@@ -11,7 +11,7 @@ import meshes
 import meshhood
 import numpy as np
 import pytest
-from meshhood import distributed
+from meshhood import _result_files, distributed
 
 dask = pytest.importorskip("dask")
 pytest.importorskip("dask.array")
@@ -231,6 +231,61 @@ def test_a_folder_of_another_call_is_refused(parts, tmp_path):
     (tmp_path / "out" / "result.json").write_text("{")
     with pytest.raises(ValueError, match="result.json"):
         parts.neighborhoods(1, tmp_path / "out")
+
+
+@pytest.mark.parametrize("format", ("npz", "zarr"))
+def test_a_task_of_a_stopped_call_leaves_nothing_torn(tmp_path, format):
+    """It still writes when the call is repeated, which removes its temporary file or store."""
+    if format == "zarr":
+        zarr = pytest.importorskip("zarr", "3")
+    out, saved, calls = tmp_path / "out", np.arange(100), []
+    path = out / f"part.{format}"
+
+    def save(between, call=None):
+        def pieces():
+            yield saved[:50]
+            between()
+            yield saved[50:]
+
+        arrays = [("first", np.int64, 100, lambda: iter([saved])), ("second", np.int64, 100, pieces)]
+        _result_files.SAVERS[format](_result_files.ResultFile(str(path), call or calls[0]), arrays)
+
+    def call(is_whole):
+        with _result_files.result_folder(str(out), {"r": 1}) as digest:
+            calls.append(digest)
+            if is_whole:
+                save(lambda: None)
+
+    call(False)
+    with pytest.raises(ValueError, match="out: has results of another call"):
+        save(lambda: None, "another")
+    for is_whole in (False, True):  # the repeated call: it has only begun, or has already written
+        call(False)
+        with pytest.raises(OSError):
+            save(lambda: call(is_whole))
+        assert sorted(os.listdir(out)) == [path.name] * is_whole + ["result.json"]
+    found = np.load(path) if format == "npz" else zarr.open_group(path, mode="r")
+    for name in ("first", "second"):
+        np.testing.assert_array_equal(found[name][:], saved)
+
+
+def test_a_task_of_a_stopped_call_writes_nothing_into_the_folder_of_another(parts, tmp_path):
+    out = tmp_path / "out"
+
+    def function(part, index, owned):
+        shutil.rmtree(out)
+        with _result_files.result_folder(str(out), {"r": 2}):
+            return owned
+
+    with dask.config.set(scheduler="synchronous"), pytest.raises(ValueError, match="out: has results of another call"):
+        parts.write(function, 1, out)
+    assert os.listdir(out) == ["result.json"]
+
+
+def test_a_temporary_file_of_a_killed_call_does_not_block_its_folder(parts, tmp_path):
+    (tmp_path / ".result.json.meshhood-1-1.tmp").write_text("{")
+    paths = parts.neighborhoods(1, tmp_path)
+    assert sorted(os.listdir(tmp_path)) == [os.path.basename(path) for path in paths] + ["result.json"]
 
 
 def test_one_of_two_calls_into_a_folder_is_refused(parts, tmp_path):

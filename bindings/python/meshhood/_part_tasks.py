@@ -10,14 +10,13 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core
 from ._curvature import BEYOND_HALO, FEWEST_POINTS, NO_NORMAL
 from ._files import load, read_mesh
 from ._index import MeshIndex
 from ._open_part import OpenPart, PartName
 from ._optional import optional
 from ._progress import Progress, reporter
-from ._result_files import SAVERS
+from ._result_files import SAVERS, ResultFile
 
 _ROWS = 4096  # searched at once, so that a part of any size takes little memory
 
@@ -31,7 +30,7 @@ def on_part(task: Callable[[OpenPart], Any], name: PartName) -> Any:
     return task(name.open())
 
 
-def on_mesh(function: Callable[[MeshIndex], Any], file: Optional[str], mesh: str) -> Any:
+def on_mesh(function: Callable[[MeshIndex], Any], file: Optional[ResultFile], mesh: str) -> Any:
     try:
         with open(mesh, "rb") as opened:
             is_index = opened.read(8) == b"\x8bMHI\r\n\x1a\n"
@@ -42,7 +41,7 @@ def on_mesh(function: Callable[[MeshIndex], Any], file: Optional[str], mesh: str
             error.add_note(f"in {mesh}")
         raise
     if file is not None:
-        with _core.FileWriter(file) as target:
+        with file.writer() as target:
             np.save(target, np.asarray(result), allow_pickle=False)
     return result if file is None else None
 
@@ -136,15 +135,15 @@ def in_mesh_order(ids: list[NDArray[np.int64]], blocks: list[NDArray[Any]], coun
     return result
 
 
-def save_rows(function: PartFunction, path: str, part: OpenPart) -> None:
+def save_rows(function: PartFunction, file: ResultFile, part: OpenPart) -> None:
     rows = np.asarray(function(part, part.index, part.owned))
     if rows.shape[:1] != (len(part.owned),):
         raise ValueError(f"function: an array of shape {rows.shape} for part {part.number}, expected {len(part.owned)} rows")
-    with _core.FileWriter(path) as target:
+    with file.writer() as target:
         np.save(target, rows, allow_pickle=False)
 
 
-def save_neighborhoods(radius: float, format: str, distances: bool, path: str, part: OpenPart) -> None:
+def save_neighborhoods(radius: float, format: str, distances: bool, file: ResultFile, part: OpenPart) -> None:
     owned = np.asarray(part.owned)
     sizes = part.index.counts(radius, owned, workers=1)
     indptr = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
@@ -161,7 +160,7 @@ def save_neighborhoods(radius: float, format: str, distances: bool, path: str, p
     ]
     if distances:
         arrays.append(("distances", np.float64, int(indptr[-1]), lambda: chunks(True)))
-    SAVERS[format](path, arrays)
+    SAVERS[format](file, arrays)
 
 
 def run_all(tasks: list[tuple[Callable[[Any], Any], Any]], progress: Progress) -> list[Any]:

@@ -43,7 +43,7 @@ from ._part_tasks import (
 )
 from ._optional import optional
 from ._progress import Progress
-from ._result_files import result_folder
+from ._result_files import ResultFile, result_folder
 from ._types import Unit
 
 if TYPE_CHECKING:
@@ -312,11 +312,12 @@ class Parts:
     def _write(self, task: Any, to: Folder, extension: str, what: dict[str, Any], progress: Progress) -> list[str]:
         target = os.path.abspath(os.fspath(to))
         described = {"parts": self._checksum, **what}
-        with result_folder(target, described):
+        with result_folder(target, described) as call:
             paths = [os.path.join(target, f"part-{number:05}{extension}") for number in range(len(self))]
             left = [number for number, path in enumerate(paths) if not os.path.exists(path)]
-            tasks = [(functools.partial(on_part, functools.partial(task, paths[n])), self._name(n)) for n in left]
-            run_all(tasks, progress)
+            files = [ResultFile(paths[number], call) for number in left]
+            tasks = [functools.partial(on_part, functools.partial(task, file)) for file in files]
+            run_all(list(zip(tasks, map(self._name, left))), progress)
         return paths
 
 
@@ -361,9 +362,9 @@ def map_meshes(
     if to is None:
         return run_all([(functools.partial(on_mesh, function, None), mesh) for mesh in meshes], progress)
     target = os.path.abspath(os.fspath(to))
-    with result_folder(target, {"map_meshes": _name_of(function), "paths": meshes}):
+    with result_folder(target, {"map_meshes": _name_of(function), "paths": meshes}) as call:
         files = [os.path.join(target, f"{i:05}-{Path(mesh).stem}.npy") for i, mesh in enumerate(meshes)]
-        left = [(file, mesh) for file, mesh in zip(files, meshes) if not os.path.exists(file)]
+        left = [(ResultFile(file, call), mesh) for file, mesh in zip(files, meshes) if not os.path.exists(file)]
         run_all([(functools.partial(on_mesh, function, file), mesh) for file, mesh in left], progress)
     return files
 
