@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A mesh in parts, on threads and on a cluster of processes."""
 
+import functools
 import os
 import shutil
 import signal
@@ -231,6 +232,27 @@ def test_a_folder_of_another_call_is_refused(parts, tmp_path):
     (tmp_path / "out" / "result.json").write_text("{")
     with pytest.raises(ValueError, match="result.json"):
         parts.neighborhoods(1, tmp_path / "out")
+
+
+def times(part, index, owned, *, factor):
+    return owned * factor
+
+
+def count_of(index, *, factor):
+    return np.array([len(index) * factor])
+
+
+def test_a_partial_function_of_other_arguments_is_another_call(mesh, parts, tmp_path):
+    file = written(tmp_path / "mesh.ply", *mesh)
+    for name, call in (
+        ("write", lambda factor: parts.write(functools.partial(times, factor=factor), 0, tmp_path / "write")),
+        ("map_meshes", lambda factor: distributed.map_meshes(
+            [file], functools.partial(count_of, factor=factor), to=tmp_path / "map_meshes")),
+    ):
+        paths = call(2)
+        assert call(2) == paths, name
+        with pytest.raises(ValueError, match="another call, which differs in map"):
+            call(3)
 
 
 @pytest.mark.parametrize("format", ("npz", "zarr"))

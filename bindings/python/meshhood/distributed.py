@@ -239,9 +239,10 @@ class Parts:
         """As `map`, but computes at once and writes the result of each part to a file of the folder `to`:
         part-00000.npy, ... Returns the paths.
 
-        A file appears whole or not at all. Files that an earlier call with the same parts, function name and radius has
-        written are kept, so that a call that was stopped can be continued. A folder with other results, or into which
-        another call writes, is refused. The rows are in the order of `part.owned`.
+        A file appears whole or not at all. Files that an earlier call with the same parts, radius and function name (and
+        arguments of a `functools.partial`) has written are kept, so that a call that was stopped can be continued. A
+        folder with other results, or into which another call writes, is refused. The rows are in the order of
+        `part.owned`.
         progress : True shows a bar of tqdm; a function is called as progress(done, total), in parts.
 
         >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
@@ -349,8 +350,8 @@ def map_meshes(
     function : called as `function(index)`, picklable for a cluster of processes. Tasks run side by side, so it should
         use `workers=1`.
     to : a folder. Results, which must be arrays, are then written there, each as soon as it is computed and whole or not
-        at all: 00000-NAME.npy for the first of `paths`. Those of an earlier call with the same paths and function name
-        are kept.
+        at all: 00000-NAME.npy for the first of `paths`. Those of an earlier call with the same paths and function, as in
+        `Parts.write`, are kept.
     progress : as in `Parts.write`, in meshes.
 
     Returns the results in the order of `paths`, or the paths of the written files. An error names its mesh.
@@ -370,6 +371,8 @@ def map_meshes(
 
 
 def _name_of(function: Any) -> str:
-    while isinstance(function, functools.partial):
-        function = function.func
+    """Of a `functools.partial` with a digest of its arguments, which is the same in every process."""
+    if isinstance(function, functools.partial):
+        digest = optional("dask.base", "Parts").tokenize(function.args, function.keywords)
+        return f"{_name_of(function.func)} {digest}"
     return getattr(function, "__qualname__", type(function).__qualname__)
