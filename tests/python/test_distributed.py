@@ -310,6 +310,23 @@ def test_a_temporary_file_of_a_killed_call_does_not_block_its_folder(parts, tmp_
     assert sorted(os.listdir(tmp_path)) == [os.path.basename(path) for path in paths] + ["result.json"]
 
 
+def test_errors_name_the_argument_or_the_file(parts, tmp_path):
+    np.savez(tmp_path / "t.npz", np.ones(parts.n_vertices))
+    np.savetxt(tmp_path / "t.npy", np.ones(parts.n_vertices))
+    for call, error, message in (
+        (lambda: parts.aggregate(tmp_path / "t.npz", 1), ValueError, "t.npz: the magic string is not correct"),
+        (lambda: parts.aggregate(tmp_path / "t.npy", 1), ValueError, "t.npy: the magic string is not correct"),
+        (lambda: meshhood.partition(["V.npy", "F.npy"], tmp_path, parts=2, halo=1), TypeError, "mesh: expected a path, not list"),
+        (lambda: meshhood.partition("V.ply", 3, parts=2, halo=1), TypeError, "folder: expected a path, not int"),
+        (lambda: meshhood.open_parts(3), TypeError, "folder: expected a path, not int"),
+        (lambda: parts.neighborhoods(1, 3), TypeError, "to: expected a path, not int"),
+        (lambda: distributed.map_meshes([3], len), TypeError, "paths: expected a path, not int"),
+        (lambda: distributed.map_meshes(["a.ply"], len, to=3), TypeError, "to: expected a path, not int"),
+    ):
+        with pytest.raises(error, match=message):
+            call()
+
+
 def test_one_of_two_calls_into_a_folder_is_refused(parts, tmp_path):
     begun, go_on = threading.Event(), threading.Event()
 

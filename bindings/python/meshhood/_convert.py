@@ -264,14 +264,19 @@ def max_bytes(value, copies=1):
     return free_bytes() // copies if value is None else integer(value, "max_bytes", 0, 2**64 - 1)
 
 
-def path(value):
+def path(value, name="path"):
     """`value` as str or bytes. Calls `__fspath__` here, because Python code must not run below C++ functions."""
     if not isinstance(value, (str, bytes, os.PathLike)):
-        raise TypeError(f"path: expected a path, not {type(value).__name__}")
+        raise TypeError(f"{name}: expected a path, not {type(value).__name__}")
     value = os.fspath(value)
     if ("\0" if isinstance(value, str) else b"\0") in value:
-        raise ValueError(f"path: {value!r} has a null byte")
+        raise ValueError(f"{name}: {value!r} has a null byte")
     return value
+
+
+def absolute(value, name):
+    """The path as an absolute str."""
+    return os.path.abspath(os.fsdecode(path(value, name)))
 
 
 def choice(value, name, choices):

@@ -107,7 +107,12 @@ def _rows_of(values: Any, part: OpenPart) -> Any:
 
 
 def _array_of(values: Any) -> Any:
-    return np.load(values, mmap_mode="r", allow_pickle=False) if isinstance(values, str) else values
+    if not isinstance(values, str):
+        return values
+    try:
+        return np.lib.format.open_memmap(values, mode="r")
+    except ValueError as error:
+        raise ValueError(f"{values}: {error}") from None
 
 
 def shape_of(values: Any) -> tuple[int, ...]:

@@ -59,7 +59,7 @@ def partition(
     if isinstance(mesh, tuple) and len(mesh) != 2:
         raise ValueError(f"mesh: a tuple of {len(mesh)}, expected a path, or a tuple of those of positions and faces")
     vertices, faces = mesh if isinstance(mesh, tuple) else (mesh, None)
-    folder = _convert.path(folder)
+    folder = _convert.path(folder, "folder")
     options = {
         "parts": 0 if parts is None else _convert.integer(parts, "parts"),
         "vertices_per_part": 0 if vertices_per_part is None else _convert.integer(vertices_per_part, "vertices_per_part"),
@@ -71,10 +71,9 @@ def partition(
     }
     if (parts is None) == (vertices_per_part is None):
         raise ValueError("parts, vertices_per_part: expected one of them")
+    files = _convert.path(vertices, "mesh"), None if faces is None else _convert.path(faces, "mesh")
     with reporter(progress, "partition") as report:
-        notes = _core.partition(
-            _convert.path(vertices), None if faces is None else _convert.path(faces), folder, **options, progress=report
-        )
+        notes = _core.partition(*files, folder, **options, progress=report)
     for note in notes:
         warnings.warn(note, stacklevel=2)
     return Parts(folder)

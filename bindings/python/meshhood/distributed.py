@@ -81,8 +81,8 @@ class Parts:
     """The size of each part."""
 
     def __init__(self, folder: Folder) -> None:
-        self.folder = os.path.abspath(os.fspath(folder))
-        manifest = _core.read_manifest(_convert.path(self.folder))
+        self.folder = _convert.absolute(folder, "folder")
+        manifest = _core.read_manifest(self.folder)
         self.n_vertices = manifest["vertices"]
         self.halo = manifest["halo"]
         self.mean_edge_length = manifest["mean_edge_length"]
@@ -311,7 +311,7 @@ class Parts:
         return da.concatenate([da.from_delayed(block, (n, *shape), dtype) for block, n in zip(blocks, rows)])
 
     def _write(self, task: Any, to: Folder, extension: str, what: dict[str, Any], progress: Progress) -> list[str]:
-        target = os.path.abspath(os.fspath(to))
+        target = _convert.absolute(to, "to")
         described = {"parts": self._checksum, **what}
         with result_folder(target, described) as call:
             paths = [os.path.join(target, f"part-{number:05}{extension}") for number in range(len(self))]
@@ -359,10 +359,10 @@ def map_meshes(
     >>> meshhood.distributed.map_meshes(["hand.ply", "scan.ply"], len)
     [642, 642]
     """
-    meshes = [os.path.abspath(os.fspath(path)) for path in paths]
+    meshes = [_convert.absolute(path, "paths") for path in paths]
     if to is None:
         return run_all([(functools.partial(on_mesh, function, None), mesh) for mesh in meshes], progress)
-    target = os.path.abspath(os.fspath(to))
+    target = _convert.absolute(to, "to")
     with result_folder(target, {"map_meshes": _name_of(function), "paths": meshes}) as call:
         files = [os.path.join(target, f"{i:05}-{Path(mesh).stem}.npy") for i, mesh in enumerate(meshes)]
         left = [(ResultFile(file, call), mesh) for file, mesh in zip(files, meshes) if not os.path.exists(file)]
