@@ -24,6 +24,7 @@
 #include "meshhood/error.h"
 #include "meshhood/run.h"
 
+#include "io/file_writer.h"
 #include "io/messages.h"
 #include "io/number.h"
 #include "io/system.h"
@@ -124,12 +125,16 @@ CLI::Validator one_of(std::vector<std::string> values) {
   return {check, ""};
 }
 
+/// Also of files that do not exist yet, where links to them and to their folders may.
 bool is_same_file(const std::string& a, const std::string& b) {
   namespace fs = std::filesystem;
   std::error_code missing;
-  const fs::path first = path_of(a);
-  const fs::path second = path_of(b);
-  return first.lexically_normal() == second.lexically_normal() || fs::equivalent(first, second, missing);
+  const auto place = [&](const std::string& name) {
+    const fs::path file = io::written_file(path_of(name));
+    const fs::path folder = fs::canonical(file.has_parent_path() ? file.parent_path() : fs::path("."), missing);
+    return missing ? file.lexically_normal() : folder / file.filename();
+  };
+  return place(a) == place(b) || fs::equivalent(path_of(a), path_of(b), missing);
 }
 
 /// An argument, and how it is read.

@@ -136,6 +136,7 @@ Format detect_format(InputBuffer& input, const std::string& name) {
   refuse_compressed(input);
   refuse_foreign(input);
   if (extension) return *extension;
+  if (!input.left() && is_binary_stl(input)) return Format::Stl;  // a pipe
   raise(ErrorCode::UnsupportedFormat,
         input.name() + ": is neither PLY, OBJ, OFF, STL, VTK nor FreeSurfer, by its first bytes or its extension");
 }

@@ -18,21 +18,6 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 
-// The target of a chain of symbolic links, even if it does not exist yet: the links are kept.
-std::filesystem::path resolved(std::filesystem::path path) {
-  if (path == kStandardOutput) return path;
-  std::error_code failed;
-  auto target = std::filesystem::canonical(path, failed);
-  if (!failed) return target;
-  constexpr int kMostLinks = 40;  // as Linux follows
-  for (int i = 0; i < kMostLinks; ++i) {
-    const auto next = std::filesystem::read_symlink(path, failed);
-    if (failed) break;
-    path = path.parent_path() / next;
-  }
-  return path;
-}
-
 bool is_read_only(const std::filesystem::path& file, std::filesystem::perms mode) {
   using std::filesystem::perms;
   constexpr perms kWrite = perms::owner_write | perms::group_write | perms::others_write;
@@ -49,13 +34,30 @@ std::filesystem::path temporary_name(const std::filesystem::path& target) {
   return name;
 }
 
+bool is_special(const std::filesystem::file_status& status) {
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
+
 }  // namespace
 
-FileWriter::FileWriter(const std::filesystem::path& path, Order order) : name_(path), target_(resolved(path)) {
+std::filesystem::path written_file(std::filesystem::path path) {
+  std::error_code failed;
+  if (path == kStandardOutput || is_special(std::filesystem::status(path, failed))) return path;
+  auto target = std::filesystem::canonical(path, failed);
+  if (!failed) return target;
+  constexpr int kMostLinks = 40;  // as Linux follows
+  for (int i = 0; i < kMostLinks; ++i) {
+    const auto next = std::filesystem::read_symlink(path, failed);
+    if (failed) break;
+    path = path.parent_path() / next;
+  }
+  return path;
+}
+
+FileWriter::FileWriter(const std::filesystem::path& path, Order order) : name_(path), target_(written_file(path)) {
   std::error_code ignored;
   const auto status = std::filesystem::status(target_, ignored);
-  const bool is_special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-  if (is_special || target_ == kStandardOutput) {
+  if (is_special(status) || target_ == kStandardOutput) {
     open_in_place(order);
   } else if (std::filesystem::exists(status) && is_read_only(target_, status.permissions())) {
     raise_io(name_, EACCES, "is read-only, expected a file that may be written");

@@ -11,6 +11,10 @@
 
 namespace meshhood::inline v0_1::io {
 
+/// The file that a `FileWriter` writes: the end of a chain of symbolic links, even if it does not exist yet. Of a pipe
+/// or a device it is `path` itself, because a link in /dev/fd to a pipe has no target that could be opened by name.
+[[nodiscard]] std::filesystem::path written_file(std::filesystem::path path);
+
 /// Writes a file atomically: to a temporary file beside the target, `.NAME.meshhood-PID-N.tmp`, which is renamed to the
 /// target by `commit`. If the process is killed, the temporary file remains. Standard output, and a target that is not
 /// a regular file (a pipe, a device), are written directly, and wait for their readers as `WhileWaiting` says; a named

@@ -46,14 +46,6 @@ bool is_text(std::string_view bytes) {
   });
 }
 
-bool is_binary(InputBuffer& input) {
-  if (has_binary_stl_size(input)) return true;
-  const auto header = input.ahead(kHeaderBytes).substr(0, kHeaderBytes);
-  if (header.size() < kHeaderBytes || is_text(header)) return false;
-  const auto left = input.left();
-  return !left || *left >= binary_size(header);
-}
-
 std::string why_not_binary(InputBuffer& input) {
   const auto header = input.ahead(kHeaderBytes);
   if (header.size() < kHeaderBytes) return "it is not a binary STL, which has at least 84 bytes";
@@ -359,8 +351,16 @@ bool has_binary_stl_size(InputBuffer& input) {
   return header.size() >= kHeaderBytes && input.left() == binary_size(header);
 }
 
+bool is_binary_stl(InputBuffer& input) {
+  if (has_binary_stl_size(input)) return true;
+  const auto header = input.ahead(kHeaderBytes).substr(0, kHeaderBytes);
+  if (header.size() < kHeaderBytes || is_text(header)) return false;
+  const auto left = input.left();
+  return !left || *left >= binary_size(header);
+}
+
 Mesh read_stl(InputBuffer& input, const ReaderOptions& options) {
-  const bool binary = is_binary(input);
+  const bool binary = is_binary_stl(input);
   const bool may_be_either = !binary && !is_text(input.ahead(kHeaderBytes).substr(0, kHeaderBytes));
   const std::string not_binary = binary ? "" : why_not_binary(input);
   MeshBuilder builder(input, options, binary ? Declared::Float : Declared::Nothing);

@@ -54,6 +54,9 @@ inline constexpr std::string_view kFreeSurferMark = "\xff\xff\xfe";
 /// Whether the file has exactly the size that the number of facets in a binary STL header requires.
 [[nodiscard]] bool has_binary_stl_size(InputBuffer& input);
 
+/// Whether it has this size, or a header that is no text and at least this size, as far as it is known.
+[[nodiscard]] bool is_binary_stl(InputBuffer& input);
+
 // In index_io.cpp.
 
 /// An index of either kind and the header of its file.

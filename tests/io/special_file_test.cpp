@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Files that POSIX has: pipes, devices and standard input. Rows of the catalogue of mesh files.
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -7,6 +8,7 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -91,6 +93,36 @@ TEST_F(SpecialFiles, APipeIsReadToItsEnd) {
     out << kMesh.substr(10);
   });
   EXPECT_EQ(face_count(io::read_mesh(pipe)), 1U);
+}
+
+// M22
+TEST_F(SpecialFiles, ABinaryStlIsReadFromAPipeWithoutAName) {
+  const auto pipe = scratch.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string stl = binary_stl({{0, 0, 0, 1, 0, 0, 0, 1, 0}}, "made by a scanner");
+  for (const std::string& content : {stl, std::string(90, 'x')}) {
+    const std::jthread writer([&] { std::ofstream(pipe, std::ios::binary) << content; });
+    if (content == stl) {
+      EXPECT_EQ(face_count(io::read_mesh(pipe)), 1U);
+    } else {
+      EXPECT_THAT(file_refusal(pipe).message, HasSubstr("is neither PLY, OBJ"));
+    }
+  }
+}
+
+// A link in /dev/fd to a pipe has a target that is no name of a file.
+TEST_F(SpecialFiles, APipeIsWrittenByItsNumber) {
+  const std::string folder = "/dev/fd/";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
+  std::array<int, 2> ends = {};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  const std::vector<float> positions = {0, 0, 0};
+  io::write_ply(folder + std::to_string(ends[1]), {positions, FacesView{}});
+  ::close(ends[1]);
+  std::array<char, 4> start = {};
+  EXPECT_EQ(::read(ends[0], start.data(), start.size()), 4);
+  EXPECT_EQ(std::string(start.data(), start.size()), "ply\n");
+  ::close(ends[0]);
 }
 
 // M22
