@@ -81,6 +81,7 @@ std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options, const 
     }
   }
   io::Mesh mesh = read_mesh(options.mesh, options.threads, most);
+  mesh.warnings.clear();  // which are printed
   static_cast<void>(Welding(mesh, options.mesh.weld, options.mesh.file));
   return parts::chunked(std::move(mesh), printable_name(options.mesh.file));
 }

@@ -29,6 +29,8 @@ class MeshInMemory final : public ChunkedMesh {
       : ChunkedMesh(name, mesh.view().positions.size(), std::holds_alternative<std::vector<double>>(mesh.positions)),
         mesh_(std::move(mesh)) {}
 
+  [[nodiscard]] const std::vector<io::Warning>* warnings() const override { return &mesh_.warnings; }
+
  private:
   void load_positions(std::uint64_t first, std::span<Point> out) override {
     std::visit(

@@ -45,6 +45,10 @@ class ChunkedMesh {
   [[nodiscard]] std::uint64_t vertex_count() const { return vertices_; }
   [[nodiscard]] bool is_double() const { return is_double_; }
 
+  /// The warnings of the reader of a mesh in memory, which has also judged whether float is coarse for it; of a mesh
+  /// that is read in chunks null.
+  [[nodiscard]] virtual const std::vector<io::Warning>* warnings() const { return nullptr; }
+
   /// Reads the vertices from `first` on, as many as `out` has room for.
   void read_positions(std::uint64_t first, std::span<Point> out);
 

@@ -113,7 +113,13 @@ class Partitioning {
               .mean_edge_length = mean,
               .halo = options_.halo_in_edges ? options_.halo * mean : options_.halo,
               .parts = static_cast<std::size_t>(parts)};
-    if (!mesh_.is_double()) warn_if_coarse(found.sample);
+    if (const auto* warnings = mesh_.warnings()) {
+      for (const auto& warning : *warnings) {
+        result_.warnings.push_back(fmt::format("{}: {}", mesh_.name(), warning.text()));
+      }
+    } else if (!mesh_.is_double()) {
+      warn_if_coarse(found.sample);
+    }
   }
 
   void warn_if_coarse(std::span<const Site> sample) {

@@ -278,6 +278,19 @@ TEST(PartitionWarnings, NameAHaloThatMakesEveryPartTheMesh) {
             "with the halo 100, 2 of 2 parts are as large as the mesh; a smaller halo makes smaller parts");
 }
 
+TEST(PartitionWarnings, HaveThoseOfTheReaderOnce) {
+  const Scratch scratch;
+  const auto file = scratch.write(
+      "far.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n5e6 0 0 9\n5e6 1 0\n5e6 0 1 9\n3 0 1 2\n");
+  const auto result = partition(*parts::open_mesh(file, 1 << 20), scratch.path() / "parts", {.parts = 1, .halo = 0});
+  EXPECT_THAT(result.warnings,
+              testing::ElementsAre(
+                  file.string() + ": line 10: lines with more numbers than the header declares (2 times)",
+                  testing::StartsWith(file.string() + ": the mean edge is 1.14, but floats are 0.5 apart at 5e+06; ")));
+}
+
 TEST(PartitionOptionsCheck, RefusesOptionsOutOfRange) {
   const TestMesh mesh = bumpy_grid(10);
   const Scratch scratch;
