@@ -111,6 +111,24 @@ class VtkValues {
     }
   }
 
+  /// In text, each is a line. In bytes, each begins with its length, and this with two bits that say how long it is.
+  void skip_strings(uint64_t count) {
+    if (is_binary_) text_.finish_line();
+    for (uint64_t i = 0; i < count; ++i) {
+      if (!is_binary_) {
+        if (!text_.next_line()) malformed("the file ends here");
+        text_.skip_line();
+        continue;
+      }
+      const auto first = binary<std::uint8_t>();
+      uint64_t length = first & 0x3fU;
+      for (int more = std::array{7, 3, 1, 0}[first >> 6U]; more != 0; --more) {
+        length = length << 8U | binary<std::uint8_t>();
+      }
+      skip(length, 1);
+    }
+  }
+
   [[nodiscard]] uint64_t most_numbers(std::size_t bytes) const {
     return text_.input().left().value_or(0) / (is_binary_ ? bytes : 2);
   }
@@ -263,11 +281,15 @@ class VtkReader {
     const uint64_t rows = values_.count("rows");
     const std::string type = values_.word();
     const std::size_t bytes = size_of_type(type);
-    if (bytes == 0) {
+    if (bytes == 0 && type != "string") {
       values_.fail(ErrorCode::UnsupportedFormat, fmt::format("values of type {} are not supported", quote(type)));
     }
     constexpr uint64_t kMost = uint64_t{1} << 31U;  // of either, so that the product fits
     if (components >= kMost || rows >= kMost) values_.malformed("{} by {} values are too many", components, rows);
+    if (bytes == 0) {
+      values_.skip_strings(components * rows);
+      return true;
+    }
     values_.begin_numbers(components * rows, bytes, "values");
     values_.skip(components * rows, bytes);
     return true;

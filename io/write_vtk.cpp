@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -27,6 +28,13 @@ constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::int32_t>::max();
 
 /// The length of the array of faces: of each the number of its corners, and the corners.
 std::size_t numbers_of(const FacesView& faces) { return faces.size() + faces.corner_count(); }
+
+/// The name as readers decode it.
+std::string encoded(std::string_view name) {
+  std::string result;
+  for (const char c : name) result += c == '%' ? "%25" : std::string(1, c);
+  return result;
+}
 
 /// Writes numbers as the format has them: big-endian.
 class VtkWriter {
@@ -72,14 +80,14 @@ class VtkWriter {
     std::span<const VertexProperty> rest = options_.properties;
     file_.write(fmt::format("\nPOINT_DATA {}\n", vertices));
     if (!rest.empty() && components(rest.front(), vertices) == 1) {
-      file_.write(fmt::format("SCALARS {} float 1\nLOOKUP_TABLE default\n", rest.front().name));
+      file_.write(fmt::format("SCALARS {} float 1\nLOOKUP_TABLE default\n", encoded(rest.front().name)));
       write_values(rest.front());
       rest = rest.subspan(1);
     }
     if (rest.empty()) return;
     file_.write(fmt::format("FIELD FieldData {}\n", rest.size()));
     for (const VertexProperty& property : rest) {
-      file_.write(fmt::format("{} {} {} float\n", property.name, components(property, vertices), vertices));
+      file_.write(fmt::format("{} {} {} float\n", encoded(property.name), components(property, vertices), vertices));
       write_values(property);
     }
   }

@@ -44,6 +44,8 @@ TEST(Vtk, TextOfAllVersionsIsRead) {
   expect_mixed(read("a.vtk", kAscii +
                                  "FIELD FieldData 2\nTIME 1 1 double\n0.5\nMETADATA\nNAME x\n\nb 2 2 int\n1 2 3 4\n" +
                                  kPoints + "VERTICES 0 0\n" + kMixed + "LINES 0 0\n"));
+  expect_mixed(read("a.vtk", kAscii + "FIELD FieldData 2\nnames 1 3 string\ntwo words\n\nPOINTS%201\nb 1 1 int\n7\n" +
+                                 kPoints + kMixed));
   expect_mixed(read("a.vtk", replaced(kAscii, "4.2", "5.1") + kPoints +
                                  "LINES 1 0\nOFFSETS vtktypeint64\n0\n"
                                  "CONNECTIVITY vtktypeint64\nPOLYGONS 3 7\nOFFSETS vtktypeint64\n0 4 7\n"
@@ -58,6 +60,17 @@ TEST(Vtk, BytesOfAllVersionsAreRead) {
   expect_mixed(read("a.vtk", kBinaryPoints + "METADATA\nINFORMATION 0\n\n" + kBinaryArrays + "POINT_DATA 4\n\0\0"));
   expect_mixed(
       read("a.vtk", replaced(kBinaryPoints, "5.1", "3.0") + "POLYGONS 2 9\n" + big(4, 0, 1, 2, 3, 3, 0, 1, 2) + "\n"));
+}
+
+// The first bits of a string say how many bytes its length has.
+TEST(Vtk, StringsOfAFieldAreSkipped) {
+  const std::string lengths = std::string("\xc3") + "a\nb" + "\x81\x2c" + std::string(300, 'x') + "\xc0" +
+                              big(std::int32_t{0x40000002}) + "cd" + big(std::int64_t{1}) + "e";
+  const std::string field = "FIELD FieldData 2\nnames 1 5 string\n" + lengths + "\nb 1 1 int\n" + big(7) + "\n";
+  const std::string file = replaced(kBinaryPoints, "POINTS", field + "POINTS") + kBinaryArrays;
+  expect_mixed(read("a.vtk", file));
+  expect_malformed("a.vtk", file.substr(0, file.find("cd") + 1), "the file ends here");
+  expect_malformed("a.vtk", kAscii + "FIELD FieldData 1\nnames 1 3 string\na\n", "the file ends here");
 }
 
 TEST(Vtk, WhatThisLibraryWritesIsRead) {

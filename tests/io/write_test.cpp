@@ -145,6 +145,9 @@ TEST_F(WritePly, VtkHasTheMeshAndItsValues) {
                                  big(1.F, 2.F, 3.F, 4.F, 5.F, 6.F, 7.F, 8.F, 9.F) + "\n");
   io::write_vtk(file, triangle, {.properties = {{"n", normal}}});
   EXPECT_THAT(read_file(file), HasSubstr("\nPOINT_DATA 3\nFIELD FieldData 1\nn 3 3 float\n"));
+  io::write_vtk(file, triangle, {.properties = {{"5%", level}, {"%41%", level}}});
+  EXPECT_THAT(read_file(file), HasSubstr("\nSCALARS 5%25 float 1\n")) << "readers decode it";
+  EXPECT_THAT(read_file(file), HasSubstr("\n%2541%25 1 3 float\n"));
   const std::vector<std::int32_t> records = {0, 1, 2, -1, 2, 1, 0, -1};
   io::write_vtk(file, {positions, FacesView::strided_triangles(records, 2, 4, 1)});
   EXPECT_THAT(read_file(file), HasSubstr("\nPOLYGONS 2 8\n" + big(3, 0, 1, 2, 3, 2, 1, 0) + "\nPOINT_DATA 3\n"));
