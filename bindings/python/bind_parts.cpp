@@ -18,6 +18,8 @@
 #include "bindings.h"
 #include "interpreter.h"
 #include "io/mapped_file.h"
+#include "io/mesh_io.h"
+#include "io/messages.h"
 #include "methods.h"
 #include "parts/manifest.h"
 #include "parts/partition.h"
@@ -30,11 +32,11 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// Returns the warnings.
+/// `ply`: what another library has read from the file of the mesh. Returns the warnings.
 std::vector<std::string> partition_file(const Path& mesh, const std::optional<Path>& faces, const Path& folder,
                                         std::uint64_t parts, std::uint64_t vertices_per_part, double halo,
                                         bool halo_in_edges, std::uint64_t memory, unsigned threads, bool resume,
-                                        nb::handle progress) {
+                                        const std::optional<nb::bytes>& ply, nb::handle progress) {
   const parts::PartitionOptions options{.parts = parts,
                                         .vertices_per_part = vertices_per_part,
                                         .halo = halo,
@@ -42,9 +44,17 @@ std::vector<std::string> partition_file(const Path& mesh, const std::optional<Pa
                                         .memory = memory,
                                         .resume = resume};
   const Run run{.threads = threads, .progress = progress_to(progress)};
+  const std::uint64_t most = memory / parts::kMemoryPerByte;
+  const std::string_view bytes = ply ? std::string_view(ply->c_str(), ply->size()) : "";
   return without_lock([&] {
-    const auto opened =
-        faces ? parts::open_arrays(mesh, *faces) : parts::open_mesh(mesh, memory / parts::kMemoryPerByte, run.progress);
+    const auto read = [&] {
+      const io::ReadOptions reading{.max_bytes = most, .progress = run.progress};
+      return parts::chunked(io::read_mesh(std::as_bytes(std::span(bytes)), mesh.string(), reading),
+                            io::printable_name(mesh.string()));
+    };
+    const auto opened = faces ? parts::open_arrays(mesh, *faces)
+                        : ply ? read()
+                              : parts::open_mesh(mesh, most, run.progress);
     return parts::partition(*opened, folder, options, run).warnings;
   });
 }
@@ -125,7 +135,8 @@ std::shared_ptr<ExactMethod> index_of(const PartFiles& files) {
 void bind_parts(nb::module_& module) {
   module.def("partition", &partition_file, nb::arg("mesh"), nb::arg("faces").none(), nb::arg("folder"), nb::kw_only(),
              nb::arg("parts"), nb::arg("vertices_per_part"), nb::arg("halo"), nb::arg("halo_in_edges"),
-             nb::arg("memory"), nb::arg("threads"), nb::arg("resume"), nb::arg("progress").none());
+             nb::arg("memory"), nb::arg("threads"), nb::arg("resume"), nb::arg("ply").none(),
+             nb::arg("progress").none());
   module.def("read_manifest", &manifest_of, nb::arg("folder"));
   nb::class_<PartFiles>(module, "PartFiles")
       .def_prop_ro("folder", &folder_of)

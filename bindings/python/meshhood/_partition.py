@@ -9,6 +9,7 @@ import warnings
 from typing import Literal, Optional, Union
 
 from . import _convert, _core
+from ._other_files import as_ply
 from ._progress import Progress, reporter
 from .distributed import Parts
 
@@ -71,10 +72,13 @@ def partition(
     }
     if (parts is None) == (vertices_per_part is None):
         raise ValueError("parts, vertices_per_part: expected one of them")
-    files = _convert.path(vertices, "mesh"), None if faces is None else _convert.path(faces, "mesh")
+    file = _convert.path(vertices, "mesh")
+    corners = None if faces is None else _convert.path(faces, "mesh")
+    other = as_ply(os.fsdecode(file)) if faces is None else None
+    ply, notes = other or (None, [])
     with reporter(progress, "partition") as report:
-        notes = _core.partition(*files, folder, **options, progress=report)
-    for note in notes:
+        noted = _core.partition(file, corners, folder, **options, ply=ply, progress=report)
+    for note in [*(f"{os.fsdecode(file)}: {note}" for note in notes), *noted]:
         warnings.warn(note, stacklevel=2)
     return Parts(folder)
 
