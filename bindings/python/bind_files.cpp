@@ -24,6 +24,7 @@
 #include "io/file_writer.h"
 #include "io/index_io.h"
 #include "io/mesh_io.h"
+#include "io/vertex_properties.h"
 #include "io/weld.h"
 #include "methods.h"
 
@@ -59,16 +60,23 @@ auto read(const std::filesystem::path& path, std::size_t scalar_bytes, unsigned 
 using Scalars = nb::ndarray<const float, nb::c_contig, nb::device::cpu>;
 using Colors = nb::ndarray<const std::uint8_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
-/// `values`: named scalars (#V) or vectors (#V by 3). `walls`: of those without a position, as `place` returns them.
-void write(const std::filesystem::path& path, const Mesh& given,
-           const std::vector<std::pair<std::string, Scalars>>& values, const std::optional<Colors>& colors,
-           const std::optional<Bytes>& walls, bool vtk) {
-  const MeshView mesh = mesh_of(given);
+/// Named scalars (#V) or vectors (#V by 3).
+using NamedScalars = std::vector<std::pair<std::string, Scalars>>;
+
+std::vector<io::VertexProperty> properties_of(const NamedScalars& values) {
   std::vector<io::VertexProperty> properties;
   properties.reserve(values.size());
   for (const auto& [name, numbers] : values) {
     properties.push_back({name, std::span(numbers.data(), numbers.size())});
   }
+  return properties;
+}
+
+/// `walls`: of those without a position, as `place` returns them.
+void write(const std::filesystem::path& path, const Mesh& given, const NamedScalars& values,
+           const std::optional<Colors>& colors, const std::optional<Bytes>& walls, bool vtk) {
+  const MeshView mesh = mesh_of(given);
+  const std::vector<io::VertexProperty> properties = properties_of(values);
   const Progress progress = progress_to(nb::handle(Py_None));
   without_lock([&] {
     if (vtk)
@@ -169,6 +177,10 @@ std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
 void bind_files(nb::module_& module) {
   module.def("write_mesh", &write, nb::arg(), nb::arg(), nb::arg("values"), nb::arg("colors").none(),
              nb::arg("walls").none(), nb::arg("vtk"));
+  module.def("check_values",
+             [](const NamedScalars& values, std::size_t vertices, const std::vector<std::string>& taken) {
+               io::check_properties(properties_of(values), vertices, {taken.begin(), taken.end()});
+             });
   module.def("weld", &weld, nb::arg(), nb::arg("eps"));
   module.def("read_mesh", &read, nb::arg("path"), nb::arg("scalar_bytes"), nb::arg("threads"),
              nb::arg("progress").none());

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Mesh files that other libraries read and write, and those of other programs that the C++ library reads."""
 
+import base64
 import gzip
+import importlib.util
 import json
 import os
 import struct
@@ -75,7 +77,7 @@ def test_quads_stay_quads(tmp_path):
 def test_values_are_left_out_and_strips_and_lines_refused(tmp_path, end, kind):
     pyvista = pytest.importorskip("pyvista")
     mesh = pyvista.PolyData.from_regular_faces(V, F)
-    mesh.point_data["height"] = mesh.points[:, 2]
+    mesh.point_data["height"] = np.where(mesh.points[:, 2] > 0, np.inf, np.nan)
     mesh.save(tmp_path / f"values.{end}")
     expect(meshhood.read_mesh(tmp_path / f"values.{end}"))
     pyvista.PolyData(V, **{kind: np.array([4, 0, 1, 6, 7])}).save(tmp_path / f"{kind}.{end}")
@@ -263,6 +265,138 @@ def test_a_vertex_of_nan_in_a_face_is_refused(tmp_path, end, library):
         meshhood.read_mesh(tmp_path / f"a.{end}")
 
 
+@pytest.mark.parametrize(("end", "library"), [file for file in HOLED_FILES if file[0] not in ("vtu", "msh")])
+def test_no_corner_without_a_vertex_and_no_coordinate_that_is_not_finite_is_read(tmp_path, end, library):
+    file = tmp_path / f"a.{end}"
+    far = np.concatenate([V[:2], V])
+    far[2 + F[7, 1], 1] = np.inf
+    for points, message in (
+        (V, rf"face \d+: corner \d is vertex {len(V)}, but the mesh has {len(V)} vertices"),
+        (far, rf"vertex {2 + F[7, 1]}: y is inf, expected a finite number"),
+    ):
+        write_with(library, file, points)
+        with pytest.raises(ValueError, match=rf"a\.{end}: {message}"):
+            meshhood.read_mesh(file)
+
+
+def save_gltf(file, change):
+    """What trimesh writes, in one file, with a change of its JSON."""
+    trimesh = pytest.importorskip("trimesh")
+    files = trimesh.Scene([trimesh.Trimesh(V, F, process=False)]).export(file_type="gltf")
+    scene = json.loads(files.pop("model.gltf"))
+    for buffer in scene["buffers"]:
+        buffer["uri"] = "data:;base64," + base64.b64encode(files[buffer["uri"]]).decode()
+    change(scene)
+    text = json.dumps(scene).encode()
+    if file.suffix == ".glb":
+        text += b" " * (-len(text) % 4)
+        text = struct.pack("<4s4I", b"glTF", 2, 20 + len(text), len(text), 0x4E4F534A) + text
+    file.write_bytes(text)
+
+
+def with_primitive(**settings):
+    return lambda scene: scene["meshes"][0]["primitives"][0].update(settings)
+
+
+def with_positions(**settings):
+    return lambda scene: scene["accessors"][scene["meshes"][0]["primitives"][0]["attributes"]["POSITION"]].update(settings)
+
+
+@pytest.mark.parametrize("kind", ("glb", "gltf"))
+def test_gltf_that_trimesh_does_not_decode_is_refused(tmp_path, kind):
+    file = tmp_path / f"a.{kind}"
+    save_gltf(file, lambda scene: scene.update(extensionsRequired=["KHR_materials_unlit", "KHR_mesh_quantization"]))
+    expect(meshhood.read_mesh(file))
+    for change, message in (
+        (lambda scene: scene.update(extensionsRequired=["EXT_meshopt_compression"]), "requires EXT_meshopt_compression"),
+        (with_primitive(extensions={"KHR_draco_mesh_compression": {}}), "needs DracoPy: pip install DracoPy"),
+        (with_primitive(mode=6), "mesh 0 has a triangle fan"),
+        (with_positions(sparse={"count": 1}), "mesh 0 has a sparse accessor"),
+        (with_positions(normalized=True), "mesh 0 has normalized positions"),
+        (lambda scene: scene.pop("scenes"), "has meshes, but no scene"),
+        (lambda scene: scene.update(scenes=[]), "has meshes, but no scene"),
+    ):
+        if "DracoPy" in message and importlib.util.find_spec("DracoPy"):
+            continue
+        save_gltf(file, change)
+        with pytest.raises((ValueError, ModuleNotFoundError), match=f"a.{kind}: a .* {message}"):
+            meshhood.read_mesh(file)
+    save_gltf(file, lambda scene: (all_of := scene["meshes"][0]["primitives"]).append({**all_of[0], "mode": 1}))
+    with pytest.warns(UserWarning, match=f"a.{kind}: points and lines are left out"):
+        meshhood.read_mesh(file)
+
+
+def test_the_extension_tells_what_comes_late(tmp_path):
+    save_gltf(tmp_path / "a.gltf", lambda scene: scene.update(asset=scene.pop("asset")))
+    text = (tmp_path / "a.gltf").read_text()
+    (tmp_path / "late.gltf").write_text('{"extras": "' + 70000 * "x" + '",' + text[1:])
+    expect(meshhood.read_mesh(tmp_path / "late.gltf"))
+    surface = gifti(pytest.importorskip("nibabel"), tmp_path / "a.gii").read_text()
+    (tmp_path / "late.gii").write_text(surface.replace("<GIFTI", f"<!-- {70000 * 'x'} --><GIFTI", 1))
+    expect(meshhood.read_mesh(tmp_path / "late.gii"))
+
+
+XML = """<?xml version="1.0"?><VTKFile type="PolyData" version="1.0" byte_order="LittleEndian"><PolyData>
+<Piece NumberOfPoints="3" NumberOfPolys="1"><Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">
+0 0 0 1 0 0 0 1 0</DataArray></Points><Polys><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">3</DataArray></Polys></Piece></PolyData></VTKFile>"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    (
+        (" 1 0</Data", "</Data", "Cannot read points array from Points in piece 0"),
+        (">3</Data", ">30</Data", "Cannot read cell connectivity"),
+        ("</Piece>", "", "[^\n]*XML[^\n]*"),
+        ("PolyData", "ImageData", "type ImageData, expected PolyData or UnstructuredGrid$"),
+        ("PolyData", "PPolyData", "type PPolyData, expected"),
+        ("PolyData", "vtkMultiBlockDataSet", "type vtkMultiBlockDataSet, expected"),
+    ),
+)
+def test_a_damaged_or_other_file_of_vtk_is_refused_in_a_line(tmp_path, old, new, message):
+    pytest.importorskip("pyvista")
+    file = tmp_path / "a.vtp"
+    file.write_text(XML)
+    assert len(meshhood.read_mesh(file).faces) == 1
+    assert old in XML
+    file.write_text(XML.replace(old, new))
+    with pytest.raises(ValueError, match=f"a.vtp: a file of VTK's XML that pyvista cannot read: {message}") as refused:
+        meshhood.read_mesh(file)
+    assert "\n" not in str(refused.value)
+
+
+def test_quotes_of_xml_may_be_single(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    pyvista.UnstructuredGrid({5: F}, V).save(tmp_path / "a.vtu", binary=False)
+    text = (tmp_path / "a.vtu").read_text()
+    assert 'type="UnstructuredGrid"' in text
+    (tmp_path / "b").write_text(text.replace('type="UnstructuredGrid"', "type = 'UnstructuredGrid'"))
+    expect(meshhood.read_mesh(tmp_path / "b"))
+
+
+def test_numbers_beyond_float32_are_refused(tmp_path):
+    for library in ("pyvista", "trimesh", "nibabel"):
+        pytest.importorskip(library)
+    points = np.eye(3)
+    points[1, 2] = 1e39
+    faces = np.array([[0, 1, 2]])
+    for end in ("gii", "glb"):
+        with pytest.raises(ValueError, match=rf"V: vertex 1: 1e\+39, but a \.{end} file holds numbers of at most 3\.4e\+38"):
+            meshhood.write_mesh(tmp_path / f"a.{end}", points, faces)
+    meshhood.write_mesh(tmp_path / "a.vtp", points, faces)
+    np.testing.assert_array_equal(meshhood.read_mesh(tmp_path / "a.vtp").vertices, points)
+    with pytest.raises(ValueError, match=r"a\.vtp: vertex 1: 1e\+39, but float32 holds numbers of at most"):
+        meshhood.read_mesh(tmp_path / "a.vtp", dtype=np.float32)
+
+
+def test_what_is_partitioned_may_be_of_any_reader(tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    gifti(nibabel, tmp_path / "a.gii", np.diag([2.0, 2, 2, 1]))
+    with pytest.warns(UserWarning, match="a.gii: the coordinates are in the space 'aligned'"):
+        parts = meshhood.partition(tmp_path / "a.gii", tmp_path / "parts", parts=2, halo=1.5)
+    np.testing.assert_array_equal(parts.counts(1.5).compute(), meshhood.MeshIndex(V, F).counts(1.5))
+
+
 @pytest.mark.parametrize("content", (b"<VTKFile>", b"<GIFTI", b"glTF", b'{"asset": 1', b"PK\x03\x04", b"$MeshFormat"))
 def test_a_broken_file_is_an_error_that_names_it(tmp_path, content):
     for library in ("pyvista", "nibabel", "trimesh", "meshio"):
@@ -331,7 +465,36 @@ def test_what_a_format_has_not_is_refused(tmp_path):
         meshhood.write_mesh(tmp_path / "a.gii", V, F, values={"h": V[:, 2]})
     with pytest.raises(ValueError, match="colors: expected None for .gii"):
         meshhood.write_mesh(tmp_path / "a.gii", V, F, colors=np.zeros((len(V), 3), np.uint8))
+    with pytest.raises(ValueError, match="F: no faces, which .glb cannot do without"):
+        meshhood.write_mesh(tmp_path / "a.glb", V, F[:0])
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("extension", ("ply", "vtk", "vtp", "glb", "shape.gii"))
+def test_names_of_values_are_the_same_for_all_formats(tmp_path, extension):
+    for library in ("pyvista", "trimesh", "nibabel"):
+        pytest.importorskip(library)
+    for name in ("", "two words", "höhe", "line\n"):
+        with pytest.raises(ValueError, match="property '.*': expected printable ASCII without blanks"):
+            meshhood.write_mesh(tmp_path / f"a.{extension}", V, F, values={name: V[:, 2]})
+    colors = np.zeros((len(V), 3), np.uint8)
+    taken = {"ply": "red", "vtp": "RGB"}.get(extension)
+    if taken:
+        with pytest.raises(ValueError, match=f"property '{taken}' occurs twice, or is one that the file has of itself"):
+            meshhood.write_mesh(tmp_path / f"a.{extension}", V, F, values={taken: V[:, 2]}, colors=colors)
+    assert not list(tmp_path.iterdir())
+
+
+def test_names_of_values_are_decoded(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    names = ["5%", "%41", "a\"b"]
+    meshhood.write_mesh(tmp_path / "a.vtk", V, F, values=dict.fromkeys(names, V[:, 2]))
+    assert pyvista.read(tmp_path / "a.vtk").array_names == names
+    mesh = pyvista.PolyData.from_regular_faces(V, F)
+    mesh.field_data["names"] = ["two words", "", 100 * "long"]
+    for binary in (True, False):
+        mesh.save(tmp_path / "b.vtk", binary=binary)
+        assert len(meshhood.read_mesh(tmp_path / "b.vtk").faces) == len(F)
 
 
 def test_files_of_float32_warn_where_digits_are_lost(tmp_path):

@@ -62,9 +62,12 @@ def read_mesh(
         vertices, faces, notes = read
         for note in notes:
             warnings.warn(f"{os.fsdecode(path)}: {note}", stacklevel=2)
-        single = np.asarray(vertices, np.float32)  # as these files have them, though a library may return float64
+        with np.errstate(over="ignore"):
+            single = np.asarray(vertices, np.float32)  # as these files have them, though a library may return float64
         if np.array_equal(single, vertices, equal_nan=True):
             warn_if_coarse((single, *face_arrays(faces)), 3)
+        if real == np.float32:
+            vertices = _convert.as_float32(vertices, os.fsdecode(path), "float32")
         return Mesh(vertices.astype(real or vertices.dtype, copy=False), faces)
     with reporter(progress, "read_mesh", "bytes") as report:
         vertices, corners, offsets, irregularities = _core.read_mesh(
@@ -88,8 +91,8 @@ def write_mesh(
     VTP (.vtp, pyvista), GLB (.glb, trimesh), and GIFTI (nibabel): a surface (.gii, .surf.gii), or the values alone as maps
     (.shape.gii, .func.gii).
 
-    V, F : as for `MeshIndex`, but not a graph. A vertex of no face may be NaN, but not for GLB. GIFTI and GLB have
-        triangles and float32.
+    V, F : as for `MeshIndex`, but not a graph. A vertex of no face may be NaN, but not for GLB, which has no vertices
+        without faces. GIFTI and GLB have triangles and float32.
     values : by name, numbers (#V,) or vectors (#V, 3), written as float32. A name is printable ASCII without blanks.
         MeshLab shows the one named "quality" as colors.
     colors : (#V, 3) uint8, red, green and blue; not for VTK's legacy format and GIFTI.
@@ -127,8 +130,10 @@ def write_mesh(
         if walls is not None and extension == ".glb":
             way_out = without_them("meshhood.MeshIndex(V, F)")
             raise ValueError(f"V: {text_of_unplaced(walls)}, which glTF does not know, {way_out}")
+        _core.check_values(named, len(positions), ["RGB"] if extension == ".vtp" and colors is not None else [])
         if extension != ".vtp" and not os.fsdecode(path).lower().endswith((".shape.gii", ".func.gii")):
-            warn_if_coarse((np.asarray(positions, np.float32), *mesh[1:]), 3)
+            mesh = (_convert.as_float32(positions, "V", f"a {extension} file"), *mesh[1:])
+            warn_if_coarse(mesh, 3)
         content = bytes_of(extension, Writing(*mesh, named, colors), os.fsdecode(path))
         with _core.FileWriter(path) as file:
             file.write(content)

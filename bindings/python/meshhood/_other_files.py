@@ -6,8 +6,10 @@ from __future__ import annotations
 import base64
 import gzip
 import itertools
+import json
 import math
 import os
+import re
 import tempfile
 import zlib
 from collections.abc import Iterable
@@ -37,7 +39,7 @@ class _Format(NamedTuple):
 
 def read_other(path: str) -> Optional[_Read]:
     """Positions and faces as `read_mesh` returns them, and warnings; None for a file that is for the C++ library."""
-    form = _format_of(_head(path))
+    form = _format_of(_head(path), path)
     if form is None:
         return None
     module = optional(form.module, f"{path}: {form.name}")
@@ -56,8 +58,9 @@ def read_other(path: str) -> Optional[_Read]:
         raise ValueError(f"{path}: {form.name} that {library} cannot read: {str(error) or type(error).__name__}") from error
     try:
         found = _core.place(mesh)
+        _core.check_mesh(mesh if found is None else (found[0], corners, offsets))  # as these libraries read anything
     except ValueError as error:
-        raise ValueError(f"{path}: {str(error).removeprefix('V: ')}") from None
+        raise ValueError(f"{path}: {re.sub('^[VF]: ', '', str(error))}") from None
     if found is not None:
         notes.append(text_of_walls(found[1]))
     corners = corners.astype(np.int32, copy=False)
@@ -72,10 +75,7 @@ def as_ply(path: str) -> Optional[tuple[bytes, list[str]]]:
     if read is None:
         return None
     V, F, notes = read
-    try:
-        return binary_ply(V, *face_arrays(F)), notes
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
+    return binary_ply(V, *face_arrays(F)), notes
 
 
 def binary_ply(positions: Any, corners: Any, offsets: Any) -> bytes:
@@ -111,14 +111,15 @@ def _head(path: str) -> bytes:
         return head
 
 
-def _format_of(head: bytes) -> Optional[_Format]:
-    """By content, as `io/detect_format.cpp` knows these files."""
+def _format_of(head: bytes, path: str) -> Optional[_Format]:
+    """By content, as `io/detect_format.cpp` knows these files; by extension where the mark comes later."""
     for mark, form in _FIRST.items():
         if head.startswith(mark):
             return form
     if not head.lstrip(b"\xef\xbb\xbf\t\n\r ").startswith((b"<", b"{")):  # also behind a byte-order mark
         return None
-    return next((form for mark, form in _WITHIN.items() if mark in head), None)
+    late = _LATE.get(os.path.splitext(path)[1].lower())
+    return next((form for mark, form in _WITHIN.items() if mark in head or mark == late), None)
 
 
 def _read_gifti(nibabel: Any, path: str) -> _Read:
@@ -186,9 +187,21 @@ def _read_quads(freesurfer: Any, path: str) -> _Read:
 
 
 def _read_vtk(pyvista: Any, path: str) -> _Read:
-    kind = "vtu" if b'type="UnstructuredGrid"' in _head(path) else "vtp"
-    mesh = pyvista.get_reader(path, force_ext=f".{kind}").read()
-    if kind == "vtp":
+    found = re.search(rb"<VTKFile[^>]*?\stype\s*=\s*[\"'](\w+)", _head(path))
+    kind = found[1].decode() if found else "unknown"
+    if kind not in _VTK_KINDS:
+        raise ValueError(f"type {kind}, expected {' or '.join(_VTK_KINDS)}")
+    caught = pyvista.VtkErrorCatcher(send_to_logging=False)
+    try:
+        with caught:
+            reader = pyvista.get_reader(path, force_ext=_VTK_KINDS[kind])
+            mesh = reader.read()
+        if reader.reader.GetErrorCode():  # the mesh is empty
+            raise RuntimeError("is damaged")
+    except RuntimeError as error:
+        first = next((event.alert for event in caught.events if event.kind.upper() == "ERROR"), str(error))
+        raise ValueError(" ".join(first.split())) from error
+    if kind == "PolyData":
         return mesh, None, []
     faces = np.isin(mesh.celltypes, (5, 7, 9))  # triangle, polygon, quad
     if not faces.all():
@@ -209,10 +222,41 @@ def _read_gmsh(gmsh: Any, path: str) -> _Read:
 
 def _reads_scene(kind: str) -> Callable[[Any, str], _Read]:
     def read(trimesh: Any, path: str) -> _Read:
+        notes = [] if kind == "3mf" else _gltf_notes(path, kind)
         scene = trimesh.load_scene(path, file_type=kind, process=False)
-        return scene.to_mesh(), None, []  # with the transforms of all nodes
+        return scene.to_mesh(), None, notes  # with the transforms of all nodes
 
     return read
+
+
+def _gltf_notes(path: str, kind: str) -> list[str]:
+    """Refuses what trimesh reads as another mesh, and notes what it leaves out."""
+    with open(path, "rb") as file:
+        start = file.read(20) if kind == "glb" else b""  # of the file, and of its first part
+        tree = json.loads(file.read(int.from_bytes(start[12:16], "little") if start else -1))
+    if not isinstance(meshes := tree.get("meshes", []), list):  # of glTF 1, which trimesh refuses
+        return []
+    for name in tree.get("extensionsRequired", ()):
+        if not _GLTF_READ.fullmatch(name):
+            raise ValueError(f"requires {name}, which trimesh does not decode")
+    if meshes and not tree.get("scenes"):
+        raise ValueError("has meshes, but no scene, which says where they are")
+    modes = set()
+    for at, mesh in enumerate(meshes):
+        for primitive in mesh["primitives"]:
+            modes.add(mode := primitive.get("mode", 4))
+            if "KHR_draco_mesh_compression" in primitive.get("extensions", ()):
+                optional("DracoPy", "Draco")
+            used = (primitive["attributes"].get("POSITION"), primitive.get("indices"))
+            accessors = [tree["accessors"][number] for number in used if number is not None]
+            for is_wrong, what in (
+                (mode == 6, "a triangle fan"),
+                (any("sparse" in accessor for accessor in accessors), "a sparse accessor"),
+                (any(accessor.get("normalized") for accessor in accessors), "normalized positions"),
+            ):
+                if is_wrong:
+                    raise ValueError(f"mesh {at} has {what}, which trimesh does not decode")
+    return ["points and lines are left out"] if modes & {0, 1, 2, 3} else []
 
 
 _QUADS = _Format("FreeSurfer's quads", "nibabel.freesurfer", _read_quads)
@@ -228,6 +272,10 @@ _WITHIN = {
     b"<GIFTI": _Format("a GIFTI surface", "nibabel", _read_gifti),
     b'"asset"': _Format("a glTF file", "trimesh", _reads_scene("gltf")),
 }
+_LATE = {".gii": b"<GIFTI", ".gltf": b'"asset"'}
+_VTK_KINDS = {"PolyData": ".vtp", "UnstructuredGrid": ".vtu"}
+# Extensions that say how a mesh looks, or that trimesh decodes.
+_GLTF_READ = re.compile(r"[A-Z]+_(materials|texture|lights)_\w+|KHR_mesh_quantization|KHR_draco_mesh_compression")
 
 
 class Writing(NamedTuple):
@@ -270,7 +318,7 @@ def _write_gifti(nibabel: Any, writing: Writing, path: str) -> bytes:
         if writing.values:
             raise ValueError("values: expected None for a surface; .shape.gii and .func.gii have values without it")
         triangles = writing.triangles(".gii").astype(np.int32)
-        return _gifti(nibabel, [(writing.positions.astype(np.float32), "POINTSET", ""), (triangles, "TRIANGLE", "")])
+        return _gifti(nibabel, [(writing.positions, "POINTSET", ""), (triangles, "TRIANGLE", "")])
     if not writing.values:
         raise ValueError(f"values: expected some for {kind}.gii, which has only values")
     vectors = [name for name, numbers in writing.values if numbers.ndim > 1]
@@ -294,6 +342,8 @@ def _write_vtp(pyvista: Any, writing: Writing, path: str) -> bytes:
 
 
 def _write_glb(trimesh: Any, writing: Writing, path: str) -> bytes:
+    if len(writing.positions) and not len(writing.corners):
+        raise ValueError("F: no faces, which .glb cannot do without; .ply, .vtk and .vtp take vertices alone")
     mesh = trimesh.Trimesh(
         writing.positions, writing.triangles(".glb"), vertex_colors=writing.colors, process=False, validate=False
     )
