@@ -33,7 +33,6 @@ class SumColumns {
   SumColumns(SignalBlock block, Reduce reduce);
 
   [[nodiscard]] std::size_t size() const { return columns_.size(); }
-  [[nodiscard]] std::size_t channels() const { return channels_.size(); }
   [[nodiscard]] const Column& column(std::size_t i) const { return columns_[i]; }
 
   /// Adds the values of a leaf to the rows of its words, times the weights.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -95,10 +94,6 @@ SurfacePoint surface_point(const IndexView& index, const StoredFaces& faces, std
 
 namespace {
 
-double length_of(const Point& offset) {
-  return std::sqrt((offset.x * offset.x + offset.y * offset.y) + offset.z * offset.z);
-}
-
 class Candidates {
  public:
   Candidates(const Point& q, const std::array<Point, 3>& corners, double scale) : corners_(&corners) {
@@ -166,7 +161,7 @@ class Candidates {
   }
 
   void offer(const std::array<double, 3>& weights, const Point& point, const Point& offset) {
-    const double distance = length_of(offset);
+    const double distance = length(offset);
     if (has_one_ && !(distance < best_.distance)) return;
     has_one_ = true;
     best_ = {weights, point, distance};
