@@ -24,8 +24,7 @@ using Kernel = CGAL::Simple_cartesian<double>;
 
 void measure_jets(const MeshView& mesh, double edges) {
   const Index index = build(mesh);
-  const GraphData graph = extract_graph(index);
-  const double radius = edges * mean_edge_length(graph.view());
+  const double radius = edges * mean_edge_length(index);
   const std::size_t rows = edges <= 10 ? 2000 : 200;
   const std::size_t step = std::max<std::size_t>(1, index.vertex_count() / rows);
   Searcher searcher(index);

@@ -44,8 +44,7 @@ void compare(const SearchMethod& method, const char* name, double edges, double 
 int run(const Arguments& arguments) {
   const MeshArgument mesh(arguments[0]);
   const Index index = build(mesh.view());
-  const GraphData graph = extract_graph(index);
-  const double mean_edge = mean_edge_length(graph.view());
+  const double mean_edge = mean_edge_length(index);
   const std::vector<double> radii = numbers(arguments, 1, {2, 3, 5, 10});
   std::printf("%-6s %6s %9s %8s %8s %8s %6s\n", "", "edges", "vertices", "counts", "once", "twice", "ratio");
   for (const double edges : radii) compare(index, "exact", edges, edges * mean_edge);

@@ -34,8 +34,7 @@ struct Work {
 class KernelTargets {
  public:
   explicit KernelTargets(const MeshView& mesh) : mesh_(reorder(mesh)), surface_(mesh_.index, mesh_.view()) {
-    const GraphData graph = extract_graph(mesh_.index);
-    mean_edge_ = mean_edge_length(graph.view());
+    mean_edge_ = mean_edge_length(mesh_.index);
     const std::size_t vertices = mesh_.index.vertex_count();
     const std::size_t rows = std::min(kRows, vertices);
     for (std::size_t i = 0; i < kSingle; ++i) spread_.push_back(static_cast<VertexId>(i * vertices / kSingle));

@@ -23,8 +23,7 @@ constexpr std::size_t kVertices = 300;
 class NestedRadii {
  public:
   explicit NestedRadii(const MeshView& mesh) : index_(build(mesh)), single_(index_), nested_(index_) {
-    const GraphData graph = extract_graph(index_);
-    mean_edge_ = mean_edge_length(graph.view());
+    mean_edge_ = mean_edge_length(index_);
     for (std::size_t i = 0; i < kVertices; ++i) {
       vertices_.push_back(static_cast<VertexId>(i * (index_.vertex_count() - 1) / kVertices));
     }

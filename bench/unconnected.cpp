@@ -49,8 +49,7 @@ int run(const Arguments& arguments) {
   const MeshArgument mesh(arguments[0]);
   const auto threads = static_cast<unsigned>(std::stoul(arguments[1]));
   const Index index = build(mesh.view(), {.threads = threads});
-  const GraphData graph = extract_graph(index);
-  const double mean_edge = mean_edge_length(graph.view());
+  const double mean_edge = mean_edge_length(index);
   std::printf("%6s %12s %12s %8s %10s\n", "edges", "counts us", "nearest us", "ratio", "found %");
   for (const double radius : numbers(arguments, 2, {5, 10})) compare(index, radius, mean_edge, threads);
   return 0;

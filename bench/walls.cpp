@@ -30,8 +30,7 @@ struct NamedMask {
 class Walls {
  public:
   explicit Walls(const MeshView& mesh) : index_(build(mesh)), size_(index_.vertex_count()) {
-    const GraphData graph = extract_graph(index_);
-    mean_edge_ = mean_edge_length(graph.view());
+    mean_edge_ = mean_edge_length(index_);
     masks_ = {{"region", region()}, {"seam", seam(mesh.positions)}, {"scattered", scattered()}};
   }
 
