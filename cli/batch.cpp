@@ -178,9 +178,8 @@ AnswerSize write_counts(const SearchMethod& method, const BatchQuery& query, con
 /// row. Text is written in one pass.
 class Writer {
  public:
-  Writer(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, VertexSorter& sorter,
-         Task& task)
-      : method_(method), query_(query), options_(options), sorter_(sorter), task_(task) {}
+  Writer(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, RowOrder& order, Task& task)
+      : method_(method), query_(query), options_(options), order_(order), task_(task) {}
 
   AnswerSize write() {
     if (options_.output.is_csv()) return write_pairs();
@@ -197,7 +196,7 @@ class Writer {
     CsvWriter csv(options_.output.name, pair_names(options_.distances), options_.max_bytes);
     const BatchVertices listed = listed_rows(options_, query_);
     AnswerSize total;
-    for_each_row(options_.distances || sorter_.needs_distances(),
+    for_each_row(options_.distances || order_.needs_distances(),
                  [&](std::span<const VertexId> ids, std::span<const double> distances) {
                    const VertexId v = listed[total.rows++];
                    total.count += ids.size();
@@ -251,7 +250,7 @@ class Writer {
       npz.append<Integer>(converted);
     };
     npz.begin<Integer>("indices", total.count);
-    for_each_row(sorter_.needs_distances(), write);
+    for_each_row(order_.needs_distances(), write);
   }
 
   /// Calls `write(ids, distances)` for each row, sorted as the options say.
@@ -265,7 +264,7 @@ class Writer {
     const auto sort_and_write = [&](const BatchRow& row) {
       ids.assign(row.ids.begin(), row.ids.end());
       distances.assign(row.distances.begin(), row.distances.end());
-      sorter_.sort(ids, distances);
+      order_.sort(ids, distances);
       write(std::span<const VertexId>(ids), std::span<const double>(distances));
     };
     if (sorts_rows(options_)) return for_each_neighborhood(method_, query_, sort_and_write, pass, next_run());
@@ -280,7 +279,7 @@ class Writer {
   const SearchMethod& method_;
   const BatchQuery& query_;
   const BatchCommand& options_;
-  VertexSorter& sorter_;
+  RowOrder& order_;
   Task& task_;
   std::size_t passes_begun_ = 0;
 };
@@ -291,15 +290,14 @@ std::string task_name(const BatchCommand& options, const std::optional<BatchEsti
                      bytes_text(file_bytes(options, estimate->mean, columns)));
 }
 
-AnswerSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options,
-                 VertexSorter& sorter) {
+AnswerSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, RowOrder& order) {
   if (options.count) return write_counts(method, query, options);
   const std::optional<BatchEstimate> expected = options.output.is_csv() ? std::nullopt : estimate(method, query);
   const std::size_t columns = method.vertex_count();
   if (expected) check_answer(options, expected->lower, columns, "at least ");
   Task task(task_name(options, expected, columns),
             {"rows", static_cast<double>(number_of_passes(options))});  // outlives the temporary file
-  return Writer(method, query, options, sorter, task).write();
+  return Writer(method, query, options, order, task).write();
 }
 
 /// Without the vertices that have become others.
@@ -334,7 +332,7 @@ void batch(const BatchCommand& typed) {
   query.metric = choose_metric(options.search.metric, input);
   if (query.metric == Metric::Space) input.ignore_welded();
   const SearchMethod method = method_of(options.search, input, {}, threads);
-  VertexSorter sorter(options.search.sort, input);
+  RowOrder order = row_order(options.search.sort, input);
   std::vector<VertexId> in_index_order;
   std::vector<double> radii_in_index_order;
   if (options.order == "index") {
@@ -345,7 +343,7 @@ void batch(const BatchCommand& typed) {
       query.radius = radii_in_index_order;
     }
   }
-  const AnswerSize total = write(method, query, options, sorter);
+  const AnswerSize total = write(method, query, options, order);
   print_result(options.json,
                {{"output", options.output.name},
                 {"method", options.search.method},

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "methods.h"
 
-#include <algorithm>
-#include <numeric>
 #include <string>
-#include <tuple>
 
 #include "meshhood/surface.h"
 
@@ -80,25 +77,9 @@ SearchMethod method_of(const MethodOptions& options, Input& input, const paper::
   return input.exact_index(threads);
 }
 
-VertexSorter::VertexSorter(const std::string& sort, Input& input) : by_distance_(sort == "distance") {
-  if (sort != "index") return;
-  places_.resize(input.vertex_count());
-  const std::span<const VertexId> permutation = input.exact_index().permutation();
-  std::iota(places_.begin(), places_.end(), 0U);
-  for (std::size_t i = 0; i < permutation.size(); ++i) places_[permutation[i]] = static_cast<std::uint32_t>(i);
-}
-
-void VertexSorter::sort(std::span<VertexId> ids, std::span<double> distances) {
-  items_.clear();
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const double distance = distances.empty() ? 0 : distances[i];
-    const double key = by_distance_ ? distance : places_.empty() ? 0 : places_[ids[i]];
-    items_.push_back({key, ids[i], distance});
-  }
-  std::sort(items_.begin(), items_.end(),
-            [](const Item& a, const Item& b) { return std::tie(a.key, a.id) < std::tie(b.key, b.id); });
-  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = items_[i].id;
-  for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = items_[i].distance;
+RowOrder row_order(const std::string& sort, Input& input) {
+  if (sort == "distance") return RowOrder::by_distance();
+  return sort == "index" ? RowOrder(input.exact_index().permutation()) : RowOrder();
 }
 
 }  // namespace meshhood::cli

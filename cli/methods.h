@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -13,6 +10,7 @@
 
 #include "input.h"
 #include "options.h"
+#include "shared/row_order.h"
 
 /// How a search finds vertices, measures their distances and orders them, by names.
 namespace meshhood::cli {
@@ -56,27 +54,7 @@ void check_method(const MethodOptions& options, const Reading& reading, bool has
 [[nodiscard]] SearchMethod method_of(const MethodOptions& options, Input& input,
                                      const paper::QueryOptions& settings = {}, unsigned threads = kAllProcessors);
 
-/// Puts answers into an order. Of equal distances, the smaller id comes first.
-class VertexSorter {
- public:
-  /// `sort` as typed. The input must have edges if it is "index".
-  VertexSorter(const std::string& sort, Input& input);
-
-  [[nodiscard]] bool needs_distances() const { return by_distance_; }
-
-  /// Sorts `ids`, and with them `distances`, which may be empty unless they are needed.
-  void sort(std::span<VertexId> ids, std::span<double> distances);
-
- private:
-  struct Item {
-    double key;
-    VertexId id;
-    double distance;
-  };
-
-  bool by_distance_;
-  std::vector<std::uint32_t> places_;  // of each vertex, if it is the index order
-  std::vector<Item> items_;            // of one call
-};
+/// The order that --sort names. Borrows `input`, which must have edges if it is "index".
+[[nodiscard]] RowOrder row_order(const std::string& sort, Input& input);
 
 }  // namespace meshhood::cli

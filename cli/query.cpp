@@ -192,7 +192,7 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<con
   paper::QueryOptions settings;
   if (options.factor) settings.radius_ratio = parse_radius("--factor", *options.factor);
   AnySearcher chosen = method_of(options.search, input, settings).make_searcher();
-  VertexSorter sorter(options.search.sort, input);
+  RowOrder order = row_order(options.search.sort, input);
   std::vector<Answer> answers;
   for (const QueryStart& start : starts) {
     const VertexId v = *start.vertex();
@@ -208,10 +208,10 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<con
       return answer;
     };
     Answer answer = std::visit(ask, chosen);
-    if (options.distances || sorter.needs_distances()) {
+    if (options.distances || order.needs_distances()) {
       for (const VertexId w : answer.vertices) answer.distances.push_back(distance(input.positions(), v, w));
     }
-    sorter.sort(answer.vertices, answer.distances);
+    order.sort(answer.vertices, answer.distances);
     answers.push_back(std::move(answer));
   }
   return answers;
@@ -221,15 +221,15 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<con
 std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<const QueryStart> starts,
                                       std::span<const double> radii, Input& input) {
   input.need_edges("this query");
-  VertexSorter sorter(options.search.sort, input);
+  RowOrder order = row_order(options.search.sort, input);
   std::vector<Answer> answers;
   RegionSearch search(options.search.metric, input);
   for (const QueryStart& start : starts) {
     Answer found = search.regions(start, radii);
     std::size_t begin = 0;
     for (const std::size_t end : found.counts) {
-      sorter.sort(std::span(found.vertices).subspan(begin, end - begin),
-                  std::span(found.distances).subspan(begin, end - begin));
+      order.sort(std::span(found.vertices).subspan(begin, end - begin),
+                 std::span(found.distances).subspan(begin, end - begin));
       begin = end;
     }
     answers.push_back(std::move(found));

@@ -76,21 +76,6 @@ void BatchWorker::split(std::span<const BatchItem> chunk, bool distances) {
   }
 }
 
-void sort_answer(std::span<VertexId> ids, std::span<double> distances) {
-  if (std::is_sorted(ids.begin(), ids.end())) return;
-  if (distances.empty()) {
-    std::sort(ids.begin(), ids.end());
-    return;
-  }
-  std::vector<std::pair<VertexId, double>> pairs(ids.size());
-  for (std::size_t i = 0; i < ids.size(); ++i) pairs[i] = {ids[i], distances[i]};
-  std::sort(pairs.begin(), pairs.end());
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    ids[i] = pairs[i].first;
-    distances[i] = pairs[i].second;
-  }
-}
-
 Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, const Run& run,
              std::size_t passes)
     : method_(query.metric == Metric::Straight ? method : method.by(query.metric)),

@@ -76,9 +76,6 @@ class BatchWorker {
   std::vector<double> radii_;
 };
 
-/// Sorts `ids` in ascending order, and `distances`, unless empty, along with them.
-void sort_answer(std::span<VertexId> ids, std::span<double> distances);
-
 /// Rows that a thread computes one after the other.
 struct BatchChunk {
   std::size_t number;  // of the chunks of a pass

@@ -14,6 +14,7 @@
 #include "batch/batch.h"
 #include "batch/rows.h"
 #include "shared/large_pages.h"
+#include "shared/row_order.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
@@ -112,7 +113,7 @@ class RowsInPlace final : public RowReceiver {
 
   bool done(std::size_t /*row*/) override {
     constexpr std::size_t kIdsBetweenLooks = 4096;  // to look at the clock takes a tenth of the time of a small row
-    if (batch_.options().sorted) sort_answer(last_.ids, last_.distances);
+    if (batch_.options().sorted) by_id_.sort(last_.ids, last_.distances);
     ids_since_look_ += last_.ids.size();
     if (ids_since_look_ < kIdsBetweenLooks) return true;
     ids_since_look_ = 0;
@@ -125,6 +126,7 @@ class RowsInPlace final : public RowReceiver {
   std::span<const std::uint64_t> offsets_;
   BatchMemory memory_;
   BatchMemory last_;
+  RowOrder by_id_;
   std::size_t ids_since_look_ = 0;
 };
 

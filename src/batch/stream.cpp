@@ -10,6 +10,7 @@
 
 #include "batch/batch.h"
 #include "shared/raw_vector.h"
+#include "shared/row_order.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
@@ -52,7 +53,7 @@ class DirectRows final : public RowReceiver {
   }
 
   bool done(std::size_t row) override {
-    if (batch_.options().sorted) sort_answer(last_.ids, last_.distances);
+    if (batch_.options().sorted) by_id_.sort(last_.ids, last_.distances);
     sink_({row_of_.empty() ? row : row_of_[row], last_.ids, last_.distances});
     batch_.task().advance(1);
     return batch_.task().should_continue(0);
@@ -64,6 +65,7 @@ class DirectRows final : public RowReceiver {
   std::span<const std::size_t> row_of_;
   Store store_;
   BatchMemory last_;
+  RowOrder by_id_;
 };
 
 class Stream {
@@ -109,7 +111,7 @@ class Stream {
     }
 
     bool done(std::size_t /*row*/) override {
-      if (stream_.batch_.options().sorted) sort_answer(last_.ids, last_.distances);
+      if (stream_.batch_.options().sorted) by_id_.sort(last_.ids, last_.distances);
       return stream_.fits() && stream_.batch_.task().should_continue(thread_);
     }
 
@@ -120,6 +122,7 @@ class Stream {
     std::size_t bytes_at_once_;
     std::size_t new_bytes_ = 0;
     BatchMemory last_;
+    RowOrder by_id_;
   };
 
   /// Windows depend on the rows alone, and so does what is searched together (see `Batch::for_each_chunk`).

@@ -22,9 +22,9 @@
 #include "meshhood/search.h"
 #include "meshhood/serialize.h"
 
-#include "batch/batch.h"
 #include "batch/position_sort.h"
 #include "exact/query/single_queries.h"
+#include "shared/row_order.h"
 #include "support/failing_allocations.h"
 #include "support/families.h"
 #include "support/family_name.h"
@@ -127,7 +127,7 @@ struct Answers {
 /// Sorted: a searcher that has failed may give another order than a new one.
 Answers in_order(Answers answers) {
   const bool with_distances = answers.distances.size() == answers.ids.size();
-  sort_answer(answers.ids, with_distances ? std::span(answers.distances) : std::span<double>());
+  RowOrder().sort(answers.ids, with_distances ? std::span(answers.distances) : std::span<double>());
   return answers;
 }
 

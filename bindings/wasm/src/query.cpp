@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Neighborhoods of vertices by any method, and what is nearest to them.
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
-#include <tuple>
 #include <utility>
-#include <vector>
 
 #include "meshhood/meshhood.h"
 
 #include "answer.h"
 #include "arguments.h"
+#include "shared/row_order.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
@@ -24,39 +21,17 @@ enum class VertexOrder : std::uint8_t { Index, Id, Distance };
 
 namespace {
 
-/// Of each vertex in index order.
-std::vector<std::uint32_t> places() {
-  const std::span<const VertexId> permutation = workspace.index().permutation();
-  std::vector<std::uint32_t> result(workspace.index().vertex_count());
-  std::iota(result.begin(), result.end(), 0U);
-  for (std::size_t i = 0; i < permutation.size(); ++i) result[permutation[i]] = static_cast<std::uint32_t>(i);
-  return result;
+RowOrder row_order(VertexOrder order) {
+  if (order == VertexOrder::Distance) return RowOrder::by_distance();
+  return order == VertexOrder::Index ? RowOrder(workspace.index().permutation()) : RowOrder();
 }
 
-void sort_rows(VertexOrder order, std::span<const std::uint32_t> offsets) {
-  struct Item {
-    double key;
-    VertexId id;
-    double distance;
-  };
-  const std::vector<std::uint32_t> place = order == VertexOrder::Index ? places() : std::vector<std::uint32_t>();
-  const auto key = [&](std::size_t i) -> double {
-    return order == VertexOrder::Distance ? answer.reals[i] : order == VertexOrder::Index ? place[answer.ids[i]] : 0;
-  };
-  const bool has_distances = !answer.reals.empty();
-  std::vector<Item> items;
+void sort_rows(RowOrder&& order, std::span<const std::uint32_t> offsets) {
   for (std::size_t row = 0; row + 1 < offsets.size(); ++row) {
     const std::size_t begin = offsets[row];
-    items.clear();
-    for (std::size_t i = begin; i < offsets[row + 1]; ++i) {
-      items.push_back({key(i), answer.ids[i], has_distances ? answer.reals[i] : 0});
-    }
-    std::sort(items.begin(), items.end(),
-              [](const Item& a, const Item& b) { return std::tie(a.key, a.id) < std::tie(b.key, b.id); });
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      answer.ids[begin + i] = items[i].id;
-      if (has_distances) answer.reals[begin + i] = items[i].distance;
-    }
+    const std::size_t size = offsets[row + 1] - begin;
+    order.sort(std::span(answer.ids).subspan(begin, size),
+               answer.reals.empty() ? std::span<double>() : std::span(answer.reals).subspan(begin, size));
   }
 }
 
@@ -69,7 +44,7 @@ NearestOptions nearest_options() { return {.metric = rows.metric, .radius = rows
 /// its offsets.
 [[clang::export_name("sort_answer")]] void sort_answer(VertexOrder order, bool has_rows) {
   const std::array whole{std::uint32_t{0}, static_cast<std::uint32_t>(answer.ids.size())};
-  sort_rows(order, has_rows ? std::span<const std::uint32_t>(answer.counts) : whole);
+  sort_rows(row_order(order), has_rows ? std::span<const std::uint32_t>(answer.counts) : whole);
 }
 
 /// The counts of the answer are the offsets of the rows; with `count_only`, their sizes.
