@@ -15,6 +15,7 @@
 
 #include "meshhood/error.h"
 
+#include "base/lists.h"
 #include "base/vector.h"
 #include "shared/distance.h"
 
@@ -36,8 +37,7 @@ std::vector<Side> sides_of(const FacesView& faces) {
       if (low != high) sides.push_back({low, high, static_cast<VertexId>(face)});
     }
   });
-  std::sort(sides.begin(), sides.end());
-  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  sort_out(sides);
   return sides;
 }
 
@@ -61,8 +61,7 @@ std::vector<FacePair> pairs_of(std::span<const Side> sides) {
     }
     begin = end;
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  sort_out(pairs);
   return pairs;
 }
 

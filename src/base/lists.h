@@ -32,6 +32,13 @@ struct Lists {
   [[nodiscard]] std::size_t bytes() const { return offsets.size() * sizeof(Offset) + elements.size() * sizeof(T); }
 };
 
+/// Without repeats, ascending.
+template <class T>
+void sort_out(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
 /// Fills lists: `for_each(f)` calls `f(list, element)` for every element of each list, and does so twice, in the same
 /// order. A list has its elements in the reverse of that order. `offsets` can count them all. O(#lists + #elements).
 template <class Offset, class T, class ForEach>

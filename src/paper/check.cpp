@@ -10,6 +10,7 @@
 
 #include "meshhood/paper.h"
 
+#include "base/lists.h"
 #include "paper/hierarchy.h"
 #include "shared/distance.h"
 #include "shared/text.h"
@@ -153,8 +154,7 @@ class Check {
         if (cluster_at_[position_[w]] != c) joined.push_back(cluster_at_[position_[w]]);
       }
     }
-    std::sort(joined.begin(), joined.end());
-    joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
+    sort_out(joined);
   }
 
   /// I3, and so I6: vertices that are connected on the mesh lie in one component.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/lists.h"
 #include "base/vector.h"
 #include "patch/clipped_triangle.h"
 #include "patch/search.h"
@@ -175,8 +176,7 @@ class Clip {
     for (const NamedTriangle& triangle : triangles) {
       names.insert(names.end(), triangle.corners.begin(), triangle.corners.end());
     }
-    std::ranges::sort(names);
-    names.erase(std::unique(names.begin(), names.end()), names.end());
+    sort_out(names);
     ClippedMesh mesh;
     for (const PointName name : names) add_point(name, mesh);
     for (const auto& [face, corners] : triangles) {

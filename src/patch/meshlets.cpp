@@ -254,8 +254,7 @@ void Meshlets::renew(const IndexView& index, const Triangles& triangles, std::sp
   for (const VertexId v : changed) {
     for (const TriangleId t : triangles.fans[index.place(v)]) moved.push_back(triangles.meshlet_of(t));
   }
-  std::sort(moved.begin(), moved.end());
-  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+  sort_out(moved);
   for (const std::size_t i : moved) meshlets[i] = make_meshlet(index, triangles, static_cast<MeshletId>(i));
   boxes.renew(std::move(moved), [&](std::size_t i) { return box_in_frame(index, meshlets[i]); });
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/frame.h"
+#include "base/lists.h"
 #include "base/prefetch.h"
 #include "base/vector.h"
 #include "simd/kernels.h"
@@ -107,8 +108,7 @@ void BoxTree::renew(std::vector<std::size_t> items, BoxOf&& box_of) {
   for (const std::size_t i : items) set(levels_[0][i / kFanOut], i % kFanOut, box_of(i));
   for (std::size_t level = 1; level < levels_.size(); ++level) {
     for (std::size_t& i : items) i /= kFanOut;
-    std::sort(items.begin(), items.end());
-    items.erase(std::unique(items.begin(), items.end()), items.end());
+    sort_out(items);
     for (const std::size_t i : items) set(levels_[level][i / kFanOut], i % kFanOut, box_around(level - 1, i));
   }
 }

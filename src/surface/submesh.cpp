@@ -37,8 +37,7 @@ class FaceSelection {
       is_marked_[v] = true;
       faces_.insert(faces_.end(), surface.lists()[v].begin(), surface.lists()[v].end());
     }
-    std::sort(faces_.begin(), faces_.end());
-    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+    sort_out(faces_);
     if (corners == Corners::Any) return;
     std::erase_if(faces_, [&](std::size_t face) {
       return !std::ranges::all_of(surface.faces()[face], [&](VertexId v) { return has(v); });
@@ -156,8 +155,7 @@ void add_exits(std::span<const VertexId> corners, IsInside&& is_inside, std::vec
 std::vector<RimEdge> distinct_exits(std::span<const ExitPair> pairs) {
   std::vector<RimEdge> exits;
   for (const ExitPair& pair : pairs) exits.insert(exits.end(), {pair.from, pair.to});
-  std::sort(exits.begin(), exits.end());
-  exits.erase(std::unique(exits.begin(), exits.end()), exits.end());
+  sort_out(exits);
   return exits;
 }
 
@@ -226,8 +224,7 @@ Submesh Surface::submesh(std::span<const VertexId> ids, Corners corners) const {
     result.offsets.push_back(result.corners.size());
   }
   result.vertices = result.corners;
-  std::sort(result.vertices.begin(), result.vertices.end());
-  result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());
+  sort_out(result.vertices);
   for (VertexId& corner : result.corners) {
     const auto place = std::lower_bound(result.vertices.begin(), result.vertices.end(), corner);
     corner = static_cast<VertexId>(place - result.vertices.begin());

@@ -46,13 +46,6 @@ FaceArrays copy(const MeshView& mesh) {
   return make_face_arrays(mesh.faces);
 }
 
-/// Without repeats, ascending.
-template <class Number>
-void sort_out(std::vector<Number>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
 std::vector<VertexId> read_changed(const IndicesView& changed, std::size_t vertices) {
   std::vector<VertexId> ids(changed.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
