@@ -26,17 +26,25 @@ void BatchWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, 
 void BatchWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
                        KeptPackets::Reader* kept) {
   const bool writes_pieces = search_->writes_pieces(distances);
-  const auto write = [&](std::span<const BatchItem> items, const RowAnswers& answers) {
-    return search_->write(items, answers, distances, receiver);
+  const auto write_pieces = [&](std::span<const BatchItem> items, std::span<const Piece> pieces,
+                                std::span<const std::uint64_t> counts) {
+    for (unsigned i = 0; i < items.size(); ++i) {
+      const BatchMemory memory = receiver.memory(items[i].row, counts[i]);
+      writer_->write_ids(pieces, i, memory.ids);
+      if (distances) writer_->write_distances(pieces, i, items[i].position, memory.distances);
+      if (!receiver.done(items[i].row)) return false;
+    }
+    return true;
   };
   split(chunk, distances);
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (writes_pieces && kept != nullptr && kept->next()) {
-      if (!write(runs_[i].items, {kept->pieces(), kept->counts()})) return;
+      if (!write_pieces(runs_[i].items, kept->pieces(), kept->counts())) return;
       continue;
     }
     const bool goes_on = answer(i, [&](std::span<const BatchItem> items) {
-      return write(items, writes_pieces ? RowAnswers{search_->pieces(true), search_->counts()} : RowAnswers());
+      if (!writes_pieces) return search_->write(items, distances, receiver);
+      return write_pieces(items, search_->pieces(true), search_->counts());
     });
     if (!goes_on) return;
   }
@@ -89,7 +97,11 @@ Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOpt
 
 BatchWorker& Batch::worker(unsigned thread) {
   std::unique_ptr<BatchWorker>& worker = threads_[thread].worker;
-  if (!worker) worker = std::make_unique<BatchWorker>(factory_.make_rows());
+  if (!worker) {
+    std::optional<RowWriter> writer;
+    if (factory_.of_slots != nullptr) writer.emplace(IndexAccess::view(*factory_.of_slots), best_isa());
+    worker = std::make_unique<BatchWorker>(factory_.make_rows(), writer);
+  }
   return *worker;
 }
 

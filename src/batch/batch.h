@@ -31,7 +31,9 @@ using SizeSink = std::function<bool(std::span<const BatchItem> rows, std::span<c
 /// chunk does not depend on earlier chunks, because which chunks a thread gets differs from run to run.
 class BatchWorker {
  public:
-  explicit BatchWorker(std::unique_ptr<RowSearch> search) : search_(std::move(search)) {}
+  /// `writer`: that of the index. `find` needs it if the search writes pieces.
+  explicit BatchWorker(std::unique_ptr<RowSearch> search, std::optional<RowWriter> writer = {})
+      : search_(std::move(search)), writer_(writer) {}
 
   /// `kept` is null, or receives what spares a `find` with these `distances` a second search.
   void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept, bool distances);
@@ -69,6 +71,7 @@ class BatchWorker {
   }
 
   std::unique_ptr<RowSearch> search_;
+  std::optional<RowWriter> writer_;
   std::vector<RowRun> runs_;
   // The rows of a packet, an array for each property:
   std::vector<std::size_t> rows_;

@@ -51,8 +51,7 @@ class SingleRows final : public RowSearch {
 
   [[nodiscard]] bool writes_pieces(bool /*distances*/) const override { return false; }
 
-  bool write(std::span<const BatchItem> /*items*/, const RowAnswers& /*answers*/, bool distances,
-             RowReceiver& receiver) override {
+  bool write(std::span<const BatchItem> /*items*/, bool distances, RowReceiver& receiver) override {
     const auto find = [&](auto& searcher) {
       if (distances) return searcher.neighborhood(item_.vertex, item_.radius, ids_, distances_);
       searcher.neighborhood(item_.vertex, item_.radius, ids_);

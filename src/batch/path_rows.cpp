@@ -41,8 +41,7 @@ class PathRows final : public RowSearch {
   [[nodiscard]] PacketLengths* lengths() override { return &packet_; }
   [[nodiscard]] bool writes_pieces(bool /*distances*/) const override { return false; }  // rows ascend by length
 
-  bool write(std::span<const BatchItem> items, const RowAnswers& /*answers*/, bool distances,
-             RowReceiver& receiver) override {
+  bool write(std::span<const BatchItem> items, bool distances, RowReceiver& receiver) override {
     for (std::size_t i = 0; i < items.size(); ++i) {
       const std::span<const Path> paths = packet_.paths_in_order(i);
       const BatchMemory memory = receiver.memory(items[i].row, paths.size());

@@ -190,10 +190,7 @@ std::uint32_t rings_of(double radius) {
 class RingRows final : public RowSearch {
  public:
   explicit RingRows(const Index& index)
-      : index_(IndexAccess::view(index)),
-        graph_(IndexAccess::share_graph(index)),
-        packet_(index_, best_isa()),
-        writer_(index_, best_isa()) {
+      : index_(IndexAccess::view(index)), graph_(IndexAccess::share_graph(index)), packet_(index_, best_isa()) {
     if (is_unlike_a_surface(index_)) by_vertex_.emplace(index_, *graph_);
   }
 
@@ -225,9 +222,7 @@ class RingRows final : public RowSearch {
   }
   [[nodiscard]] bool writes_pieces(bool distances) const override { return !distances && !by_vertex_; }
 
-  bool write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
-             RowReceiver& receiver) override {
-    if (writes_pieces(distances)) return write_pieces(writer_, items, answers, distances, receiver);
+  bool write(std::span<const BatchItem> items, bool distances, RowReceiver& receiver) override {
     const BatchMemory memory = receiver.memory(items.front().row, counts_[0]);
     std::size_t next = 0;
     for_each([&](std::size_t vertex, double edges) {
@@ -258,7 +253,6 @@ class RingRows final : public RowSearch {
   std::shared_ptr<KeptGraph> graph_;
   RingPacket packet_;
   std::optional<VertexRings> by_vertex_;
-  RowWriter writer_;
   // Of the last run:
   unsigned rows_ = 0;
   std::vector<RingQuery> queries_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a metric answers the rows of a batch, and the writer that the metrics share.
+// How a metric answers the rows of a batch, and the writer of rows that come as pieces.
 #pragma once
 
 #include <cassert>
@@ -96,12 +96,6 @@ struct RowRun {
   bool is_joint;                     // else it is one row
 };
 
-/// What the rows of a run have, if that is enough to write them.
-struct RowAnswers {
-  std::span<const Piece> pieces;
-  std::span<const std::uint64_t> counts;  // by row
-};
-
 /// The search of a metric: answers the rows of a batch, up to 32 of one leaf at once. One object a thread. What is
 /// found for a row depends on the index, its vertex and its radius alone.
 class RowSearch {
@@ -135,13 +129,14 @@ class RowSearch {
   /// The lengths of what `pieces` has returned, if `pays` was asked with distances; null by straight lines.
   [[nodiscard]] virtual PacketLengths* lengths() { return nullptr; }
 
-  /// Whether rows can be written from their pieces and counts alone.
+  /// Whether rows are written from their pieces and counts alone, by a `RowWriter`.
   [[nodiscard]] virtual bool writes_pieces(bool distances) const = 0;
 
-  /// Writes the rows of the last run, or if `writes_pieces` those of any run, whose `answers` are given. Returns false
-  /// as soon as the receiver does.
-  virtual bool write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
-                     RowReceiver& receiver) = 0;
+  /// Writes the rows of the last run, else. Returns false as soon as the receiver does.
+  virtual bool write(std::span<const BatchItem> /*items*/, bool /*distances*/, RowReceiver& /*receiver*/) {
+    assert(false);
+    return false;
+  }
 };
 
 /// What a `SearchMethod` refers to. Any thread may call the functions.
@@ -166,10 +161,6 @@ struct SearcherFactory {
   /// Makes the search of the rows of a batch, for one thread.
   std::function<std::unique_ptr<RowSearch>()> make_rows;
 };
-
-/// Writes rows from their pieces.
-bool write_pieces(const RowWriter& writer, std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
-                  RowReceiver& receiver);
 
 /// The positions of a group: rows by straight lines that lie between two multiples of it should come in one chunk.
 inline constexpr std::uint32_t kGroupPositions = kFanOut * kLeafCapacity;

@@ -37,8 +37,7 @@ class StraightRows final : public RowSearch {
         isa_(isa),
         is_single_(metric == Metric::Space || is_unlike_a_surface(view_)),
         is_by_vertex_(metric == Metric::Straight && is_odd(view_)),
-        radius_(view_.frame, 0),
-        writer_(view_, isa) {}
+        radius_(view_.frame, 0) {}
 
   void begin_chunk() override { leaves_.clear(); }
 
@@ -79,11 +78,6 @@ class StraightRows final : public RowSearch {
     if (is_joint_) return joint_->pieces(in_order);
     if (is_by_vertex_) found_->align_to_leaves();
     return pieces_of(*found_);
-  }
-
-  bool write(std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
-             RowReceiver& receiver) override {
-    return write_pieces(writer_, items, answers, distances, receiver);
   }
 
  private:
@@ -138,7 +132,6 @@ class StraightRows final : public RowSearch {
   bool is_single_;  // each row is answered alone: unlike on a surface, few vertices of a leaf have the same neighbors
   bool is_by_vertex_;   // by `VertexBfs`, whose answers are not aligned to leaves
   JointRadius radius_;  // of the last row, because most batches have one radius
-  RowWriter writer_;
   // Made by the first run that needs them:
   std::unique_ptr<SingleQueries> single_;
   std::optional<JointSearch> joint_;
@@ -153,17 +146,6 @@ class StraightRows final : public RowSearch {
 };
 
 }  // namespace
-
-bool write_pieces(const RowWriter& writer, std::span<const BatchItem> items, const RowAnswers& answers, bool distances,
-                  RowReceiver& receiver) {
-  for (unsigned i = 0; i < items.size(); ++i) {
-    const BatchMemory memory = receiver.memory(items[i].row, answers.counts[i]);
-    writer.write_ids(answers.pieces, i, memory.ids);
-    if (distances) writer.write_distances(answers.pieces, i, items[i].position, memory.distances);
-    if (!receiver.done(items[i].row)) return false;
-  }
-  return true;
-}
 
 std::unique_ptr<RowSearch> make_straight_rows(const Index& index, Metric metric, Isa isa) {
   return std::make_unique<StraightRows>(index, metric, isa);
