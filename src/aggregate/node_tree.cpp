@@ -3,8 +3,8 @@
 
 #include <cassert>
 
-#include "base/vector.h"
 #include "exact/node_search.h"
+#include "exact/vertex_set.h"
 
 namespace meshhood::inline v0_1 {
 
@@ -16,10 +16,7 @@ NodeTree::Children NodeTree::children(Node node) const {
   return {first, static_cast<Node>(first + index_->records[first / kFanOut].nodes)};
 }
 
-VertexRange NodeTree::vertices(Node node) const {
-  const GroupRecord& record = index_->records[node / kFanOut];
-  return {static_cast<VertexId>(record.begin[node % kFanOut]), static_cast<VertexId>(record.begin[node % kFanOut + 1])};
-}
+VertexRange NodeTree::vertices(Node node) const { return run_of(*index_, node); }
 
 LeafRun NodeTree::run(Node node) const {
   Node first = node;
@@ -27,7 +24,7 @@ LeafRun NodeTree::run(Node node) const {
   return {first, static_cast<std::uint32_t>(end_leaf(node))};
 }
 
-FrameSphere NodeTree::sphere(Node node) const { return sphere_of(index_->groups[node / kFanOut], node % kFanOut); }
+FrameSphere NodeTree::sphere(Node node) const { return sphere_of(*index_, node); }
 
 NodeTree::Node NodeTree::largest_from(std::size_t leaf, std::size_t end) const {
   auto node = static_cast<Node>(leaf);
@@ -44,10 +41,6 @@ std::size_t NodeTree::end_leaf(Node node) const {
   return std::size_t{node} + 1;
 }
 
-Point NodeTree::center(Node node) const {
-  const FrameSphere bounds = sphere(node);
-  const Point in_frame = center_of(bounds);
-  return index_->frame.origin + (1 / index_->frame.scale) * in_frame;
-}
+Point NodeTree::center(Node node) const { return index_->frame.from_frame(center_of(sphere(node))); }
 
 }  // namespace meshhood::inline v0_1

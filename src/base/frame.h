@@ -7,6 +7,7 @@
 
 #include "meshhood/mesh.h"
 
+#include "base/vector.h"
 #include "shared/distance.h"
 
 namespace meshhood::inline v0_1 {
@@ -46,6 +47,8 @@ struct Frame {
   [[nodiscard]] Point to_frame(const Point& p) const {
     return {(p.x - origin.x) * scale, (p.y - origin.y) * scale, (p.z - origin.z) * scale};
   }
+
+  [[nodiscard]] Point from_frame(const Point& p) const { return origin + (1 / scale) * p; }
 
   [[nodiscard]] FramePoint round(const Point& p) const {
     const Point q = to_frame(p);

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/vector.h"
 #include "batch/packets.h"
 #include "exact/index_access.h"
 #include "exact/query/any_center.h"
@@ -46,7 +45,7 @@ class UnconnectedSearch {
     open_ = 0;
     queries_.clear();
     const LeafId leaf = leaf_of(index_->slot[packet.vertices.front()]);
-    const Center center(index_->frame, center_of_leaf(leaf));
+    const Center center(index_->frame, index_->frame.from_frame(center_of(index_->leaves[leaf].bounds)));
     for (std::size_t i = 0; i < packet.vertices.size(); ++i) {
       const std::uint32_t slot = index_->slot[packet.vertices[i]];
       const Point p = index_->position_at(slot);
@@ -143,11 +142,6 @@ class UnconnectedSearch {
         pieces_, [&](const Piece& piece) { return index_->leaf_begin[piece.leaves.end] <= vertex; });
     const bool is_found = after != pieces_.end() && index_->leaf_begin[after->leaves.begin] <= vertex;
     return is_found ? &*after : nullptr;
-  }
-
-  [[nodiscard]] Point center_of_leaf(LeafId leaf) const {
-    const Frame& frame = index_->frame;
-    return frame.origin + (1 / frame.scale) * center_of(index_->leaves[leaf].bounds);
   }
 
   /// The queries for which the leaf may hold a vertex that is near enough.

@@ -15,6 +15,11 @@ namespace meshhood::inline v0_1 {
   return {group.x[place], group.y[place], group.z[place], group.radius[place]};
 }
 
+/// The same of a node of the tree.
+[[nodiscard]] inline FrameSphere sphere_of(const IndexView& index, NodeId node) {
+  return sphere_of(index.groups[node / kFanOut], node % kFanOut);
+}
+
 /// The set of the node at a place.
 [[nodiscard]] constexpr NodeSet node_at(unsigned place) { return static_cast<NodeSet>(1U << place); }
 

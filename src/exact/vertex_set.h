@@ -24,6 +24,11 @@ struct LeafSubset {
   return {static_cast<VertexId>(group.begin[place]), static_cast<VertexId>(group.begin[place + 1])};
 }
 
+/// The same of a node of the tree.
+[[nodiscard]] inline VertexRange run_of(const IndexView& index, NodeId node) {
+  return run_of(index.records[node / kFanOut], node % kFanOut);
+}
+
 /// A set of vertices in index order, in one list: runs, and subsets of at most 32 consecutive vertices. Nearly always
 /// these are whole leaves and subsets of leaves; those of `VertexBfs` lie anywhere.
 class VertexSet {

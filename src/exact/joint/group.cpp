@@ -15,10 +15,6 @@ namespace {
 /// Contains every vertex: the frame is the cube [-1, 1]^3.
 constexpr FrameSphere kWholeFrame{0, 0, 0, 2};
 
-FrameSphere node_bounds(const IndexView& index, NodeId node) {
-  return sphere_of(index.groups[node / kFanOut], node % kFanOut);
-}
-
 /// The positions, or null if they are doubles.
 const float* float_positions(const IndexView& index) {
   const auto* xyz = std::get_if<std::span<const float>>(&index.positions);
@@ -98,11 +94,11 @@ void JointGroup::clear() {
 
 void JointGroup::set_sphere(std::span<const LeafId> leaves) {
   const NodeId parent = index_->parents[leaves.front() / kFanOut];
-  const FrameSphere bounds = parent != kNoNode ? node_bounds(*index_, parent) : kWholeFrame;
+  const FrameSphere bounds = parent != kNoNode ? sphere_of(*index_, parent) : kWholeFrame;
   ball_.x = bounds.x;
   ball_.y = bounds.y;
   ball_.z = bounds.z;
-  center_ = index_->frame.origin + 1 / index_->frame.scale * center_of(bounds);
+  center_ = index_->frame.from_frame(center_of(bounds));
   if (in_floats_) center_ = {rounded(center_.x), rounded(center_.y), rounded(center_.z)};
   // Where the coordinates are large for the size of the mesh, the center is not quite that of the sphere.
   center_in_frame_ = index_->frame.to_frame(center_);

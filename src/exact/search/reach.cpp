@@ -175,10 +175,9 @@ bool Reach::reach_from(const Home& home, const Query& query, std::size_t limited
 void Reach::find_surface_leaves(const Query& query) {
   constexpr std::size_t kLeavesAhead = 10;
   const std::span<const LeafId> leaves = descent_.surface_leaves();
-  // From the records of groups, which the descent has just read.
-  const auto vertices_of = [&](LeafId leaf) { return run_of(index_->records[leaf / kFanOut], leaf % kFanOut); };
+  // The runs are from records of groups, which the descent has just read.
   const auto prefetch_vertices = [&](LeafId leaf) {
-    const VertexId first = vertices_of(leaf).begin;
+    const VertexId first = run_of(*index_, leaf).begin;
     prefetch_positions(*index_, first, kLeafCapacity);
     fetch_lines(&index_->adjacency[first], 3);
     prefetch(&index_->leaves[leaf]);
@@ -187,7 +186,7 @@ void Reach::find_surface_leaves(const Query& query) {
   surface_leaves_.clear();
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (i + kLeavesAhead < leaves.size()) prefetch_vertices(leaves[i + kLeavesAhead]);
-    const auto [first, end] = vertices_of(leaves[i]);
+    const auto [first, end] = run_of(*index_, leaves[i]);
     LaneMask lanes = kernels_->within(index_->positions, first, end - first, query.ball);
     if (!index_->walls.empty()) lanes &= ~index_->walls[leaves[i]];
     if (lanes == 0 || lanes == first_lanes(end - first)) {
