@@ -55,17 +55,13 @@ class NearestRows {
   template <class Make, class F>
   void for_each(Make&& make, F&& f) {
     TaskContext task(run_.threads, run_.progress, size());
-    const RawVector<std::size_t> in_order =
-        rows_by_position(size(), [&](std::size_t row) { return index_->slot[vertex(row)]; }, task);
+    const auto slot_of = [&](std::size_t row) { return index_->slot[vertex(row)]; };
     std::vector<decltype(make())> searches(task.threads());
-    task.parallel_for(size(), kRowsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
+    for_each_by_position(size(), kRowsAtOnce, slot_of, task, [&](unsigned thread, std::size_t row) {
       if (!searches[thread]) searches[thread] = make();
-      for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
-        f(*searches[thread], in_order[i]);
-        task.advance(thread, 1);
-      }
+      f(*searches[thread], row);
+      task.advance(thread, 1);
     });
-    task.finish();
   }
 
  private:

@@ -51,6 +51,18 @@ template <class Position>
   return order;
 }
 
+/// Calls `f(thread, row)` for the rows 0 to `rows - 1` in the order of `position(row)`, so that a thread gets `at_once`
+/// rows that follow each other. Finishes `task`, which `f` advances.
+template <class Position, class F>
+void for_each_by_position(std::size_t rows, std::size_t at_once, const Position& position, TaskContext& task,
+                          const F& f) {
+  const RawVector<std::size_t> in_order = rows_by_position(rows, position, task);
+  task.parallel_for(rows, at_once, [&](unsigned thread, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) f(thread, in_order[i]);
+  });
+  task.finish();
+}
+
 /// The rows along a curve of Morton (1966), on which near points mostly follow each other. `at(row)`: its point in the
 /// frame.
 template <class At>

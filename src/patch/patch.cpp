@@ -21,7 +21,6 @@
 #include "patch/packet_patches.h"
 #include "patch/search.h"
 #include "shared/parallel.h"
-#include "shared/raw_vector.h"
 #include "shared/text.h"
 #include "surface/face_points.h"
 #include "surface/face_triangles.h"
@@ -177,22 +176,17 @@ void for_each_point(const Surface& surface, const IndicesView& faces, std::span<
   TaskContext task(run.threads, run.progress, passes.size() * starts.size());
   static_cast<void>(state.patches(task));  // before the threads begin: each of them would make it
   const Rows rows({.vertices = starts.corners(), .radius = passes.front()}, surface.vertex_count());
-  const RawVector<std::size_t> in_order =
-      rows_by_position(starts.size(), [&](std::size_t row) { return state.index->slot[starts.corners()[row]]; }, task);
+  const auto slot_of = [&](std::size_t row) { return state.index->slot[starts.corners()[row]]; };
   std::vector<std::optional<PatchSearcher>> searchers(task.threads());
-  task.parallel_for(starts.size(), kPointsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
+  for_each_by_position(starts.size(), kPointsOfTask, slot_of, task, [&](unsigned thread, std::size_t row) {
     if (!searchers[thread]) searchers[thread].emplace(surface);
-    for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
-      const std::size_t row = in_order[i];
-      const PatchStart start(starts.face(row), starts.point(row));
-      for (std::size_t pass = 0; pass < passes.size(); ++pass) {
-        const double r = passes.size() == 1 ? rows.radius(row) : passes[pass].common();
-        visit(*searchers[thread], start, r, pass * starts.size() + row);
-      }
-      task.advance(thread, passes.size());
+    const PatchStart start(starts.face(row), starts.point(row));
+    for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+      const double r = passes.size() == 1 ? rows.radius(row) : passes[pass].common();
+      visit(*searchers[thread], start, r, pass * starts.size() + row);
     }
+    task.advance(thread, passes.size());
   });
-  task.finish();
 }
 
 }  // namespace

@@ -199,17 +199,12 @@ std::vector<double> measure_rows(const SurfaceState& state, std::size_t rows, Th
                                  SlotOf&& slot_of, SpotOf&& spot_of) {
   const FaceTree& tree = state.tree(task);
   const NormalCones* const cones = method == ThicknessMethod::Sphere ? &state.cones(task) : nullptr;
-  const RawVector<std::size_t> in_order = rows_by_position(rows, slot_of, task);
   std::vector<double> result(rows);
-  task.parallel_for(rows, kRowsOfTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
-      const std::size_t row = in_order[i];
-      const OppositeSide side(*state.index, tree, spot_of(row));
-      result[row] = cones == nullptr ? side.by_ray() : side.by_sphere(*cones);
-      task.advance(thread, 1);
-    }
+  for_each_by_position(rows, kRowsOfTask, slot_of, task, [&](unsigned thread, std::size_t row) {
+    const OppositeSide side(*state.index, tree, spot_of(row));
+    result[row] = cones == nullptr ? side.by_ray() : side.by_sphere(*cones);
+    task.advance(thread, 1);
   });
-  task.finish();
   return result;
 }
 
