@@ -32,6 +32,7 @@ def test_shapes(plates):
     for k, name in enumerate(three):
         each = index.aggregate(values, scales=[1, 2.5], reduce=name, vertices=[3, 3, 4])
         np.testing.assert_array_equal(both[..., k], each)
+    np.testing.assert_array_equal(index.aggregate(values, 1, three, kernel="box"), index.aggregate(values, 1, three))
     np.testing.assert_array_equal(index.aggregate(values, 1, vertices=5), index.aggregate(values, 1, vertices=[5])[0])
     mask = np.zeros(n, bool)
     mask[[4, 9]] = True

@@ -119,7 +119,7 @@ ERRORS = (
     ('index.aggregate(V, 1, "average")', ValueError,
         "reduce: 'average', expected 'sum' or 'mean' or 'min' or 'max' or 'var' or 'std' or 'count' or 'median' or 'quantile'"),
     ('index.aggregate(V, 1, kernel="gauss")', ValueError,
-        "kernel: 'gauss', expected 'epanechnikov' or 'biweight' or 'gaussian'"),
+        "kernel: 'gauss', expected 'box' or 'epanechnikov' or 'biweight' or 'gaussian'"),
     ('index.aggregate(["a"] * N, 1)', TypeError,
         "values: text, expected a number"),
     ("index.smooth(V)", TypeError,

@@ -102,7 +102,7 @@ OPTIONS = {
     "chunk": {"odd": 4999},
     "order": {"index": "index"},
     "reduce": {name: name for name in ("sum", "min", "max", "var", "std", "count", "median", "quantile")},
-    "kernel": {name: name for name in ("epanechnikov", "biweight", "gaussian")},
+    "kernel": {name: name for name in ("box", "epanechnikov", "biweight", "gaussian")},
     "nan": {"omit": "omit"},
     "nesting": {"patch": "patch"},
     "ddof": {"1": 1},
@@ -422,7 +422,8 @@ def test_pairs_of_options_for_all_vertices(call):
 def test_a_wrong_value_is_refused_by_name(call):
     """Also for one vertex, and whatever else is given."""
     flags = ("return_distance", "filter")  # anything is true or false
-    one = [4711] if call.name == "neighborhoods" else 4711
+    lists = ("neighborhoods", "iter_neighborhoods", "radius_neighbors_graph", "smooth", "smoothing_matrix")
+    one = [4711] if call.name in lists else 4711
     for option, vertex in itertools.product(call.parameters(), (None, one)):
         if option in flags or (option in WITH and option != "kernel"):
             continue

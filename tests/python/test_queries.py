@@ -127,5 +127,8 @@ def test_a_point_farther_from_the_mesh_than_the_radius_causes_a_warning():
             assert len(ask(2.9)) == 0
         assert caught[0].filename == __file__
         assert 12 in ask(3.0)  # at exactly 3; no warning
-    assert len(index.neighborhood(above, 3.0, walls=np.ones(25, bool))) == 0  # no warning: a wall lies in the ball
+    walls = np.ones(25, bool)
+    assert len(index.neighborhood(above, 3.0, seeds=12, walls=walls)) == 0  # no warning: a wall lies in the ball
+    with pytest.raises(ValueError, match="all vertices of the mesh are walls"):
+        index.neighborhood(above, 3.0, walls=walls)
     assert len(index.neighborhood(above, 1.0, seeds=np.empty(0, int))) == 0  # no seed is far

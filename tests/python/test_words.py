@@ -141,6 +141,56 @@ def test_an_index_with_masks_answers_as_calls_with_them():
             refused()
 
 
+# Each call that takes walls. The vertex nearest to the point is one, so that a search starts at another.
+BESIDE = V[40] + [0.1, 0.1, -0.2]
+AROUND = {"walls": WALLS | (np.arange(COUNT) == 40)}
+METRICS = ("straight", "path", "surface", "space")
+WITH_WALLS = {
+    "neighborhood": lambda index, **walls: [index.neighborhood(BESIDE, 2.5, metric=each, **walls) for each in METRICS],
+    "count": lambda index, **walls: index.count(BESIDE, 2.5, **walls),
+    "stroke": lambda index, **walls: index.stroke([BESIDE, V[3]], 1.5, **walls),
+    "nested": lambda index, **walls: index.nested(BESIDE, [1.5, 2.5], **walls),
+    "contains": lambda index, **walls: [index.contains(BESIDE, w, 2.5, **walls) for w in range(COUNT)],
+    "connecting_radius": lambda index, **walls: [index.connecting_radius(BESIDE, w, **walls) for w in range(COUNT)],
+    "nearest_connected": lambda index, **walls: index.nearest_connected(BESIDE, 9, **walls),
+    "patch": lambda index, **walls: index.patch(V[F[20]].mean(axis=0), 2.5, face=20, **walls),
+    "clip": lambda index, **walls: index.clip(V[F[20]].mean(axis=0), 2.5, face=20, **walls),
+    "measure": lambda index, **walls: index.measure(V[F[20]].mean(axis=0), 2.5, face=20, **walls),
+    "gap": lambda index, **walls: index.gap(V[F[20]].mean(axis=0), 2.5, face=20, **walls),
+    "invariants": lambda index, **walls: index.invariants(2.5, **walls),
+    "gaps": lambda index, **walls: index.gaps(2.5, **walls),
+    "neighborhoods": lambda index, **walls: index.neighborhoods(2.5, **walls),
+    "iter_neighborhoods": lambda index, **walls: list(index.iter_neighborhoods(2.5, **walls)),
+    "radius_neighbors_graph": lambda index, **walls: index.radius_neighbors_graph(2.5, **walls).toarray(),
+    "counts": lambda index, **walls: index.counts(2.5, **walls),
+    "k_nearest": lambda index, **walls: index.k_nearest(9, **walls),
+    "discs": lambda index, **walls: index.discs(3.0, **walls),
+    "nearest_unconnected": lambda index, **walls: index.nearest_unconnected(2.5, **walls),
+    "aggregate": lambda index, **walls: index.aggregate(VALUES, 2.5, **walls),
+    "smooth": lambda index, **walls: index.smooth(VALUES, 2.5, **walls),
+    "smoothing_matrix": lambda index, **walls: index.smoothing_matrix(2.5, **walls).toarray(),
+    "curvature": lambda index, **walls: index.curvature(2.5, **walls).count,
+    "corrected_curvature": lambda index, **walls: index.corrected_curvature(2.5, **walls).area,
+    "moments": lambda index, **walls: index.moments(2.5, **walls),
+    "principal_components": lambda index, **walls: index.principal_components(2.5, **walls),
+    "features": lambda index, **walls: index.features(2.5, kinds="area", **walls),
+}
+
+
+@pytest.mark.parametrize("name", WITH_WALLS)
+def test_walls_of_a_call_are_those_of_an_index_with_them(name):
+    call = WITH_WALLS[name]
+    np.testing.assert_equal(call(INDEX, **AROUND), call(INDEX.masked(**AROUND)))
+    with pytest.raises(AssertionError):
+        np.testing.assert_equal(call(INDEX, **AROUND), call(INDEX))
+
+
+def test_each_call_that_takes_walls_is_listed():
+    methods = inspect.getmembers(meshhood.MeshIndex, inspect.isfunction)
+    taking = {name for name, method in methods if "walls" in inspect.signature(method).parameters and name[0] != "_"}
+    assert taking - {"masked"} == set(WITH_WALLS)
+
+
 # Each call that takes faces.
 WITH_FACES = {
     "aggregate": lambda index, F: index.aggregate(VALUES, 2.0, weights="area", F=F),

@@ -25,7 +25,7 @@ Reduce = Literal["sum", "mean", "min", "max", "var", "std", "count", "median", "
 Reductions = Union[Reduce, Sequence[Reduce]]
 Missing = Literal["propagate", "omit"]
 Nesting = Literal["own", "patch"]
-Kernel = Literal["epanechnikov", "biweight", "gaussian"]
+Kernel = Literal["box", "epanechnikov", "biweight", "gaussian"]
 
 
 def smoothing_radius(fwhm: Number) -> float:
@@ -103,7 +103,7 @@ class Aggregates(Held):
             search.
         weights : (#V,) finite and >= 0, for sum, mean, var and std, which leave out a vertex of weight 0; "area" for
             `vertex_areas`, of `F`. The others ignore them.
-        kernel : for sum and mean, how the weight falls with the distance d. None: not at all; "epanechnikov":
+        kernel : for sum and mean, how the weight falls with the distance d. None or "box": not at all; "epanechnikov":
             1 - (d/r)^2; "biweight": (1 - (d/r)^2)^2; "gaussian": 1000^-(d/r)^2, of the full width at half maximum whose
             `smoothing_radius` is r.
         nan : "propagate", a neighborhood with a NaN gives NaN, but its count is that of all vertices; "omit", NaN marks a
@@ -146,7 +146,7 @@ class Aggregates(Held):
             "ddof": _convert.integer(ddof, "ddof", 0, 1),
             "quantile": _convert.share(q, "q"),
         }
-        if kernel is not None and not {"sum", "mean"}.issuperset(names):
+        if falling != "box" and not {"sum", "mean"}.issuperset(names):
             raise ValueError(f"kernel: {kernel!r}, expected None with reduce={reduce!r}")
         areas = area_weights(self, weights, F)
         if 0 in given.shape[1:]:
@@ -186,8 +186,8 @@ class Aggregates(Held):
             metric="surface" or "path" it counts by the length of the path.
         weights : None counts each vertex once; "area" weighs it by its area, and makes the result independent of how
             densely the surface is sampled.
-        The other arguments are those of `aggregate`, which this calls with reduce="mean" and kernel="gaussian". Vertices
-        that are walls get NaN.
+        The other arguments are those of `aggregate`, which this calls with reduce="mean" and kernel="gaussian", but
+        `vertices` is never a single one. Vertices that are walls get NaN.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> smooth = index.smooth(V[:, 2], 0.5, metric="surface", walls=V[:, 2] < -0.9)
@@ -245,7 +245,7 @@ class Aggregates(Held):
         with np.errstate(invalid="ignore"):
             data /= np.repeat(sums, sizes)
         graph.data = data.astype(result_dtype(dtype), copy=False)
-        return _nan_where_empty(graph, np.arange(self._count) if vertices is None else np.atleast_1d(vertices))
+        return _nan_where_empty(graph, np.arange(self._count) if vertices is None else vertices)
 
 
 def _nan_where_empty(graph: Any, rows: Any) -> Any:
@@ -264,13 +264,13 @@ def _smoothing_radii(fwhm: Any, scales: Any, vertices: Any, count: int) -> tuple
     """The radii of the kernels and of their scales, one of which is None, and the vertices, read before `progress` may
     change them."""
     check_one_given(fwhm, scales, "fwhm")
-    is_one = False
+    _convert.refuse_one(vertices, count)
     if vertices is not None:
-        is_one, ids = _convert.one_or_many(vertices, count)
-        vertices, count = int(ids[0]) if is_one else ids, len(ids)
+        vertices = _convert.vertices(vertices, count)
+        count = len(vertices)
     radii = _kernel_radii(fwhm, "fwhm")
     if radii is not None:  # which rows they belong to, by the name that they have here
-        radii = _convert.radius(radii, "fwhm") if is_one else _convert.radii(radii, count, "fwhm")
+        radii = _convert.radii(radii, count, "fwhm")
     return radii, _kernel_radii(scales, "scales"), vertices
 
 

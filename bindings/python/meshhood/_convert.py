@@ -123,6 +123,12 @@ def one_or_many(v, count):
     return is_one, np.array([vertex(v, count)], np.int32) if is_one else vertices(v, count, single="one vertex, ")
 
 
+def refuse_one(v, count, instead=""):
+    """Refuses one vertex where each row is a list, or a row of a matrix. `instead`: what answers one."""
+    if v is not None and is_single(v, "vertices"):
+        raise TypeError(f"vertices: one vertex, expected a list: [{vertex(v, count)}]{instead}")
+
+
 def radius(r, name="r"):
     """`r`, one number, as a float >= 0."""
     if r is None:

@@ -58,6 +58,8 @@ if TYPE_CHECKING:
 
 Order = Literal["query", "index"]
 
+_FOR_ONE = "; neighborhood(start, r) answers one"
+
 
 @shown_in_a_line
 class Chunk(NamedTuple):
@@ -307,9 +309,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         >>> int(indices[indptr[1]])
         43
         """
-        if vertices is not None and _convert.is_single(vertices, "vertices"):
-            v = _convert.vertex(vertices, self._count)
-            raise TypeError(f"vertices: one vertex, expected a list: [{v}]; neighborhood(start, r) answers one")
+        _convert.refuse_one(vertices, self._count, _FOR_ONE)
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         searched = rows.index._method(method, metric)
         indptr, indices, distances = self._rows_of(
@@ -390,6 +390,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         """
         csr_array = optional("scipy.sparse", "radius_neighbors_graph").csr_array
         with_distances = _convert.choice(mode, "mode", ("connectivity", "distance")) == "distance"
+        _convert.refuse_one(vertices, self._count, _FOR_ONE)
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         numbers, limit = result_dtype(dtype), _convert.max_bytes(max_bytes)
         searched = rows.index._method(method, metric)
@@ -438,6 +439,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         """
         chunk = _convert.integer(chunk, "chunk")
         in_index_order = _convert.choice(order, "order", ("query", "index")) == "index"
+        _convert.refuse_one(vertices, self._count, _FOR_ONE)
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, None)
         check_sort(sort)
         numbers = result_dtype(dtype)

@@ -26,7 +26,7 @@ class Paper:
     Parameter of the search (section 3.3):
     radius_ratio : the paper's factor f. A query begins on the first level whose clusters have a mean radius of at least
         radius / radius_ratio. A larger ratio means smaller clusters, more of them, and fewer vertices that do not
-        belong to the answer. Finite, > 0.
+        belong to the neighborhood. Finite, > 0.
 
     The defaults are those of the paper. Raises ValueError or TypeError, naming the parameter.
 

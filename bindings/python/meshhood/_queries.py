@@ -89,8 +89,8 @@ class Queries(Held):
         start : a vertex, or a point in space (3 floats). It is the center of the ball, and a vertex is in its own
             neighborhood.
         seeds : if `start` is a point: the vertices from which the search starts, for example the corners of the face
-            on which the point lies; None for the vertex nearest to the point. A seed outside the ball does not count.
-            If all seeds are outside, the result is empty, and a warning says so: the point is too far from the mesh.
+            on which the point lies; None for the vertex nearest to the point that is no wall. A seed outside the ball
+            does not count. If all are outside, the result is empty, and a warning says so: the point is too far away.
         face : if `start` is a point: the face on which it lies, as `closest_point` returns it; its corners are the
             seeds. Prefer this for picks: the nearest vertex may lie on another sheet than the nearest point.
         return_distance : also return the distance of each vertex from `start`: that of the straight line, or with
@@ -127,14 +127,14 @@ class Queries(Held):
             return self._exact.neighborhood(_convert.vertex(start, self._count, "start"), _convert.radius(r))
         check_sort(sort)
         numbers = result_dtype(dtype)
-        center, first, radius, searched = self._asked(start, r, seeds, face, metric, walls, ignored, unit, method)
+        center, seeds, radius, searcher = self._read(start, r, seeds, face, metric, walls, ignored, unit, method)
         distances: Any = None
         if center is not None:
-            indices, distances = _around_point(searched, center, first, radius)
+            indices, distances = _around_point(searcher, center, seeds, radius)
         elif return_distance or sort == "distance":
-            indices, distances = searched.neighborhood_and_distances(int(first[0]), radius)
+            indices, distances = searcher.neighborhood_and_distances(int(seeds[0]), radius)
         else:
-            indices = searched.neighborhood(int(first[0]), radius)
+            indices = searcher.neighborhood(int(seeds[0]), radius)
         if sort is not None:
             indices, distances = sorted_rows(self, sort, np.array([0, len(indices)]), indices, distances)
         return (indices, distances.astype(numbers, copy=False)) if return_distance else indices
@@ -158,10 +158,10 @@ class Queries(Held):
         >>> index.count(42, 0.3) == len(index.neighborhood(42, 0.3))
         True
         """
-        center, first, radius, searched = self._asked(start, r, seeds, face, metric, walls, ignored, unit, method)
+        center, seeds, radius, searcher = self._read(start, r, seeds, face, metric, walls, ignored, unit, method)
         if center is None:
-            return int(searched.count(int(first[0]), radius))
-        return len(_around_point(searched, center, first, radius)[0])
+            return int(searcher.count(int(seeds[0]), radius))
+        return len(_around_point(searcher, center, seeds, radius)[0])
 
     def stroke(
         self,
@@ -181,8 +181,8 @@ class Queries(Held):
 
         points : (n, 3), or (n,) vertices.
         r : one radius, or one for each point.
-        seeds : (n,) or (n, k), those of each point; None for the vertex nearest to each. A warning says that all seeds
-            of a point are farther than its radius.
+        seeds : (n,) or (n, k), those of each point; None for the vertex nearest to each that is no wall. A warning says
+            that all seeds of a point are farther than its radius.
         face : (n,), the face on which each point lies, as `closest_point` returns them; its corners are the seeds.
 
         >>> index = meshhood.MeshIndex(V, F)
@@ -198,15 +198,16 @@ class Queries(Held):
         else:
             centers = _convert.points(given, "points")
             count = len(centers)
-        searched = self._method_for(centers, metric, walls, ignored, wanted="points: expected vertices")
+        index = self._with_masks(walls, ignored)
+        method = index._method_for(centers, metric, wanted="points: expected vertices")
         radii = np.array(np.broadcast_to(_convert.radii(r, count, advice=""), count)) * self._scale(unit, metric)
         if face is not None:
             rows = self._corners_of(face, count, seeds)
         else:
             if seeds is None:
-                seeds = self._exact.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
+                seeds = index._exact.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
             rows = _convert.seed_rows(seeds, count, self._count)
-        indices, has_seeds = searched.stroke(centers, rows, radii)
+        indices, has_seeds = method.stroke(centers, rows, radii)
         _warn_unless(has_seeds or not rows.size, "points: a")
         if by_id:
             indices.sort()
@@ -240,11 +241,11 @@ class Queries(Held):
         True
         >>> counts, ids = index.nested(42, range(3), metric="rings")  # itself, its neighbors, and theirs
         """
-        center, first = self._start(start, seeds, face, "neighborhoods(scales=radii, vertices=...)")
-        searched = self._method_for(center, metric, walls, ignored)
+        meant = "neighborhoods(scales=radii, vertices=...)"
+        center, seeds, method = self._read_start(start, seeds, face, metric, walls, ignored, meant)
         values = _convert.ascending(radii, "radii") * self._scale(unit, metric)
-        counts, ids, has_seed = searched.nested(center, first, values)
-        _warn_unless(has_seed or not len(first), "start: the")
+        counts, ids, has_seed = method.nested(center, seeds, values)
+        _warn_unless(has_seed or not len(seeds), "start: the")
         return Nested(counts, ids)
 
     def contains(
@@ -266,10 +267,9 @@ class Queries(Held):
         >>> meshhood.MeshIndex(V, F).contains(42, 163, 0.3)
         True
         """
-        center, first = self._start(start, seeds, face, "a call for each")
-        searched = self._method_for(center, metric, walls, ignored)
+        center, seeds, method = self._read_start(start, seeds, face, metric, walls, ignored, "a call for each")
         w, r = _convert.vertex(w, self._count, "w"), self._scale(unit, metric) * _convert.radius(r)
-        return bool(searched.contains(center, first, w, r))
+        return bool(method.contains(center, seeds, w, r))
 
     def connecting_radius(
         self,
@@ -291,9 +291,8 @@ class Queries(Held):
         >>> index.contains(42, 77, index.connecting_radius(42, 77))
         True
         """
-        center, first = self._start(start, seeds, face, "a call for each")
-        w = _convert.vertex(w, self._count, "w")
-        return float(self._method_for(center, metric, walls, ignored).connecting_radius(center, first, w))
+        center, seeds, method = self._read_start(start, seeds, face, metric, walls, ignored, "a call for each")
+        return float(method.connecting_radius(center, seeds, _convert.vertex(w, self._count, "w")))
 
     def nearest_connected(
         self,
@@ -314,9 +313,9 @@ class Queries(Held):
         >>> int(ids[0])
         42
         """
-        center, first = self._start(start, seeds, face, "k_nearest(k, vertices), or seeds= around a point")
-        k = _convert.integer(k, "k")
-        return Connected(*self._method_for(center, metric, walls, ignored).nearest_connected(center, first, k))
+        meant = "k_nearest(k, vertices), or seeds= around a point"
+        center, seeds, method = self._read_start(start, seeds, face, metric, walls, ignored, meant)
+        return Connected(*method.nearest_connected(center, seeds, _convert.integer(k, "k")))
 
     @overload
     def nearest(
@@ -335,7 +334,8 @@ class Queries(Held):
 
     def nearest(self, points: Any, *, workers: int = -1, progress: Progress = None) -> Any:
         """The vertex nearest to a point, and its distance: `vertex, distance`. For points (n, 3) or [], two arrays. Of
-        several vertices at the same distance, the one with the smallest id. `workers` and `progress`: see `MeshIndex`.
+        several vertices at the same distance, the one with the smallest id. `masked(walls=...).nearest` leaves out walls.
+        `workers` and `progress`: see `MeshIndex`.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> vertex, distance = index.nearest([0.0, 0.0, 2.0])
@@ -349,25 +349,32 @@ class Queries(Held):
         is_one = _convert.is_point(points, "points")
         return (int(vertices[0]), float(distances[0])) if is_one else (vertices, distances)
 
-    def _asked(
+    def _read(
         self, start: Any, r: Any, seeds: Any, face: Any, metric: Any, walls: Any, ignored: Any, unit: Any, method: Any
     ) -> tuple[Any, Ids, float, Any]:
-        """The center and the seeds, as `_start` returns them, the radius, and the method."""
-        center, first = self._start(start, seeds, face, "neighborhoods(r, vertices)")
-        searched = self._method_for(center, metric, walls, ignored, method)
-        return center, first, self._scale(unit, metric) * _convert.radius(r), searched
+        """The center, the seeds, the radius, and the method."""
+        meant = "neighborhoods(r, vertices)"
+        center, seeds, searcher = self._read_start(start, seeds, face, metric, walls, ignored, meant, method)
+        return center, seeds, self._scale(unit, metric) * _convert.radius(r), searcher
+
+    def _read_start(
+        self, start: Any, seeds: Any, face: Any, metric: Any, walls: Any, ignored: Any, meant: str, method: Any = "exact"
+    ) -> tuple[Any, Ids, Any]:
+        """The center and the seeds, as `_start` returns them, and the method."""
+        index = self._with_masks(walls, ignored)
+        center, seeds = index._start(start, seeds, face, meant)
+        return center, seeds, index._method_for(center, metric, method)
 
     def _method_for(
-        self, center: Any, metric: Any, walls: Any, ignored: Any, method: Any = "exact",
-        wanted: str = "start: expected a vertex",
-    ) -> Any:  # fmt: skip
+        self, center: Any, metric: Any, method: Any = "exact", wanted: str = "start: expected a vertex"
+    ) -> Any:
         """The method for a point, or for a vertex if `center` is None."""
         metric = _convert.choice(metric, "metric", METRICS)
         if center is not None and metric == "rings":
             raise ValueError(f"{wanted} with metric={metric!r}, because a point has no edges")
         if center is not None and not is_exact(method):
             raise ValueError(f"method: {method!r}, expected 'exact' around a point")
-        return self._searched(metric, walls, ignored)._method(method, metric)
+        return self._searched(metric)._method(method, metric)
 
     def _start(self, start: Any, seeds: Any, face: Any, meant: str) -> tuple[tuple[float, float, float] | None, Ids]:
         """The center and the seeds; for a vertex, None and the vertex. `meant`: the call for several vertices."""
@@ -381,13 +388,13 @@ class Queries(Held):
         point = _convert.point(start, "start", meant)
         if face is not None:
             corners = self._corners_of([_convert.integer(face, "face", 0, 2**63 - 1)], 1, seeds)[0]
-            first = corners[corners >= 0]
+            seeds = corners[corners >= 0]
         elif seeds is None:
-            first = self._exact.nearest(point)[0] if self._count else np.empty(0, np.int32)
+            seeds = self._exact.nearest(point)[0] if self._count else np.empty(0, np.int32)
         else:
-            first = _convert.vertices(_convert.listed(seeds, "seeds"), self._count, "seeds", "one vertex, ")
+            seeds = _convert.vertices(_convert.listed(seeds, "seeds"), self._count, "seeds", "one vertex, ")
         x, y, z = point[0]
-        return (float(x), float(y), float(z)), first
+        return (float(x), float(y), float(z)), seeds
 
     def _corners_of(self, face: Any, rows: int, seeds: Any) -> Ids:
         """The corners of each face, a row for each, filled up with -1."""
@@ -404,9 +411,9 @@ class Queries(Held):
         return np.where(places < sizes[:, None], corners[at], np.int32(-1))
 
 
-def _around_point(searched: Any, center: Any, first: Ids, radius: float) -> tuple[Ids, Reals]:
-    ids, distances, has_seed = searched.region(center, first, radius)
-    _warn_unless(has_seed or not len(first), "start: the", stacklevel=4)
+def _around_point(searcher: Any, center: Any, seeds: Ids, radius: float) -> tuple[Ids, Reals]:
+    ids, distances, has_seed = searcher.region(center, seeds, radius)
+    _warn_unless(has_seed or not len(seeds), "start: the", stacklevel=4)
     return ids, distances
 
 
