@@ -110,7 +110,8 @@ void add_unconnected(CLI::App& program) {
                {.name = "unconnected",
                 .description = "Write the nearest vertex of each ball that is not connected in it",
                 .shown = "the distance at the last radius",
-                .needs_faces = false},
+                .needs_faces = false,
+                .takes_space = false},
                unconnected_of);
 }
 

@@ -58,6 +58,7 @@ void connect(const ConnectCommand& options) {
   if (options.targets.empty() == !options.nearest) {
     wrong_option("expected either --to or --nearest");
   }
+  if (options.nearest == std::uint64_t{0}) wrong_option("--nearest: 0, expected at least 1");
   if (options.nearest && options.metric == "space") {
     wrong_option("--nearest: expected another --metric than space, in which nothing is connected");
   }
@@ -83,7 +84,8 @@ void add_connect(CLI::App& program) {
   add_numbers(command, "--to", "vertices to connect; prints each with its radius, or inf if no radius connects it",
               options.targets);
   add_number(command, "--nearest",
-             "instead of --to: the number of vertices to print, in the order of the radii that connect them",
+             "instead of --to: the number of vertices to print, in the order of the radii that connect them; not by "
+             "--metric space",
              options.nearest);
   add_metric(command, options.metric);
   add_json(command, options.json);

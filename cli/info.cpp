@@ -40,7 +40,7 @@ struct Box {
 /// Of the distinct edges, which connect vertices, not positions.
 struct EdgeCounts {
   std::size_t all = 0;
-  std::size_t boundary = 0;     ///< in one face
+  std::size_t border = 0;       ///< in one face
   std::size_t nonmanifold = 0;  ///< in more than two faces
 };
 
@@ -84,7 +84,7 @@ EdgeCounts count_edges(const FacesView& faces) {
   for (auto edge = all.begin(); edge != all.end();) {
     const auto next = std::find_if(edge, all.end(), [&](const auto& other) { return other != *edge; });
     ++counts.all;
-    counts.boundary += next - edge == 1 ? 1 : 0;
+    counts.border += next - edge == 1 ? 1 : 0;
     counts.nonmanifold += next - edge > 2 ? 1 : 0;
     edge = next;
   }
@@ -170,18 +170,21 @@ struct Report {
   }
 };
 
-void add_levels(Report& report, const std::vector<LevelSummary>& levels) {
+/// `has_siblings`: whether those of a cluster are counted on all levels, rather than on that of the leaves alone.
+void add_levels(Report& report, const std::vector<LevelSummary>& levels, bool has_siblings) {
   Json list = Json::array();
   report.text += "level  clusters  mean vertices  mean radius  mean siblings     bytes\n";
   for (const LevelSummary& level : levels) {
+    const bool is_counted = has_siblings || level.level == 0;
     list.push_back({{"level", level.level},
                     {"clusters", level.clusters},
                     {"mean_vertices", level.mean_vertices},
                     {"mean_radius", level.mean_radius},
-                    {"mean_siblings", level.mean_siblings},
+                    {"mean_siblings", is_counted ? Json(level.mean_siblings) : Json()},
                     {"bytes", level.bytes}});
-    report.text += fmt::format("{:5}  {:8}  {:13.2f}  {:11.4g}  {:13.2f}  {:8}\n", level.level, level.clusters,
-                               level.mean_vertices, level.mean_radius, level.mean_siblings, level.bytes);
+    report.text +=
+        fmt::format("{:5}  {:8}  {:13.2f}  {:11.4g}  {:>13}  {:8}\n", level.level, level.clusters, level.mean_vertices,
+                    level.mean_radius, is_counted ? fmt::format("{:.2f}", level.mean_siblings) : "-", level.bytes);
   }
   report.document["levels"] = std::move(list);
 }
@@ -197,14 +200,14 @@ Report report_of(const Index& index) {
     report.document[part] = size;
     report.text += fmt::format("{:<11}  {:9}\n", part, size);
   }
-  add_levels(report, index.levels());
+  add_levels(report, index.levels(), false);
   return report;
 }
 
 Report report_of(const paper::Index& index) {
   const std::size_t bytes = index.bytes().total();
   Report report{{{"bytes", bytes}}, fmt::format("index of the paper: {}\n", bytes_text(static_cast<double>(bytes)))};
-  add_levels(report, index.levels());
+  add_levels(report, index.levels(), true);
   return report;
 }
 
@@ -240,7 +243,7 @@ Report report_of(Input& input, std::size_t components, std::size_t repeated) {
   const std::size_t welded = input.welding().count();
   const std::map<std::size_t, std::size_t> by_corners = polygon_degrees(view.faces);
   const EdgeCounts edges = count_edges(view.faces);
-  const double average_edge = mean_edge_length(input.graph());
+  const double mean_edge = mean_edge_length(input.graph());
   const std::optional<Box> box = bounds(view.positions);
   Json degrees = Json::object();
   for (const auto& [corners, faces] : by_corners) degrees[std::to_string(corners)] = faces;
@@ -256,9 +259,9 @@ Report report_of(Input& input, std::size_t components, std::size_t repeated) {
   report.add("edges", "edges", edges.all);
   report.add("components", "components", components);
   report.add("isolated_vertices", "isolated vertices", count_isolated(view) - welded);
-  report.add("boundary_edges", "boundary edges", edges.boundary);
+  report.add("border_edges", "border edges", edges.border);
   report.add("nonmanifold_edges", "non-manifold edges", edges.nonmanifold);
-  report.add("average_edge", "mean edge length", average_edge, fmt::format("{:.4g}", average_edge));
+  report.add("mean_edge_length", "mean edge length", mean_edge, fmt::format("{:.4g}", mean_edge));
   report.add("repeated_corners", "repeated corners", repeated_corners(view.faces));
   report.add("repeated_positions", "repeated positions", repeated);
   report.document["welded_vertices"] = welded;
@@ -338,9 +341,9 @@ void info(const InfoCommand& options) {
 }  // namespace
 
 void add_info(CLI::App& program) {
-  const auto [command, options] = add_command(
-      program, "info", "Print the size, components, boundary and defects of a mesh, or the size and levels of an index",
-      info);
+  const auto [command, options] =
+      add_command(program, "info",
+                  "Print the size, components, border and defects of a mesh, or the size and levels of an index", info);
   add_file(command, options.reading);
   command.add_flag("--index", options.index, "for a mesh: also build both indexes and print their sizes and levels");
   add_json(command, options.json);

@@ -272,11 +272,10 @@ const Index& Input::exact_index(unsigned threads) {
   if (!exact_) {
     exact_ = mesh_ && !adjacency_ ? build_exact_index(mesh_->view(), threads) : build_exact_index(graph(), threads);
   }
-  const bool has_masks = !masks_.walls.empty() || !masks_.ignored.empty();
-  if (has_masks && !masked_) {
+  if (has_masks() && !masked_) {
     masked_ = meshhood::masked(*exact_, {.walls = masks_.walls, .ignored = masks_.ignored}, {.threads = threads});
   }
-  const Index& index = has_masks ? *masked_ : *exact_;
+  const Index& index = has_masks() ? *masked_ : *exact_;
   if (!change_) return index;
   if (!changed_) changed_ = change_(index, threads);
   return *changed_;

@@ -132,6 +132,7 @@ class Input {
 
   /// What all searches leave out, beside vertices without a position. Before the first use of the index.
   void set_masks(OwnedMasks masks);
+  [[nodiscard]] bool has_masks() const { return !masks_.walls.empty() || !masks_.ignored.empty(); }
   [[nodiscard]] bool is_wall(VertexId v) const { return !masks_.walls.empty() && masks_.walls[v] != 0; }
 
   /// Throws Error{InvalidOption} if a vertex has no position, which only searches of the exact index pass by. `method`

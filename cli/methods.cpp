@@ -2,6 +2,7 @@
 #include "methods.h"
 
 #include <string>
+#include <utility>
 
 #include "meshhood/surface.h"
 
@@ -20,12 +21,14 @@ void add_method(CLI::App& command, MethodOptions& options) {
              {"id", "index", "distance"}, options.sort);
 }
 
-void add_metric(CLI::App& command, std::string& metric) {
+void add_metric(CLI::App& command, std::string& metric, bool takes_space) {
+  std::vector<std::string> names = names_of(kMetrics);
+  if (!takes_space) std::erase(names, "space");
   add_choice(command, "--metric",
-             "of the radius; straight: distances in a straight line; path: lengths of the shortest paths along the "
-             "edges; surface: along edges and over pairs of triangles; rings: numbers of edges; space: all vertices in "
-             "the ball, connected or not",
-             names_of(kMetrics), metric);
+             std::string("of the radius; straight: distances in a straight line; path: lengths of the shortest paths "
+                         "along the edges; surface: along edges and over pairs of triangles; rings: numbers of edges") +
+                 (takes_space ? "; space: all vertices in the ball, connected or not" : ""),
+             std::move(names), metric);
 }
 
 Metric choose_metric(const std::string& name, Input& input) {
@@ -54,11 +57,13 @@ void check_metric(const std::string& name, const std::string& unit) {
 }
 
 void check_method(const MethodOptions& options, const Reading& reading, bool has_masks, const std::string& unit) {
-  if (options.method != "exact" && (!options.is_straight() || has_masks)) {
-    wrong_option("--metric, --walls and --ignored require --method exact");
+  const bool is_exact = options.method == "exact";
+  if (!is_exact && !options.is_straight()) wrong_option("--metric requires --method exact");
+  if (!is_exact && options.method != "ball" && has_masks) {
+    wrong_option("--walls and --ignored require --method exact or ball");
   }
   check_metric(options.metric, unit);
-  if (options.sort == "index" && options.method != "exact") wrong_option("--sort index: expected --method exact");
+  if (options.sort == "index" && !is_exact) wrong_option("--sort index: expected --method exact");
   if (options.method == "ball" && !reading.weld.empty()) {
     wrong_option(
         "--weld: expected another --method than ball, which knows no faces, so that welding has no effect on it");
@@ -69,9 +74,11 @@ SearchMethod method_of(const MethodOptions& options, Input& input, const paper::
                        unsigned threads) {
   const std::string& name = options.method;
   if (!options.is_straight()) input.need_edges("--metric " + options.metric);
-  if (name == "exact" || name == "bfs") input.need_edges("--method " + name);
-  if (name != "exact") input.need_positions("--method " + name);
+  const bool is_by_index = name == "exact" || (name == "ball" && input.has_masks());  // a scan knows no masks
+  if (is_by_index || name == "bfs") input.need_edges("--method " + name);
+  if (!is_by_index) input.need_positions("--method " + name);
   if (name == "bfs") return SearchMethod::breadth_first(input.graph());
+  if (name == "ball" && is_by_index) return SearchMethod(input.exact_index(threads)).by(Metric::Space);
   if (name == "ball") return SearchMethod::ball_scan(input.positions());
   if (name == "paper") return {input.paper_index(), settings};
   return input.exact_index(threads);

@@ -33,8 +33,8 @@ struct MethodOptions {
 /// --method, --metric and --sort.
 void add_method(CLI::App& command, MethodOptions& options);
 
-/// --metric alone, of a command that always searches by the index.
-void add_metric(CLI::App& command, std::string& metric);
+/// --metric alone, of a command that always searches by the index. What asks for connections does not take space.
+void add_metric(CLI::App& command, std::string& metric, bool takes_space = true);
 
 /// The metric by which the index of the input then searches, which this may change: before it is first used. Throws
 /// Error{InvalidOption} if the metric needs faces, and the input has none.

@@ -217,7 +217,7 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<con
   return answers;
 }
 
-/// The answers that the methods do not give: from a point, with masks, in another metric, for several radii.
+/// The answers that only the exact method gives: from a point, with masks, in another metric, for several radii.
 std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<const QueryStart> starts,
                                       std::span<const double> radii, Input& input) {
   input.need_edges("this query");
@@ -271,9 +271,10 @@ void query_command(const QueryCommand& options) {
   Input input(options.reading);
   const std::vector<QueryStart> starts = starts_of(options.start, options.search.metric, input);
   const std::vector<double> radii = ascending_radii(options, input);
-  const std::vector<Answer> answers = options.start.is_plain() && options.search.is_straight() && radii.size() == 1
-                                          ? answers_of_method(options, starts, radii.front(), input)
-                                          : answers_of_starts(options, starts, radii, input);
+  const bool is_of_method = options.search.method != "exact" ||
+                            (options.start.is_plain() && options.search.is_straight() && radii.size() == 1);
+  const std::vector<Answer> answers = is_of_method ? answers_of_method(options, starts, radii.front(), input)
+                                                   : answers_of_starts(options, starts, radii, input);
   if (options.is_painted()) paint(options, input, answers);
   if (options.output.is_csv()) write_answers(options, radii, answers);
   print(options, radii, answers);

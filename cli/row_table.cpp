@@ -359,7 +359,7 @@ void add_quantity(CLI::App& program, const QuantityName& name, const std::shared
   options.quantity = quantity;
   name.needs_faces ? add_surface(command, options.reading) : add_file(command, options.reading);
   add_rows(command, options.rows);
-  if (!name.of_patch) add_metric(command, options.rows.metric);
+  if (!name.of_patch) add_metric(command, options.rows.metric, name.takes_space);
   quantity->add_options(command);
   add_files(command, options.files, name.shown);
   if (name.of_patch) add_points(command, options.rows.points);

@@ -216,6 +216,7 @@ struct QuantityName {
   std::string shown;        ///< the value that programs show at once, for the help
   bool needs_faces = true;  ///< otherwise edges
   bool of_patch = false;    ///< not of a set of vertices: --points, and no --metric
+  bool takes_space = true;  ///< as --metric
 };
 
 /// Adds the command `name`.

@@ -63,10 +63,8 @@ class Question:
         return [self.files.radii[row] * self.unit] if "--radii" in self.run.asked else self.radii
 
     def neighborhood(self, v, r):
-        if self.method == "ball":
-            squared = self.mesh.squared(self.mesh.V[v])
-            return {int(w): math.sqrt(squared[w]) for w in np.flatnonzero(squared <= r * r)}
-        return self.mesh.neighborhood(v, r, self.metric, self.walls, self.ignored, self.point, self.seeds)
+        metric = "space" if self.method == "ball" else self.metric
+        return self.mesh.neighborhood(v, r, metric, self.walls, self.ignored, self.point, self.seeds)
 
     def in_order(self, found):
         """Sorted as --sort says."""
@@ -572,7 +570,7 @@ def figures(mesh):
         left -= set(mesh.neighborhood(min(left), math.inf))
         components += 1
     welded = mesh.kept != np.arange(len(mesh.V))
-    return {"faces": len(mesh.offsets) - 1, "components": components, "boundary_edges": int((faces_of_side == 1).sum()),
+    return {"faces": len(mesh.offsets) - 1, "components": components, "border_edges": int((faces_of_side == 1).sum()),
             "nonmanifold_edges": int((faces_of_side > 2).sum()), "welded_vertices": int(welded.sum()),
             "repeated_positions": len(mesh.V) - len(np.unique(mesh.V, axis=0))}
 
