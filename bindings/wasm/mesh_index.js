@@ -243,7 +243,7 @@ export class MeshIndex extends Owner {
   nearestConnected(start, k, options = {}) {
     const search = withDefaults(options, SEARCH);
     expectSize(k, 'k', Infinity);
-    const most = Math.min(k, this.#vertexCount);
+    const most = Math.min(k, 2 ** 32 - 1); // a size of the module
     this.#search(start, search, () => this.instance.call('nearest_connected', most));
     return { ids: this.instance.takeIds(), radii: this.instance.takeReals() };
   }

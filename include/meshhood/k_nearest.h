@@ -34,7 +34,7 @@ struct KNearest {
   std::vector<double> distances;  ///< by the metric; infinite there
 };
 
-/// The `k` nearest connected vertices of each of `vertices`, itself included; fewer where no more are connected.
+/// The `k` >= 1 nearest connected vertices of each of `vertices`, itself included; fewer where no more are connected.
 ///
 /// The row of a wall is empty. A row depends on the index, its vertex, `k` and the options alone, and begins with the
 /// row for any smaller `k`. O(k log k) a row on most surfaces. Each thread owns a search of the metric; straight, rows

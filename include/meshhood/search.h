@@ -111,8 +111,8 @@ struct Dab {
 /// copy of the graph, which the index keeps: 4 bytes per vertex and 4 for each of its neighbors, which `Index::bytes`
 /// does not count. The query that makes it takes O(#V + #E).
 ///
-/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed, the coordinate or the dab; arguments
-/// are then unchanged. A point as a start by rings is an InvalidOption, because a point has no edges; so is
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed, the coordinate, the dab or `k`;
+/// arguments are then unchanged. A point as a start by rings is an InvalidOption, because a point has no edges; so is
 /// `nearest_connected` in space, where nothing is connected.
 class Searcher {
  public:
@@ -179,7 +179,7 @@ class Searcher {
   /// Costs about as much as the neighborhood of the result.
   [[nodiscard]] double connecting_radius(const Start& start, Vertex w);
 
-  /// The `k` nearest connected vertices: the first `k`, ordered by connecting radius; straight, then by distance from
+  /// The `k` >= 1 nearest connected vertices: the first, ordered by connecting radius; straight, then by distance from
   /// the center, then by id; else then by place in index order. So the answer for a smaller `k` is the beginning of
   /// that for a larger one. Fewer than `k` if no more are connected.
   ///

@@ -23,7 +23,8 @@ concept VertexHandle = std::is_class_v<Handle> && requires(const Handle& handle)
 /// point number is one.
 class Vertex {
  public:
-  /// One that no `VertexId` can name is refused by the call, as the largest of them, which no mesh has.
+  /// An integer that no `VertexId` can hold becomes `kNoVertex`, which every call refuses; the message then names
+  /// 4294967295.
   template <std::integral Integer>
     requires(!std::same_as<Integer, bool>)
   Vertex(Integer v) : id_(std::in_range<VertexId>(v) ? static_cast<VertexId>(v) : kNoVertex) {}

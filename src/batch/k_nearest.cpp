@@ -248,6 +248,7 @@ KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_
 void k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k, const BatchAllocator& allocate,
                const NearestOptions& options, const Run& run) {
   NearestRows rows(index, vertices, options, run);
+  check_k(k);
   if (rows.size() != 0 && k > kMostValues / rows.size()) {
     raise(ErrorCode::TooLarge, "k: " + std::to_string(k) + " vertices for each of " + std::to_string(rows.size()) +
                                    " rows, expected at most " + std::to_string(kMostValues) + " in all");
@@ -255,7 +256,6 @@ void k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k,
   const SizeLimit limit(run.max_bytes, kItemBytes, rows.size());
   if (rows.size() * k > limit.max_items()) limit.refuse("", rows.size() * k);
   const BatchMemory memory = allocated(allocate, rows.size() * k, true);
-  if (k == 0) return;
   for_each_row(index, rows, [&](auto& search, std::size_t row) {
     const std::span<VertexId> ids = memory.ids.subspan(row * k, k);
     const std::span<double> distances = memory.distances.subspan(row * k, k);

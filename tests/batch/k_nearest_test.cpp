@@ -174,6 +174,11 @@ TEST(KNearest, RefusesWrongArguments) {
   wrong[3] = -1;
   expect_refused(ErrorCode::VertexOutOfRange, "row 1: vertex 16", [&] { return k_nearest(index, vertices, 3); });
   expect_refused(ErrorCode::InvalidRadius, "-2", [&] { return k_nearest(index, {}, 3, {.radius = -2}); });
+  std::vector<VertexId> ids;
+  std::vector<double> radii;
+  expect_refused(ErrorCode::InvalidOption, "k: 0, expected at least 1", [&] { return k_nearest(index, {}, 0); });
+  expect_refused(ErrorCode::InvalidOption, "k: 0, expected at least 1",
+                 [&] { Searcher(index).nearest_connected(0, 0, ids, radii); });
   expect_refused(ErrorCode::TooLarge, "rows, expected at most",
                  [&] { return k_nearest(index, {}, std::numeric_limits<std::size_t>::max() / 4); });
   expect_refused(ErrorCode::InvalidOption, "area: 0", [&] { return discs(index, {}, 0, areas); });

@@ -337,6 +337,9 @@ test('the nearest of many vertices are those of each, by connecting radius and b
   assert.equal(index.kNearest(2).ids.length, 2 * count);
   assert.deepEqual([...index.kNearest(3, { vertices: one, metric: 'rings' }).distances], [0, 1, 1]);
   assert.throws(() => index.kNearest(3, { r: -1 }), { code: 'InvalidRadius' });
+  const none = { code: 'InvalidOption', message: 'k: 0, expected at least 1' };
+  assert.throws(() => index.kNearest(0), none);
+  assert.throws(() => index.nearestConnected(400, 0), none);
   assert.throws(() => index.kNearest(null), { name: 'TypeError', message: /^k: null, expected a whole number/ });
 });
 
@@ -425,6 +428,6 @@ test('words that contradict each other are refused', () => {
   assert.throws(() => index.counts(1, { walls: [1] }), TypeError);
   assert.throws(() => index.counts(1, { walls, method: 'bfs' }), { code: 'InvalidOption' });
   assert.throws(() => index.counts(1, { metric: 'rings', unit: 'edge' }), { code: 'InvalidOption', message: /^unit/ });
-  assert.throws(() => index.neighborhood(5, 1, { sort: true }), { code: 'InvalidOption', message: /^sort: 'true'/ });
+  assert.throws(() => index.neighborhood(5, 1, { sort: true }), { code: 'InvalidOption', message: /^sort: true/ });
   assert.equal(index.count(400, 0), 1);
 });

@@ -57,6 +57,10 @@ void check_ascending(std::span<const double> radii) {
   }
 }
 
+void check_k(std::size_t k) {
+  if (k == 0) raise(ErrorCode::InvalidOption, "k: 0, expected at least 1");
+}
+
 void check_connects(Metric metric) {
   if (metric != Metric::Space) return;
   raise(ErrorCode::InvalidOption, "metric: expected another than space, in which nothing is connected");

@@ -34,6 +34,9 @@ void check_start(const Start& start, std::size_t vertices, std::string_view wher
 /// Error{InvalidRadius} unless the radii are valid and strictly ascend.
 void check_ascending(std::span<const double> radii);
 
+/// Error{InvalidOption} unless `k`, how many vertices are wanted, is at least 1.
+void check_k(std::size_t k);
+
 /// Error{InvalidOption} in space, of a question about what is connected.
 void check_connects(Metric metric);
 

@@ -161,9 +161,10 @@ double Searcher::connecting_radius(const Start& start, Vertex w) {
 void Searcher::nearest_connected(const Start& start, std::size_t k, std::vector<VertexId>& out,
                                  std::vector<double>& radii) {
   queries_->check(start);
+  check_k(k);
   std::vector<VertexId> ids;
   std::vector<double> found_radii;
-  if (k > 0) queries_->nearest(start, k, ids, found_radii);
+  queries_->nearest(start, k, ids, found_radii);
   out = std::move(ids);
   radii = std::move(found_radii);
 }
