@@ -10,10 +10,14 @@ function refuseOption(name, known) {
   throw new TypeError(`unknown option '${name}', ${hint}`);
 }
 
+/** In a message: an object by its type, for an array may have millions of numbers. */
+function shown(value) {
+  if (typeof value === 'string') return `'${value}'`;
+  return typeof value === 'object' && value !== null ? value.constructor?.name ?? 'object' : String(value);
+}
+
 function refuseType(value, name, expected) {
-  const kind = typeof value === 'object' && value !== null ? value.constructor?.name ?? 'object' : String(value);
-  const found = typeof value === 'string' ? `'${value}'` : kind;
-  throw new TypeError(`${name}: ${found}, expected ${expected}`);
+  throw new TypeError(`${name}: ${shown(value)}, expected ${expected}`);
 }
 
 /** The option of long calls. */
@@ -41,7 +45,7 @@ export function choose(choices, value, name) {
   const place = choices.indexOf(value);
   if (place >= 0) return place;
   const expected = choices.map((choice) => `'${choice}'`).join(', ');
-  throw new MeshhoodError('InvalidOption', `${name}: '${value}', expected one of ${expected}`);
+  throw new MeshhoodError('InvalidOption', `${name}: ${shown(value)}, expected one of ${expected}`);
 }
 
 /** The places of one name, or of several. */
@@ -63,7 +67,7 @@ export function expectBytes(value, name) {
 
 /** `count` is that of the mesh. */
 export function expectVertex(v, count) {
-  if (!Number.isInteger(v)) throw new TypeError(`vertex ${String(v)}, expected a whole number`);
+  if (!Number.isInteger(v)) throw new TypeError(`vertex ${shown(v)}, expected a whole number`);
   if (v >= 0 && v < count) return;
   throw new MeshhoodError('VertexOutOfRange', `vertex ${v}, but the mesh has ${count} vertices`);
 }
@@ -73,7 +77,7 @@ export function expectVertices(vertices, name) {
 }
 
 export function expectNumber(value, name) {
-  if (typeof value !== 'number') throw new TypeError(`${name} ${String(value)}, expected a number`);
+  if (typeof value !== 'number') throw new TypeError(`${name} ${shown(value)}, expected a number`);
 }
 
 /** By default, what the module takes: sizes have 32 bits there. */

@@ -2,7 +2,7 @@
 import { PROGRESS, choose, expectBytes, withDefaults } from './arguments.js';
 import { Instance } from './instance.js';
 
-const FORMATS = ['ply', 'obj', 'off', 'stl'];
+const FORMATS = ['ply', 'obj', 'off', 'stl', 'vtk', 'freesurfer'];
 const PRECISIONS = ['file', 'float', 'double'];
 
 const READING = { precision: 'file', strict: false, ...PROGRESS };

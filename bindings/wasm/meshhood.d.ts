@@ -89,7 +89,7 @@ export interface SurfacePoint {
 
 /** The triangles or polygons of a file, in the numbering of the file. */
 export interface Mesh {
-  format: 'ply' | 'obj' | 'off' | 'stl';
+  format: 'ply' | 'obj' | 'off' | 'stl' | 'vtk' | 'freesurfer';
   /** #V by 3, row by row. */
   positions: Float32Array | Float64Array;
   /** See `Faces`. */
@@ -251,8 +251,8 @@ export interface RowOptions extends Masks, MetricOptions {
 /** A radius, or one for each row. */
 export type Radii = number | Float64Array | Float32Array;
 
-/** Parts that contain each other: part i is `ids[0]` to `ids[counts[i] - 1]`. */
-export interface Rings {
+/** The neighborhoods of several radii, each vertex once: that of radius i is `ids[0]` to `ids[counts[i] - 1]`. */
+export interface Nested {
   counts: Uint32Array;
   ids: Uint32Array;
 }
@@ -353,7 +353,7 @@ export interface CurvatureOptions extends RowOptions, Scales {
   filter?: boolean;
 }
 
-/** What describes a neighborhood without unit. docs/curvature.md explains each. */
+/** What describes a neighborhood without unit, in the words of Python; docs/curvature.md explains each. */
 export type Kind =
   | 'crease' | 'mean' | 'gaussian' | 'k1' | 'k2' | 'curvedness' | 'shape_index' | 'area' | 'volume' | 'gap'
   | 'height' | 'variation';
@@ -565,7 +565,7 @@ export class MeshIndex {
     start: Start,
     radii: Float64Array | Float32Array,
     options?: StartOptions & { unit?: Unit },
-  ): Rings;
+  ): Nested;
 
   /** Whether the neighborhood of a start has vertex w. */
   contains(start: Start, w: number, r: number, options?: StartOptions & { unit?: Unit }): boolean;
@@ -578,8 +578,8 @@ export class MeshIndex {
   connectingRadius(start: Start, w: number, options?: StartOptions): number;
 
   /**
-   * The k nearest connected vertices and their connecting radii, which ascend; of equal radius, in the order of their
-   * distances from the start, then of their ids; by path or rings, in index order. Fewer if no more are connected.
+   * The k >= 1 nearest connected vertices and their connecting radii, which ascend; of equal radius, in the order of
+   * their distances from the start, then of their ids; by path or rings, in index order. Fewer if no more are connected.
    */
   nearestConnected(start: Start, k: number, options?: StartOptions): { ids: Uint32Array; radii: Float64Array };
 
@@ -587,9 +587,8 @@ export class MeshIndex {
   nearest(point: Exclude<Start, number>, options?: Pick<Masks, 'walls'>): { vertex: number; distance: number };
 
   /**
-   * The point of the surface nearest to a point in space. Its triangle has the corners 0, i and i + 1 of the face, whose
-   * vertices are the seeds of a neighborhood there. Of several faces at the same distance, the one with the smallest
-   * number.
+   * The point of the surface nearest to a point in space. Its triangle is one of those that cover the face; its vertices
+   * are the seeds of a neighborhood there. Of several faces at the same distance, the one with the smallest number.
    *
    * @throws MeshhoodError InvalidMesh, InvalidOption
    */
@@ -616,8 +615,8 @@ export class MeshIndex {
   counts(r: Radii | null, options?: RowOptions & QueryOptions & Scales): Uint32Array;
 
   /**
-   * The k nearest connected vertices of each vertex, itself included: #rows by k. Where a row has fewer, the distance is
-   * Infinity and the id 2^32 - 1. Distances are connecting radii, path lengths or numbers of edges.
+   * The k >= 1 nearest connected vertices of each vertex, itself included: #rows by k. Where a row has fewer, the
+   * distance is Infinity and the id 2^32 - 1. Distances are connecting radii, path lengths or numbers of edges.
    */
   kNearest(k: number, options?: NearestOptions): { ids: Uint32Array; distances: Float64Array };
 

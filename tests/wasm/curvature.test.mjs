@@ -88,6 +88,14 @@ test('smoothing is the mean by a Gaussian', () => {
   assert.deepEqual(smooth, index.aggregate(signal, 4 * 1.5784315224822145, { kernel: 'gaussian' }));
   assert.deepEqual(index.smooth(Float32Array.from(signal, () => 2), 4), new Float64Array(signal.length).fill(2));
   assert.throws(() => index.smooth(signal, NaN), { code: 'InvalidRadius' });
+  for (const [call, message] of [
+    [() => index.smooth(signal, signal), 'fwhm Float64Array, expected a number'],
+    [() => index.count(signal, 1, { unit: 'mesh' }), 'start: expected a vertex or three numbers'],
+    [() => index.contains(1, [...signal], 1), 'vertex Array, expected a whole number'],
+    [() => index.smooth(signal, 4, { unit: signal }), "unit: Float64Array, expected one of 'mesh', 'edge'"],
+  ]) {
+    assert.throws(call, { message });
+  }
 });
 
 test('a sphere has the curvature of its radius', () => {

@@ -106,10 +106,25 @@ test('a vertex of NaN in no face is a wall that calls may take', () => {
   assert.equal(readMesh(toPly(polygons(50, 20)), 'p.ply').walls, null);
 });
 
+test('a mesh says the format of its file', () => {
+  const numbers = Buffer.alloc(56); // of FreeSurfer: 3 vertices, 1 face, both as arrays
+  [3, 1].forEach((count, i) => numbers.writeInt32BE(count, 4 * i));
+  [0, 0, 0, 1, 0, 0, 0, 1, 0].forEach((x, i) => numbers.writeFloatBE(x, 8 + 4 * i));
+  [0, 1, 2].forEach((v, i) => numbers.writeInt32BE(v, 44 + 4 * i));
+  const files = {
+    ply: toPly(polygons(50, 20)),
+    obj: 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n',
+    off: 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n',
+    stl: 'solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n',
+    vtk: '# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n',
+    freesurfer: Buffer.concat([Buffer.from('\xff\xff\xfecreated by\n\n', 'latin1'), numbers]),
+  };
+  for (const [format, file] of Object.entries(files)) assert.equal(readMesh(Buffer.from(file), 'a').format, format);
+});
+
 test('polygons, precision and warnings of a file', () => {
   const mesh = polygons(50, 20);
   const read = readMesh(toPly(mesh), 'p.ply');
-  assert.equal(read.format, 'ply');
   assert.ok(read.positions instanceof Float64Array);
   assert.deepEqual(read.offsets, mesh.offsets);
   assert.ok(readMesh(toPly(mesh), 'p.ply', { precision: 'float' }).positions instanceof Float32Array);
