@@ -334,7 +334,7 @@ class Queries(Held):
 
     def nearest(self, points: Any, *, workers: int = -1, progress: Progress = None) -> Any:
         """The vertex nearest to a point, and its distance: `vertex, distance`. For points (n, 3) or [], two arrays. Of
-        several vertices at the same distance, the one with the smallest id. `masked(walls=...).nearest` leaves out walls.
+        several vertices at the same distance, the one with the smallest id. To leave out walls, use `masked(walls=...)`.
         `workers` and `progress`: see `MeshIndex`.
 
         >>> index = meshhood.MeshIndex(V, F)
@@ -358,8 +358,9 @@ class Queries(Held):
         return center, seeds, self._scale(unit, metric) * _convert.radius(r), searcher
 
     def _read_start(
-        self, start: Any, seeds: Any, face: Any, metric: Any, walls: Any, ignored: Any, meant: str, method: Any = "exact"
-    ) -> tuple[Any, Ids, Any]:
+        self, start: Any, seeds: Any, face: Any, metric: Any, walls: Any, ignored: Any, meant: str,
+        method: Any = "exact",
+    ) -> tuple[Any, Ids, Any]:  # fmt: skip
         """The center and the seeds, as `_start` returns them, and the method."""
         index = self._with_masks(walls, ignored)
         center, seeds = index._start(start, seeds, face, meant)
