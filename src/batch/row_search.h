@@ -132,7 +132,7 @@ class RowSearch {
   /// Whether rows are written from their pieces and counts alone, by a `RowWriter`.
   [[nodiscard]] virtual bool writes_pieces(bool distances) const = 0;
 
-  /// Writes the rows of the last run, else. Returns false as soon as the receiver does.
+  /// Writes the rows of the last run if `writes_pieces` is false. Returns false as soon as the receiver does.
   virtual bool write(std::span<const BatchItem> /*items*/, bool /*distances*/, RowReceiver& /*receiver*/) {
     assert(false);
     return false;
