@@ -110,8 +110,8 @@ double PatchSums::area(const PatchBall& ball) const {
   return (area_ + times_power(cut_area_, r * r)) / ball.scale / ball.scale;
 }
 
-/// The volume is not negative. Where it would be, the area behind is larger by all of the sphere, which differs from 0
-/// by nothing that the arcs tell.
+/// The arcs tell the area behind up to all of the sphere, and so the volume up to that of the ball. It is neither
+/// negative nor larger than the ball, which a surface that intersects itself might enclose more than once.
 ///
 /// Below 0 by no more than its error it is 0. A term of the moment is the area of a triangle times a part of the offset
 /// of a corner from the center, which is at most the radius, and less than 4 in the frame. So its error is a few 2^-53
@@ -125,7 +125,10 @@ double PatchSums::volume(const PatchBall& ball) const {
   const double area = area_ + times_power(cut_area_, r * r);
   const double moment = moment_ + times_power(cut_moment_, r * r * r);
   double triple = moment + times_power(rim_.empty() ? 0 : rim_.area_behind(), r * r * r);
-  if (triple < -kSlack * area * std::min(r, 4.0)) triple += times_power(4 * std::numbers::pi, r * r * r);
+  const double ball_triple = times_power(4 * std::numbers::pi, r * r * r);
+  const double slack = kSlack * area * std::min(r, 4.0);
+  if (std::abs(triple) > ball_triple + slack) triple = std::fmod(triple, ball_triple);
+  if (triple < -slack) triple += ball_triple;
   return std::max(0.0, triple) / 3 / ball.scale / ball.scale / ball.scale;
 }
 

@@ -17,6 +17,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "meshhood/features.h"
 #include "meshhood/index.h"
 #include "meshhood/masks.h"
 #include "meshhood/refit.h"
@@ -633,6 +634,37 @@ TEST(Patch, OfACavityIsTheBallWithoutIt) {
   const double large = 1e13;
   EXPECT_NEAR(cavity.measure(0, large).volume / (4 * kPi / 3 * large * large * large), 1, 1e-12);
   cavity.expect_same(0, cavity.reference.around_vertex(0, large), large);
+}
+
+/// A body whose neck is twisted by half a turn above the start, so that its tip is inside out. What is left of the tip
+/// beyond the ball vanishes as the radius grows.
+TEST(Patch, OfASurfaceThatIntersectsItselfStaysInTheBall) {
+  TestMesh mesh;
+  for (const auto& [x, y, z] : {std::array{0.0, 0.0, -1.0},
+                                {0.5, 0.0, 0.0},
+                                {-0.25, 0.4, 0.0},
+                                {-0.25, -0.4, 0.0},
+                                {0.2, 0.0, 1.0},
+                                {-0.1, -0.16, 1.0},
+                                {-0.1, 0.16, 1.0},
+                                {0.0, 0.0, 1.5}}) {
+    mesh.add_vertex(x, y, z);
+  }
+  for (const auto& [a, b] : {std::pair{1U, 2U}, {2U, 3U}, {3U, 1U}}) {
+    mesh.add_face({0, b, a});
+    mesh.add_face({a, b, b + 3});
+    mesh.add_face({a, b + 3, a + 3});
+    mesh.add_face({a + 3, b + 3, 7});
+  }
+  Case spike(mesh.finish(false));
+  const double whole = spike.measure(0, kInfinity).volume;
+  for (const double r : {2.1, 2.2, 2.3, 2.4, 2.49, 2.499999, 2.5, 3.0}) {
+    SCOPED_TRACE(r);
+    const std::vector<double> row = features(spike.surface, {.radius = r}, {.kinds = {Feature::Volume}});
+    EXPECT_NEAR(row[0] * 4 * kPi / 3 * r * r * r, spike.measure(0, r).volume, 1e-12);
+    EXPECT_NEAR(spike.measure(0, r).volume, whole, r < 2.4999 ? 0.01 : 1e-9);
+    spike.expect_same(0, spike.reference.around_vertex(0, r), r);
+  }
 }
 
 /// A side through n + k u, for an integer k, where n and u are orthogonal: it touches the sphere of the radius |n|, and

@@ -172,7 +172,10 @@ class PatchReference {
     const Real sphere = 4 * kPi;
     const Real solid = sums.has_rim ? -sums.solid - sphere * std::floor(Real(1e-14) - sums.solid / sphere) : 0;
     Real tripled = sums.moment + radius * radius * radius * solid;
-    if (tripled < Real(-0x1p-40) * sums.area * std::min(radius, farthest)) tripled += radius * radius * radius * sphere;
+    const Real ball = radius * radius * radius * sphere;
+    const Real slack = Real(0x1p-40) * sums.area * std::min(radius, farthest);
+    if (std::abs(tripled) > ball + slack) tripled = std::fmod(tripled, ball);
+    if (tripled < -slack) tripled += ball;
     answer.volume = has_border ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(tripled / 3);
     return answer;
   }
