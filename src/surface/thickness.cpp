@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::size_t kRowsOfTask = 256;
 
-// The first ball reaches as far as the frame.
+// Of the first ball, in the frame: more than the diagonal of any surface, beyond which no ball counts.
 constexpr double kFirstRadius = 4;
 
 // Times the largest coordinate, or the extent of the mesh: what is not farther is at the same place, up to rounding.
@@ -107,7 +107,8 @@ class OppositeSide {
     return has_normal() ? way_to_first([](std::size_t) { return true; }) : kNan;
   }
 
-  [[nodiscard]] double by_sphere(const NormalCones& cones) const {
+  /// Infinite if the ball has a radius above `most`, in the frame.
+  [[nodiscard]] double by_sphere(const NormalCones& cones, double most) const {
     if (!has_normal()) return kNan;
     const double scale = index_->frame.scale;
     const double way = way_to_first([&](std::size_t i) { return opposes(i); });
@@ -123,8 +124,7 @@ class OppositeSide {
     };
     while (walk.advance(shrink, [](std::size_t) {}, enters)) {
     }
-    const bool is_met = way < kInfinity || ball.radius() < first;
-    return is_met ? 2 * ball.radius() / scale : kInfinity;
+    return ball.radius() <= most ? 2 * ball.radius() / scale : kInfinity;
   }
 
  private:
@@ -199,10 +199,12 @@ std::vector<double> measure_rows(const SurfaceState& state, std::size_t rows, Th
                                  SlotOf&& slot_of, SpotOf&& spot_of) {
   const FaceTree& tree = state.tree(task);
   const NormalCones* const cones = method == ThicknessMethod::Sphere ? &state.cones(task) : nullptr;
+  const BoundingBox box = tree.boxes().box();
+  const double diagonal = length(box.high - box.low);
   std::vector<double> result(rows);
   for_each_by_position(rows, kRowsOfTask, slot_of, task, [&](unsigned thread, std::size_t row) {
     const OppositeSide side(*state.index, tree, spot_of(row));
-    result[row] = cones == nullptr ? side.by_ray() : side.by_sphere(*cones);
+    result[row] = cones == nullptr ? side.by_ray() : side.by_sphere(*cones, diagonal);
     task.advance(thread, 1);
   });
   return result;

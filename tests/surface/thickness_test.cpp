@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/index.h"
+#include "meshhood/refit.h"
 #include "meshhood/surface.h"
 
 #include "support/indexed.h"
@@ -368,6 +369,40 @@ TEST(Thickness, IsInfiniteWhereNothingIsOppositeAndNanWithoutANormal) {
     const std::vector<double> found = measure(mesh, method);
     EXPECT_EQ(found[0], kInfinity);
     EXPECT_TRUE(std::isnan(found[alone]));
+  }
+}
+
+/// Two triangles whose ball is larger than the diagonal, or smaller if the second is lower. Neither the unit, nor a
+/// vertex in no face, nor where that was before a refit decides whether the ball counts.
+TEST(Thickness, BySphereIsInfiniteBeyondTheDiagonalOfTheFaces) {
+  const auto make = [](double rise, double unit, double alone) {
+    TestMesh mesh;
+    for (const auto& [x, y, z] : {std::array{0.0, 0.0, 0.0},
+                                  {-0.3, 0.2, 0.0},
+                                  {-0.3, -0.2, 0.0},
+                                  {6.0, 0.0, -rise},
+                                  {6.4, 0.3, -rise},
+                                  {6.4, -0.3, -rise},
+                                  {alone, 0.0, 0.0}}) {
+      mesh.add_vertex(unit * x, unit * y, unit * z);
+    }
+    mesh.add_face({0, 1, 2});
+    mesh.add_face({3, 4, 5});
+    return mesh.finish(false);
+  };
+  for (const auto& [rise, thick] : {std::pair(1.0, kInfinity), {4.0, 13.0}}) {
+    for (const double unit : {1.0, 1.2, 1.7, 2.0, 1e9}) {
+      for (const double alone : {0.0, 9.0, 1000.0}) {
+        const TestMesh mesh = make(rise, unit, alone);
+        const Index fresh = build(mesh.view());
+        const std::vector<VertexId> last{6};
+        const Index moved = refit(indexed(make(rise, unit, 10)).index, mesh.positions_view(), last);
+        for (const Index* index : {&fresh, &moved}) {
+          const double found = thickness(Surface(*index, mesh.view().faces), {}, ThicknessMethod::Sphere)[0] / unit;
+          EXPECT_TRUE(found == thick || std::abs(found - thick) < 1e-9) << found << ", " << unit << ", " << alone;
+        }
+      }
+    }
   }
 }
 

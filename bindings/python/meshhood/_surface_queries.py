@@ -261,8 +261,9 @@ class SurfaceQueries(Held):
 
         Faces with the vertex as a corner do not count. For a point, its face does not count, nor does another face that
         has the point on a side, up to rounding: at a sharp edge, the ball is as large as the rest of the surface allows.
-        The thickness is inf where nothing else is met, and NaN for a vertex without a normal or a face without an area.
-        A call for several rows warns if more than half are inf.
+        The thickness is inf where nothing else is met, or the radius of the ball exceeds the diagonal of the box around
+        the faces, and NaN for a vertex without a normal or a face without an area. A call for several rows warns if more
+        than half are inf.
 
         >>> across = meshhood.MeshIndex(V, F).thickness()
         >>> bool((abs(across - 2) < 0.02).all())  # of the unit sphere
