@@ -117,7 +117,7 @@ PerLane<double> filled(double number) {
 /// These weights are polynomials of the square of the distance, so the sum over a node follows from moments of the
 /// values over the node (see `AggregateKernels::add_moments`).
 struct KernelSums {
-  /// Marks the nodes of which few values are much larger than the others.
+  /// Marks the nodes of which few values are much larger than the others, or one is infinite.
   void mark_uneven(const Column& column);
 
   const IndexView* index;
@@ -126,10 +126,12 @@ struct KernelSums {
   bool squared;
   std::vector<std::vector<Moments>> moments = {};  // by column, then by node
   std::vector<bool> uneven = {};                   // by node, in one of the columns
+  std::vector<bool> infinite = {};                 // likewise; their moments are NaN
 };
 
 void KernelSums::mark_uneven(const Column& column) {
   uneven.resize(tree->size());
+  infinite.resize(tree->size());
   for (NodeTree::Node node = 0; node < tree->size(); ++node) {
     const VertexRange vertices = tree->vertices(node);
     const auto values = std::span(column).subspan(vertices.begin, vertices.size());
@@ -138,6 +140,7 @@ void KernelSums::mark_uneven(const Column& column) {
     std::size_t small = 0;
     for (const double value : values) small += static_cast<std::size_t>(std::abs(value) < largest / kUneven);
     if (2 * small > values.size()) uneven[node] = true;
+    if (std::isinf(largest)) infinite[node] = true;
   }
 }
 
@@ -212,7 +215,7 @@ class KernelSumReducer final : public PacketReducer {
   }
 
   void add_node(NodeTree::Node node, QueryWord queries) {
-    QueryWord inner = queries & with_moments_for(node);
+    QueryWord inner = tables_->infinite[node] ? 0 : queries & with_moments_for(node);
     if (inner != 0) {
       kernels_->set_offsets(tables_->tree->center(node), centers_, offsets_);
       if (tables_->uneven[node]) inner &= inside_the_rim(node);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "aggregate/sums.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -14,6 +16,18 @@ double sum_of(std::span<const double> values) {
   CompensatedSum sum;
   for (const double value : values) sum.add(value);
   return sum.value();
+}
+
+/// The words of values, those of infinite ones without the rows in which their weight is 0.
+std::array<QueryWord, kLeafCapacity> with_weights(std::span<const double> values, const QueryWord* queries,
+                                                  const RowWeights& weights) {
+  std::array<QueryWord, kLeafCapacity> words;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    words[k] = queries[k];
+    if (!std::isinf(values[k])) continue;
+    for_each_lane(words[k], [&](unsigned row) { words[k] &= ~(QueryWord{weights[k][row] == 0} << row); });
+  }
+  return words;
 }
 
 struct SumTables {
@@ -67,6 +81,8 @@ SumColumns::SumColumns(SignalBlock block, Reduce reduce) : reduce_(reduce) {
   if (reduce != Reduce::Sum) {
     for (Column& weights : block.weights()) columns_.push_back(std::move(weights));
   }
+  const auto is_infinite = [](double value) { return std::isinf(value); };
+  for (const Column& column : columns_) has_infinite_.push_back(std::ranges::any_of(column, is_infinite));
   const int weight_exponent = reduce == Reduce::Sum ? block.weight_exponent() : 0;
   for (std::size_t i = 0; i < channels; ++i) {
     const Values values{i, -(block.exponent(i) + weight_exponent)};
@@ -80,9 +96,11 @@ SumColumns::SumColumns(SignalBlock block, Reduce reduce) : reduce_(reduce) {
 
 void SumColumns::add_weighted(const AggregateKernels& kernels, const VertexRange& vertices, const QueryWord* queries,
                               const RowWeights& weights, std::span<RowSums> sums) const {
+  std::array<QueryWord, kLeafCapacity> words;
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const auto values = std::span(columns_[i]).subspan(vertices.begin, vertices.size());
-    kernels.add_weighted(values, queries, weights, sums[i]);
+    if (has_infinite_[i]) words = with_weights(values, queries, weights);
+    kernels.add_weighted(values, has_infinite_[i] ? words.data() : queries, weights, sums[i]);
   }
 }
 

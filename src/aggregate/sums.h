@@ -35,7 +35,7 @@ class SumColumns {
   [[nodiscard]] std::size_t size() const { return columns_.size(); }
   [[nodiscard]] const Column& column(std::size_t i) const { return columns_[i]; }
 
-  /// Adds the values of a leaf to the rows of its words, times the weights.
+  /// Adds the values of a leaf to the rows of its words, times the weights. An infinite one of weight 0 adds nothing.
   void add_weighted(const AggregateKernels& kernels, const VertexRange& vertices, const QueryWord* queries,
                     const RowWeights& weights, std::span<RowSums> sums) const;
 
@@ -57,6 +57,7 @@ class SumColumns {
 
   Reduce reduce_;
   std::vector<Column> columns_;
+  std::vector<bool> has_infinite_;  // by column
   std::vector<Channel> channels_;
 };
 

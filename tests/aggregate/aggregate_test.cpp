@@ -604,6 +604,35 @@ TEST(AggregateWithAKernel, GivesAVertexAtExactlyTheRadiusNoWeight) {
   EXPECT_GT(ties, 0U);
 }
 
+/// On the same lattice, at each vertex.
+TEST(AggregateWithAKernel, OfAnInfiniteValueIsInfiniteWhereItHasAWeight) {
+  const auto [mesh, index] = indexed(make_grid(60, 60, true).finish(false));
+  const std::vector<VertexId> infinite{1830};
+  for (const Metric metric : {Metric::Straight, Metric::Space, Metric::Path, Metric::Rings}) {
+    for (const SmoothingKernel kernel : kKernels) {
+      for (const double radius : {5.0, 13.0}) {
+        const Neighborhoods near =
+            neighborhoods(index, {.vertices = infinite, .radius = radius, .metric = metric}, {.distances = true});
+        std::vector<bool> has_weight(mesh.size());
+        for (std::size_t i = 0; i < near.ids.size(); ++i) {
+          has_weight[near.ids[i]] = smoothing_weight(kernel, near.distances[i], radius) > 0;
+        }
+        for (const double value : {kInfinity, -kInfinity}) {
+          std::vector<double> values(mesh.size(), 1.0);
+          values[infinite[0]] = value;
+          const std::vector<double> found =
+              aggregate(index, {values}, {.radius = radius, .metric = metric, .kernel = kernel});
+          for (VertexId v = 0; v < mesh.size(); ++v) {
+            const bool is_right = has_weight[v] ? found[v] == value : std::abs(found[v] - 1) < 1e-12;
+            ASSERT_TRUE(is_right) << found[v] << ", vertex " << v << ", metric " << static_cast<int>(metric)
+                                  << ", kernel " << static_cast<int>(kernel) << ", radius " << radius;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(AggregateOfFloats, IsThatOfTheSameNumbersAsDoubles) {
   const auto [mesh, index] = indexed(bumpy_grid(30));
   std::vector<float> floats;
