@@ -315,9 +315,9 @@ export class Curvature {
   readonly d2: Float64Array;
   /**
    * 0: fitted. 1: the points determine no unique quadric; the values are those of the one with the smallest
-   * coefficients. 2: fewer than six vertices are connected with the vertex; all values are 0. 3: the vertex has no
-   * normal, as it belongs to no face with an area; all values are 0. 4: fewer than six vertices are in the ball; the
-   * fit is to these and to the nearest connected ones.
+   * coefficients. 2: fewer than six vertices are in the ball or joined to these by edges, not across ignored vertices;
+   * all values are 0. 3: the vertex has no normal, as it belongs to no face with an area; all values are 0. 4: fewer
+   * than six vertices are in the ball; the fit is to these and to the nearest joined ones.
    */
   readonly state: Uint8Array;
 
@@ -738,7 +738,8 @@ export class MeshIndex {
    * the method 'sphere', the diameter of the largest ball that touches there from inside and has no point of an opposite
    * face in it, one whose normal turns from that normal by more than 53 degrees. The normal of a point is that of its
    * face, which does not count, nor does another face that has the point on a side. Faces are oriented counterclockwise,
-   * seen from outside. Infinity where nothing else is met, NaN for a vertex without a normal or a face without an area.
+   * seen from outside. Infinity where nothing else is met, or the radius of the ball exceeds the diagonal of the box
+   * around the faces; NaN for a vertex without a normal or a face without an area.
    *
    * @param options of the face of each of `points`, the nearest point counts
    * @throws MeshhoodError VertexOutOfRange, InvalidMesh; InvalidOption, also for a face that the mesh does not have

@@ -53,7 +53,7 @@ enum class CurvatureFit : std::uint8_t {
 enum class CurvatureState : std::uint8_t {
   Fitted,         ///< the least-squares fit, which is unique
   RankDeficient,  ///< the points determine no unique quadric: the one with the smallest coefficients
-  TooFew,         ///< fewer than six vertices are connected with the query vertex: all values are 0
+  TooFew,         ///< fewer than six are in the ball or joined to it without ignored vertices: all values are 0
   NoNormal,       ///< the query vertex has no normal, as it belongs to no face with an area: all values are 0
   Extended,       ///< fewer than six vertices are in the ball: the fit to these and to the nearest connected ones
 };
@@ -114,7 +114,7 @@ struct CurvatureMemory {
 /// Multi-scale Curvature and Crease Estimation", GraVisMa 2010), or a jet (see `CurvatureFit`), and returns its
 /// principal curvatures at that vertex.
 /// A neighborhood of fewer than six vertices is extended by the nearest vertex that an edge joins to it, until it has
-/// six.
+/// six. It is not extended by ignored vertices, nor across them.
 /// query    as for `counts`: one radius for all rows, or one for each, or scales.
 /// A row depends on surface, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls,
 /// threads or the processor. O(size of the neighborhoods) in the worst case; the common part of the neighborhoods of a

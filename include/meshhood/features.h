@@ -79,7 +79,7 @@ struct Persistence {
 };
 
 /// values     #radii by #rows, one kind of feature. A NaN ends a run.
-/// radii      strictly ascending.
+/// radii      >= 0, strictly ascending.
 /// threshold  > 0.
 /// O(#values), on one thread. Throws Error{InvalidOption, InvalidRadius}.
 [[nodiscard]] Persistence persistence(std::span<const double> values, std::span<const double> radii, double threshold);

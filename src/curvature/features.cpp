@@ -20,6 +20,7 @@
 #include "base/vector.h"
 #include "batch/rows.h"
 #include "curvature/packet_moments.h"
+#include "exact/query/arguments.h"
 #include "patch/packet_patches.h"
 #include "shared/distance.h"
 #include "shared/parallel.h"
@@ -128,7 +129,7 @@ class FeatureExtraction {
         raise(ErrorCode::InvalidOption, "height and variation of a surface without faces need `areas`");
       }
       const std::span<const double> given = options.areas;
-      weights_.emplace(*surface_.index, given.empty() ? surface.vertex_areas() : given);
+      weights_.emplace(*surface_.index, given.empty() ? surface.vertex_areas() : given, "areas");
     }
     if (metric_ == Metric::Rings) unit_ = mean_edge_length(*surface_.searched);
     values_.resize(query.result_rows(surface.vertex_count()) * kinds_.size());
@@ -310,11 +311,7 @@ Persistence persistence(std::span<const double> values, std::span<const double> 
                                         " radii, expected as many for each");
   }
   if (!(threshold > 0)) raise(ErrorCode::InvalidOption, "threshold " + to_text(threshold) + ", expected a number > 0");
-  for (std::size_t i = 1; i < radii.size(); ++i) {
-    if (radii[i] > radii[i - 1]) continue;
-    raise(ErrorCode::InvalidRadius, "radius " + std::to_string(i) + ": " + to_text(radii[i]) + " after " +
-                                        to_text(radii[i - 1]) + ", expected ascending radii");
-  }
+  check_ascending(radii);
   const std::size_t rows = values.size() / radii.size();
   Persistence result{std::vector<std::int32_t>(rows), std::vector<double>(rows), std::vector<double>(rows)};
   for (std::size_t row = 0; row < rows; ++row) {

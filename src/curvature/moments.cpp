@@ -118,9 +118,9 @@ void write_row(PrincipalComponents& out, std::size_t row, const RowMoments& m) {
 
 }  // namespace
 
-MomentWeights::MomentWeights(const IndexView& index, std::span<const double> given) {
+MomentWeights::MomentWeights(const IndexView& index, std::span<const double> given, std::string_view name) {
   if (given.empty()) return;
-  check_weights(given, index.vertex_count());
+  check_weights(given, index.vertex_count(), name);
   const double largest = *std::max_element(given.begin(), given.end());
   if (largest > 0) exponent = 500 - std::ilogb(largest);
   values.reserve(given.size());

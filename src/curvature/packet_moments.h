@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "meshhood/curvature.h"
@@ -254,8 +255,8 @@ struct MomentWeights {
   std::vector<double> values;
   int exponent = 0;
 
-  /// Throws Error{InvalidOption}.
-  MomentWeights(const IndexView& index, std::span<const double> given);
+  /// `name`: of the argument, in Error{InvalidOption}.
+  MomentWeights(const IndexView& index, std::span<const double> given, std::string_view name = "weights");
 };
 
 /// Writes the principal components of each row.

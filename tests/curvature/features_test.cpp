@@ -275,8 +275,14 @@ TEST_F(BumpyFeatures, RefuseInvalidArgumentsAndNameThem) {
   expect_refused(ErrorCode::InvalidRadius, "-1", [&] { return geometric_radii(-1, 1, 2); });
   expect_refused(ErrorCode::InvalidRadius, "the smallest radius is 2", [&] { return geometric_radii(2, 1, 3); });
   const std::vector<double> values(4);
-  const std::vector<double> descending{2.0, 1.0};
-  expect_refused(ErrorCode::InvalidRadius, "1 after 2", [&] { return persistence(values, descending, 1); });
+  for (const auto& [wrong, why] : {std::pair(std::vector{2.0, 1.0}, "radii: value 1: radius 1, expected more than 2"),
+                                   {{-1.0, 1.0}, "radii: value 0: radius -1"},
+                                   {{kNan, 1.0}, "radii: value 0: radius nan"}}) {
+    expect_refused(ErrorCode::InvalidRadius, why, [&] { return persistence(values, wrong, 1); });
+  }
+  const std::vector<double> below(mesh.size(), -1.0);
+  expect_refused(ErrorCode::InvalidOption, "areas: vertex 0 has -1",
+                 [&] { return of({1.0}, {.kinds = {Feature::Height}, .areas = below}); });
   expect_refused(ErrorCode::InvalidOption, "threshold 0", [&] { return persistence({}, std::vector<double>{1}, 0); });
   expect_refused(ErrorCode::InvalidOption, "3 values",
                  [&] { return persistence(std::span(values).first(3), std::vector<double>{1, 2}, 1); });

@@ -72,9 +72,24 @@ def test_wrong_arguments_are_refused_by_name(plates):
         (lambda: index.features(1, F=F, kinds=[]), "kinds: there are none"),
         (lambda: index.curvature(1, F=F, fit="jet", like="libigl"), "like: 'libigl', expected None with fit='jet'"),
         (lambda: meshhood.persistence(np.zeros((2, 3)), [1.0], 0.5), "values: expected an array of shape"),
-        (lambda: meshhood.persistence(np.zeros((2, 3)), [2.0, 1.0], 0.5), "1 after 2"),
+        (lambda: meshhood.persistence(np.zeros((2, 3)), [2, 1], 0.5), "^radii: value 1: radius 1.0, expected more than 2.0"),
+        (lambda: meshhood.persistence(np.zeros((2, 3)), [-1.0, 1.0], 0.5), "^radii: value 0: radius -1.0"),
+        (lambda: meshhood.persistence(np.zeros((2, 3)), [1.0, np.nan], 0.5), "^radii: value 1: radius nan"),
         (lambda: meshhood.geometric_radii(1, 2, 0), "count: 0"),
-        (lambda: meshhood.geometric_radii(2, 1, 3), "smallest radius is 2"),
+        (lambda: meshhood.geometric_radii(2, 1, 3), "^smallest: 2.0, expected at most largest, 1.0"),
+        (lambda: index.moments(scales=[0.1, 0.2, -1]), "^scales: value 2: radius -1"),
     ):
         with pytest.raises(ValueError, match=message):
             call()
+    for radii in ([1j, 2], ["1", "2"]):
+        with pytest.raises(TypeError, match="^radii: "):
+            meshhood.persistence(np.zeros((2, 3)), radii, 0.5)
+
+
+@pytest.mark.parametrize("name", ("curvature", "corrected_curvature", "moments", "principal_components", "features"))
+def test_a_wrong_dtype_is_refused_before_the_computation(plates, name):
+    def progress(done, total):
+        pytest.fail("has begun")
+
+    with pytest.raises(ValueError, match="^dtype: int8"):
+        getattr(plates[3], name)(1, dtype="int8", progress=progress)

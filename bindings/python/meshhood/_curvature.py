@@ -25,9 +25,10 @@ class Curvature(NamedTuple):
     d1, d2 : (#rows, 3), unit vectors, with the sign that makes the component of largest magnitude positive. Views of
         one array, so that either keeps the memory of both.
     state : (#rows,) uint8. 0: fitted. 1: the points determine no unique quadric; the values are those of the one with
-        the smallest coefficients. 2: fewer than six vertices are connected with the vertex; all values are 0. 3: the
-        vertex has no normal, as it belongs to no face with an area; all values are 0. 4: fewer than six vertices are in
-        the ball; the fit is to these and to the nearest connected ones. 5: only of `Parts.curvature`, see there.
+        the smallest coefficients. 2: fewer than six vertices are in the ball or joined to these by edges, not across
+        ignored vertices; all values are 0. 3: the vertex has no normal, as it belongs to no face with an area; all
+        values are 0. 4: fewer than six vertices are in the ball; the fit is to these and to the nearest joined ones. 5:
+        only of `Parts.curvature`, see there.
     count : (#rows,) uint32, the vertices within the radius to which the quadric is fitted, without those that the
         filter leaves out. If they are fewer than six, the state is not 0.
 
@@ -171,6 +172,8 @@ def geometric_radii(smallest: float, largest: float, count: int) -> Reals:
     """
     smallest = _convert.finite(smallest, "smallest", or_zero=False)
     largest = _convert.finite(largest, "largest", or_zero=False)
+    if smallest > largest:
+        raise ValueError(f"smallest: {smallest}, expected at most largest, {largest}")
     return _core.geometric_radii(smallest, largest, _convert.integer(count, "count", 1, 1000))
 
 
@@ -180,16 +183,16 @@ def persistence(values: Any, radii: Any, threshold: float) -> Persistence:
     length, the one with the smallest radii counts.
 
     values : (#radii, #rows), one kind of feature. A NaN ends a run.
-    radii : (#radii,), ascending.
+    radii : (#radii,), >= 0, each larger than the one before.
     threshold : > 0.
 
     >>> crease = meshhood.MeshIndex(V, F).features(scales=[0.2, 0.4])
     >>> int(meshhood.persistence(crease, [0.2, 0.4], threshold=0.1).scales.max())
     2
     """
-    array = np.array(_convert.as_array(values, "values"), np.float64)
-    scales = np.array(_convert.as_array(radii, "radii"), np.float64)
-    if scales.ndim != 1 or array.ndim != 2 or len(array) != len(scales):
+    array = np.array(_convert.numbers(values, "values"), np.float64)
+    scales = _convert.ascending(radii, "radii")
+    if array.ndim != 2 or len(array) != len(scales):
         raise ValueError(f"values: expected an array of shape (#radii, #rows), not {array.shape}, for {len(scales)} radii")
     threshold = _convert.finite(threshold, "threshold", or_zero=False)
     return Persistence(*_core.persistence(array.ravel(), scales, threshold))
