@@ -59,7 +59,7 @@ def test_errors_name_the_argument(plates):
     n = len(index)
     for cause, error, call in (
         ("values: expected numbers", TypeError, lambda: index.aggregate(values.astype(complex), 1)),
-        ("scales: radius nan", ValueError, lambda: index.aggregate(values, scales=[1, np.nan])),
+        ("scales: value 1: radius nan", ValueError, lambda: index.aggregate(values, scales=[1, np.nan])),
         ("unexpected keyword argument .sort.", TypeError, lambda: index.aggregate(values, 1, sort="id")),
         ("reduce: 'medium', expected 'sum' or 'mean'", ValueError, lambda: index.aggregate(values, 1, ("mean", "medium"))),
         ("reduce: there are none", ValueError, lambda: index.aggregate(values, 1, ())),

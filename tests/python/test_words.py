@@ -95,6 +95,15 @@ def test_a_mask_of_numbers_is_refused(argument, number):
         INDEX.submesh(WALLS.astype(number))
 
 
+def test_a_list_of_vertices_may_look_like_a_mask():
+    index = meshhood.MeshIndex(V[:3], [[0, 1, 2]])
+    np.testing.assert_array_equal(index.counts(99, [0, 1, 1]), [3, 3, 3])
+    np.testing.assert_array_equal(index.smooth([1.0, 2, 3], 9, vertices=(0, 2, 2)).shape, 3)
+    for seeds in ([0, 0, 1], np.array([0, 0, 1])):
+        np.testing.assert_array_equal(np.sort(index.neighborhood(V[0], 99, seeds=seeds)), [0, 1, 2])
+        assert len(index.refit(V[:3] + 1, seeds)) == 3
+
+
 def test_the_points_and_seeds_of_a_stroke_repeat_as_they_like():
     rows = np.arange(COUNT) % 2
     wanted = INDEX.stroke(V[:2], 1.5, seeds=[0, 1])
@@ -133,8 +142,8 @@ def test_an_index_with_masks_answers_as_calls_with_them():
     for refused, message in (
         (lambda: index.counts(2, walls=WALLS), "walls, ignored: expected None, because this index has masks"),
         (lambda: index.masked(ignored=[1]), "masked again"),
-        (lambda: index.refit(V), "not refitted"),
-        (lambda: pickle.dumps(index), "not saved"),
+        (lambda: index.refit(V), "^an index with masks is not refitted"),
+        (lambda: pickle.dumps(index), "^an index with masks is not pickled"),
         (lambda: index.counts(2, method="bfs"), "method: 'bfs', expected 'exact' with walls"),
     ):
         with pytest.raises(ValueError, match=message):
@@ -293,15 +302,25 @@ def test_free_memory_is_what_a_control_group_leaves(tmp_path, monkeypatch):
     assert _memory.free_bytes() == 1000
     with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds max_bytes, 1000; iter_neighborhoods"):
         INDEX.neighborhoods(5.0)
-    with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds max_bytes, 1000"):
-        INDEX.aggregate(VALUES, 5.0)
+    for call in (
+        lambda: INDEX.aggregate(VALUES, 5.0),
+        lambda: INDEX.curvature(0.5),
+        lambda: INDEX.corrected_curvature(0.5),
+        lambda: INDEX.moments(0.5, degree=4),
+        lambda: INDEX.principal_components(0.5),
+        lambda: INDEX.features(scales=[0.5, 1.0], kinds=("mean", "area", "gap")),
+        lambda: INDEX.invariants(0.5),
+        lambda: INDEX.gaps(0.5),
+    ):
+        with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds the free memory, 1000"):
+            call()
 
 
 def test_results_are_described_in_a_line():
     assert repr(INDEX.k_nearest(3)) == f"<meshhood.Nearest: ids {COUNT} by 3, distances {COUNT} by 3>"
-    assert repr(INDEX.nested(3, [0.1, 0.2])) == "<meshhood.Nested: counts 2, ids 1>"
+    assert repr(INDEX.nested(3, [0.1, 0.2])) == "<meshhood.Nested: counts 2 rows, ids 1 row>"
     assert repr(INDEX.nearest_unconnected(0.1, 3)) == "<meshhood.Unconnected: vertex -1, distance inf>"
     assert repr(meshhood.Mesh(V, F)).startswith(f"<meshhood.Mesh: vertices {COUNT} by 3")
     polygons = meshhood.Mesh(V, (np.array([0, 4]), np.arange(4)))
-    assert repr(polygons) == f"<meshhood.Mesh: vertices {COUNT} by 3, faces (2, 4)>"
-    assert repr(next(INDEX.iter_neighborhoods(0.1, [3]))).endswith("indices 1, distances None>")
+    assert repr(polygons) == f"<meshhood.Mesh: vertices {COUNT} by 3, faces (2 rows, 4 rows)>"
+    assert repr(next(INDEX.iter_neighborhoods(0.1, [3]))).endswith("indices 1 row, distances None>")

@@ -266,8 +266,9 @@ def _smoothing_radii(fwhm: Any, scales: Any, vertices: Any, count: int) -> tuple
     check_one_given(fwhm, scales, "fwhm")
     _convert.refuse_one(vertices, count)
     if vertices is not None:
-        vertices = _convert.vertices(vertices, count)
-        count = len(vertices)
+        ids = _convert.vertices(vertices, count)
+        count = len(ids)
+        vertices = ids.tolist() if isinstance(vertices, (list, tuple)) else ids  # so that it is read alike again
     radii = _kernel_radii(fwhm, "fwhm")
     if radii is not None:  # which rows they belong to, by the name that they have here
         radii = _convert.radii(radii, count, "fwhm")

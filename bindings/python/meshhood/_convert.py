@@ -120,7 +120,10 @@ def listed(values, name):
 def one_or_many(v, count):
     """Whether `v` is one vertex, and an array of it or of many."""
     is_one = is_single(v, "vertices")
-    return is_one, np.array([vertex(v, count)], np.int32) if is_one else vertices(v, count, single="one vertex, ")
+    if is_one:
+        return True, np.array([vertex(v, count)], np.int32)
+    read = vertex_rows if isinstance(v, (list, tuple)) else vertices  # no file or image has a mask as a list
+    return False, read(v, count, "vertices", "one vertex, ")
 
 
 def refuse_one(v, count, instead=""):
@@ -151,11 +154,12 @@ def radii(r, rows, name="r", advice="; several radii for all rows are scales="):
         raise ValueError(
             f"{name}: expected one number, or one for each of {rows} rows, not an array of shape {array.shape}{advice}"
         )
-    _check_radii(array, name, "row")
+    check_radii(array, name, "row")
     return array.astype(np.float64, copy=False)
 
 
-def _check_radii(array, name, row):
+def check_radii(array, name, row):
+    """`row`: what the radii are numbered as."""
     wrong = np.flatnonzero(~(array >= 0))
     if wrong.size:
         raise ValueError(f"{name}: {row} {wrong[0]}: radius {array[wrong[0]]}, expected a number >= 0")
@@ -169,7 +173,7 @@ def ascending(values, name):
     array = array.astype(np.float64)
     is_larger = array[1:] > array[:-1]
     if not ((array[:1] >= 0).all() and is_larger.all()):
-        _check_radii(array, name, "value")
+        check_radii(array, name, "value")
         at = int(np.argmin(is_larger))
         before, value = array[at : at + 2]
         raise ValueError(f"{name}: value {at + 1}: radius {value}, expected more than {before} before it")

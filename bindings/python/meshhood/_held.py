@@ -116,6 +116,8 @@ class Held:
         """What is saved and refitted: an index of vertices that all have a position."""
         if self._no_position is not None:
             raise ValueError(f"an index with vertices without a position (NaN) is not {done}, {without_them('index')}")
+        if self._whole is not None:
+            raise ValueError(f"an index with masks is not {done}, expected the index that it was made from")
         return self._exact
 
     def _all_walls(self, walls: Any) -> Any:

@@ -13,7 +13,7 @@ from ._held import Held
 from ._progress import Progress
 from ._regions import Submesh
 from ._repr import shown_in_a_line
-from ._rows import read_rows
+from ._rows import check_size, read_rows
 from ._types import AnyVertices, Ids, Mask, Radii, Reals, Scales, Unit
 
 
@@ -138,6 +138,7 @@ class Patches(Held):
             self, vertices, r, scales, metric, walls, ignored, unit, workers, progress,
             points=points, face=face, F=F,
         )  # fmt: skip
+        check_size((*rows.shape, 2), 8, None)
         return Invariants(*map(rows.shaped, rows.ask(rows.index._surface(F).invariants)))
 
     def gaps(
@@ -172,6 +173,7 @@ class Patches(Held):
             self, vertices, r, scales, metric, walls, ignored, unit, workers, progress,
             points=points, face=face, F=F,
         )  # fmt: skip
+        check_size((*rows.shape, 10), 8, None)
         return Gaps(*map(rows.shaped, rows.ask(rows.index._surface(F).gaps)))
 
     def patch(

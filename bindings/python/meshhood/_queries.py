@@ -393,7 +393,7 @@ class Queries(Held):
         elif seeds is None:
             seeds = self._exact.nearest(point)[0] if self._count else np.empty(0, np.int32)
         else:
-            seeds = _convert.vertices(_convert.listed(seeds, "seeds"), self._count, "seeds", "one vertex, ")
+            seeds = _convert.vertex_rows(_convert.listed(seeds, "seeds"), self._count, "seeds", "one vertex, ")
         x, y, z = point[0]
         return (float(x), float(y), float(z)), seeds
 

@@ -26,4 +26,6 @@ def _shown(value: Any) -> str:
     if isinstance(value, tuple):
         return f"({', '.join(map(_shown, value))})"
     shape = np.shape(value)
+    if len(shape) == 1 and shape != (3,):
+        return f"{shape[0]} row" + "s" * (shape != (1,))
     return f"{value}" if shape in ((), (3,)) else " by ".join(map(str, shape))

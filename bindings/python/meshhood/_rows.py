@@ -114,8 +114,9 @@ def check_size(shape: tuple[int, ...], itemsize: int, max_bytes: Any) -> None:
     """Refuses a result of this shape that is too large."""
     size, limit = itemsize * math.prod(shape), _convert.max_bytes(max_bytes)
     if size > limit:
+        most = "the free memory" if max_bytes is None else "max_bytes"
         raise MemoryError(
-            f"the result of shape {shape}, {size} bytes, exceeds max_bytes, {limit}; take fewer vertices or scales"
+            f"the result of shape {shape}, {size} bytes, exceeds {most}, {limit}; take fewer vertices or scales"
         )
 
 
@@ -131,7 +132,8 @@ def _radii(r: Any, scales: Any, rows: Optional[int], unit: float) -> list[Any]:
     check_one_given(r, scales, "r")
     if scales is None:
         return [unit * (_convert.radius(r) if rows is None else _convert.radii(r, rows))]
-    values = _convert.as_array(scales, "scales")
+    values = _convert.numbers(scales, "scales")
     if values.ndim != 1 or values.size == 0:
         raise ValueError(f"scales: expected a list of radii, not an array of shape {values.shape}")
-    return [unit * _convert.radius(value, "scales") for value in values]
+    _convert.check_radii(values, "scales", "value")
+    return [unit * float(value) for value in values]

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, Optional, Union, get_args
 
@@ -13,7 +14,7 @@ from ._aggregate import area_weights
 from ._curvature import CorrectedCurvature, Curvature, PrincipalComponents
 from ._held import Held
 from ._progress import Progress
-from ._rows import read_rows, result_dtype
+from ._rows import check_size, read_rows, result_dtype
 from ._types import AnyVertices, Floats, Mask, Metric, Radii, Scales, Unit, Weights
 
 if TYPE_CHECKING:
@@ -75,9 +76,11 @@ class Shape(Held):
             _convert.choice(like, "like", ("libigl",))
         if like is not None and fit == "jet":
             raise ValueError(f"like: {like!r}, expected None with fit='jet'")
+        dtype = result_dtype(dtype)
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
         surface = rows.index._surface(F, normals, instead=" or normals=")
+        check_size((*rows.shape, 9), 8, None)  # with state and count
         found = rows.ask(surface.curvature, filter=bool(filter), **options)
         return Curvature(*(_of_type(rows.shaped(array), dtype) for array in found))
 
@@ -108,8 +111,10 @@ class Shape(Held):
         >>> index.corrected_curvature(scales=[0.3, 0.5]).mean.shape
         (2, 642)
         """
+        dtype = result_dtype(dtype)
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         surface = rows.index._surface(F, normals, needs_faces=True)
+        check_size((*rows.shape, 23), 8, None)
         found = rows.ask(surface.corrected_curvature)
         return CorrectedCurvature(*(_of_type(rows.shaped(array), dtype) for array in found))
 
@@ -143,8 +148,10 @@ class Shape(Held):
         >>> meshhood.MeshIndex(V, F).moments(0.3).shape
         (642, 10)
         """
+        dtype = result_dtype(dtype)
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": area_weights(self, weights, F)}
+        check_size((*rows.shape, math.comb(options["degree"] + 3, 3)), 8, None)
         found = rows.ask(_core.moments, rows.index._exact, **options)
         return _of_type(rows.shaped(found), dtype)
 
@@ -172,7 +179,9 @@ class Shape(Held):
         >>> found.normal.shape, found.surface_variation.shape
         ((642, 3), (642,))
         """
+        dtype = result_dtype(dtype)
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
+        check_size((*rows.shape, 16), 8, None)
         found = rows.ask(_core.principal_components, rows.index._exact, weights=area_weights(self, weights, F))
         return PrincipalComponents(*(_of_type(rows.shaped(array), dtype) for array in found))
 
@@ -213,8 +222,10 @@ class Shape(Held):
         >>> found.shape, found.transpose(1, 0, 2).reshape(len(V), -1).shape
         ((3, 642, 2), (642, 6))
         """
+        dtype = result_dtype(dtype)
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         chosen = [getattr(_core.Feature, name) for name in _convert.some_choices(kinds, "kinds", get_args(Kind))]
+        check_size((*rows.shape, len(chosen)), 8, None)
         found = rows.ask(rows.index._surface(F).features, kinds=chosen, filter=bool(filter))
         found = _of_type(rows.shaped(found), dtype)
         return found[..., 0] if isinstance(kinds, str) else found
@@ -222,4 +233,4 @@ class Shape(Held):
 
 def _of_type(array: Any, dtype: Any) -> Any:
     """Numbers in this type; other arrays as they are."""
-    return array.astype(result_dtype(dtype), copy=False) if array.dtype == np.float64 else array
+    return array.astype(dtype, copy=False) if array.dtype == np.float64 else array
