@@ -71,12 +71,12 @@ class SearchMethod {
   [[nodiscard]] AnySearcher make_searcher() const;
 
   /// Used by the batches.
-  [[nodiscard]] const SearcherFactory& searchers() const { return *searchers_; }
+  [[nodiscard]] const SearcherFactory& factory() const { return *factory_; }
 
  private:
-  explicit SearchMethod(SearcherFactory&& searchers);
+  explicit SearchMethod(SearcherFactory&& factory);
 
-  std::shared_ptr<const SearcherFactory> searchers_;
+  std::shared_ptr<const SearcherFactory> factory_;
 };
 
 /// The query vertices of a batch: all vertices of the mesh in order, or a borrowed list.

@@ -42,7 +42,7 @@ void BatchWorker::find(std::span<const BatchItem> chunk, bool distances, RowRece
       if (!write_pieces(runs_[i].items, kept->pieces(), kept->counts())) return;
       continue;
     }
-    const bool goes_on = answer(i, [&](std::span<const BatchItem> items) {
+    const bool goes_on = search_run(i, [&](std::span<const BatchItem> items) {
       if (!writes_pieces) return search_->write(items, distances, receiver);
       return write_pieces(items, search_->pieces(true), search_->counts());
     });
@@ -87,7 +87,7 @@ void BatchWorker::split(std::span<const BatchItem> chunk, bool distances) {
 Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, const Run& run,
              std::size_t passes)
     : method_(query.metric == Metric::Straight ? method : method.by(query.metric)),
-      factory_(method_.searchers()),
+      factory_(method_.factory()),
       options_(options),
       rows_(query, factory_.vertex_count),
       task_(run.threads, run.progress, passes * rows_.size()),

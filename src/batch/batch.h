@@ -50,16 +50,16 @@ class BatchWorker {
   void for_each_answer(std::span<const BatchItem> chunk, bool distances, F&& f) {
     split(chunk, distances);
     for (std::size_t i = 0; i < runs_.size(); ++i) {
-      if (!answer(i, f)) return;
+      if (!search_run(i, f)) return;
     }
   }
 
   /// Cuts a chunk into `runs_`.
   void split(std::span<const BatchItem> chunk, bool distances);
 
-  /// Answers run number `i`, together or row by row.
+  /// Searches run number `i`, its rows together or one by one; `f(rows)` then reads what `search_` has found.
   template <class F>
-  bool answer(std::size_t i, F&& f) {
+  bool search_run(std::size_t i, F&& f) {
     const std::span<const BatchItem> items = runs_[i].items;
     if (search_->run(std::span(runs_).subspan(i))) return f(items);
     for (const BatchItem& item : items) {

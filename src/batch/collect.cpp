@@ -162,7 +162,7 @@ std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& 
 std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const BatchQuery& query,
                                          const BatchAllocator& allocate, const BatchOptions& options, const Run& run) {
   if (!allocate) raise(ErrorCode::InvalidOption, "allocate is empty, expected a function");
-  if (!method.searchers().is_count_cheap) return stream_and_copy(method, query, allocate, options, run);
+  if (!method.factory().is_count_cheap) return stream_and_copy(method, query, allocate, options, run);
   Batch batch(method, query, options, run, 2);
   SizeLimit limit = limit_of(options, run, batch.rows().size());
   check_sample(batch, limit);

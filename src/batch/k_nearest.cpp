@@ -156,7 +156,7 @@ class LengthRowSearch {
   void run(VertexId v, std::size_t enough, double enough_area, std::span<const double> areas, Take&& take) {
     std::size_t count = 0;
     double area = 0;
-    const auto is_enough = [&](std::span<const Path> found) {
+    const auto on_found = [&](std::span<const Path> found) {
       count += found.size();
       if (!areas.empty()) {
         for (const Path& path : found) area += areas[index_->id(path.end)];
@@ -164,7 +164,7 @@ class LengthRowSearch {
       return count >= enough || area > enough_area * (1 + kAreaSlack);
     };
     const Path start{0, index_->place(v)};
-    search_->run(std::span(&start, 1), radius_, std::cref(is_enough));
+    search_->run(std::span(&start, 1), radius_, std::cref(on_found));
     for (const Path& path : search_->in_order()) {
       if (!take(index_->id(path.end), path.length)) return;
     }

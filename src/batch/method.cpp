@@ -111,8 +111,8 @@ constexpr auto kOwnOrder = [](VertexId v) { return std::uint32_t{v}; };
 
 }  // namespace
 
-SearchMethod::SearchMethod(SearcherFactory&& searchers)
-    : searchers_(std::make_shared<const SearcherFactory>(std::move(searchers))) {}
+SearchMethod::SearchMethod(SearcherFactory&& factory)
+    : factory_(std::make_shared<const SearcherFactory>(std::move(factory))) {}
 
 SearchMethod::SearchMethod(const Index& index) : SearchMethod(exact_factory(index, Metric::Straight)) {}
 
@@ -129,19 +129,19 @@ SearchMethod SearchMethod::breadth_first(const GraphView& graph) {
 }
 
 SearchMethod SearchMethod::by(Metric metric) const {
-  if (searchers_->of_slots == nullptr) {
+  if (factory_->of_slots == nullptr) {
     if (metric == Metric::Straight) return *this;
     raise(ErrorCode::InvalidOption, "metric: expected Straight, because the method is not the exact one of an Index");
   }
-  return SearchMethod(exact_factory(*searchers_->of_slots, metric));
+  return SearchMethod(exact_factory(*factory_->of_slots, metric));
 }
 
 SearchMethod SearchMethod::ball_scan(const PositionsView& positions) {
   return SearchMethod(single_factory(positions.size(), [positions] { return BallSearcher(positions); }, kOwnOrder));
 }
 
-std::size_t SearchMethod::vertex_count() const { return searchers_->vertex_count; }
+std::size_t SearchMethod::vertex_count() const { return factory_->vertex_count; }
 
-AnySearcher SearchMethod::make_searcher() const { return searchers_->make_searcher(); }
+AnySearcher SearchMethod::make_searcher() const { return factory_->make_searcher(); }
 
 }  // namespace meshhood::inline v0_1

@@ -20,9 +20,9 @@ class PathLengthSearch final : public LengthSearch {
  public:
   PathLengthSearch(const IndexView& index, KeptGraph& graph) : LengthSearch(index), paths_(index, graph) {}
 
-  void run(std::span<const Path> starts, double radius, const IsEnough& is_enough) override {
+  void run(std::span<const Path> starts, double radius, const OnFound& on_found) override {
     paths_.run(starts, radius,
-               [&](std::span<const Path> found) { return is_enough && is_enough(without_ignored(found)); });
+               [&](std::span<const Path> found) { return on_found && on_found(without_ignored(found)); });
   }
 
   std::span<const Path> found() override { return without_ignored(paths_.found()); }
@@ -111,11 +111,11 @@ struct LengthQueries final : SingleQueries {
  private:
   static bool is_before(const Path& a, const Path& b) { return a.end < b.end; }
 
-  LengthSearch& run(const Start& start, double radius, const LengthSearch::IsEnough& is_enough = {}) {
+  LengthSearch& run(const Start& start, double radius, const LengthSearch::OnFound& on_found = {}) {
     if (!search_) search_ = make_length_search(*index, *graph, metric, *kernels);
     starts_.clear();
     for (const VertexId seed : start.seeds()) starts_.push_back({length_to_seed(start, seed), index->place(seed)});
-    search_->run(starts_, radius, is_enough);
+    search_->run(starts_, radius, on_found);
     return *search_;
   }
 

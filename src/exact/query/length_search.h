@@ -22,18 +22,18 @@ namespace meshhood::inline v0_1 {
 /// passed and left out. One object a thread.
 class LengthSearch {
  public:
-  /// Gets the vertices that were found since its last call, and returns whether they are enough. All that are nearer
+  /// Receives the vertices that were found since its last call, and returns true to end the search. All that are nearer
   /// than one of them have then been found.
-  using IsEnough = std::function<bool(std::span<const Path>)>;
+  using OnFound = std::function<bool(std::span<const Path>)>;
 
   explicit LengthSearch(const IndexView& index) : index_(&index) {}
   LengthSearch(const LengthSearch&) = delete;
   LengthSearch& operator=(const LengthSearch&) = delete;
   virtual ~LengthSearch() = default;
 
-  /// Finds the vertices whose length by a path that continues one of `starts` is at most `radius`, or `is_enough` of
-  /// them. By the number of edges there is one start, of length 0.
-  virtual void run(std::span<const Path> starts, double radius, const IsEnough& is_enough) = 0;
+  /// Finds the vertices whose length by a path that continues one of `starts` is at most `radius`, until `on_found`
+  /// ends the search. By the number of edges there is one start, of length 0.
+  virtual void run(std::span<const Path> starts, double radius, const OnFound& on_found) = 0;
 
   // Of the last run, valid until the next:
 

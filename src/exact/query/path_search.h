@@ -179,15 +179,15 @@ class PathSearch {
   }
 
   /// The same from the ends of some paths, of which one may be named more than once: the path to a vertex is then the
-  /// shortest of those that continue one of them. Ends as soon as `is_enough(paths)` returns true: it is called for the
+  /// shortest of those that continue one of them. Ends as soon as `on_found(paths)` returns true: it is called for the
   /// paths that were found since the last call. All paths that are shorter than one of these have then been found.
-  template <class IsEnough>
-  void run(std::span<const Path> starts, double radius, IsEnough&& is_enough) {
+  template <class OnFound>
+  void run(std::span<const Path> starts, double radius, OnFound&& on_found) {
     begin(starts, radius);
     while (queue_.open()) {
       const std::size_t before = found_.size();
       search_open_bucket();
-      if (!is_enough(std::span<const Path>(found_).subspan(before))) continue;
+      if (!on_found(std::span<const Path>(found_).subspan(before))) continue;
       abandon();
       break;
     }

@@ -100,11 +100,11 @@ class RingSearch final : public LengthSearch {
     if (is_unlike_a_surface(index)) by_vertex_.emplace(index, graph);
   }
 
-  void run(std::span<const Path> starts, double radius, const IsEnough& is_enough) override {
+  void run(std::span<const Path> starts, double radius, const OnFound& on_found) override {
     const std::uint32_t slot = index_->slot_at(starts.front().end);
     found_.clear();
     subsets_.clear();
-    by_vertex_ ? run_by_vertex(slot, radius, is_enough) : run_by_leaf(slot, radius, is_enough);
+    by_vertex_ ? run_by_vertex(slot, radius, on_found) : run_by_leaf(slot, radius, on_found);
   }
 
   std::span<const Path> found() override { return found_; }
@@ -118,11 +118,11 @@ class RingSearch final : public LengthSearch {
  private:
   /// With twice as many rings each time, so that all searches take at most about twice as long as the last; at once if
   /// all are wanted.
-  void run_by_vertex(std::uint32_t slot, double radius, const IsEnough& is_enough) {
+  void run_by_vertex(std::uint32_t slot, double radius, const OnFound& on_found) {
     constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
     const auto most = static_cast<std::uint32_t>(std::min(radius, kMost));
     std::uint32_t known = 0;  // rings
-    for (std::uint32_t count = is_enough ? std::min(most, 1U) : most;; count = count > most / 2 ? most : 2 * count) {
+    for (std::uint32_t count = on_found ? std::min(most, 1U) : most;; count = count > most / 2 ? most : 2 * count) {
       by_vertex_->run(slot, count);
       const auto edges_to = [this](std::uint32_t place) { return by_vertex_->edges_to(place); };
       for (;; ++known) {
@@ -134,13 +134,13 @@ class RingSearch final : public LengthSearch {
         }
         const std::span<Path> added = std::span(found_).subspan(before);
         std::ranges::sort(added, {}, &Path::end);
-        if (is_enough && is_enough(added)) return;
+        if (on_found && on_found(added)) return;
       }
       if (count == most || known <= count) return;
     }
   }
 
-  void run_by_leaf(std::uint32_t slot, double radius, const IsEnough& is_enough) {
+  void run_by_leaf(std::uint32_t slot, double radius, const OnFound& on_found) {
     double edges = 0;
     for (by_leaf_.start(slot); edges <= radius && !by_leaf_.ring().empty(); by_leaf_.advance()) {
       const std::size_t before = found_.size();
@@ -153,7 +153,7 @@ class RingSearch final : public LengthSearch {
         const std::uint32_t first = index_->leaf_begin[leaf];
         for_each_lane(lanes, [&](unsigned lane) { found_.push_back({edges, first + lane}); });
       }
-      if (is_enough && is_enough(std::span(found_).subspan(before))) return;
+      if (on_found && on_found(std::span(found_).subspan(before))) return;
       ++edges;
     }
   }

@@ -170,7 +170,7 @@ void Searcher::nearest_connected(const Start& start, std::size_t k, std::vector<
 }
 
 StraightSearch& SearcherAccess::state(Searcher& searcher) {
-  return static_cast<StraightQueries&>(*searcher.queries_).neighborhoods();
+  return static_cast<StraightQueries&>(*searcher.queries_).straight_search();
 }
 
 void SearcherAccess::set_isa(Searcher& searcher, Isa isa) {

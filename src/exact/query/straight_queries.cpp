@@ -5,7 +5,7 @@ namespace meshhood::inline v0_1 {
 
 void StraightQueries::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) {
   SingleQueries::rebind(std::move(bound), std::move(kept));
-  if (neighborhoods_) neighborhoods_->rebind(index, graph);
+  if (straight_search_) straight_search_->rebind(index, graph);
 }
 
 Flood& StraightQueries::begin(const Start& start) {
@@ -25,7 +25,7 @@ void StraightQueries::add_reached(std::size_t skip, std::vector<LeafSubset>& fou
 VertexSet& StraightQueries::search(const Start& start, double radius) {
   if (!start.center()) {
     neighborhoods().search(start.vertex(), radius);  // which checks the arguments
-    return neighborhoods_->answer;
+    return straight_search_->answer;
   }
   check(start);
   check_radius(radius);

@@ -38,9 +38,9 @@ struct StraightQueries final : SingleQueries {
   double connecting_radius(const Start& start, VertexId w) override;
   void nearest(const Start& start, std::size_t k, std::vector<VertexId>& ids, std::vector<double>& radii) override;
 
-  [[nodiscard]] StraightSearch& neighborhoods() {
-    if (!neighborhoods_) neighborhoods_.emplace(index, graph, isa);
-    return *neighborhoods_;
+  [[nodiscard]] StraightSearch& straight_search() {
+    if (!straight_search_) straight_search_.emplace(index, graph, isa);
+    return *straight_search_;
   }
 
   /// Calls `f(vertex, radius)` for the vertices that are not ignored by their connecting radius, then by distance from
@@ -55,7 +55,7 @@ struct StraightQueries final : SingleQueries {
   /// Adds what the flood has reached, except in its first `skip` steps, without ignored vertices.
   void add_reached(std::size_t skip, std::vector<LeafSubset>& found) const;
 
-  std::optional<StraightSearch> neighborhoods_;
+  std::optional<StraightSearch> straight_search_;
   std::optional<Flood> flood_;
   std::vector<LeafSubset> found_;  // scratch
   std::vector<NextVertex> ring_;   // scratch
