@@ -44,7 +44,7 @@ def all_vertices(names):
     for name in names:
         print(f"  {name}", flush=True)
         mesh = meshhood.read_mesh(meshes.as_file(name))
-        edge = programs.race(meshes.as_file(name))["average_edge"]
+        edge = programs.race(meshes.as_file(name))["mean_edge_length"]
         measured[name] = {str(workers): account(meshhood, mesh, ACCOUNT_RADIUS * edge, workers) for workers in (1, -1)}
         measured[name]["vertices"] = len(mesh.vertices)
     results.save("all_vertices", {"radius_edges": ACCOUNT_RADIUS, "meshes": measured}, watched)

@@ -47,7 +47,7 @@ def draw(picture):
     print(f"  {picture.letter}", flush=True)
     mesh = meshes.as_file(picture.mesh)
     positions, faces = meshhood.read_mesh(mesh)
-    radius = picture.radius_edges * programs.race(mesh)["average_edge"]
+    radius = picture.radius_edges * programs.race(mesh)["mean_edge_length"]
     index = meshhood.MeshIndex(positions, faces)
     v = nearest(positions, picture.at)
     plotter = pyvista.Plotter(off_screen=True, window_size=PIXELS)

@@ -168,8 +168,9 @@ Input::Input(const Reading& reading, unsigned threads) : name_(reading.file) {
   header_ = loaded.header;
   if (auto* exact = std::get_if<Index>(&loaded.index)) exact_ = std::move(*exact);
   if (auto* paper = std::get_if<paper::Index>(&loaded.index)) paper_ = std::move(*paper);
-#ifndef MESHHOOD_DEMO  // which knows no parts
-  const std::filesystem::path path = path_of(name_);
+#ifndef MESHHOOD_DEMO       // which knows no parts
+  std::error_code missing;  // by its own name, also behind a link or standard input
+  const auto path = std::filesystem::canonical(path_of(name_), missing);
   if (path.filename() == parts::kIndexFile) plan_ = parts::read_plan(path.parent_path());
 #endif
 }
@@ -184,8 +185,8 @@ std::string Input::other_as_ply() const {
 void Input::need_halo(double radius) const {
   if (!plan_ || radius <= plan_->halo) return;
   raise(ErrorCode::InvalidRadius,
-        fmt::format("{}: the radius {} is larger than the halo {} of these parts; partition the mesh with --halo {}",
-                    printable_name(name_), radius, plan_->halo, radius));
+        fmt::format("{}: the radius {} is larger than the halo {} of these parts{}", printable_name(name_), radius,
+                    plan_->halo, std::isinf(radius) ? "" : fmt::format("; partition the mesh with --halo {}", radius)));
 }
 
 std::size_t Input::vertex_count() const {

@@ -164,7 +164,8 @@ void add_partition(CLI::App& program) {
       "--no-resume", options.no_resume,
       "remove the parts that an earlier run has finished; if one has files of others, that is an error, and nothing is "
       "removed");
-  command.add_option("-o,--output", options.output, "folder to write; created if it does not exist")
+  command
+      .add_option("-o,--output", options.output, "folder to write: a new or an empty one, or that of an earlier run")
       ->check(stored_name("--output"))
       ->type_name("FOLDER")
       ->required();

@@ -10,7 +10,6 @@
 
 #include "meshhood/error.h"
 
-#include "io/number.h"
 #include "parts/manifest.h"
 
 namespace meshhood::parts {
@@ -18,11 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPartStem = "part-";
-
 bool is_file_of_part(const fs::directory_entry& entry) {
   const std::string name = entry.path().filename().string();
   return entry.is_regular_file() && (name == kPartFile || std::ranges::find(kPartFiles, name) != kPartFiles.end());
+}
+
+[[noreturn]] void refuse(const fs::path& entry) {
+  raise(ErrorCode::MalformedIndex, fmt::format("{}: was not written by a partition, which would remove it; move it",
+                                               io::printable_name(entry.string())));
 }
 
 }  // namespace
@@ -36,30 +38,18 @@ void mark_folder(const fs::path& folder) {
 }
 
 void check_mark(const fs::path& folder) {
-  if (fs::is_empty(folder) || fs::exists(folder / kMarkFile)) return;
+  if (!fs::is_directory(folder) || fs::is_empty(folder) || fs::exists(folder / kMarkFile)) return;
   raise(ErrorCode::MalformedIndex,
-        fmt::format("{}: has files, but not of a partition; expected a new or an empty folder",
-                    io::printable_name(folder.string())));
-}
-
-std::vector<std::size_t> parts_in(const fs::path& folder) {
-  std::vector<std::size_t> parts;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(kPartStem)) continue;
-    const auto number = io::parse_count(std::string_view(name).substr(kPartStem.size()));
-    if (number && part_name(*number) == name) parts.push_back(*number);
-  }
-  std::ranges::sort(parts);
-  return parts;
+        fmt::format("{}: has files, but not {}, the mark of a partition; expected a new or an empty folder",
+                    io::printable_name(folder.string()), kMarkFile));
 }
 
 void check_part(const fs::path& part) {
-  if (!fs::is_directory(fs::symlink_status(part))) return;
+  const fs::file_status status = fs::symlink_status(part);
+  if (fs::is_symlink(status)) return;  // the link alone is removed
+  if (!fs::is_directory(status)) refuse(part);
   for (const auto& entry : fs::directory_iterator(part)) {
-    if (is_file_of_part(entry)) continue;
-    raise(ErrorCode::MalformedIndex, fmt::format("{}: was not written by a partition, which would remove it; move it",
-                                                 io::printable_name(entry.path().string())));
+    if (!is_file_of_part(entry)) refuse(entry.path());
   }
 }
 

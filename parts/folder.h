@@ -2,18 +2,16 @@
 #pragma once
 
 #include <cerrno>
-#include <cstddef>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "io/messages.h"
 #include "io/system.h"
 
-/// What a run holds of the folder into which it writes, and what it may remove there. All errors are Error{IoFailure},
-/// but where another is named.
+/// What a run holds of the folder into which it writes, and what it may remove there. Errors of the system are
+/// Error{IoFailure} or `filesystem_error`.
 namespace meshhood::parts {
 
 inline constexpr std::string_view kTemporaryFolder = ".partition.tmp";
@@ -24,13 +22,10 @@ inline constexpr std::string_view kMarkFile = ".partition";
 
 void mark_folder(const std::filesystem::path& folder);
 
-/// Throws Error{MalformedIndex} unless the folder is empty or has the mark.
+/// Throws Error{MalformedIndex} if it is a folder that has files, but no mark.
 void check_mark(const std::filesystem::path& folder);
 
-/// The numbers of the parts in a folder, ascending.
-[[nodiscard]] std::vector<std::size_t> parts_in(const std::filesystem::path& folder);
-
-/// Throws Error{MalformedIndex}, naming the file, if a part has one that no partition has written.
+/// Throws Error{MalformedIndex}, naming the file, if a part has one, or is one, that no partition has written.
 void check_part(const std::filesystem::path& part);
 
 /// Removes a part by way of the temporary folder: a run that is stopped leaves no half of it in its place.

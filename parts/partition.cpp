@@ -75,8 +75,8 @@ class Partitioning {
         stages_(run.progress) {}
 
   PartitionResult run() {
+    check_mark(folder_);  // which has no other file yet, while a lock may be one
     const FolderLock lock(folder_);
-    check_mark(folder_);
     const std::uint64_t parts = number_of_parts(options_, mesh_.vertex_count());
     check_number_of_parts(parts, budget_.sample_bytes);
     stages_.begin(0.05);
@@ -137,15 +137,19 @@ class Partitioning {
     finished_.resize(plan().parts);
     result_.manifest.parts.resize(plan().parts);
     if (options_.resume && fs::exists(folder_ / kManifestFile)) check_plan(read_manifest(folder_).plan);
-    const std::vector<std::size_t> found = parts_in(folder_);
-    for (const std::size_t part : found) check_part(folder_of(part));
-    if (!options_.resume) fs::remove(folder_ / kManifestFile);
-    for (const std::size_t part : found) {
-      if (!options_.resume || !keep(part)) remove_part(folder_of(part), temporary);
+    std::vector<fs::path> removed;
+    for (std::size_t part = 0; part < plan().parts || is_there(part); ++part) {
+      if (is_there(part) && !(options_.resume && keep(part))) removed.push_back(folder_of(part));
     }
+    for (const fs::path& part : removed) check_part(part);
+    if (!options_.resume) fs::remove(folder_ / kManifestFile);
+    // The last one first: if the run is stopped, those that are left are found as they have no gap.
+    for (; !removed.empty(); removed.pop_back()) remove_part(removed.back(), temporary);
   }
 
-  /// False if the part is damaged, or cannot be one of the plan.
+  [[nodiscard]] bool is_there(std::size_t part) const { return fs::exists(fs::symlink_status(folder_of(part))); }
+
+  /// False if the plan has no such part, or a file that its record lists is damaged.
   bool keep(std::size_t part) {
     std::optional<Part> found = read_part(folder_of(part), plan(), part);
     if (!found || part >= plan().parts || !is_whole(folder_of(part), *found)) return false;

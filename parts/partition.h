@@ -54,7 +54,7 @@ struct PartitionResult {
 ///
 /// Throws Error{InvalidOption, InvalidRadius}; what `ChunkedMesh` throws; Error{IoFailure}, also if another run writes
 /// into `folder`; Error{MalformedIndex} if `folder` has the parts of another mesh, halo or number of parts, or
-/// files, but not of a partition, or a part has a file of another; Error{TooLarge} if a part needs more memory;
+/// files but no mark, or a part has a file that no partition has written; Error{TooLarge} if a part needs more memory;
 /// Error{Cancelled}. O(#V log #V + #F log #F) in memory of fixed size.
 PartitionResult partition(ChunkedMesh& mesh, const std::filesystem::path& folder, const PartitionOptions& options,
                           const Run& run = {});

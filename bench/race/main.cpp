@@ -74,7 +74,7 @@ Json race(const MeshView& mesh, Options& options) {
           {"faces", mesh.faces.size()},
           {"mesh_bytes", bytes_of(mesh)},
           {"topology_bytes", bytes_of(mesh) + bytes_of(contestants.graph().adjacency)},
-          {"average_edge", unit},
+          {"mean_edge_length", unit},
           {"compiler", machine.compiler},
           {"order", options.order},
           {"queries", options.plan.queries},

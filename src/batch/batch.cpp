@@ -2,6 +2,7 @@
 #include "batch/batch.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,7 @@ void BatchWorker::find(std::span<const BatchItem> chunk, bool distances, RowRece
     return true;
   };
   split(chunk, distances);
+  assert(!writes_pieces || writer_);
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (writes_pieces && kept != nullptr && kept->next()) {
       if (!write_pieces(runs_[i].items, kept->pieces(), kept->counts())) return;

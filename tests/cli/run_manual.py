@@ -130,9 +130,13 @@ def check_page(folder):
         problems = [one for one in problems if "missing date" not in one]  # so that a build can be repeated
         print(f"mandoc: {problems}")
         wrong += len(problems)
+    else:
+        print("skipped: no mandoc")
     if shutil.which("man"):
         page = re.sub(".\b", "", run(["man", "-l", "man"], folder))
         wrong += not re.search(r"--radius NUMBER\n +radius of the ball", page)
+    else:
+        print("skipped: no man")
     return wrong
 
 

@@ -233,7 +233,8 @@ TEST_F(Folder, IsRefusedIfItHasFilesOfOthers) {
     PartitionOptions options = kOptions;
     for (const bool resume : {true, false}) {
       options.resume = resume;
-      expect_refused(ErrorCode::MalformedIndex, "parts: has files, but not of a partition",
+      expect_refused(ErrorCode::MalformedIndex,
+                     "parts: has files, but not .partition, the mark of a partition; expected a new",
                      [&] { partition(*chunked(mesh), folder, options); });
       EXPECT_EQ(contents(folder), (std::map<std::string, std::string>{{file, "mine"}}));
     }
@@ -241,11 +242,11 @@ TEST_F(Folder, IsRefusedIfItHasFilesOfOthers) {
 }
 
 TEST_F(Folder, KeepsFilesOfOthersInItsParts) {
-  for (const std::string file : {"part-00001/owned.txt", "part-00009/vertices.npz", "part-123456/thesis/part.json",
-                                 "part-00001/index.mhi/x", "part-00009/vertices.npy/x"}) {
+  for (const std::string file : {"part-00001/owned.txt", "part-00001/thesis/part.json", "part-00001/index.mhi/x",
+                                 "part-00004/owned.npy/x", "part-00004"}) {
     fs::remove_all(folder);
     run(folder);
-    if (file.ends_with("/x")) fs::remove((folder / file).parent_path());
+    fs::remove(folder / parts::part_name(1) / parts::kIndexFile);
     fs::create_directories((folder / file).parent_path());
     overwrite(folder / file, "mine");
     const auto before = contents(folder);
@@ -257,6 +258,14 @@ TEST_F(Folder, KeepsFilesOfOthersInItsParts) {
       EXPECT_EQ(contents(folder), before);
     }
   }
+}
+
+TEST_F(Folder, KeepsAPartThatIsWholeWithFilesOfOthers) {
+  run(folder);
+  overwrite(folder / parts::part_name(1) / ".DS_Store", "mine");
+  const auto before = contents(folder);
+  EXPECT_EQ(run(folder).kept, 4U);
+  EXPECT_EQ(contents(folder), before);
 }
 
 TEST_F(Folder, KeepsWhatIsBesideItsParts) {

@@ -233,7 +233,7 @@ def _gltf_notes(path: str, kind: str) -> list[str]:
     """Refuses what trimesh reads as another mesh, and notes what it leaves out."""
     with open(path, "rb") as file:
         start = file.read(20) if kind == "glb" else b""  # of the file, and of its first part
-        tree = json.loads(file.read(int.from_bytes(start[12:16], "little") if start else -1))
+        tree = json.loads(file.read(min(int.from_bytes(start[12:16], "little"), os.path.getsize(path)) if start else -1))
     if not isinstance(meshes := tree.get("meshes", []), list):  # of glTF 1, which trimesh refuses
         return []
     for name in tree.get("extensionsRequired", ()):

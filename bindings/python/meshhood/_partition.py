@@ -35,7 +35,7 @@ def partition(
 
     mesh : a binary PLY file, or a tuple (V, F) of `.npy` files, positions (#V, 3) and faces (#F, k); these are read in
         chunks and may be larger than the memory. A mesh file of another format is read into memory.
-    folder : created if it does not exist.
+    folder : a new or an empty one, or that of an earlier run.
     parts, vertices_per_part : the number of parts, or the approximate number of vertices of a part without its halo.
         Give one of them.
     halo : the largest radius that the parts will answer, finite, >= 0.

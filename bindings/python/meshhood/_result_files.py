@@ -89,7 +89,7 @@ class ResultFile(NamedTuple):
             self.check()
 
     def check(self) -> None:
-        """Raises unless the folder has results of this call, just before the file gets its name: if the call was stopped,
+        """Raises unless the folder has results of this call, before the file is synced and gets its name: if the call was stopped,
         another may have begun meanwhile in a new folder of the same name."""
         folder = os.path.dirname(self.path)
         if _digest(folder) != self.call:

@@ -11,6 +11,7 @@ workers, which must see the folder under the same path. Retries and the dashboar
 from __future__ import annotations
 
 import functools
+import math
 import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -292,9 +293,9 @@ class Parts:
         if _convert.choice(unit, "unit", ("mesh", "edge")) == "edge":
             radius *= self.mean_edge_length
         if radius > self.halo:
+            advice = "" if math.isinf(radius) else f"; partition the mesh with halo={radius:.17g}"
             raise ValueError(
-                f"r: the radius {radius:.17g} is larger than the halo {self.halo:.17g} of these parts; partition the mesh "
-                f"with halo={radius:.17g}"
+                f"r: the radius {radius:.17g} is larger than the halo {self.halo:.17g} of these parts{advice}"
             )
         return radius
 
@@ -371,8 +372,9 @@ def map_meshes(
 
 
 def _name_of(function: Any) -> str:
-    """Of a `functools.partial` with a digest of its arguments, which is the same in every process."""
+    """Of a `functools.partial` with Dask's digest of its arguments, which a set or an object of no known content may have
+    anew in each process: the call is then another."""
     if isinstance(function, functools.partial):
-        digest = optional("dask.base", "Parts").tokenize(function.args, function.keywords)
+        digest = optional("dask.base", "a functools.partial").tokenize(function.args, function.keywords)
         return f"{_name_of(function.func)} {digest}"
     return getattr(function, "__qualname__", type(function).__qualname__)
