@@ -249,7 +249,7 @@ void Input::need_positions(const std::string& method) const {
   if (!mesh_ || mesh_->walls.empty()) return;
   wrong_option(
       "{}: has vertices without a position, which are walls: {} does not pass them by; expected --method "
-      "exact",
+      "exact or ball",
       printable_name(name_), method);
 }
 
