@@ -474,7 +474,8 @@ def start_of(words, start):
     """As `PLAIN` takes it, with the masks."""
     if np.ndim(start) == 0:
         return {"v": int(start), **masks_of(words)}
-    seeds = F[words["face"]] if "face" in words else words.get("seeds", [np.argmin(distances_from(start))])
+    distances = np.where(WALLS & ("walls" in words), np.inf, distances_from(start))
+    seeds = F[words["face"]] if "face" in words else words.get("seeds", [np.argmin(distances)])
     return {"v": None, **masks_of(words), "point": tuple(start.tolist()), "seeds": tuple(int(v) for v in seeds)}
 
 

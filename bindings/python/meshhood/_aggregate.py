@@ -266,7 +266,7 @@ def _smoothing_radii(fwhm: Any, scales: Any, vertices: Any, count: int) -> tuple
     check_one_given(fwhm, scales, "fwhm")
     _convert.refuse_one(vertices, count)
     if vertices is not None:
-        ids = _convert.vertices(vertices, count)
+        _, ids = _convert.one_or_many(vertices, count)
         count = len(ids)
         vertices = ids.tolist() if isinstance(vertices, (list, tuple)) else ids  # so that it is read alike again
     radii = _kernel_radii(fwhm, "fwhm")
