@@ -11,7 +11,7 @@ meshhood_own_target(meshhood_families)
 target_compile_options(meshhood_families PRIVATE $<$<CONFIG:Release>:-O1>)
 
 set(parts
-  base/adjacency base/frame base/mesh base/triangulate shared/coarse_float shared/distance base/sphere base/reference base/error shared/helper_threads shared/parallel shared/raw_vector
+  base/adjacency base/frame base/mesh base/triangulate shared/coarse_float shared/disjoint_sets shared/distance shared/row_order base/sphere base/reference base/error shared/helper_threads shared/parallel shared/raw_vector
   base/cut_edges base/epoch_array base/number_set base/packed_positions base/face_graph
   aggregate/aggregate aggregate/listed_sums aggregate/smoothing
   batch/batch batch/packets batch/path_rows batch/position_sort batch/kept_packets batch/k_nearest batch/unconnected
