@@ -217,7 +217,7 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<con
   return answers;
 }
 
-/// The answers that only the exact method gives: from a point, with masks, in another metric, for several radii.
+/// The answers of the exact method from a point, with masks, in another metric, or for several radii.
 std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<const QueryStart> starts,
                                       std::span<const double> radii, Input& input) {
   input.need_edges("this query");

@@ -81,6 +81,10 @@ inline constexpr int kOutputNumber = 1;
 /// Locks a folder for this process, until it ends, `unlock` is called, or on Windows the descriptor is closed; no file
 /// remains. EWOULDBLOCK if another run has it.
 [[nodiscard]] Descriptor lock_folder(const std::filesystem::path& path);
+
+/// What Windows has in a folder while it is locked.
+inline constexpr std::string_view kLockFile = ".meshhood-lock";
+
 void unlock(const Descriptor& folder);
 
 struct FileStatus {

@@ -95,7 +95,7 @@ Descriptor open_folder(const std::filesystem::path& /*path*/) {
 
 /// By a file that no other process can open, and that the system removes when it is closed.
 Descriptor lock_folder(const std::filesystem::path& path) {
-  const HANDLE file = ::CreateFileW((path / ".meshhood-lock").c_str(), GENERIC_WRITE, 0, nullptr, OPEN_ALWAYS,
+  const HANDLE file = ::CreateFileW((path / kLockFile).c_str(), GENERIC_WRITE, 0, nullptr, OPEN_ALWAYS,
                                     FILE_FLAG_DELETE_ON_CLOSE | FILE_ATTRIBUTE_HIDDEN, nullptr);
   if (file == INVALID_HANDLE_VALUE) {
     const bool is_locked = ::GetLastError() == ERROR_SHARING_VIOLATION;

@@ -38,10 +38,13 @@ void mark_folder(const fs::path& folder) {
 }
 
 void check_mark(const fs::path& folder) {
-  if (!fs::is_directory(folder) || fs::is_empty(folder) || fs::exists(folder / kMarkFile)) return;
-  raise(ErrorCode::MalformedIndex,
-        fmt::format("{}: has files, but not {}, the mark of a partition; expected a new or an empty folder",
-                    io::printable_name(folder.string()), kMarkFile));
+  if (fs::exists(folder / kMarkFile)) return;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() == io::kLockFile) continue;
+    raise(ErrorCode::MalformedIndex,
+          fmt::format("{}: has files, but not {}, the mark of a partition; expected a new or an empty folder",
+                      io::printable_name(folder.string()), kMarkFile));
+  }
 }
 
 void check_part(const fs::path& part) {

@@ -22,7 +22,7 @@ inline constexpr std::string_view kMarkFile = ".partition";
 
 void mark_folder(const std::filesystem::path& folder);
 
-/// Throws Error{MalformedIndex} if it is a folder that has files, but no mark.
+/// Throws Error{MalformedIndex} if the folder, which is locked, has files but no mark.
 void check_mark(const std::filesystem::path& folder);
 
 /// Throws Error{MalformedIndex}, naming the file, if a part has one, or is one, that no partition has written.

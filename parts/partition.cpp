@@ -75,8 +75,8 @@ class Partitioning {
         stages_(run.progress) {}
 
   PartitionResult run() {
-    check_mark(folder_);  // which has no other file yet, while a lock may be one
     const FolderLock lock(folder_);
+    check_mark(folder_);
     const std::uint64_t parts = number_of_parts(options_, mesh_.vertex_count());
     check_number_of_parts(parts, budget_.sample_bytes);
     stages_.begin(0.05);

@@ -118,8 +118,8 @@ class PatchSearcher {
   /// a border of the mesh, a side at which its orientation changes, or one of a face that is listed twice lies in the
   /// patch, or where there is no patch, whose area is 0, it is NaN. No volume is negative. A sheet of two sides that is
   /// thinner than 2^-41 of the radius, or of the mesh if that is smaller, has nothing behind it, unless needles are all
-  /// that it has: then rounding decides. Where a surface intersects itself, the volume that it encloses by sign is
-  /// found up to a multiple of that of the ball, within which it stays.
+  /// that it has: then rounding decides. Where a surface intersects itself, what it encloses twice counts twice, what
+  /// is inside out counts negative, and a multiple of the volume of the ball is added, so that no volume is larger.
   [[nodiscard]] PatchMeasure measure(const PatchStart& start, double radius);
 
   /// The nearest point of the surface in the ball that is not of the patch; of several faces at the same distance, the

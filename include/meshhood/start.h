@@ -31,8 +31,8 @@ class Start {
   /// seeds   in [0, #V), in any order; repeats are allowed. A seed outside a ball does not count for that ball.
   Start(const SpacePoint& center, Borrowed<VertexId> seeds) : center_(center), seeds_(seeds) {}
 
-  /// Any point in space is the center, and the vertex nearest to it the only seed: what a click or a tracked tool
-  /// gives. Throws as `nearest`.
+  /// Any point in space is the center, and the vertex nearest to it that is no wall the only seed: what a click or
+  /// a tracked tool gives. Throws as `nearest`.
   [[nodiscard]] static Start nearest(const Index& index, const SpacePoint& center);
 
   /// The vertex, if the start is a vertex; then `center` is empty.

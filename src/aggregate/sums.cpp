@@ -21,7 +21,7 @@ double sum_of(std::span<const double> values) {
 /// The words of values, those of infinite ones without the rows in which their weight is 0.
 std::array<QueryWord, kLeafCapacity> with_weights(std::span<const double> values, const QueryWord* queries,
                                                   const RowWeights& weights) {
-  std::array<QueryWord, kLeafCapacity> words;
+  std::array<QueryWord, kLeafCapacity> words{};
   for (std::size_t k = 0; k < values.size(); ++k) {
     words[k] = queries[k];
     if (!std::isinf(values[k])) continue;
@@ -96,7 +96,7 @@ SumColumns::SumColumns(SignalBlock block, Reduce reduce) : reduce_(reduce) {
 
 void SumColumns::add_weighted(const AggregateKernels& kernels, const VertexRange& vertices, const QueryWord* queries,
                               const RowWeights& weights, std::span<RowSums> sums) const {
-  std::array<QueryWord, kLeafCapacity> words;
+  std::array<QueryWord, kLeafCapacity> words{};
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const auto values = std::span(columns_[i]).subspan(vertices.begin, vertices.size());
     if (has_infinite_[i]) words = with_weights(values, queries, weights);

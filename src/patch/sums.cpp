@@ -116,8 +116,7 @@ double PatchSums::area(const PatchBall& ball) const {
 /// Below 0 by no more than its error it is 0. A term of the moment is the area of a triangle times a part of the offset
 /// of a corner from the center, which is at most the radius, and less than 4 in the frame. So its error is a few 2^-53
 /// of area times offset, and that of a needle as many times more as it is longer than high: the slack has room for
-/// 1000. A body as thin as 2^-41 radii, or units of the
-/// frame, is below it, too.
+/// 1000. A body as thin as 2^-41 radii, or units of the frame, is below it, too.
 double PatchSums::volume(const PatchBall& ball) const {
   constexpr double kSlack = 0x1p-40;
   if (has_border_) return kNan;

@@ -62,9 +62,6 @@ class BoxTree {
   template <class Reach>
   class Line;
 
-  /// Around all items.
-  [[nodiscard]] BoundingBox box() const { return box_around(levels_.size() - 1, 0); }
-
   [[nodiscard]] std::size_t bytes() const;
 
  private:

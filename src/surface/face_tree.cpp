@@ -124,6 +124,11 @@ NormalCone cone_of(const Bundle& normals) {
 }  // namespace
 
 NormalCones::NormalCones(const IndexView& index, const FaceTree& tree) {
+  BoundingBox box;  // in double, as those of the tree are rounded by the unit of the frame
+  for (const Triangle& triangle : tree.triangles()) {
+    for (const Point& corner : corners_in_frame(index, triangle.corners)) box.add(corner);
+  }
+  diagonal_ = length(box.high - box.low);
   std::vector<Bundle> groups = in_groups(
       tree.triangles().size(), [&](std::size_t i) { return bundle_of(doubled_area(index, tree.triangles()[i])); });
   for (;;) {

@@ -83,10 +83,14 @@ class NormalCones {
     return dot(axis, normal) < static_cast<double>(cone.cosine);
   }
 
+  /// That of the box around all triangles, in the frame.
+  [[nodiscard]] double diagonal() const { return diagonal_; }
+
   [[nodiscard]] std::size_t bytes() const;
 
  private:
   std::vector<std::vector<NormalCone>> levels_;  // as those of the boxes
+  double diagonal_ = 0;
 };
 
 }  // namespace meshhood::inline v0_1

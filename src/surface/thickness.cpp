@@ -107,8 +107,8 @@ class OppositeSide {
     return has_normal() ? way_to_first([](std::size_t) { return true; }) : kNan;
   }
 
-  /// Infinite if the ball has a radius above `most`, in the frame.
-  [[nodiscard]] double by_sphere(const NormalCones& cones, double most) const {
+  /// Infinite if the radius of the ball is above the diagonal of the faces.
+  [[nodiscard]] double by_sphere(const NormalCones& cones) const {
     if (!has_normal()) return kNan;
     const double scale = index_->frame.scale;
     const double way = way_to_first([&](std::size_t i) { return opposes(i); });
@@ -124,7 +124,7 @@ class OppositeSide {
     };
     while (walk.advance(shrink, [](std::size_t) {}, enters)) {
     }
-    return ball.radius() <= most ? 2 * ball.radius() / scale : kInfinity;
+    return ball.radius() <= cones.diagonal() ? 2 * ball.radius() / scale : kInfinity;
   }
 
  private:
@@ -199,12 +199,10 @@ std::vector<double> measure_rows(const SurfaceState& state, std::size_t rows, Th
                                  SlotOf&& slot_of, SpotOf&& spot_of) {
   const FaceTree& tree = state.tree(task);
   const NormalCones* const cones = method == ThicknessMethod::Sphere ? &state.cones(task) : nullptr;
-  const BoundingBox box = tree.boxes().box();
-  const double diagonal = length(box.high - box.low);
   std::vector<double> result(rows);
   for_each_by_position(rows, kRowsOfTask, slot_of, task, [&](unsigned thread, std::size_t row) {
     const OppositeSide side(*state.index, tree, spot_of(row));
-    result[row] = cones == nullptr ? side.by_ray() : side.by_sphere(*cones, diagonal);
+    result[row] = cones == nullptr ? side.by_ray() : side.by_sphere(*cones);
     task.advance(thread, 1);
   });
   return result;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/row_order.h"
 
-#include <cstdint>
+#include <algorithm>
+#include <cstddef>
 #include <tuple>
 #include <vector>
 
@@ -46,7 +47,9 @@ TEST(RowOrder, IsThatOfTuples) {
         order->sort(found, along);
         for (std::size_t i = 0; i < size; ++i) {
           EXPECT_EQ(found[i], std::get<2>(expected[i]));
-          if (with_distances) EXPECT_EQ(along[i], std::get<3>(expected[i]));
+          if (with_distances) {
+            EXPECT_EQ(along[i], std::get<3>(expected[i]));
+          }
         }
       }
     }

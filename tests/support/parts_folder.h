@@ -73,7 +73,7 @@ struct OpenPart {
 inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) files[relative(entry.path(), folder).string()] = read_file(entry.path());
+    if (entry.is_regular_file()) files[relative(entry.path(), folder).generic_string()] = read_file(entry.path());
   }
   return files;
 }

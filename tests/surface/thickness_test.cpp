@@ -390,9 +390,9 @@ TEST(Thickness, BySphereIsInfiniteBeyondTheDiagonalOfTheFaces) {
     mesh.add_face({3, 4, 5});
     return mesh.finish(false);
   };
-  for (const auto& [rise, thick] : {std::pair(1.0, kInfinity), {4.0, 13.0}}) {
+  for (const auto& [rise, thick] : {std::pair(1.0, kInfinity), {3.05, kInfinity}, {4.0, 13.0}}) {
     for (const double unit : {1.0, 1.2, 1.7, 2.0, 1e9}) {
-      for (const double alone : {0.0, 9.0, 1000.0}) {
+      for (const double alone : {0.0, 9.0, 1000.0, 1e6}) {
         const TestMesh mesh = make(rise, unit, alone);
         const Index fresh = build(mesh.view());
         const std::vector<VertexId> last{6};
