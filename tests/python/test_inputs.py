@@ -238,6 +238,11 @@ def test_refused_queries(v, r, error, message, method):
             lambda: INDEX.smooth(V[:, 0], 6, vertices=3),
             lambda: INDEX.smoothing_matrix([6], vertices=3),
         )),
+        *((call, ValueError, "^vertices: expected a list of vertices, or a bool mask of 36, not") for call in (
+            lambda: INDEX.neighborhoods(1, [[0]]),
+            lambda: INDEX.iter_neighborhoods(1, np.zeros((1, 1), int)),
+            lambda: INDEX.smooth(V[:, 0], 6, vertices=[[0]]),
+        )),
         (lambda: INDEX.neighborhoods(1, {1, 2}), TypeError, "vertices: expected an integer, not set"),
         (lambda: INDEX.neighborhoods(1, slice(0, 5)), TypeError, "vertices: expected an integer, not slice"),
         (lambda: INDEX.neighborhoods(1, np.array(3.0)), TypeError, "vertices: expected an integer, not float64"),

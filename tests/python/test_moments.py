@@ -73,6 +73,7 @@ def test_wrong_arguments_are_refused_by_name(plates):
         (lambda: index.curvature(1, F=F, fit="jet", like="libigl"), "like: 'libigl', expected None with fit='jet'"),
         (lambda: meshhood.persistence(np.zeros((2, 3)), [1.0], 0.5), "values: expected an array of shape"),
         (lambda: meshhood.persistence(np.zeros((2, 3)), [2, 1], 0.5), "^radii: value 1: radius 1.0, expected more than 2.0"),
+        (lambda: meshhood.persistence(np.zeros((0, 3)), [], 0.5), "^radii: there are none, expected at least one"),
         (lambda: meshhood.persistence(np.zeros((2, 3)), [-1.0, 1.0], 0.5), "^radii: value 0: radius -1.0"),
         (lambda: meshhood.persistence(np.zeros((2, 3)), [1.0, np.nan], 0.5), "^radii: value 1: radius nan"),
         (lambda: meshhood.geometric_radii(1, 2, 0), "count: 0"),

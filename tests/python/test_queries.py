@@ -107,6 +107,8 @@ def test_an_empty_list_has_no_seeds():
         warnings.simplefilter("error")  # no seed is far
         for points, seeds in (([], []), ([[2.0, 2.0, 0.0]] * 2, [[], []])):
             assert len(index.stroke(points, 1.5, seeds=seeds)) == 0
+        empty = meshhood.MeshIndex(np.empty((0, 3)), np.empty((0, 3), int))
+        assert len(empty.stroke([[0.0, 0, 0]] * 2, 1)) == len(empty.stroke([], 1)) == len(index.stroke([], 1)) == 0
 
 
 FAR = "point is farther than r from the vertices where its search starts"

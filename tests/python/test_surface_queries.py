@@ -329,7 +329,7 @@ def test_a_point_is_described_by_its_coordinates():
     index = meshhood.MeshIndex(V, np.array(quads)[:, :3])
     face, weights, point, _ = found = index.closest_point([2.0, 3.0, 1.0])
     assert repr(found) == f"<meshhood.ClosestPoint: face {face}, barycentric {weights}, point {point}, distance 1.0>"
-    shown = "<meshhood.ClosestPoint: face 5 rows, barycentric 5 by 3, point 5 by 3, distance 5 rows>"
+    shown = "<meshhood.ClosestPoint: face 5 values, barycentric 5 by 3, point 5 by 3, distance 5 values>"
     assert repr(index.closest_point(V[:5])) == shown
 
 

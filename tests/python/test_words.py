@@ -91,17 +91,25 @@ def test_a_mask_of_numbers_is_refused(argument, number):
     assert len(INDEX.counts(1.0, [0, 1] * COUNT)) == 2 * COUNT
     with pytest.raises(TypeError, match=f"{argument}: {COUNT} numbers 0 or 255, .* a bool mask: {argument} == 255"):
         INDEX.counts(1.0, **{argument: WALLS * number(255)})
-    with pytest.raises(TypeError, match="ids: .* a bool mask"):
-        INDEX.submesh(WALLS.astype(number))
+    for name, call in (
+        ("ids", INDEX.submesh),
+        ("ids", lambda mask: INDEX.rim(mask, 0, 1.0)),
+        ("changed", lambda mask: INDEX.refit(V, mask)),
+        ("seeds", lambda mask: INDEX.neighborhood(V[0], 1.0, seeds=mask)),
+    ):
+        with pytest.raises(TypeError, match=f"^{name}: .* a bool mask"):
+            call(WALLS.astype(number))
 
 
 def test_a_list_of_vertices_may_look_like_a_mask():
     index = meshhood.MeshIndex(V[:3], [[0, 1, 2]])
     np.testing.assert_array_equal(index.counts(99, [0, 1, 1]), [3, 3, 3])
-    np.testing.assert_array_equal(index.smooth([1.0, 2, 3], 9, vertices=(0, 2, 2)).shape, 3)
-    for seeds in ([0, 0, 1], np.array([0, 0, 1])):
-        np.testing.assert_array_equal(np.sort(index.neighborhood(V[0], 99, seeds=seeds)), [0, 1, 2])
-        assert len(index.refit(V[:3] + 1, seeds)) == 3
+    smooth = index.smooth([1.0, 2, 3], 9)
+    np.testing.assert_array_equal(index.smooth([1.0, 2, 3], 9, vertices=(0, 2, 2)), smooth[[0, 2, 2]])
+    np.testing.assert_array_equal(np.sort(index.neighborhood(V[0], 99, seeds=[0, 0, 1])), [0, 1, 2])
+    np.testing.assert_array_equal(index.refit(V[:3] + 1, [0, 0, 1]).positions, V[:3] + [[1], [1], [0]])
+    np.testing.assert_array_equal(index.counts(99, walls=[0, 1, 0]), [0, 0, 1])
+    assert len(index.submesh((0, 1, 1), "any").faces) == 1
 
 
 def test_the_points_and_seeds_of_a_stroke_repeat_as_they_like():
@@ -113,6 +121,14 @@ def test_the_points_and_seeds_of_a_stroke_repeat_as_they_like():
 
 def test_the_smoothing_matrix_has_the_form_of_scipy():
     INDEX.smoothing_matrix(scales=[0.7, 1.9], **MASKS).check_format(full_check=True)
+
+
+@pytest.mark.parametrize("kind", (list, tuple))
+def test_empty_rows_of_a_smoothing_matrix_are_those_of_the_vertices(kind):
+    rows, walls = np.array([4, 0, 40]), [0, 40]
+    wanted = INDEX.smoothing_matrix(scales=[1.0, 2.0], vertices=rows, walls=walls).toarray()
+    found = INDEX.smoothing_matrix(scales=[1.0, 2.0], vertices=kind(rows.tolist()), walls=walls).toarray()
+    np.testing.assert_array_equal(found, wanted)
 
 
 def test_masks_are_also_lists_of_vertices():
@@ -155,9 +171,15 @@ BESIDE = V[40] + [0.1, 0.1, -0.2]
 AROUND = {"walls": WALLS | (np.arange(COUNT) == 40)}
 METRICS = ("straight", "path", "surface", "space")
 WITH_WALLS = {
-    "neighborhood": lambda index, **walls: [index.neighborhood(BESIDE, 2.5, metric=each, **walls) for each in METRICS],
+    "neighborhood": lambda index, **walls: [
+        *(index.neighborhood(BESIDE, 2.5, metric=each, **walls) for each in METRICS),
+        index.neighborhood(V[F[20]].mean(axis=0), 2.5, face=20, **walls),
+    ],
     "count": lambda index, **walls: index.count(BESIDE, 2.5, **walls),
-    "stroke": lambda index, **walls: index.stroke([BESIDE, V[3]], 1.5, **walls),
+    "stroke": lambda index, **walls: [
+        index.stroke([BESIDE, V[3]], 1.5, **walls),
+        index.stroke(V[F[:20:9]].mean(axis=1), 1.5, face=np.arange(0, 20, 9), **walls),
+    ],
     "nested": lambda index, **walls: index.nested(BESIDE, [1.5, 2.5], **walls),
     "contains": lambda index, **walls: [index.contains(BESIDE, w, 2.5, **walls) for w in range(COUNT)],
     "connecting_radius": lambda index, **walls: [index.connecting_radius(BESIDE, w, **walls) for w in range(COUNT)],
@@ -177,7 +199,9 @@ WITH_WALLS = {
     "nearest_unconnected": lambda index, **walls: index.nearest_unconnected(2.5, **walls),
     "aggregate": lambda index, **walls: index.aggregate(VALUES, 2.5, **walls),
     "smooth": lambda index, **walls: index.smooth(VALUES, 2.5, **walls),
-    "smoothing_matrix": lambda index, **walls: index.smoothing_matrix(2.5, **walls).toarray(),
+    "smoothing_matrix": lambda index, **walls: [
+        index.smoothing_matrix(2.5, vertices=rows, **walls).toarray() for rows in (None, [4, 0, 40])
+    ],
     "curvature": lambda index, **walls: index.curvature(2.5, **walls).count,
     "corrected_curvature": lambda index, **walls: index.corrected_curvature(2.5, **walls).area,
     "moments": lambda index, **walls: index.moments(2.5, **walls),
@@ -302,15 +326,17 @@ def test_free_memory_is_what_a_control_group_leaves(tmp_path, monkeypatch):
     assert _memory.free_bytes() == 1000
     with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds max_bytes, 1000; iter_neighborhoods"):
         INDEX.neighborhoods(5.0)
+    assert len(INDEX.moments(0.5)) == COUNT  # too small to read the free memory for it
+    rows = np.zeros(2**17, int)
     for call in (
-        lambda: INDEX.aggregate(VALUES, 5.0),
-        lambda: INDEX.curvature(0.5),
-        lambda: INDEX.corrected_curvature(0.5),
-        lambda: INDEX.moments(0.5, degree=4),
-        lambda: INDEX.principal_components(0.5),
-        lambda: INDEX.features(scales=[0.5, 1.0], kinds=("mean", "area", "gap")),
-        lambda: INDEX.invariants(0.5),
-        lambda: INDEX.gaps(0.5),
+        lambda: INDEX.aggregate(VALUES, 5.0, vertices=rows),
+        lambda: INDEX.curvature(0.5, rows),
+        lambda: INDEX.corrected_curvature(0.5, rows),
+        lambda: INDEX.moments(0.5, rows, degree=4),
+        lambda: INDEX.principal_components(0.5, rows),
+        lambda: INDEX.features(vertices=rows, scales=[0.5, 1.0], kinds=("mean", "area", "gap")),
+        lambda: INDEX.invariants(0.5, rows),
+        lambda: INDEX.gaps(0.5, rows),
     ):
         with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds the free memory, 1000"):
             call()
@@ -318,9 +344,9 @@ def test_free_memory_is_what_a_control_group_leaves(tmp_path, monkeypatch):
 
 def test_results_are_described_in_a_line():
     assert repr(INDEX.k_nearest(3)) == f"<meshhood.Nearest: ids {COUNT} by 3, distances {COUNT} by 3>"
-    assert repr(INDEX.nested(3, [0.1, 0.2])) == "<meshhood.Nested: counts 2 rows, ids 1 row>"
+    assert repr(INDEX.nested(3, [0.1, 0.2])) == "<meshhood.Nested: counts 2 values, ids 1 value>"
     assert repr(INDEX.nearest_unconnected(0.1, 3)) == "<meshhood.Unconnected: vertex -1, distance inf>"
     assert repr(meshhood.Mesh(V, F)).startswith(f"<meshhood.Mesh: vertices {COUNT} by 3")
     polygons = meshhood.Mesh(V, (np.array([0, 4]), np.arange(4)))
-    assert repr(polygons) == f"<meshhood.Mesh: vertices {COUNT} by 3, faces (2 rows, 4 rows)>"
-    assert repr(next(INDEX.iter_neighborhoods(0.1, [3]))).endswith("indices 1 row, distances None>")
+    assert repr(polygons) == f"<meshhood.Mesh: vertices {COUNT} by 3, faces (2 values, 4 values)>"
+    assert repr(next(INDEX.iter_neighborhoods(0.1, [3]))).endswith("indices 1 value, distances None>")

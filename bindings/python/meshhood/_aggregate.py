@@ -147,7 +147,7 @@ class Aggregates(Held):
             "quantile": _convert.share(q, "q"),
         }
         if falling != "box" and not {"sum", "mean"}.issuperset(names):
-            raise ValueError(f"kernel: {kernel!r}, expected None with reduce={reduce!r}")
+            raise ValueError(f"kernel: {kernel!r}, expected None or 'box' with reduce={reduce!r}")
         areas = area_weights(self, weights, F)
         if 0 in given.shape[1:]:
             return np.empty(shape, dtype)
@@ -245,7 +245,7 @@ class Aggregates(Held):
         with np.errstate(invalid="ignore"):
             data /= np.repeat(sums, sizes)
         graph.data = data.astype(result_dtype(dtype), copy=False)
-        return _nan_where_empty(graph, np.arange(self._count) if vertices is None else vertices)
+        return _nan_where_empty(graph, np.arange(self._count) if vertices is None else np.asarray(vertices))
 
 
 def _nan_where_empty(graph: Any, rows: Any) -> Any:
@@ -266,7 +266,7 @@ def _smoothing_radii(fwhm: Any, scales: Any, vertices: Any, count: int) -> tuple
     check_one_given(fwhm, scales, "fwhm")
     _convert.refuse_one(vertices, count)
     if vertices is not None:
-        _, ids = _convert.one_or_many(vertices, count)
+        ids = _convert.vertices(vertices, count)
         count = len(ids)
         vertices = ids.tolist() if isinstance(vertices, (list, tuple)) else ids  # so that it is read alike again
     radii = _kernel_radii(fwhm, "fwhm")
@@ -282,7 +282,8 @@ def _kernel_radii(fwhm: Any, name: str) -> Any:
     wrong = np.argwhere(~((widths > 0) & (widths < np.inf)))
     if wrong.size:
         at = tuple(wrong[0])
-        raise ValueError(f"{name}: row {at[0]}: {widths[at]}, expected a finite number > 0")
+        what = "row" if name == "fwhm" else "value"
+        raise ValueError(f"{name}: {what} {at[0]}: {widths[at]}, expected a finite number > 0")
     return np.array([_core.smoothing_radius(width) for width in widths.flat]).reshape(widths.shape)
 
 

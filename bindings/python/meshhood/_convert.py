@@ -15,8 +15,10 @@ _MOST_THREADS = 1024
 
 def vertices(v, count, name="vertices", single=""):
     """`v` as a new int32 array in C order, each value in [0, count). `v` may be a bool mask of `count` values; a mask of
-    numbers is refused. `single`: what an error says of a call that takes one vertex, too."""
-    _refuse_mask_of_numbers(as_array(v, name), count, name)
+    numbers is refused, but not a list or tuple: no file or image has a mask as these. `single`: what an error says of a
+    call that takes one vertex, too."""
+    if not isinstance(v, (list, tuple)):
+        _refuse_mask_of_numbers(as_array(v, name), count, name)
     return vertex_rows(v, count, name, single)
 
 
@@ -122,14 +124,16 @@ def one_or_many(v, count):
     is_one = is_single(v, "vertices")
     if is_one:
         return True, np.array([vertex(v, count)], np.int32)
-    read = vertex_rows if isinstance(v, (list, tuple)) else vertices  # no file or image has a mask as a list
-    return False, read(v, count, "vertices", "one vertex, ")
+    return False, vertices(v, count, single="one vertex, ")
 
 
 def refuse_one(v, count, instead=""):
     """Refuses one vertex where each row is a list, or a row of a matrix. `instead`: what answers one."""
-    if v is not None and is_single(v, "vertices"):
+    dimensions = 1 if v is None else as_array(v, "vertices").ndim
+    if dimensions == 0:
         raise TypeError(f"vertices: one vertex, expected a list: [{vertex(v, count)}]{instead}")
+    if dimensions > 1:
+        vertices(v, count)  # refused here, or the error would say that one vertex is taken
 
 
 def radius(r, name="r"):

@@ -192,6 +192,8 @@ def persistence(values: Any, radii: Any, threshold: float) -> Persistence:
     """
     array = np.array(_convert.numbers(values, "values"), np.float64)
     scales = _convert.ascending(radii, "radii")
+    if not len(scales):
+        raise ValueError("radii: there are none, expected at least one")
     if array.ndim != 2 or len(array) != len(scales):
         raise ValueError(f"values: expected an array of shape (#radii, #rows), not {array.shape}, for {len(scales)} radii")
     threshold = _convert.finite(threshold, "threshold", or_zero=False)

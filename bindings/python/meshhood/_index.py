@@ -522,7 +522,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         >>> moved = meshhood.MeshIndex(V, F).refit(2 * V)
         """
         whole = self._placed("refitted")
-        moved = None if changed is None else _convert.vertex_rows(changed, self._count, "changed")
+        moved = None if changed is None else _convert.vertices(changed, self._count, "changed")
         positions = moved_positions(V)
         if len(positions) != self._count:
             raise ValueError(f"V: {len(positions)} positions, but the index has {self._count} vertices")

@@ -205,7 +205,7 @@ class Queries(Held):
             rows = self._corners_of(face, count, seeds)
         else:
             if seeds is None:
-                seeds = index._exact.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
+                seeds = index._exact.nearest(centers)[0] if count and self._count else np.empty((count, 0), np.int32)
             rows = _convert.seed_rows(seeds, count, self._count)
         indices, has_seeds = method.stroke(centers, rows, radii)
         _warn_unless(has_seeds or not rows.size, "points: a")
@@ -393,7 +393,7 @@ class Queries(Held):
         elif seeds is None:
             seeds = self._exact.nearest(point)[0] if self._count else np.empty(0, np.int32)
         else:
-            seeds = _convert.vertex_rows(_convert.listed(seeds, "seeds"), self._count, "seeds", "one vertex, ")
+            seeds = _convert.vertices(_convert.listed(seeds, "seeds"), self._count, "seeds", "one vertex, ")
         x, y, z = point[0]
         return (float(x), float(y), float(z)), seeds
 

@@ -27,5 +27,5 @@ def _shown(value: Any) -> str:
         return f"({', '.join(map(_shown, value))})"
     shape = np.shape(value)
     if len(shape) == 1 and shape != (3,):
-        return f"{shape[0]} row" + "s" * (shape != (1,))
+        return f"{shape[0]} value" + "s" * (shape != (1,))
     return f"{value}" if shape in ((), (3,)) else " by ".join(map(str, shape))

@@ -111,8 +111,11 @@ def sorted_rows(index: Held, sort: str, indptr: Any, indices: Any, distances: An
 
 
 def check_size(shape: tuple[int, ...], itemsize: int, max_bytes: Any) -> None:
-    """Refuses a result of this shape that is too large."""
-    size, limit = itemsize * math.prod(shape), _convert.max_bytes(max_bytes)
+    """Refuses a result of this shape that is too large. To read the free memory takes longer than a small call."""
+    size = itemsize * math.prod(shape)
+    if max_bytes is None and size < 2**20:
+        return
+    limit = _convert.max_bytes(max_bytes)
     if size > limit:
         most = "the free memory" if max_bytes is None else "max_bytes"
         raise MemoryError(
