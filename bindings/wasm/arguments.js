@@ -13,6 +13,7 @@ function refuseOption(name, known) {
 /** In a message: an object by its type, for an array may have millions of numbers. */
 function shown(value) {
   if (typeof value === 'string') return `'${value}'`;
+  if (typeof value === 'bigint') return `${value}n`;
   return typeof value === 'object' && value !== null ? value.constructor?.name ?? 'object' : String(value);
 }
 

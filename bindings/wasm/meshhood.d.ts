@@ -234,9 +234,9 @@ export type Start = number | readonly [number, number, number] | Float32Array | 
 export interface StartOptions extends Masks, MetricOptions {
   /**
    * If the start is a point: the vertices from which the search spreads, for example the corners of the face on which
-   * the point lies; by default the vertex nearest to the point. A seed outside the ball does not count. If all are
-   * outside, the neighborhood is empty: the point is too far from the mesh. The first time that this happens with an
-   * index, a warning is written to the console. `nearest` returns the nearest vertex and its distance.
+   * the point lies; by default the vertex nearest to the point that is no wall. A seed outside the ball does not
+   * count. If all are outside, the neighborhood is empty: the point is too far from the mesh. The first time that this
+   * happens with an index, a warning is written to the console. `nearest` returns the nearest vertex and its distance.
    */
   seeds?: Uint32Array | null;
 }

@@ -78,7 +78,7 @@ const TYPED = [
 ];
 
 test('options of another type are refused by name, and leave the index usable', () => {
-  const values = [[1, '1'], [2, '2'], [1n, '1'], [{}, 'Object'], [new Set(), 'Set'], [Object.create(null), 'object']];
+  const values = [[1, '1'], [2, '2'], [1n, '1n'], [{}, 'Object'], [new Set(), 'Set'], [Object.create(null), 'object']];
   const truths = [['yes', "'yes'"], ['true', "'true'"], ['0', "'0'"], [[], 'Array']];
   for (const [[call], name, expected] of TYPED) {
     const others = expected === NAMES ? values : [...values, ...truths];
