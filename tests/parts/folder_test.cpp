@@ -108,18 +108,19 @@ TEST_F(Folder, HasItsDamagedPartsWrittenAgain) {
   for (const auto& [name, content] : expected) {
     if (name == parts::kManifestFile || content.empty()) continue;
     run(folder);
+    const std::string shown = fs::path(name).make_preferred().string();
     std::string changed = content;
     changed[changed.size() / 2] = static_cast<char>(changed[changed.size() / 2] ^ 1);
     for (const std::string& bytes : {changed, content.substr(0, content.size() - 1), std::string()}) {
       overwrite(folder / name, bytes);
       if (name.ends_with(parts::kPartFile)) {
-        expect_refused(ErrorCode::MalformedIndex, name, [&] { run(folder); });
+        expect_refused(ErrorCode::MalformedIndex, shown, [&] { run(folder); });
         overwrite(folder / name, content);
         continue;
       }
       const auto manifest = parts::read_manifest(folder);
       const auto number = static_cast<std::size_t>(name[9] - '0');
-      expect_refused(ErrorCode::MalformedIndex, name,
+      expect_refused(ErrorCode::MalformedIndex, shown,
                      [&] { verify_part(folder / parts::part_name(number), manifest.parts[number]); });
       const fs::path kept = folder / parts::part_name((number + 1) % 4) / "index.mhi";
       const auto written = fs::last_write_time(kept);
