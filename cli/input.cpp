@@ -168,8 +168,9 @@ Input::Input(const Reading& reading, unsigned threads) : name_(reading.file) {
   header_ = loaded.header;
   if (auto* exact = std::get_if<Index>(&loaded.index)) exact_ = std::move(*exact);
   if (auto* paper = std::get_if<paper::Index>(&loaded.index)) paper_ = std::move(*paper);
-#ifndef MESHHOOD_DEMO       // which knows no parts
-  std::error_code missing;  // by its own name, also behind a link or standard input
+#ifndef MESHHOOD_DEMO  // which knows no parts
+  // The index of a part is known by its own name, also behind a link or standard input.
+  std::error_code missing;
   const auto path = std::filesystem::canonical(path_of(name_), missing);
   if (path.filename() == parts::kIndexFile) plan_ = parts::read_plan(path.parent_path());
 #endif

@@ -141,9 +141,8 @@ void add_partition(CLI::App& program) {
       command.add_option("--faces", options.faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
           ->check(stored_name("--faces"))
           ->type_name("FILE");
-  const auto reading = add_reading(command, options.mesh);
-  for (CLI::Option* option : reading) option->excludes(faces);
-  reading.front()->description(
+  for (CLI::Option* option : add_reading(command, options.mesh)) option->excludes(faces);
+  command.get_option("--weld")->description(
       "join vertices at equal positions, or at most EPS apart; all keep their numbers, and the parts answer for those "
       "that were joined to another as for vertices without edges");
   CLI::Option* parts = add_number(command, "--parts", "number of parts", options.parts);

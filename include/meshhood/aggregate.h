@@ -137,10 +137,10 @@ struct AggregateQuery {
 /// depends on index, values, vertex and radius alone, bit for bit: not on the other rows and reductions of the call,
 /// earlier calls, the number of threads or the processor. Minimum, maximum and count are exact. Values are scaled by a
 /// power of two before they are squared or added, so that only a result too large for a double overflows; large values
-/// elsewhere have no effect. An infinite value gives an infinite result, with one of the other sign NaN, and nothing
-/// where its weight is 0. With a smoothing kernel, a call of more than 16 channels may sum in another way than one of
-/// fewer, one with a list of radii or patches of several scales, or one with infinite values or such above 2^300, so
-/// that the last bits differ.
+/// elsewhere have no effect. An infinite value gives an infinite result, or NaN beside one of the other sign; where
+/// its weight is 0, it counts nothing. With a smoothing kernel, a call of more than 16 channels may sum in another way
+/// than one of fewer, one with a list of radii or patches of several scales, or one with values that are infinite or
+/// above 2^300, so that the last bits differ.
 ///
 /// With `Metric::Path`, each row takes the time of a search of a `Searcher` at the largest radius, and the first call
 /// for an index computes the lengths of its edges. In space, each row is searched alone. Else the neighborhoods of one

@@ -53,7 +53,7 @@ enum class CurvatureFit : std::uint8_t {
 enum class CurvatureState : std::uint8_t {
   Fitted,         ///< the least-squares fit, which is unique
   RankDeficient,  ///< the points determine no unique quadric: the one with the smallest coefficients
-  TooFew,         ///< fewer than six are in the ball or joined to these not across ignored ones: all values are 0
+  TooFew,         ///< fewer than six are in the ball or joined to it, ignored ones not passed: all values are 0
   NoNormal,       ///< the query vertex has no normal, as it belongs to no face with an area: all values are 0
   Extended,       ///< fewer than six vertices are in the ball: the fit to these and to the nearest joined ones
 };

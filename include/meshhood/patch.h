@@ -119,7 +119,7 @@ class PatchSearcher {
   /// patch, or where there is no patch, whose area is 0, it is NaN. No volume is negative. A sheet of two sides that is
   /// thinner than 2^-41 of the radius, or of the mesh if that is smaller, has nothing behind it, unless needles are all
   /// that it has: then rounding decides. Where a surface intersects itself, what it encloses twice counts twice, what
-  /// is inside out counts negative, and a multiple of the volume of the ball is added, so that no volume is larger.
+  /// is inside out counts negative, and multiples of the volume of the ball are added or taken, so that none is larger.
   [[nodiscard]] PatchMeasure measure(const PatchStart& start, double radius);
 
   /// The nearest point of the surface in the ball that is not of the patch; of several faces at the same distance, the

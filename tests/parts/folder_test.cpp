@@ -22,12 +22,26 @@ namespace {
 namespace fs = std::filesystem;
 using parts::PartitionOptions;
 
-class Folder : public PartsFolder {};
-
 void overwrite(const fs::path& file, const std::string& bytes) {
   fs::remove(file);  // a file that is mapped or linked keeps its content
   std::ofstream(file, std::ios::binary) << bytes;
 }
+
+class Folder : public PartsFolder {
+ protected:
+  /// Has a file of another written, which no run removes, with `resume` or without.
+  void expect_kept(const std::string& file, const std::string& cause) const {
+    fs::create_directories((folder / file).parent_path());
+    overwrite(folder / file, "mine");
+    const auto before = contents(folder);
+    PartitionOptions options = kOptions;
+    for (const bool resume : {true, false}) {
+      options.resume = resume;
+      expect_refused(ErrorCode::MalformedIndex, cause, [&] { partition(*chunked(mesh), folder, options); });
+      EXPECT_EQ(contents(folder), before);
+    }
+  }
+};
 
 /// The text of a JSON file of a folder, whose first line is its checksum.
 std::string sealed(const std::string& rest) {
@@ -229,17 +243,7 @@ TEST_F(Folder, IsRefusedIfItHasFilesOfOthers) {
   for (const std::string file : {"thesis.txt", "part-00000/vertices.npy", "part-00003", "manifest.json",
                                  ".partition.tmp/index.mhi", "part-00000/part.json"}) {
     fs::remove_all(folder);
-    fs::create_directories((folder / file).parent_path());
-    overwrite(folder / file, "mine");
-    const auto before = contents(folder);
-    PartitionOptions options = kOptions;
-    for (const bool resume : {true, false}) {
-      options.resume = resume;
-      expect_refused(ErrorCode::MalformedIndex,
-                     "parts: has files, but not .partition, the mark of a partition; expected a new",
-                     [&] { partition(*chunked(mesh), folder, options); });
-      EXPECT_EQ(contents(folder), before);
-    }
+    expect_kept(file, "parts: has files, but not .partition, the mark of a partition; expected a new");
   }
 }
 
@@ -249,16 +253,7 @@ TEST_F(Folder, KeepsFilesOfOthersInItsParts) {
     fs::remove_all(folder);
     run(folder);
     fs::remove(folder / parts::part_name(1) / parts::kIndexFile);
-    fs::create_directories((folder / file).parent_path());
-    overwrite(folder / file, "mine");
-    const auto before = contents(folder);
-    PartitionOptions options = kOptions;
-    for (const bool resume : {true, false}) {
-      options.resume = resume;
-      expect_refused(ErrorCode::MalformedIndex, "was not written by a partition, which would remove it",
-                     [&] { partition(*chunked(mesh), folder, options); });
-      EXPECT_EQ(contents(folder), before);
-    }
+    expect_kept(file, "was not written by a partition, which would remove it");
   }
 }
 

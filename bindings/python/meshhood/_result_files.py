@@ -89,8 +89,8 @@ class ResultFile(NamedTuple):
             self.check()
 
     def check(self) -> None:
-        """Raises unless the folder has results of this call, before the file is synced and gets its name: if the call was stopped,
-        another may have begun meanwhile in a new folder of the same name."""
+        """Raises unless the folder has results of this call, before the file is synced and gets its name. If the call was
+        stopped, another may have begun meanwhile in a new folder of the same name."""
         folder = os.path.dirname(self.path)
         if _digest(folder) != self.call:
             raise ValueError(f"{folder}: has results of another call")
