@@ -17,7 +17,9 @@ namespace meshhood::bench {
 /// ("mixed scales:20000").
 class MeshArgument {
  public:
-  explicit MeshArgument(const std::string& name) : mesh_(load(name)) {}
+  /// `precision`: of the positions of a file.
+  explicit MeshArgument(const std::string& name, io::Precision precision = io::Precision::FromFile)
+      : mesh_(load(name, {.precision = precision})) {}
 
   [[nodiscard]] MeshView view() const {
     return std::visit([](const auto& mesh) { return mesh.view(); }, mesh_);
@@ -30,9 +32,9 @@ class MeshArgument {
   using Either = std::variant<io::Mesh, shapes::Shape>;
 #endif
 
-  static Either load(const std::string& name) {
+  static Either load(const std::string& name, const io::ReadOptions& reading) {
     const auto colon = name.find(':');
-    if (colon == std::string::npos) return io::read_mesh(name);
+    if (colon == std::string::npos) return io::read_mesh(name, reading);
     const std::string kind_name = name.substr(0, colon);
     const shapes::Kind* kind = shapes::find_kind(kind_name);
     if (kind != nullptr) return kind->make(std::stoul(name.substr(colon + 1)));
@@ -41,7 +43,7 @@ class MeshArgument {
       if (family.name == kind_name) return test::make_mesh(family, 1, std::stoul(name.substr(colon + 1)));
     }
 #endif
-    return io::read_mesh(name);
+    return io::read_mesh(name, reading);
   }
 
   Either mesh_;

@@ -186,11 +186,18 @@ void paint(const QueryCommand& options, Input& input, const std::vector<Answer>&
   write_painting(options.output.name, input, layers);
 }
 
+/// The ratio of the radius to the size of clusters, of the method of the paper.
+double parse_factor(const std::string& text) {
+  const auto number = parse_number(text);
+  if (number && *number > 0 && *number < kInfinity) return *number;
+  raise(ErrorCode::InvalidOption, fmt::format("--factor {}, expected a finite number > 0", io::quote(text)));
+}
+
 std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<const QueryStart> starts, double radius,
                                       Input& input) {
   const std::string& method = options.search.method;
   paper::QueryOptions settings;
-  if (options.factor) settings.radius_ratio = parse_radius("--factor", *options.factor);
+  if (options.factor) settings.radius_ratio = parse_factor(*options.factor);
   AnySearcher chosen = method_of(options.search, input, settings).make_searcher();
   RowOrder order = row_order(options.search.sort, input);
   std::vector<Answer> answers;

@@ -89,7 +89,7 @@ exact/(check|extract_graph|file|link_points|masked|quality|refit|reorder|verify[
       elseif(part MATCHES "^(base|shared|simd)$")
         set(part exact)
       endif()
-      if(MESHHOOD_BUILD_PYTHON AND part MATCHES "^(others|paper|region)$")
+      if(MESHHOOD_BUILD_PYTHON AND part MATCHES "^(others|paper)$")
         set(part others)
       elseif(MESHHOOD_BUILD_PYTHON AND NOT part STREQUAL "exact")
         set(part queries)

@@ -34,9 +34,11 @@ struct BuildOptions {
   /// The number of lowest levels to drop after all are built; >= 0. The last level is always kept.
   int discard = 2;
 
-  /// Fusion on level `l` dissolves clusters of fewer than `fusion_growth` to the power of `l` vertices; finite, >= 0.
+  /// Fusion on level `l` dissolves clusters of fewer than `fusion_growth` to the power of `l` vertices, and with any
+  /// growth those with a single child; finite, >= 0. The paper has such a threshold and does not say which.
   double fusion_growth = 4.0;
 
+  /// More than there are: of an unfinished component, each level has at most half the clusters of the one below.
   static constexpr int kAllLevels = 64;
 };
 
@@ -87,10 +89,10 @@ class Index {
   detail::Owner<const Storage> storage_;
 };
 
-/// Builds the index (3.2): create, select, link and sphere, fusion, level by level. The same mesh and options give the
-/// same index. Uses one thread, whatever `run` says: each step visits the clusters one after the other, and a decision
-/// depends on those before it, so that the result of the paper is defined by a sequential order. Progress is reported
-/// between the steps of each level, of which the longest takes O((#V + #E) log #V).
+/// Builds the index (3.2): create, select, fusion, link, level by level, and the spheres last. The same mesh and
+/// options give the same index. Uses one thread, whatever `run` says: each step visits the clusters one after the
+/// other, and a decision depends on those before it, so that the result of the paper is defined by a sequential order.
+/// Progress is reported between the steps of each level, of which the longest takes O((#V + #E) log #V).
 ///
 /// mesh    any polygonal mesh (see `meshhood::validate`); borrowed for the call.
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. O(#levels (#V + #E) log #V).

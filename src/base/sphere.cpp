@@ -187,7 +187,9 @@ template <class Real>
 Sphere<Real> bounding_sphere(std::span<const Real> xyz) {
   const std::size_t count = xyz.size() / 3;
   const auto at = [&](std::size_t i) { return point(xyz, i); };
-  const Point center = smallest_ball_center(count, at);
+  // Far from the origin, a center that is rounded as the positions are is too inaccurate for `encloses`.
+  const Point origin = at(0);
+  const Point center = origin + smallest_ball_center(count, [&](std::size_t i) { return at(i) - origin; });
   Sphere<Real> sphere{static_cast<Real>(center.x), static_cast<Real>(center.y), static_cast<Real>(center.z), 0};
   sphere.radius = round_up<Real>(std::sqrt(farthest(count, at, center_of(sphere)).second));
   return sphere;

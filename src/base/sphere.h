@@ -13,7 +13,7 @@ namespace meshhood::inline v0_1 {
 template <class Real>
 [[nodiscard]] Sphere<Real> bounding_sphere(std::span<const Real> xyz);
 
-/// The center of such a sphere around at least one point, not rounded.
+/// The center of such a sphere around at least one point near the origin, not rounded.
 [[nodiscard]] Point bounding_center(std::span<const Point> points);
 
 }  // namespace meshhood::inline v0_1

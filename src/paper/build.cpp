@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The level loop of sec. 3.2, whose steps are in select.cpp, fusion.cpp and link.cpp.
+// The level loop of sec. 3.2, and its steps in our order: create and select in select.cpp, fusion in fusion.cpp, link
+// in link.cpp. The spheres of step 3 come last, in `keep`, by `enclose` in hierarchy.cpp.
 #include <algorithm>
 #include <cmath>
 #include <string>

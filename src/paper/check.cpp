@@ -207,8 +207,8 @@ class Check {
     level_fault("mean radius " + to_text(level().mean_radius) + ", but the spheres give " + to_text(mean));
   }
 
-  /// I7: a cluster with siblings has at least two children, so each level has at most half the clusters of the one
-  /// below.
+  /// I7: a cluster with siblings has at least two children. So of the clusters with siblings, each level has at most
+  /// half as many as the one below.
   void level_shrinks() {
     if (level_ == 0) return;
     for (std::size_t c = 0; c < level().size(); ++c) {

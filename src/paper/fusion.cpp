@@ -24,12 +24,13 @@ class Fusion {
     for (std::size_t c = below.size(); c-- > 0;) add_child(partition.parent[c], static_cast<ClusterId>(c));
   }
 
-  /// Smallest first: children move to clusters at least as large, so none moves often.
+  /// Smallest first, so that the children of a cluster below the threshold move to clusters at least as large, and none
+  /// moves often. Each cluster that is dissolved is one less, so the loop ends.
   void run() {
     for (std::size_t c = 0; c < partition_.clusters; ++c) queue_if_small(static_cast<ClusterId>(c));
-    while (!small_.empty()) {
-      const auto [vertices, cluster] = small_.top();
-      small_.pop();
+    while (!donors_.empty()) {
+      const auto [vertices, cluster] = donors_.top();
+      donors_.pop();
       if (vertices == vertex_count_[cluster]) {
         dissolve(cluster);
       } else {
@@ -46,7 +47,7 @@ class Fusion {
   /// star, select alone removes one cluster from each level.
   void queue_if_small(ClusterId cluster) {
     if (static_cast<double>(vertex_count_[cluster]) < threshold_ || child_count_[cluster] < 2) {
-      small_.emplace(vertex_count_[cluster], cluster);
+      donors_.emplace(vertex_count_[cluster], cluster);
     }
   }
 
@@ -60,25 +61,25 @@ class Fusion {
     total = {total.x + sum.x, total.y + sum.y, total.z + sum.z};
   }
 
-  /// Algorithm 2. Deviation: a child goes to the nearest cluster that it touches. In the paper it goes to the nearest
-  /// sibling of the donor, which it need not touch; that cluster would be disconnected. Children inside the donor,
-  /// which touch no other cluster, follow after a neighbor has moved. Deviation: a donor without siblings stays; in the
-  /// paper its vertices would be lost.
+  /// Algorithm 2, D being `donor`. Deviation: a child goes to the nearest cluster that it touches. In the paper it goes
+  /// to nearSibling, the nearest sibling of the donor, which it need not touch; that cluster would be disconnected.
+  /// Children inside the donor, which touch no other cluster, follow after a neighbor has moved: the donor is
+  /// connected, so all are reached. Deviation: a donor without siblings stays; in the paper its vertices would be lost.
   void dissolve(ClusterId donor) {
-    moved_.clear();
+    to_move_.clear();
     for (ClusterId child = first_child_[donor]; child != kNoCluster; child = next_child_[child]) {
-      if (nearest_touching(child, donor) != kNoCluster) moved_.push_back(child);
+      if (nearest_touching(child, donor) != kNoCluster) to_move_.push_back(child);
     }
-    if (moved_.empty()) return;
+    if (to_move_.empty()) return;
     first_child_[donor] = kNoCluster;
     child_count_[donor] = 0;
     vertex_count_[donor] = 0;
-    for (std::size_t i = 0; i < moved_.size(); ++i) {
-      const ClusterId child = moved_[i];
+    for (std::size_t i = 0; i < to_move_.size(); ++i) {
+      const ClusterId child = to_move_[i];
       if (partition_.parent[child] != donor) continue;
       add_child(nearest_touching(child, donor), child);
       for (const ClusterId sibling : below_.siblings[child]) {
-        if (partition_.parent[sibling] == donor) moved_.push_back(sibling);
+        if (partition_.parent[sibling] == donor) to_move_.push_back(sibling);
       }
     }
   }
@@ -123,8 +124,8 @@ class Fusion {
   std::vector<VertexId> child_count_;
   std::vector<VertexId> vertex_count_;
   std::vector<Point> position_sum_;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> small_;
-  std::vector<ClusterId> moved_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> donors_;
+  std::vector<ClusterId> to_move_;
 };
 
 }  // namespace

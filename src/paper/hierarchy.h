@@ -65,7 +65,8 @@ struct Level {
   [[nodiscard]] std::size_t size() const { return first_vertex.empty() ? 0 : first_vertex.size() - 1; }
 };
 
-/// The whole index: levels, lowest first, and the vertices in index order.
+/// The whole index: levels, lowest first, and the vertices in index order. Deviation: it has the positions, where the
+/// index of the paper refers to the mesh.
 template <class Real>
 struct Hierarchy {
   std::vector<Real> positions;     // #V by 3, in index order
@@ -81,8 +82,8 @@ struct Index::Storage {
   Fingerprint mesh;  // computed by the build, because the graph is not kept
 };
 
-/// Computes the bounding sphere of each cluster of `level`, and the mean radius of the level.
-/// positions: in index order, #V by 3.
+/// Computes the bounding sphere of each cluster of `level`, and the mean radius of the level. Deviation: a sphere may
+/// be a little larger than the smallest (see `bounding_sphere`). positions: in index order, #V by 3.
 template <class Real>
 void enclose(std::span<const Real> positions, Level<Real>& level);
 

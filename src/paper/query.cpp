@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The query of sec. 3.3 in its three phases: climb up, breadth-first search, range search. The answer is first a list
-// of ranges of the index order; ids are copied, or vertices counted, afterwards.
+// The query of sec. 3.3 in its three phases: climb up, breadth-first search, range search. In its words, `radius` is d,
+// `ball_` is S, `cluster_` is C and `reached_` is SC. The answer is first a list of ranges of the index order; ids are
+// copied, or vertices counted, afterwards.
 #include <algorithm>
 #include <cmath>
 #include <string>

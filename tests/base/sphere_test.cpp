@@ -201,6 +201,20 @@ TEST(BoundingSphere, EnclosesFarFromTheOrigin) {
   }
 }
 
+TEST(BoundingSphere, IsTightFarFromTheOrigin) {
+  for (const double offset : {1e3, 1e6, 1e9}) {
+    SCOPED_TRACE(offset);
+    const auto expect = [&](Points points, double smallest) {
+      for (double& x : points) x += offset;
+      EXPECT_LE(sphere_of(points).radius, smallest * 1.001 * (1 + 1e-6));
+    };
+    expect(kCube, std::numbers::sqrt3 / 2);
+    expect(kTetrahedron, std::numbers::sqrt3);
+    expect(kOctahedron, 1);
+    expect(icosahedron(), std::hypot(1, std::numbers::phi));
+  }
+}
+
 TEST(BoundingSphere, EnclosesMixedScales) {
   Random random(6);
   for (std::size_t i = 0; i < scaled(5000, 100); ++i) {

@@ -72,7 +72,7 @@ ERRORS = (
     ('index.neighborhood(3, 1, method="fast")', ValueError,
         "method: 'fast', expected 'exact', 'paper', 'bfs', 'ball' or a Paper"),
     ('index.neighborhood(3, 1, method="bfs", walls=[1])', ValueError,
-        "method: 'bfs', expected 'exact' with walls or ignored vertices"),
+        "method: 'bfs', expected 'exact' or 'ball' with walls, ignored vertices or vertices without a position (NaN)"),
     ('index.neighborhood(3, 1, sort="descending")', ValueError,
         "sort: 'descending', expected 'index' or 'id' or 'distance'"),
     ('index.neighborhood(3, 1, unit="mm")', ValueError,

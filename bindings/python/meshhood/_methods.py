@@ -21,14 +21,15 @@ class Paper:
     levels : number of levels to compute, 1 to 64, including the level of single vertices. The hierarchy has fewer if
         every component of the mesh becomes one cluster before that; 64 always continues until then.
     discard : number of lowest levels to drop afterwards, 0 to 64. The highest level is always kept.
-    fusion_growth : fusion on level l dissolves clusters of fewer than fusion_growth ** l vertices. Finite, >= 0.
+    fusion_growth : fusion on level l dissolves clusters of fewer than fusion_growth ** l vertices, and those
+        with a single child. Finite, >= 0.
 
     Parameter of the search (section 3.3):
     radius_ratio : the paper's factor f. A query begins on the first level whose clusters have a mean radius of at least
         radius / radius_ratio. A larger ratio means smaller clusters, more of them, and fewer vertices that do not
         belong to the neighborhood. Finite, > 0.
 
-    The defaults are those of the paper. Raises ValueError or TypeError, naming the parameter.
+    The defaults are those of the paper, but for `fusion_growth`: it states no threshold. Raises ValueError or TypeError, naming the parameter.
 
     >>> near = meshhood.MeshIndex(V, F).neighborhood(42, 0.3, method=meshhood.Paper(radius_ratio=20))
     """
@@ -88,7 +89,8 @@ class Methods(dict):
         if method == "ball":
             return self[_core.Metric.space]
         if self._whole is not None and (method in ("bfs", "paper") or isinstance(method, Paper)):
-            raise ValueError(f"method: {method!r}, expected 'exact' with walls or ignored vertices")
+            masks = "walls, ignored vertices or vertices without a position (NaN)"
+            raise ValueError(f"method: {method!r}, expected 'exact' or 'ball' with {masks}")
         if method == "bfs":
             return _core.bfs(self.graph())
         paper = Paper() if method == "paper" else method
