@@ -158,9 +158,8 @@ struct BatchQuery {
   Metric metric = Metric::Straight;
 
   /// The number of rows of a result for a mesh of so many vertices: #radii by #rows if there are scales.
-  [[nodiscard]] std::size_t result_rows(std::size_t vertex_count) const {
-    return (radius.scales() ? radius.scales()->size() : 1) * vertices.count(vertex_count);
-  }
+  /// Throws Error{TooLarge} if an array cannot have `columns` doubles for each.
+  [[nodiscard]] std::size_t result_rows(std::size_t vertex_count, std::size_t columns = 1) const;
 };
 
 /// What the rows of a batch have, and their order. A row depends on the index, its vertex and its radius alone, not on

@@ -150,7 +150,7 @@ void write_rows(Batch& batch, KeptChunks& kept, std::span<const std::uint64_t> o
 std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& query, const Run& run) {
   const std::vector<BatchRadius> passes = radius_of_passes(query.radius);
   Batch batch(method, {query.vertices, passes.front(), query.metric}, {}, run, passes.size());
-  std::vector<std::uint64_t> result(passes.size() * batch.rows().size());
+  std::vector<std::uint64_t> result(query.result_rows(method.vertex_count()));
   for (std::size_t i = 0; i < passes.size(); ++i) {
     if (i > 0) batch.begin_pass(passes[i].common());
     count_rows(batch, result.data(), nullptr);

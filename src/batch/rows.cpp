@@ -2,6 +2,8 @@
 #include "batch/rows.h"
 
 #include <cassert>
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -20,6 +22,18 @@ std::optional<std::vector<T>> copy(const std::optional<std::span<const T>>& list
 }
 
 }  // namespace
+
+std::size_t BatchQuery::result_rows(std::size_t vertex_count, std::size_t columns) const {
+  constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(double);
+  const std::size_t radii = radius.scales() ? radius.scales()->size() : 1;
+  const std::size_t rows = vertices.count(vertex_count);
+  if (rows != 0 && columns != 0 && radii > kMost / rows / columns) {
+    raise(ErrorCode::TooLarge, "the result of " + std::to_string(radii) + " radii by " + std::to_string(rows) +
+                                   " rows by " + std::to_string(columns) + " columns, expected at most " +
+                                   std::to_string(kMost) + " numbers");
+  }
+  return radii * rows;
+}
 
 std::vector<BatchRadius> radius_of_passes(const BatchRadius& radius) {
   if (!radius.scales()) return {radius};

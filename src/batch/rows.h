@@ -68,9 +68,12 @@ class Rows {
 /// Refuses lists of more bytes than the caller allows.
 class SizeLimit {
  public:
-  /// `item_bytes`: of an id with what stands beside it.
+  /// `item_bytes`: of an id with what stands beside it. No limit is beyond what an array can have.
   SizeLimit(std::uint64_t max_bytes, std::size_t item_bytes, std::size_t rows)
-      : rows_(rows), max_bytes_(max_bytes), item_bytes_(item_bytes), max_items_(max_bytes / item_bytes) {}
+      : rows_(rows),
+        max_bytes_(std::min<std::uint64_t>(max_bytes, std::numeric_limits<std::ptrdiff_t>::max())),
+        item_bytes_(item_bytes),
+        max_items_(max_bytes_ / item_bytes) {}
 
   /// A row from each of `kSample` stretches of the rows. The multiplier scatters them, so that the sample is right for
   /// alternating rows too.

@@ -132,7 +132,7 @@ class FeatureExtraction {
       weights_.emplace(*surface_.index, given.empty() ? surface.vertex_areas() : given, "areas");
     }
     if (metric_ == Metric::Rings) unit_ = mean_edge_length(*surface_.searched);
-    values_.resize(query.result_rows(surface.vertex_count()) * kinds_.size());
+    values_.resize(query.result_rows(surface.vertex_count(), kinds_.size()) * kinds_.size());
   }
 
   std::vector<double> run(const BatchQuery& query, const Run& run) {

@@ -145,7 +145,7 @@ std::vector<double> moments(const Index& index, const BatchQuery& query, const M
           "degree is " + std::to_string(options.degree) + ", expected at most " + std::to_string(kLargestMomentDegree));
   }
   const std::size_t columns = moment_count(options.degree);
-  std::vector<double> result(columns * query.result_rows(index.vertex_count()));
+  std::vector<double> result(columns * query.result_rows(index.vertex_count(), columns));
   const MomentWeights weights(IndexAccess::view(index), options.weights);
   const auto write = [&](std::size_t row, const RowMoments& m) {
     for (unsigned i = 0; i <= options.degree; ++i) {

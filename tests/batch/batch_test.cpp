@@ -513,6 +513,18 @@ TEST_F(Batches, PassOnExceptionsOfTheSink) {
   }
 }
 
+TEST(BatchQuery, RefusesResultsThatNoArrayCanHave) {
+  constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(double);
+  const BatchQuery two{.radius = BatchRadius::scales({1, 2})};
+  EXPECT_EQ(two.result_rows(kMost / 2), kMost / 2 * 2);
+  EXPECT_EQ(two.result_rows(kMost / 20, 10), kMost / 20 * 2);
+  EXPECT_EQ(two.result_rows(0), 0U);
+  for (const auto& [rows, columns] : {std::pair(kMost / 2 + 1, std::size_t{1}), {kMost / 10, 10}, {kMost, kMost}}) {
+    const auto ask = [&two, rows, columns] { return two.result_rows(rows, columns); };
+    expect_refused(ErrorCode::TooLarge, "the result of 2 radii by " + std::to_string(rows), ask);
+  }
+}
+
 TEST_F(Batches, PassOnExceptionsOfTheProgressCallback) {
   for (const unsigned threads : kThreads) {
     const meshhood::Run run{.threads = threads, .progress = [](std::size_t done, std::size_t total) {
