@@ -14,11 +14,11 @@
 namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 
-/// The largest number of neighbors over all vertices: twice the number of edges.
+/// The largest number of neighbors over all vertices, which is twice the number of edges.
 inline constexpr std::size_t kMaxNeighbors = std::numeric_limits<EdgeOffset>::max();
 
-/// A symmetric graph in CSR form, borrowed: the neighbors of `v` are `neighbors[offsets[v]] .. neighbors[offsets[v +
-/// 1] - 1]`. Each row ascends, without repetition and without `v` itself.
+/// Borrows a symmetric graph in CSR form: the neighbors of `v` are `neighbors[offsets[v]] .. neighbors[offsets[v + 1] -
+/// 1]`. Each row ascends, without repetition and without `v` itself.
 struct AdjacencyView {
   Borrowed<EdgeOffset> offsets;  ///< #V + 1; may be empty if there are no vertices
   Borrowed<VertexId> neighbors;  ///< twice the number of edges
@@ -28,16 +28,16 @@ struct AdjacencyView {
   /// Both are needed: with one alone, `build({positions, triangles})` would take the triangles for offsets.
   AdjacencyView(Borrowed<EdgeOffset> row_offsets, Borrowed<VertexId> ids) : offsets(row_offsets), neighbors(ids) {}
 
-  /// #V.
+  /// Returns #V.
   [[nodiscard]] std::size_t size() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 
-  /// The neighbors of `v`.
+  /// Returns the neighbors of `v`; `v` is less than #V.
   [[nodiscard]] std::span<const VertexId> operator[](std::size_t v) const {
     return neighbors.subspan(offsets[v], offsets[v + 1] - offsets[v]);
   }
 };
 
-/// A graph as `AdjacencyView` describes, owned.
+/// Owns a graph as `AdjacencyView` describes it.
 struct Adjacency {
   std::vector<EdgeOffset> offsets;
   std::vector<VertexId> neighbors;
@@ -56,10 +56,10 @@ struct GraphView {
   GraphView(const PositionsView& xyz, const AdjacencyView& graph) : positions(xyz), adjacency(graph) {}
 };
 
-/// Positions of either precision, owned. #V by 3, row by row.
+/// Positions of either precision, owned: #V by 3, row by row.
 using PositionsData = std::variant<std::vector<float>, std::vector<double>>;
 
-/// A `GraphView`, owned.
+/// Owns what a `GraphView` borrows.
 struct GraphData {
   PositionsData positions;
   Adjacency adjacency;
@@ -71,7 +71,7 @@ struct GraphData {
   [[nodiscard]] GraphView view() const&& = delete;
 };
 
-/// The graph of a mesh (see `FacesView`). O(#V + #corners log(valence)). One thread.
+/// Returns the graph of a mesh (see `FacesView`). Takes O(#V + #corners log(valence)), on one thread.
 ///
 /// Throws Error{InvalidMesh, TooLarge}, as `validate`, and if there are more than `kMaxNeighbors / 2` corners.
 [[nodiscard]] Adjacency adjacency(const MeshView& mesh);
@@ -79,20 +79,20 @@ struct GraphData {
 /// Throws unless the positions are valid and the adjacency is as `AdjacencyView` requires: one row per vertex, each
 /// ascending, in range and without the vertex itself; and symmetric.
 ///
-/// Throws Error{InvalidMesh, TooLarge}, naming the vertex. O(#V + #E log(valence)).
+/// Throws Error{InvalidMesh, TooLarge}, naming the vertex. Takes O(#V + #E log(valence)).
 void validate(const GraphView& graph);
 
-/// The mean length of the edges, each counted once, in the unit of the positions; 0 if there are none. The graph must
-/// be valid. O(#V + #E).
+/// Returns the mean length of the edges, each counted once, in the unit of the positions; 0 if there are none. The
+/// graph must be valid. Takes O(#V + #E).
 [[nodiscard]] double mean_edge_length(const GraphView& graph);
 
-/// The graph without some of its edges. `build` of its view gives an index whose searches do not cross them.
+/// Returns the graph without some of its edges. `build` of its view gives an index whose searches do not cross them.
 ///
 /// graph  valid (see `validate`), which is not checked.
 /// edges  #cut by 2: the two ends of each edge, in either order; repeats are allowed.
 ///
 /// Throws Error{InvalidOption} if the number of ends is odd, Error{VertexOutOfRange}, and Error{InvalidOption} if two
-/// vertices are not joined by an edge; the message names the row of `edges`. O(#E + #cut log(valence)).
+/// vertices are not joined by an edge; the message names the row of `edges`. Takes O(#E + #cut log(valence)).
 [[nodiscard]] Adjacency cut_edges(const AdjacencyView& graph, const IndicesView& edges);
 
 MESHHOOD_API_END

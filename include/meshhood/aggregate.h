@@ -15,13 +15,13 @@
 #include "meshhood/metric.h"
 #include "meshhood/run.h"
 
-/// Sums, means and other aggregates of values over neighborhoods, without lists of ids.
+/// Computes sums, means and other aggregates of values over neighborhoods, without lists of ids.
 ///
 ///     const std::vector<double> smooth = meshhood::aggregate(
 ///         index, {.values = thickness},
 ///         {.radius = meshhood::smoothing_radius(6.0), .kernel = meshhood::SmoothingKernel::Gaussian});
 ///
-/// See docs/aggregate.md.
+/// The formulas are in docs/aggregate.md.
 namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 
@@ -62,7 +62,7 @@ enum class Nesting : std::uint8_t {
           ///< connected inside the smaller ball or not
 };
 
-/// A list of float or double. Borrowed; a temporary container is rejected by the compiler.
+/// Borrows a list of float or double. A temporary container is rejected by the compiler.
 class ValuesView {
  public:
   ValuesView() = default;
@@ -88,16 +88,17 @@ class ValuesView {
   std::variant<std::span<const double>, std::span<const float>> values_;
 };
 
-/// Numbers at the vertices, and weights. Borrowed for the call.
+/// Numbers at the vertices, and weights; borrowed for the call.
 struct SignalView {
-  /// #V by channels, vertex after vertex. Any number, a float as the double of its value; NaN as `MissingValues` says.
+  /// #V by channels, vertex after vertex. Any number is allowed: a float counts as the double of its value, and NaN as
+  /// `MissingValues` says.
   ValuesView values;
 
-  /// Numbers per vertex, each aggregated by itself; at least 1.
+  /// The number of values per vertex, at least 1. Each channel is aggregated by itself.
   std::size_t channels = 1;
 
-  /// #V, finite and >= 0; empty: 1 each. Sums, means and variances leave out a vertex of weight 0, whatever its value;
-  /// minimum, maximum and count ignore the weights. See `vertex_areas`.
+  /// #V numbers, finite and >= 0; if empty, each weight is 1. Sums, means and variances leave out a vertex of weight 0,
+  /// whatever its value; minimum, maximum and count ignore the weights. See `vertex_areas`.
   Borrowed<double> weights = {};
 };
 
@@ -118,14 +119,14 @@ struct AggregateQuery {
   /// of a single value is NaN.
   unsigned ddof = 0;
 
-  /// For `Reduce::Quantile`, 0 to 1: of n values in ascending order, that number `quantile (n - 1)` from 0, or between
-  /// two by linear interpolation.
+  /// In [0, 1], for `Reduce::Quantile`: of n values in ascending order, the one numbered `quantile (n - 1)` from 0;
+  /// between two values, it is interpolated linearly.
   double quantile = 0.5;
 };
 
-/// The size of the result: #radii by #rows by channels by #reductions, radius after radius, and row after row; one
-/// radius unless there are scales. Throws Error{TooLarge} if it exceeds the address space or `run.max_bytes`, and
-/// Error{InvalidOption} if there are no channels or no reductions.
+/// Returns the size of the result: #radii by #rows by channels by #reductions, radius after radius, and row after row.
+/// There is one radius unless there are scales. Throws Error{TooLarge} if it exceeds the address space or
+/// `run.max_bytes`, and Error{InvalidOption} if there are no channels or no reductions.
 [[nodiscard]] std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query,
                                          const Run& run = {});
 
@@ -157,22 +158,23 @@ struct AggregateQuery {
 void aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query, std::span<double> result,
                const Run& run = {});
 
-/// The same; returns the result.
+/// Does the same, and returns the result.
 [[nodiscard]] std::vector<double> aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query,
                                             const Run& run = {});
 
-/// The area that each vertex represents: each face gives equal shares to its corners, a third of a triangle. #V, 0 for
-/// a vertex without a face. In the square of the unit of the positions; infinite where that overflows. The area of a
-/// polygon is the length of its vector area. Throws Error{InvalidMesh, TooLarge}. O(#corners).
+/// Returns the area that each vertex represents, #V: each face gives equal shares to its corners, a third of a
+/// triangle. It is 0 for a vertex without a face, is in the square of the unit of the positions, and is infinite where
+/// that overflows. The area of a polygon is the length of its vector area. Throws Error{InvalidMesh, TooLarge}. Takes
+/// O(#corners).
 [[nodiscard]] std::vector<double> vertex_areas(const MeshView& mesh);
 
-/// The radius of the `SmoothingKernel::Gaussian` of this full width at half maximum, in the same unit: 1.57843 fwhm, at
-/// which exp(-4 ln 2 (d/fwhm)^2) is 1/1000. Throws Error{InvalidRadius} unless `fwhm` is >= 0 or infinite.
+/// Returns the radius of the `SmoothingKernel::Gaussian` of this full width at half maximum, in the same unit: 1.57843
+/// fwhm, at which exp(-4 ln 2 (d/fwhm)^2) is 1/1000. Throws Error{InvalidRadius} unless `fwhm` is >= 0 or infinite.
 [[nodiscard]] double smoothing_radius(double fwhm);
 
-/// The weight of a vertex at a distance, as a part of its own; 0 beyond the radius. To 1e-14 of the weight of the
-/// query vertex, and of a Gaussian to 1e-14 of itself. The same bits on every processor and with every C library.
-/// distance, radius  >= 0, not checked; 0 if one is NaN.
+/// Returns the weight of a vertex at a distance, divided by that at distance 0; it is 0 beyond the radius. Its error is
+/// at most 1e-14, and for a Gaussian 1e-14 of the weight. It has the same bits on every processor and with every C
+/// library. `distance` and `radius` are >= 0, which is not checked; if one is NaN, the weight is 0.
 [[nodiscard]] double smoothing_weight(SmoothingKernel kernel, double distance, double radius);
 
 MESHHOOD_API_END

@@ -22,7 +22,7 @@
 #include "meshhood/run.h"
 #include "meshhood/search.h"
 
-/// Many neighborhoods in one call, on all processors unless `Run` says otherwise.
+/// Finds many neighborhoods in one call, on all processors unless `Run` says otherwise.
 ///
 ///     const auto [offsets, ids, distances] = meshhood::neighborhoods(index, {.radius = 1.5}, {.distances = true});
 namespace meshhood::inline v0_1 {
@@ -30,15 +30,15 @@ MESHHOOD_API_BEGIN
 
 struct SearcherFactory;
 
-/// The searcher of a `SearchMethod`, which `std::visit` gives to a callable.
+/// The searcher of a `SearchMethod`; `std::visit` passes it to a callable.
 using AnySearcher = std::variant<Searcher, paper::Searcher, ReferenceSearcher, BallSearcher>;
 
-/// A way to find neighborhoods, chosen at run time: makes searchers for single queries, and is the first argument of a
-/// batch. Converts from either index. Borrows its arguments, which must outlive it and its searchers, and must not
-/// be moved meanwhile. A copy is cheap. Any number of threads may use one.
+/// A way to find neighborhoods, chosen at run time. It makes searchers for single queries, and is the first argument of
+/// a batch. It converts from either index. It borrows its arguments, which must outlive it and its searchers, and must
+/// not be moved meanwhile. A copy is cheap. Any number of threads may use one.
 class SearchMethod {
  public:
-  /// The exact neighborhoods (see `Searcher`).
+  /// Finds the exact neighborhoods (see `Searcher`).
   SearchMethod(const Index& index);
   SearchMethod(const Index&&) = delete;
 
@@ -47,30 +47,30 @@ class SearchMethod {
   SearchMethod& operator=(const SearchMethod&) = default;
   ~SearchMethod() = default;
 
-  /// The approximate neighborhoods of the paper (see `paper::Searcher`). Throws Error{InvalidOption}.
+  /// Finds the approximate neighborhoods of the paper (see `paper::Searcher`). Throws Error{InvalidOption}.
   SearchMethod(const paper::Index& index, const paper::QueryOptions& options = {});
   SearchMethod(const paper::Index&&, const paper::QueryOptions& = {}) = delete;
 
-  /// The exact neighborhoods without an index (see `ReferenceSearcher`). Each thread copies the positions and
+  /// Finds the exact neighborhoods without an index (see `ReferenceSearcher`). Each thread copies the positions and
   /// checks the graph, in O(#V + #E log(valence)). Throws Error{InvalidMesh, TooLarge} if the graph is invalid.
   [[nodiscard]] static SearchMethod breadth_first(const GraphView& graph);
 
-  /// The method of the same `Index` by a metric: `make_searcher` then makes a `Searcher` by it. In a batch, the metric
-  /// of the query does this, unless it is `Straight`: then that of the method holds. Throws Error{InvalidOption} if the
-  /// method is not the exact one of an `Index`, unless `metric` is `Straight`.
+  /// Returns the method of the same `Index` by a metric: `make_searcher` then makes a `Searcher` by it. In a batch, the
+  /// metric of the query does this, unless it is `Straight`: then that of the method holds. Throws Error{InvalidOption}
+  /// if the method is not the exact one of an `Index`, unless `metric` is `Straight`.
   [[nodiscard]] SearchMethod by(Metric metric) const;
 
-  /// The vertices in space without an index, by a scan of all vertices for each query (see `BallSearcher`). The
+  /// Finds the vertices in space without an index, by a scan of all vertices for each query (see `BallSearcher`). The
   /// coordinates must be valid.
   [[nodiscard]] static SearchMethod ball_scan(const PositionsView& positions);
 
-  /// #V.
+  /// Returns #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// A searcher of this method, as the one named above. One for each thread. Throws as its constructor.
+  /// Makes a searcher of this method, of the type named above. Each thread needs its own. Throws as its constructor.
   [[nodiscard]] AnySearcher make_searcher() const;
 
-  /// Used by the batches.
+  /// The batches use this.
   [[nodiscard]] const SearcherFactory& factory() const { return *factory_; }
 
  private:
@@ -82,21 +82,21 @@ class SearchMethod {
 /// The query vertices of a batch: all vertices of the mesh in order, or a borrowed list.
 class BatchVertices {
  public:
-  /// All vertices, in order.
+  /// Takes all vertices, in order.
   BatchVertices() = default;
 
-  /// `vertices` in [0, #V), in any order; repeats are allowed. A temporary container is rejected by the compiler.
+  /// Borrows `vertices` in [0, #V), in any order; repeats are allowed. The compiler rejects a temporary container.
   template <BorrowedArray<VertexId> Range>
   BatchVertices(Range&& vertices) : list_(std::span<const VertexId>(vertices)) {}
 
-  /// The list; none if all vertices are meant.
+  /// Returns the list, or none if all vertices are meant.
   [[nodiscard]] const std::optional<std::span<const VertexId>>& list() const& { return list_; }
   [[nodiscard]] const std::optional<std::span<const VertexId>>& list() const&& = delete;
 
-  /// How many rows these are for a mesh of `vertices` vertices.
+  /// Returns the number of rows for a mesh of `vertices` vertices.
   [[nodiscard]] std::size_t count(std::size_t vertices) const { return list_ ? list_->size() : vertices; }
 
-  /// The vertex of a row, less than `count`.
+  /// Returns the vertex of a row; `row` is less than `count`.
   [[nodiscard]] VertexId operator[](std::size_t row) const {
     return list_ ? (*list_)[row] : static_cast<VertexId>(row);
   }
@@ -109,33 +109,33 @@ class BatchVertices {
 /// infinite, in the unit of the positions.
 class BatchRadius {
  public:
-  /// No radius: every batch rejects it.
+  /// Leaves the radius unset; every batch rejects that.
   BatchRadius() = default;
 
-  /// The same radius for every row.
+  /// Takes the same radius for every row.
   template <RadiusNumber Number>
   BatchRadius(Number radius) : common_(Radius(radius)) {}
 
-  /// One radius per row. A temporary container is rejected by the compiler.
+  /// Borrows one radius per row. The compiler rejects a temporary container.
   template <BorrowedArray<double> Range>
   BatchRadius(Range&& radii) : list_(std::span<const double>(radii)) {}
 
-  /// Several radii, at least one, in any order, each for all rows: the result then has a leading axis, radius after
-  /// radius, and what is meant by #rows is #radii by #rows. Calls that list neighborhoods throw Error{InvalidRadius}.
+  /// Takes one or more radii, in any order, each for all rows: the result then has a leading axis, radius after radius,
+  /// and #rows stands for #radii by #rows. Calls that list neighborhoods throw Error{InvalidRadius}.
   [[nodiscard]] static BatchRadius scales(std::vector<double> radii) {
     BatchRadius result;
     result.scales_ = std::move(radii);
     return result;
   }
 
-  /// The radius of all rows, unless there is a list or there are scales.
+  /// Returns the radius of all rows, or NaN if there is a list or there are scales.
   [[nodiscard]] double common() const { return common_; }
 
-  /// The list, if there is one.
+  /// Returns the list, if there is one.
   [[nodiscard]] const std::optional<std::span<const double>>& list() const& { return list_; }
   [[nodiscard]] const std::optional<std::span<const double>>& list() const&& = delete;
 
-  /// The scales, if there are some.
+  /// Returns the scales, if there are some.
   [[nodiscard]] const std::optional<std::vector<double>>& scales() const& { return scales_; }
   [[nodiscard]] const std::optional<std::vector<double>>& scales() const&& = delete;
 
@@ -145,19 +145,19 @@ class BatchRadius {
   std::optional<std::vector<double>> scales_;
 };
 
-/// Which neighborhoods a batch computes, one per row. The lists are copied when the call begins; later changes by the
-/// caller, a callback or another thread have no effect.
+/// The neighborhoods that a batch computes, one per row. The lists are copied when the call begins; later changes by
+/// the caller, a callback or another thread have no effect.
 struct BatchQuery {
   BatchVertices vertices = {};
 
   /// Required. A vertex at exactly the radius is inside.
   BatchRadius radius = {};
 
-  /// By what an `Index` finds the neighborhoods; radii are meant by it. Other methods have their own, and take
-  /// `Straight` alone.
+  /// An `Index` finds the neighborhoods by this metric, in which radii are measured. Other methods have their own, and
+  /// take `Straight` alone.
   Metric metric = Metric::Straight;
 
-  /// The number of rows of a result for a mesh of so many vertices: #radii by #rows if there are scales.
+  /// Returns the number of rows of a result for a mesh of `vertex_count` vertices: #radii by #rows if there are scales.
   /// Throws Error{TooLarge} if an array cannot have `columns` doubles for each.
   [[nodiscard]] std::size_t result_rows(std::size_t vertex_count, std::size_t columns = 1) const;
 };
@@ -171,16 +171,16 @@ struct BatchOptions {
 
   /// `for_each_neighborhood` passes the rows in index order (see `Index::permutation`) instead of ascending. Near rows
   /// are then computed together whatever the order of the query, which is up to ten times as fast where the vertices of
-  /// a mesh are numbered at random. Takes 12 bytes a row, and up to 50 while the rows are sorted. Ignored by the other
-  /// functions.
+  /// a mesh are numbered at random. Takes 12 bytes a row, and up to 50 while the rows are sorted. The other functions
+  /// ignore it.
   bool in_index_order = false;
 
-  /// About how many bytes of results may wait until earlier rows are done (`for_each_neighborhood`). A larger buffer
+  /// About this many bytes of results may wait until earlier rows are done (`for_each_neighborhood`). A larger buffer
   /// lets more rows run in index order and keeps threads busy; a smaller one stays in the processor's cache.
   std::size_t buffer_bytes = std::size_t{8} << 20;
 };
 
-/// One neighborhood of a batch. Valid during the call of the sink.
+/// One neighborhood of a batch, valid during the call of the sink.
 struct BatchRow {
   std::size_t row;                    ///< ascends from 0, unless `BatchOptions::in_index_order`
   std::span<const VertexId> ids;      ///< without duplicates; the query vertex included unless it is masked
@@ -196,7 +196,7 @@ struct Neighborhoods {
   std::vector<double> distances;  ///< empty unless `BatchOptions::distances`; always there from `discs`
 };
 
-/// Memory for the rows: room for all ids, and for as many distances if they are computed.
+/// Memory for the ids of all rows, and for as many distances if they are computed.
 struct BatchMemory {
   std::span<VertexId> ids;
   std::span<double> distances = {};
@@ -205,8 +205,8 @@ struct BatchMemory {
 /// Returns memory for `count` ids.
 using BatchAllocator = std::function<BatchMemory(std::size_t count)>;
 
-/// Passes each row to `sink`, in order, on the calling thread; the other threads wait meanwhile. Memory:
-/// `buffer_bytes`, a copy of the query, and per thread a searcher and two rows.
+/// Passes each row to `sink`, in order, on the calling thread; the other threads wait meanwhile. Needs `buffer_bytes`
+/// of memory, a copy of the query, and per thread a searcher and two rows.
 ///
 /// All arguments are checked before the first row is computed. An exception from `sink` or `run.progress`, or a lack
 /// of memory, ends the batch; it is passed on once all threads have stopped, and the method can be used again.
@@ -219,8 +219,7 @@ void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, 
 /// about as much memory as the ids at most, and is dropped if `max_bytes` is less than it and the result together. Rows
 /// of paths and of `paper::Index` are searched twice. Without an index each row is searched once, and the result is
 /// held twice. Throws as `for_each_neighborhood`, and Error{TooLarge} if ids and distances exceed `run.max_bytes`: at
-/// once if a sample of the rows shows that they will not fit (with an index), else soon after the rows so far exceed
-/// it.
+/// once if a sample of the rows shows that they will not fit (with an index), else soon after the rows exceed it.
 [[nodiscard]] Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query,
                                           const BatchOptions& options = {}, const Run& run = {});
 
@@ -233,7 +232,8 @@ void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, 
                                                        const Run& run = {});
 
 /// Returns the number of vertices of each row; #radii by #rows if there are scales. Throws as `for_each_neighborhood`.
-/// Memory: the result, a copy of the query, 8 bytes a row of up to 2^22, and a search for each thread (docs/joint.md).
+/// Needs memory for the result, a copy of the query, 8 bytes a row of up to 2^22, and a search for each thread
+/// (docs/joint.md).
 [[nodiscard]] std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& query,
                                                 const Run& run = {});
 

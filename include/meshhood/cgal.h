@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Copies of meshes of CGAL. Empty unless CGAL is found.
+/// Copies meshes of CGAL. The header is empty unless CGAL is found.
 ///
 ///     CGAL::Surface_mesh<Kernel::Point_3> surface;
 ///     const meshhood::MeshData mesh = meshhood::copy_mesh(surface);
@@ -27,8 +27,8 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The positions, #V by 3, rounded to double. Throws Error{InvalidMesh} if vertices have been removed and the mesh has
-/// not collected its garbage, because ids would not be consecutive. O(#V).
+/// Returns the positions, #V by 3, rounded to double. Throws Error{InvalidMesh} if vertices have been removed and the
+/// mesh has not collected its garbage, because ids would not be consecutive. Takes O(#V).
 template <class Point>
 [[nodiscard]] std::vector<double> copy_positions(const CGAL::Surface_mesh<Point>& mesh) {
   if (mesh.number_of_removed_vertices() != 0) {
@@ -44,8 +44,8 @@ template <class Point>
   return xyz;
 }
 
-/// The mesh: its faces, and its edges without a face as polygons of two corners. Throws as `copy_positions`. O(#V +
-/// #E).
+/// Returns the mesh: its faces, and its edges without a face as polygons of two corners. Throws as `copy_positions`.
+/// Takes O(#V + #E).
 template <class Point>
 [[nodiscard]] MeshData copy_mesh(const CGAL::Surface_mesh<Point>& mesh) {
   MeshData copy;

@@ -13,8 +13,8 @@
 #include "meshhood/run.h"
 #include "meshhood/surface.h"
 
-/// Curvature at a scale: the shape of the surface in the neighborhood of a vertex with radius r. The measures and how
-/// to choose among them are explained in docs/curvature.md.
+/// Computes curvature at a scale: the shape of the surface in the neighborhood of a vertex with radius r.
+/// docs/curvature.md explains the measures and how to choose among them.
 ///
 /// The normal of a vertex is the sum of the vector areas of its faces, normalized. The vector area of a triangle is
 /// half the cross product of two edges; that of a polygon is Newell's sum.
@@ -36,7 +36,7 @@ enum class ShapeOperator : std::uint8_t {
   Libigl,
 };
 
-/// Which surface is fitted to a neighborhood.
+/// The surface that is fitted to a neighborhood.
 enum class CurvatureFit : std::uint8_t {
   /// z = a x^2 + b x y + c y^2 + d x + e y over the tangent plane of the vertex normal, through the query vertex
   /// (Panozzo et al.).
@@ -60,36 +60,36 @@ enum class CurvatureState : std::uint8_t {
 
 struct CurvatureOptions {
   /// Fit only the vertices whose normal makes an angle of less than 90 degrees with that of the query vertex, if there
-  /// are at least six. Keeps the other side of a fold or a thin wall out of the fit.
+  /// are at least six. This keeps the other side of a fold or a thin wall out of the fit.
   bool filter = true;
 
   /// If true, a vertex at exactly the radius is outside, as in libigl. Otherwise it is inside.
   bool open_ball = false;
 
-  /// Of the quadric. Of a jet, all but `Exact` is Error{InvalidOption}.
+  /// The shape operator of a quadric. With a jet, all but `Exact` is Error{InvalidOption}.
   ShapeOperator shape_operator = ShapeOperator::Exact;
 
   CurvatureFit fit = CurvatureFit::Quadric;
 };
 
-/// The options with which `curvatures` agrees with `igl::principal_curvature(V, F, ..., radius, useKring = false)` of
-/// libigl, at the radius of `libigl_radius`.
+/// Returns the options with which `curvatures` agrees with `igl::principal_curvature(V, F, ..., radius, useKring =
+/// false)` of libigl, at the radius of `libigl_radius`.
 [[nodiscard]] CurvatureOptions like_libigl();
 
-/// The radius of libigl's neighborhoods: `edges` times the mean length of the sides of all faces. A side of two faces
-/// counts twice, so that this differs from `mean_edge_length` where the mesh has a border. 0 if there are no sides.
-/// Throws Error{InvalidMesh, TooLarge}.
+/// Returns the radius of libigl's neighborhoods: `edges` times the mean length of the sides of all faces. A side of two
+/// faces counts twice, so that this differs from `mean_edge_length` where the mesh has a border. It is 0 if there are
+/// no sides. Throws Error{InvalidMesh, TooLarge}.
 [[nodiscard]] double libigl_radius(const MeshView& mesh, double edges);
 
 /// Principal curvatures, one entry for each row of the query.
 struct Curvatures {
-  /// #rows, in 1 / unit of the positions, k1 >= k2. Positive where the surface is convex, seen from the side to which
-  /// the normals point: 1 / R on a sphere with normals outward.
+  /// #rows, in 1 / unit of the positions, k1 >= k2. They are positive where the surface is convex, seen from the side
+  /// to which the normals point: 1 / R on a sphere with normals outward.
   std::vector<double> k1;
   std::vector<double> k2;
 
-  /// #rows by 3: the directions of k1 and k2. Unit vectors, orthogonal to each other, with the sign that makes the
-  /// component of largest magnitude positive.
+  /// #rows by 3: the directions of k1 and k2. They are orthogonal unit vectors, with the sign that makes the component
+  /// of largest magnitude positive.
   std::vector<double> d1;
   std::vector<double> d2;
 
@@ -117,10 +117,9 @@ struct CurvatureMemory {
 /// six. It is not extended by ignored vertices, nor across them.
 /// query    as for `counts`: one radius for all rows, or one for each, or scales.
 /// A row depends on surface, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls,
-/// threads or the processor. O(size of the neighborhoods) in the worst case; the common part of the neighborhoods of a
-/// leaf is summed once.
-/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row, and Error{InvalidMesh} if
-/// the surface has neither faces nor normals of its own.
+/// threads or the processor. Takes O(size of the neighborhoods) in the worst case; the common part of the neighborhoods
+/// of a leaf is summed once. Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row,
+/// and Error{InvalidMesh} if the surface has neither faces nor normals of its own.
 [[nodiscard]] Curvatures curvatures(const Surface& surface, const BatchQuery& query,
                                     const CurvatureOptions& options = {}, const Run& run = {});
 
@@ -129,17 +128,17 @@ struct CurvatureMemory {
 void curvatures(const Surface& surface, const BatchQuery& query, const CurvatureMemory& out,
                 const CurvatureOptions& options = {}, const Run& run = {});
 
-/// Koenderink's shape index, 2 / pi atan((k1 + k2) / (k1 - k2)): 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a
-/// valley, -1 in a bowl. NaN where both are 0, where it is not defined. k1 >= k2, which is not checked.
+/// Returns Koenderink's shape index, 2 / pi atan((k1 + k2) / (k1 - k2)): 1 on a dome, 0.5 on a ridge, 0 on a saddle,
+/// -0.5 in a valley, -1 in a bowl. It is NaN where both are 0. Expects k1 >= k2, which is not checked.
 [[nodiscard]] double shape_index(double k1, double k2);
 
-/// Koenderink's curvedness, the square root of (k1^2 + k2^2) / 2.
+/// Returns Koenderink's curvedness, the square root of (k1^2 + k2^2) / 2.
 [[nodiscard]] double curvedness(double k1, double k2);
 
-/// Curvature from measures instead of a fit.
+/// Curvatures from measures instead of a fit.
 ///
-/// One value for each row of the query; #radii by #rows if it has scales, which are then meant by #rows. All but the
-/// area and the measures are NaN where the area is 0; k1, k2, d1 and d2 also where the vertex has no normal.
+/// There is a value for each row of the query; if that has scales, #rows stands for #radii by #rows. All but the area
+/// and the measures are NaN where the area is 0; k1, k2, d1 and d2 also where the vertex has no normal.
 struct CorrectedCurvatures {
   std::vector<double> area;      ///< #rows: of the neighborhood, corrected by the normals
   std::vector<double> mean;      ///< #rows: H, in 1 / unit of the positions, positive where convex, as in `Curvatures`
@@ -155,24 +154,22 @@ struct CorrectedCurvatures {
   static constexpr std::size_t kMeasures = 12;
 };
 
-/// The interpolated corrected curvature measures (J.-O. Lachaud, P. Romon, B. Thibert, D. Coeurjolly, "Interpolated
-/// corrected curvature measures for polygonal surfaces", Computer Graphics Forum 39, 2020; CGAL 6 has them as
-/// `interpolated_corrected_curvatures`): integrals over the faces of area, mean curvature, Gaussian curvature and the
-/// anisotropic measure, with the vertex normals interpolated over each face, divided by the area.
+/// Computes the interpolated corrected curvature measures (J.-O. Lachaud, P. Romon, B. Thibert, D. Coeurjolly,
+/// "Interpolated corrected curvature measures for polygonal surfaces", Computer Graphics Forum 39, 2020; CGAL 6 has
+/// them as `interpolated_corrected_curvatures`): integrals over the faces of area, mean curvature, Gaussian curvature
+/// and the anisotropic measure, with the vertex normals interpolated over each face, divided by the area.
 ///
 /// A vertex of a face holds a third of its measures, so that those of a neighborhood are sums over its vertices. CGAL
 /// instead weighs each face by the share of it inside the ball. A polygon of more than three corners is divided into
-/// triangles around its barycenter, which has the mean normal of the corners. A face with a corner that has no normal
-/// counts 0.
+/// triangles around its barycenter, with the mean normal of the corners. A face counts 0 if a corner has no normal.
 ///
 /// Nothing is fitted, and neighborhoods are neither filtered nor extended. The measures are robust on noisy meshes, and
-/// defined for a radius of 0.
+/// defined for a radius of 0. At a wall, a face still gives shares to its other corners.
 ///
-/// A face at a wall still gives shares to its other corners.
 /// query  as of `aggregate`.
-/// Each row depends on surface, vertex and radius alone, bit for bit, as that of `aggregate`. Takes the time of
-/// `aggregate` with twelve channels.
-/// Throws Error{InvalidMesh, TooLarge, VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
+/// Each row depends on surface, vertex and radius alone, bit for bit, as that of `aggregate`. The call takes the time
+/// of `aggregate` with twelve channels. Throws Error{InvalidMesh, TooLarge, VertexOutOfRange, InvalidRadius,
+/// InvalidOption, Cancelled}.
 [[nodiscard]] CorrectedCurvatures corrected_curvatures(const Surface& surface, const BatchQuery& query,
                                                        const Run& run = {});
 

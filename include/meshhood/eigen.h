@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Views of matrices of Eigen, such as `V` and `F` of libigl, in either storage order and without a copy. Empty unless
-/// Eigen is found.
+/// Makes views of matrices of Eigen, such as `V` and `F` of libigl, in either storage order and without a copy. The
+/// header is empty unless Eigen is found.
 ///
 ///     Eigen::MatrixXd V;  // #V by 3
 ///     Eigen::MatrixXi F;  // #F by 3
@@ -41,7 +41,7 @@ void check_columns(const M& matrix, const char* name) {
 
 }  // namespace detail
 
-/// `V`: #V by 3, float or double. Borrowed. Throws Error{InvalidMesh} if it has other than three columns.
+/// Borrows `V`, #V by 3, float or double. Throws Error{InvalidMesh} if it has other than three columns.
 template <BorrowedMatrix M>
 [[nodiscard]] PositionsView positions_view(M&& V) {
   detail::check_columns(V, "V");
@@ -49,7 +49,7 @@ template <BorrowedMatrix M>
                                 static_cast<std::size_t>(V.colStride()));
 }
 
-/// `F`: #F by 3, integers of 16 to 64 bits. Borrowed. Throws Error{InvalidMesh} if it has other than three columns.
+/// Borrows `F`, #F by 3, integers of 16 to 64 bits. Throws Error{InvalidMesh} if it has other than three columns.
 template <BorrowedMatrix M>
 [[nodiscard]] FacesView triangles_view(M&& F) {
   detail::check_columns(F, "F");
@@ -60,7 +60,7 @@ template <BorrowedMatrix M>
   return FacesView::strided_triangles(std::span(F.data(), size), rows, row_stride, column_stride);
 }
 
-/// The mesh of `V` and `F`. Borrowed. Throws as the functions above.
+/// Borrows the mesh of `V` and `F`. Throws as the functions above.
 template <BorrowedMatrix Positions, BorrowedMatrix Triangles>
 [[nodiscard]] MeshView mesh_view(Positions&& V, Triangles&& F) {
   return {positions_view(V), triangles_view(F)};

@@ -11,7 +11,7 @@
 namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 
-/// Why a call failed. The list is closed: a program may switch over it.
+/// The reason why a call failed. The list is closed: a program may switch over it.
 enum class ErrorCode {
   VertexOutOfRange,  ///< an id that the mesh does not have; or `nearest` of a mesh without a vertex to find
   InvalidRadius,     ///< a radius that is NaN or negative, or that the call does not take; or a wrong list of radii
@@ -25,7 +25,7 @@ enum class ErrorCode {
   Cancelled,          ///< the caller's `Progress` returned false; or a callback forked, and this is the child
 };
 
-/// One sentence about `code`, the same in every language binding.
+/// Returns one sentence about `code`, the same in every language binding.
 [[nodiscard]] std::string_view describe(ErrorCode code) noexcept;
 
 /// The one exception that meshhood throws. `what()` is one line that names the cause (file and place, face, corner,
@@ -44,10 +44,10 @@ class Error : public std::exception {
   [[nodiscard]] ErrorCode code() const noexcept { return code_; }
   [[nodiscard]] const char* what() const noexcept override { return message_.c_str(); }
 
-  /// With `IoFailure`: the file, as it was given; empty otherwise.
+  /// Returns the file of an `IoFailure`, as it was given; otherwise an empty string.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
-  /// With `IoFailure`: the `errno` value of the failed system call; 0 where there is none.
+  /// Returns the `errno` value of the failed system call of an `IoFailure`; 0 where there is none.
   [[nodiscard]] int error_number() const noexcept { return error_number_; }
 
  private:

@@ -11,8 +11,8 @@
 #include "meshhood/export.h"
 #include "meshhood/run.h"
 
-/// How a surface looks around each vertex at many scales: feature vectors, and how long a feature persists. See
-/// docs/curvature.md.
+/// Describes a surface around each vertex at many scales: by feature vectors, and by how long a feature persists.
+/// docs/curvature.md explains them.
 ///
 ///     const std::vector<double> radii = meshhood::geometric_radii(1.0, 16.0, 9);
 ///     const auto creases = meshhood::features(surface, {.radius = meshhood::BatchRadius::scales(radii)});
@@ -20,8 +20,8 @@
 namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 
-/// A number without unit that describes the neighborhood of one radius r: it does not change if mesh and radius are
-/// scaled together, so that scales can be compared.
+/// A feature is a number without unit that describes the neighborhood of one radius r. It does not change if mesh and
+/// radius are scaled together, so that scales can be compared.
 enum class Feature : std::uint8_t {
   Crease,      ///< r times the principal curvature of larger magnitude: > 0 on a ridge, < 0 in a valley
   Mean,        ///< r H
@@ -38,34 +38,35 @@ enum class Feature : std::uint8_t {
 };
 
 struct FeatureOptions {
-  /// One column each, at least one.
+  /// The features to compute, at least one. Each has a column of the result.
   std::vector<Feature> kinds = {Feature::Crease};
 
-  /// #V, the area of each vertex, for Height and Variation; those of the surface if empty;
-  /// Error{InvalidOption} if it has no faces then.
+  /// The area of each vertex, #V, for Height and Variation. If empty, the areas of the surface are used;
+  /// Error{InvalidOption} if it has no faces.
   Borrowed<double> areas = {};
 
-  /// As for `curvatures`.
+  /// As in `CurvatureOptions`.
   bool filter = true;
 };
 
-/// #radii by #rows by #kinds: the features of the neighborhood of each row at each of the scales of the query; one
-/// radius if it has a radius for all rows, or one for each. NaN where a fit has no result (see `CurvatureState`), where
-/// a row has no normal, or where the neighborhood has no area. By rings, a radius of r edges counts as r times the mean
-/// length of an edge.
+/// Returns the features of the neighborhood of each row at each of the scales of the query, #radii by #rows by #kinds.
+/// There is one radius if the query has one for all rows, or one for each. A feature is NaN where a fit has no result
+/// (see `CurvatureState`), where a row has no normal, or where the neighborhood has no area. By rings, a radius of r
+/// edges counts as r times the mean length of an edge.
 ///
 /// Each radius has a neighborhood of its own, which is searched once for all kinds; of an index with ignored vertices,
-/// Area, Volume and Gap beside other kinds have a search of their own. Time of `curvatures`, `principal_components`,
-/// `invariants` and `gaps` for each radius, as the kinds require. A row depends on surface, areas, vertex and radius
-/// alone, bit for bit: not on the other rows of the call, earlier calls, threads or the processor. Throws
-/// Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, and InvalidMesh if the surface has neither faces
-/// nor normals. A radius must be > 0 and finite. Area, Volume and Gap throw InvalidOption by another metric than
-/// `Straight` and of a surface without faces, and InvalidMesh if every face has a wall.
+/// Area, Volume and Gap beside other kinds have a search of their own. The call takes the time of `curvatures`,
+/// `principal_components`, `invariants` and `gaps` for each radius, as the kinds require. A row depends on surface,
+/// areas, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls, threads or the
+/// processor. Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, and InvalidMesh if the surface
+/// has neither faces nor normals. A radius must be > 0 and finite. Area, Volume and Gap throw InvalidOption by another
+/// metric than `Straight` and of a surface without faces, and InvalidMesh if every face has a wall.
 [[nodiscard]] std::vector<double> features(const Surface& surface, const BatchQuery& query,
                                            const FeatureOptions& options = {}, const Run& run = {});
 
-/// `count` radii from `smallest` to `largest` with a constant ratio; one is `largest`. Throws Error{InvalidRadius}
-/// unless 0 < smallest <= largest < infinity, and Error{InvalidOption} unless `count` is in [1, 1000].
+/// Returns `count` radii from `smallest` to `largest` with a constant ratio; a single one is `largest`. Throws
+/// Error{InvalidRadius} unless 0 < smallest <= largest < infinity, and Error{InvalidOption} unless `count` is in [1,
+/// 1000].
 [[nodiscard]] std::vector<double> geometric_radii(double smallest, double largest, std::size_t count);
 
 /// Over how many scales a feature lasts, one entry for each row.
@@ -81,7 +82,7 @@ struct Persistence {
 /// values     #radii by #rows, one kind of feature. A NaN ends a run.
 /// radii      >= 0, strictly ascending.
 /// threshold  > 0.
-/// O(#values), on one thread. Throws Error{InvalidOption, InvalidRadius}.
+/// Takes O(#values), on one thread. Throws Error{InvalidOption, InvalidRadius}.
 [[nodiscard]] Persistence persistence(std::span<const double> values, std::span<const double> radii, double threshold);
 
 MESHHOOD_API_END

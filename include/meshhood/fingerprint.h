@@ -21,13 +21,13 @@ struct Fingerprint {
   friend bool operator==(const Fingerprint&, const Fingerprint&) = default;
 };
 
-/// 32 hexadecimal digits.
+/// Returns the fingerprint as 32 hexadecimal digits.
 [[nodiscard]] std::string to_text(const Fingerprint& fingerprint);
 
-/// Throws Error{InvalidMesh, TooLarge}, as `adjacency`. O(#V + #corners log(valence)).
+/// Computes the fingerprint. Throws Error{InvalidMesh, TooLarge}, as `adjacency`. Takes O(#V + #corners log(valence)).
 [[nodiscard]] Fingerprint fingerprint(const MeshView& mesh);
 
-/// The graph must be valid. O(#V + #E).
+/// The graph must be valid. Takes O(#V + #E).
 [[nodiscard]] Fingerprint fingerprint(const GraphView& graph);
 
 MESHHOOD_API_END

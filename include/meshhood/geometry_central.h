@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Copies of meshes of geometry-central. Empty unless geometry-central is found.
+/// Copies meshes of geometry-central. The header is empty unless geometry-central is found.
 ///
 ///     auto [surface, geometry] = geometrycentral::surface::readManifoldSurfaceMesh("hand.ply");
 ///     const meshhood::MeshData mesh = meshhood::copy_mesh(*surface, geometry->inputVertexPositions);
@@ -25,8 +25,8 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The positions, #V by 3. The mesh must be compressed, so that ids are consecutive; throws Error{InvalidMesh} if it is
-/// not. O(#V).
+/// Returns the positions, #V by 3. The mesh must be compressed, so that ids are consecutive; throws Error{InvalidMesh}
+/// if it is not. Takes O(#V).
 [[nodiscard]] inline std::vector<double> copy_positions(
     geometrycentral::surface::SurfaceMesh& mesh,
     const geometrycentral::surface::VertexData<geometrycentral::Vector3>& positions) {
@@ -42,7 +42,7 @@ namespace meshhood::inline v0_1 {
   return xyz;
 }
 
-/// The mesh. Throws as `copy_positions`. O(#V + #corners).
+/// Returns the mesh. Throws as `copy_positions`. Takes O(#V + #corners).
 [[nodiscard]] inline MeshData copy_mesh(
     geometrycentral::surface::SurfaceMesh& mesh,
     const geometrycentral::surface::VertexData<geometrycentral::Vector3>& positions) {

@@ -32,31 +32,32 @@ struct IndexView;
 /// An index that has been moved from can be assigned and destroyed. All else throws Error{InvalidOption}.
 class Index {
  public:
-  /// #V.
+  /// Returns #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// Memory of all arrays but the faces. O(1).
+  /// Returns the memory of all arrays but the faces. Takes O(1).
   [[nodiscard]] IndexBytes bytes() const;
 
-  /// The leaves, and the levels of nodes above them.
+  /// Returns statistics of the leaves, and of the levels of nodes above them. Takes O(#levels).
   [[nodiscard]] std::vector<LevelSummary> levels() const;
 
-  /// The positions in index order, #V by 3. Valid as long as the index, or until a refit in place.
+  /// Returns the positions in index order, #V by 3. They are valid as long as the index, or until a refit in place.
   [[nodiscard]] PositionsView positions() const&;
   [[nodiscard]] PositionsView positions() const&& = delete;
 
-  /// The caller's id of each vertex in index order, #V: the order in which the index stores the vertices, and in which
-  /// answers list them. Empty if the two orders are the same (see `reorder`). Valid as
-  /// long as the index.
+  /// Returns the caller's id of each vertex in index order, #V: the order in which the index stores the vertices and
+  /// answers list them. It is empty if the two orders are the same (see `reorder`), and valid as long as the index.
   [[nodiscard]] std::span<const VertexId> permutation() const&;
   [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
-  /// The first vertex of each leaf in index order, and #V: #leaves + 1, some empty. Valid as long as the index.
+  /// Returns the first vertex of each leaf in index order, and #V: #leaves + 1. Leaves may be empty. Valid as long as
+  /// the index.
   [[nodiscard]] std::span<const VertexId> leaf_starts() const&;
   [[nodiscard]] std::span<const VertexId> leaf_starts() const&& = delete;
 
-  /// The faces of the mesh, if the index comes from a file that was saved with them (see `SaveOptions`); also of its
-  /// refits. Corners and offsets have 32 bits. Valid as long as the index. O(1).
+  /// Returns the faces of the mesh, if the index was loaded or mapped from a file that was saved with them (see
+  /// `SaveOptions`), or is a refit of such an index. Corners and offsets have 32 bits. They are valid as long as the
+  /// index. Takes O(1).
   [[nodiscard]] std::optional<FacesView> faces() const&;
   [[nodiscard]] std::optional<FacesView> faces() const&& = delete;
 
@@ -80,7 +81,7 @@ class Index {
   ///  - each sphere encloses its vertices.
   ///
   /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid, and Error{InvalidOption} for an index with masks or of
-  /// paths along a surface. O((#V + #E) log #V).
+  /// paths along a surface. Takes O((#V + #E) log #V).
   [[nodiscard]] std::vector<std::string> check(const MeshView& mesh) const;
   [[nodiscard]] std::vector<std::string> check(const GraphView& graph) const;
 
@@ -101,11 +102,11 @@ class Index {
 ///
 /// mesh    any polygonal mesh (see `validate`); borrowed for the call.
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. TooLarge also beyond 2^27 leaves; a leaf has at least
-/// 16 vertices, except around vertices with very many neighbors. O(#V log #V + #E).
+/// 16 vertices, except around vertices with very many neighbors. Takes O(#V log #V + #E).
 [[nodiscard]] Index build(const MeshView& mesh, const Run& run = {});
 [[nodiscard]] Index build(const GraphView& graph, const Run& run = {});
 
-/// The same from arrays; borrowed for the call.
+/// Builds the index from arrays, which are borrowed for the call.
 ///
 /// positions  float or double in contiguous memory: 3 #V numbers, vertex after vertex, or #V points (see `RowOfThree`);
 ///            or a `PositionsView`, for other layouts.
@@ -130,16 +131,15 @@ template <class Positions, class Faces>
   }
 }
 
-/// The positions and the graph of the mesh that `index` was built from, in the caller's order: the input of
-/// `ReferenceSearcher` and `paper::build` for callers that kept only the index.
-/// O(#V + #E log(valence)).
+/// Returns the positions and the graph of the mesh that `index` was built from, in the caller's order: the input of
+/// `ReferenceSearcher` and `paper::build` for callers that kept only the index. Takes O(#V + #E log(valence)).
 [[nodiscard]] GraphData extract_graph(const Index& index);
 
-/// The mean length of the edges of the mesh that the index was built from. Cost as for `extract_graph`.
+/// Returns the mean length of the edges of the mesh that the index was built from. Costs as much as `extract_graph`.
 [[nodiscard]] double mean_edge_length(const Index& index);
 
-/// The fingerprint of the mesh that the index was built from. O(#V + #E log(valence)); needs as much memory as
-/// `extract_graph(index)`.
+/// Returns the fingerprint of the mesh that the index was built from. Takes O(#V + #E log(valence)), and as much memory
+/// as `extract_graph`.
 [[nodiscard]] Fingerprint fingerprint(const Index& index);
 
 MESHHOOD_API_END

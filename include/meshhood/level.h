@@ -8,7 +8,7 @@
 namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 
-/// Memory of an index by part, in bytes. Of a mapped index: bytes of the file.
+/// The memory of an index by part, in bytes; for a mapped index, bytes of the file.
 struct IndexBytes {
   std::size_t positions = 0;    ///< coordinates of the vertices
   std::size_t permutation = 0;  ///< from the caller's numbering to that of the index, and back

@@ -14,8 +14,9 @@
 namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 
-/// A set of vertices: one value for each vertex by the caller's ids, #V in total. A bool that is true, or a byte other
-/// than 0, puts its vertex into the set. Borrowed; a temporary container is rejected by the compiler. Empty: no vertex.
+/// Borrows a set of vertices: one value for each vertex by the caller's ids, #V in total. A bool that is true, or a
+/// byte other than 0, puts its vertex into the set. An empty mask has no vertex. The compiler rejects a temporary
+/// container.
 class VertexMask {
  public:
   VertexMask() = default;
@@ -31,10 +32,10 @@ class VertexMask {
   VertexMask(const std::vector<bool>& bits) : bits_(&bits) {}
   VertexMask(const std::vector<bool>&&) = delete;
 
-  /// The number of values: #V, or 0.
+  /// Returns the number of values: #V, or 0.
   [[nodiscard]] std::size_t size() const { return bits_ != nullptr ? bits_->size() : bytes_.size(); }
 
-  /// Whether the set has a vertex; `v` is less than `size()`.
+  /// Returns whether the set has vertex `v`, which is less than `size()`.
   [[nodiscard]] bool operator[](VertexId v) const { return bits_ != nullptr ? (*bits_)[v] : bytes_[v] != 0; }
 
  private:
@@ -42,7 +43,7 @@ class VertexMask {
   const std::vector<bool>* bits_ = nullptr;  // instead of bytes
 };
 
-/// What searches of a masked index may pass. A temporary container is rejected by the compiler.
+/// The walls and ignored vertices of a masked index. The compiler rejects a temporary container.
 struct Masks {
   /// Searches do not pass these vertices, and they do not belong to answers, as if they were not in the mesh. The
   /// neighborhood of a wall is empty.
@@ -52,15 +53,15 @@ struct Masks {
   VertexMask ignored = {};
 };
 
-/// The same index with masks: every search of it, and every call that takes it, leaves out walls and ignored vertices;
-/// `nearest` and `Start::nearest` find ignored ones. A wall as a seed leads nowhere. The masks are copied; the arrays
-/// of `index` are shared, all of which remain valid without the walls. Memory: some 50 bytes a leaf with walls, 4 with
-/// ignored vertices alone. A search takes about as long as without masks.
+/// Returns the same index with masks: every search of it, and every call that takes it, leaves out walls and ignored
+/// vertices; `nearest` and `Start::nearest` find ignored ones. A wall as a seed leads nowhere. The masks are copied;
+/// the arrays of `index` are shared, all of which remain valid without the walls. Needs some 50 bytes a leaf with
+/// walls, and 4 with ignored vertices alone. A search takes about as long as without masks.
 ///
 /// An index with masks is not saved, checked, refitted or masked again. After `refit_in_place` of `index`,
 /// it refuses to answer, as a searcher does. Its mesh, as from `extract_graph`, is the whole one.
 ///
-/// O(#V). Throws Error{InvalidOption} unless each mask is empty or has a value for each vertex, or if `index` has
+/// Takes O(#V). Throws Error{InvalidOption} unless each mask is empty or has a value for each vertex, or if `index` has
 /// masks, and Error{Cancelled}.
 [[nodiscard]] Index masked(const Index& index, const Masks& masks, const Run& run = {});
 

@@ -18,7 +18,7 @@
 namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 
-/// The largest number of vertices. One id is reserved.
+/// The largest number of vertices of a mesh. One id is reserved.
 inline constexpr std::size_t kMaxVertices = std::numeric_limits<VertexId>::max() - std::size_t{1};
 
 /// A contiguous range of `T` that may be borrowed: an lvalue or a view. A temporary container is neither, so that a
@@ -26,8 +26,8 @@ inline constexpr std::size_t kMaxVertices = std::numeric_limits<VertexId>::max()
 template <class Range, class T>
 concept BorrowedArray = std::ranges::borrowed_range<Range> && std::convertible_to<Range, std::span<const T>>;
 
-/// A contiguous array that is borrowed: it must outlive this view. A temporary container is rejected by the compiler,
-/// as in each field and parameter of this type.
+/// Borrows a contiguous array, which must outlive this view. A temporary container is rejected by the compiler, as in
+/// each field and parameter of this type.
 template <class T>
 class Borrowed : public std::span<const T> {
  public:
@@ -81,7 +81,7 @@ concept RowOfThree =
 
 namespace detail {
 
-/// The scalars of rows of three, #rows by 3.
+/// Returns the scalars of rows of three, #rows by 3.
 template <RowOfThree Row>
 [[nodiscard]] std::span<const Scalar<Row>> flatten(std::span<const Row> rows) {
   if (rows.empty()) return {};
@@ -90,14 +90,14 @@ template <RowOfThree Row>
 
 }  // namespace detail
 
-/// A contiguous range of float or double that may be borrowed; one of points, each a row of three.
+/// A contiguous range that may be borrowed: of float or double, or of points, each a row of three of them.
 template <class Range>
 concept BorrowedReals = BorrowedArray<Range, detail::Element<Range>> && FloatOrDouble<detail::Element<Range>>;
 template <class Range>
 concept BorrowedPoints = BorrowedArray<Range, detail::Element<Range>> && RowOfThree<detail::Element<Range>> &&
                          FloatOrDouble<detail::Scalar<detail::Element<Range>>>;
 
-/// A contiguous range of indices that may be borrowed; one of triangles, each a row of three.
+/// A contiguous range that may be borrowed: of indices, or of triangles, each a row of three of them.
 template <class Range>
 concept BorrowedIndices = BorrowedArray<Range, detail::Element<Range>> && IndexInteger<detail::Element<Range>>;
 template <class Range>
@@ -117,14 +117,14 @@ struct StridedPositions {
     return first[v * vertex_stride + axis * axis_stride];
   }
 
-  /// Whether the coordinates follow each other, vertex after vertex.
+  /// Returns whether the coordinates follow each other, vertex after vertex.
   [[nodiscard]] bool is_packed() const { return vertex_stride == 3 && axis_stride == 1; }
 
-  /// All coordinates of packed positions, #V by 3.
+  /// Returns all coordinates of packed positions, #V by 3.
   [[nodiscard]] std::span<const Real> packed() const { return {first, 3 * count}; }
 };
 
-/// Positions of the vertices, #V by 3, float or double, in any unit. Borrowed: nothing is copied, and the memory must
+/// Borrows the positions of the vertices, #V by 3, float or double, in any unit: nothing is copied, and the memory must
 /// outlive the view. A temporary container is rejected by the compiler.
 ///
 /// A flat array and an array of points (see `RowOfThree`) are read row by row: x, y, z of vertex 0, then of vertex 1.
@@ -133,16 +133,16 @@ class PositionsView {
  public:
   PositionsView() = default;
 
-  /// A flat array of 3 #V coordinates, row by row.
+  /// Takes a flat array of 3 #V coordinates, row by row.
   template <BorrowedReals Range>
   PositionsView(Range&& xyz) : PositionsView(Rows{}, std::span<const detail::Element<Range>>(xyz)) {}
 
-  /// One point for each vertex.
+  /// Takes one point for each vertex.
   template <BorrowedPoints Range>
   PositionsView(Range&& points)
       : PositionsView(Rows{}, detail::flatten(std::span<const detail::Element<Range>>(points))) {}
 
-  /// A flat array of all x, then all y, then all z.
+  /// Takes a flat array of all x, then all y, then all z.
   template <BorrowedReals Range>
   [[nodiscard]] static PositionsView column_major(Range&& xyz) {
     const std::span<const detail::Element<Range>> all(xyz);
@@ -166,10 +166,10 @@ class PositionsView {
     return std::visit(std::forward<F>(f), positions_);
   }
 
-  /// The number of scalars given: `3 #V` for a view that `validate` accepts.
+  /// Returns the number of scalars given: `3 #V` for a view that `validate` accepts.
   [[nodiscard]] std::size_t scalar_count() const { return scalars_; }
 
-  /// #V.
+  /// Returns #V.
   [[nodiscard]] std::size_t size() const { return scalars_ / 3; }
 
  private:
@@ -186,8 +186,8 @@ class PositionsView {
   std::size_t scalars_ = 0;
 };
 
-/// A list of indices of 16 to 64 bits, signed or not. Borrowed: nothing is copied, and the memory must outlive the
-/// view. A temporary container is rejected by the compiler. A negative index is out of range.
+/// Borrows a list of indices of 16 to 64 bits, signed or not: nothing is copied, and the memory must outlive the view.
+/// A temporary container is rejected by the compiler. A negative index is out of range.
 class IndicesView {
  public:
   IndicesView() = default;
@@ -205,7 +205,7 @@ class IndicesView {
     return visit([](auto indices) { return indices.size(); });
   }
 
-  /// Index `i` as unsigned: a negative one becomes larger than any number of vertices.
+  /// Returns index `i` as unsigned: a negative one becomes larger than any number of vertices.
   [[nodiscard]] std::uint64_t operator[](std::size_t i) const {
     return visit([i](auto indices) { return static_cast<std::uint64_t>(indices[i]); });
   }
@@ -217,7 +217,7 @@ class IndicesView {
       indices_;
 };
 
-/// The polygons of a mesh: triangles, #F by 3, or polygons of any size as offsets and corners.
+/// Borrows the polygons of a mesh: triangles, #F by 3, or polygons of any size as offsets and corners.
 ///
 /// The **graph** of a mesh joins the consecutive distinct corners of each polygon, the last with the first. A polygon
 /// of two corners is therefore an edge; a polygon of one corner, or of none, joins nothing. Nothing is assumed
@@ -226,18 +226,18 @@ class FacesView {
  public:
   FacesView() = default;
 
-  /// Triangles, row by row. `corners`: #F by 3.
+  /// Takes triangles, row by row: `corners` is #F by 3.
   [[nodiscard]] static FacesView triangles(IndicesView corners) {
     return strided_triangles(corners, corners.size() / 3, 3, 1);
   }
 
-  /// One row of three corners for each triangle.
+  /// Takes one row of three corners for each triangle.
   template <BorrowedTriangles Range>
   [[nodiscard]] static FacesView triangles(Range&& corners) {
     return triangles(detail::flatten(std::span<const detail::Element<Range>>(corners)));
   }
 
-  /// Triangles in a flat array of all first corners, then all second, then all third.
+  /// Takes triangles in a flat array of all first corners, then all second, then all third.
   [[nodiscard]] static FacesView column_major_triangles(IndicesView corners) {
     return strided_triangles(corners, corners.size() / 3, 1, corners.size() / 3);
   }
@@ -254,8 +254,8 @@ class FacesView {
     return faces;
   }
 
-  /// Polygon `f` has the corners `corners[offsets[f]] .. corners[offsets[f + 1] - 1]`.
-  /// `offsets`: #F + 1, ascending from 0 to `corners.size()`; empty if there are no faces.
+  /// Polygon `f` has the corners `corners[offsets[f]] .. corners[offsets[f + 1] - 1]`. `offsets` has #F + 1 numbers,
+  /// ascending from 0 to `corners.size()`; it may be empty if there are no faces.
   [[nodiscard]] static FacesView polygons(IndicesView offsets, IndicesView corners) {
     FacesView faces;
     faces.triangles_ = false;
@@ -265,29 +265,28 @@ class FacesView {
     return faces;
   }
 
-  /// #F.
+  /// Returns #F.
   [[nodiscard]] std::size_t size() const { return count_; }
 
   [[nodiscard]] bool are_triangles() const { return triangles_; }
 
-  /// The number of corners of all faces, once they have passed `validate`.
+  /// Returns the number of corners of all faces, once they have passed `validate`.
   [[nodiscard]] std::size_t corner_count() const { return are_triangles() ? 3 * count_ : corners_.size(); }
 
-  /// As given. Use `for_each` to read the faces: triangles may be strided.
+  /// Return the arrays as given. Use `for_each` to read the faces: triangles may be strided.
   [[nodiscard]] const IndicesView& offsets() const { return offsets_; }
   [[nodiscard]] const IndicesView& corners() const { return corners_; }
   [[nodiscard]] std::size_t face_stride() const { return face_stride_; }      ///< of triangles, in elements
   [[nodiscard]] std::size_t corner_stride() const { return corner_stride_; }  ///< of triangles, in elements
 
-  /// Calls `f(face, corners)` for every face in order; `corners` is a `std::span<const VertexId>` of #corners of the
-  /// face, valid during the call. The view must have passed `validate`. Corners of 32 bits are not copied, except those
-  /// of strided triangles.
+  /// Calls `f(face, corners)` for every face in order; `corners` is a `std::span<const VertexId>` that is valid during
+  /// the call. The view must have passed `validate`. Corners of 32 bits are copied only if strided.
   template <class F>
   void for_each(F&& f) const {
     for_each(0, count_, f);
   }
 
-  /// The same for the faces `begin .. end - 1`.
+  /// Does the same for the faces `begin .. end - 1`.
   template <class F>
   void for_each(std::size_t begin, std::size_t end, F&& f) const {
     std::vector<VertexId> copy;
@@ -304,11 +303,11 @@ class FacesView {
   }
 
  private:
-  /// The corners of one or more triangles from `face` on, #triangles by 3: as given where that is possible, otherwise
-  /// converted into `copy`, some hundred triangles at a time.
+  /// Returns the corners of one or more triangles from `face` on, #triangles by 3: as given where that is possible,
+  /// otherwise converted into `copy`, some hundred triangles at a time.
   [[nodiscard]] std::span<const VertexId> triangles_from(std::size_t face, std::vector<VertexId>& copy) const;
 
-  /// The corners of a polygon: as given where that is possible, otherwise converted into `copy`.
+  /// Returns the corners of a polygon: as given where that is possible, otherwise converted into `copy`.
   [[nodiscard]] std::span<const VertexId> polygon(std::size_t face, std::vector<VertexId>& copy) const;
 
   IndicesView offsets_;
@@ -319,24 +318,24 @@ class FacesView {
   std::size_t corner_stride_ = 1;
 };
 
-/// A polygonal mesh. Borrowed: the caller keeps the arrays alive and unchanged during the call the view is passed to.
+/// Borrows a polygonal mesh: the caller keeps the arrays alive and unchanged during each call that takes the view.
 struct MeshView {
   PositionsView positions;
   FacesView faces;
 };
 
-/// Throws unless `mesh` describes a mesh: positions #V by 3, finite, and no double beyond 2^500 in magnitude (its
-/// square would overflow); 3 #F corners, or offsets that ascend from 0 to the number of corners; every corner in [0,
+/// Throws unless `mesh` describes a mesh: positions #V by 3, finite, and at most 2^500 in magnitude, so that no square
+/// of a distance overflows; 3 #F corners, or offsets that ascend from 0 to the number of corners; every corner in [0,
 /// #V). Degenerate, repeated and isolated elements are accepted. Every function that takes a `MeshView` calls this
 /// first.
 ///
-/// Throws Error{InvalidMesh, TooLarge}, naming the vertex, or the face and corner. O(#V + #corners).
+/// Throws Error{InvalidMesh, TooLarge}, naming the vertex, or the face and corner. Takes O(#V + #corners).
 void validate(const MeshView& mesh);
 
-/// Throws unless the positions are #V by 3 and every coordinate is valid, as above.
+/// Throws unless the positions are #V by 3 and every coordinate is valid, as above. Takes O(#V).
 void validate(const PositionsView& positions);
 
-/// The distance between two vertices, as every search computes it: in double, `sqrt((dx*dx + dy*dy) + dz*dz)`.
+/// Returns the distance between two vertices, as every search computes it: in double, `sqrt((dx*dx + dy*dy) + dz*dz)`.
 /// Vertex `w` lies in the ball around `v` whose radius is exactly `distance(positions, v, w)`.
 ///
 /// Squares of distances below 2^-511 lose digits, and below 2^-538 they are 0. There a search compares these squares,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// meshhood: the connected component of a mesh inside a ball around a vertex, exact and indexed.
+/// meshhood finds the connected component of a mesh inside a ball around a vertex, exactly, with an index.
 ///
-/// The neighborhood of vertex `v` with radius `r`: of the part of the mesh inside the ball of radius `r` around `v`,
-/// the connected component that contains `v`.
+/// The neighborhood of vertex `v` with radius `r` is the connected component of `v` in the part of the mesh inside the
+/// ball of radius `r` around `v`.
 ///
 ///     #include <meshhood/meshhood.h>
 ///

@@ -10,7 +10,7 @@
 namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 
-/// How the distance of a vertex is measured, of which radii and smoothing kernels speak. See `Searcher`.
+/// How the distance of a vertex is measured, for radii and smoothing kernels. `Searcher` defines the metrics.
 enum class Metric : std::uint8_t {
   Straight,  ///< what is connected within the ball, and straight lines
   Path,      ///< what is within the radius along the edges, and the lengths of shortest paths

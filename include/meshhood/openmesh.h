@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Copies of meshes of OpenMesh. Empty unless OpenMesh is found.
+/// Copies meshes of OpenMesh. The header is empty unless OpenMesh is found.
 ///
 ///     #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 ///
@@ -28,8 +28,8 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The positions, #V by 3, in float if the mesh has float, else in double. Throws Error{InvalidMesh} if vertices have
-/// been deleted and the mesh has not collected its garbage, because ids would not be consecutive. O(#V).
+/// Returns the positions, #V by 3, in float if the mesh has float, else in double. Throws Error{InvalidMesh} if
+/// vertices are deleted but the garbage is not collected, because ids would not be consecutive. Takes O(#V).
 template <class Kernel>
 [[nodiscard]] auto copy_positions(const OpenMesh::PolyMeshT<Kernel>& mesh) {
   using Scalar = typename OpenMesh::PolyMeshT<Kernel>::Scalar;
@@ -47,7 +47,7 @@ template <class Kernel>
   return xyz;
 }
 
-/// The mesh. Throws as `copy_positions`. O(#V + #corners).
+/// Returns the mesh. Throws as `copy_positions`. Takes O(#V + #corners).
 template <class Kernel>
 [[nodiscard]] MeshData copy_mesh(const OpenMesh::PolyMeshT<Kernel>& mesh) {
   MeshData copy;

@@ -13,8 +13,8 @@ namespace detail {
 /// Throws Error{InvalidOption}.
 [[noreturn]] void raise_moved_from();
 
-/// The state of an object that can be moved, but not copied. To use the state of one that has been moved from throws
-/// Error{InvalidOption}; to assign and to destroy it does not.
+/// Owns the state of an object that can be moved, but not copied. To use the state of one that has been moved from
+/// throws Error{InvalidOption}; to assign and to destroy it does not.
 template <class T>
 class Owner {
  public:
@@ -33,7 +33,7 @@ class Owner {
   }
   [[nodiscard]] T* operator->() const { return &**this; }
 
-  /// For others that keep the state alive.
+  /// Returns the pointer by which others keep the state alive.
   [[nodiscard]] const std::shared_ptr<T>& share() const {
     static_cast<void>(**this);
     return state_;

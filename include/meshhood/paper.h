@@ -17,7 +17,7 @@
 #include "meshhood/search.h"
 #include "meshhood/vertex.h"
 
-/// The index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
+/// Implements the index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
 /// `docs/paper.md` lists the deviations from the paper, with reasons.
 namespace meshhood::inline v0_1::paper {
 MESHHOOD_API_BEGIN
@@ -27,8 +27,8 @@ using ClusterId = VertexId;
 
 /// How the hierarchy is built (3.2, 4.1).
 struct BuildOptions {
-  /// Levels to compute, the base level (one cluster per vertex) included; >= 1. Construction ends earlier if every
-  /// component of the mesh has become a single cluster; `kAllLevels` always continues until then.
+  /// The number of levels to compute, the base level (one cluster per vertex) included; >= 1. Construction ends earlier
+  /// if every component of the mesh has become a single cluster; `kAllLevels` always continues until then.
   int levels = 5;
 
   /// The number of lowest levels to drop after all are built; >= 0. The last level is always kept.
@@ -44,25 +44,25 @@ struct BuildOptions {
 
 /// The hierarchy of connected clusters (3.1), with the positions in the order of the clusters.
 ///
-/// Immutable: any number of threads may query it, each with its own `Searcher`. It does not refer to the mesh. An index
-/// that has been moved from can be assigned and destroyed. All else throws Error{InvalidOption}.
+/// It is immutable: any number of threads may query it, each with its own `Searcher`. It does not refer to the mesh. An
+/// index that has been moved from can be assigned and destroyed. All else throws Error{InvalidOption}.
 class Index {
  public:
-  /// #V.
+  /// Returns #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// Memory of all arrays. O(#levels).
+  /// Returns the memory of all arrays. Takes O(#levels).
   [[nodiscard]] IndexBytes bytes() const;
 
-  /// The levels kept, lowest first; at least one.
+  /// Returns statistics of the levels kept, lowest first; at least one.
   [[nodiscard]] std::vector<LevelSummary> levels() const;
 
-  /// The positions in index order, #V by 3. Valid as long as the index.
+  /// Returns the positions in index order, #V by 3. They are valid as long as the index.
   [[nodiscard]] PositionsView positions() const&;
   [[nodiscard]] PositionsView positions() const&& = delete;
 
-  /// The caller's id of each vertex in index order, #V. Every cluster of every level is a contiguous range of it. Valid
-  /// as long as the index.
+  /// Returns the caller's id of each vertex in index order, #V. Every cluster of every level is a contiguous range of
+  /// it. Valid as long as the index.
   [[nodiscard]] std::span<const VertexId> permutation() const&;
   [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
@@ -76,7 +76,7 @@ class Index {
   ///  - levels shrink: only a cluster that is a whole component may have a single child;
   ///  - the averages are finite and correct.
   ///
-  /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid. O((#V + #E) #levels).
+  /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid. Takes O((#V + #E) #levels).
   [[nodiscard]] std::vector<std::string> check(const MeshView& mesh) const;
   [[nodiscard]] std::vector<std::string> check(const GraphView& graph) const;
 
@@ -95,14 +95,14 @@ class Index {
 /// Progress is reported between the steps of each level, of which the longest takes O((#V + #E) log #V).
 ///
 /// mesh    any polygonal mesh (see `meshhood::validate`); borrowed for the call.
-/// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. O(#levels (#V + #E) log #V).
+/// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. Takes O(#levels (#V + #E) log #V).
 [[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {}, const Run& run = {});
 [[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {}, const Run& run = {});
 
 /// The parameter of a query (3.3).
 struct QueryOptions {
   /// `f` of sec. 3.3; finite, > 0. The climb ends on the first level whose mean radius is at least radius / f: a larger
-  /// ratio means smaller clusters, more of them, and fewer vertices that do not belong to the exact neighborhood.
+  /// ratio means smaller clusters, more of them, and fewer vertices outside the exact neighborhood.
   double radius_ratio = 10.0;
 };
 
@@ -135,13 +135,13 @@ class Searcher {
   explicit Searcher(const Index& index, const QueryOptions& options = {});
   explicit Searcher(const Index&&, const QueryOptions& = {}) = delete;
 
-  /// The options of the queries that follow. Throws Error{InvalidOption}; the old options then stay.
+  /// Sets the options of the queries that follow. Throws Error{InvalidOption}; the old options then stay.
   void set_options(const QueryOptions& options);
 
-  /// #V.
+  /// Returns #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// The permutation of the index.
+  /// Returns the permutation of the index.
   [[nodiscard]] std::span<const VertexId> permutation() const&;
   [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
@@ -159,14 +159,14 @@ class Searcher {
   /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.
   void neighborhood(Vertex v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
-  /// The neighborhood as ranges of the index order, without copying ids. In the same order, disjoint, none empty; valid
-  /// until the next call. See `visit` and `reduce`.
+  /// Returns the neighborhood as ranges of the index order, without copying ids: in the same order, disjoint, none
+  /// empty, and valid until the next call. `visit` and `reduce` loop over them.
   [[nodiscard]] std::span<const VertexRange> ranges(Vertex v, double radius) &;
 
-  /// The number of vertices of the neighborhood.
+  /// Returns the number of vertices of the neighborhood.
   [[nodiscard]] std::size_t count(Vertex v, double radius);
 
-  /// Statistics of the last successful query.
+  /// Returns statistics of the last successful query.
   [[nodiscard]] const QueryProfile& profile() const& { return profile_; }
   [[nodiscard]] const QueryProfile& profile() const&& = delete;
 
@@ -182,14 +182,14 @@ class Searcher {
     [[nodiscard]] std::size_t size() const { return std::size_t{end} - begin; }
   };
 
-  /// The three phases for one precision of positions; leave the pieces of the answer in `pieces_`.
+  /// Runs the three phases for one precision of positions, and leaves the pieces of the answer in `pieces_`.
   template <class Real>
   class Query;
 
   template <class F>
   void run(VertexId v, double radius, F&& answer);
 
-  /// A number that marks no cluster in `visited_` yet.
+  /// Returns a number that marks no cluster in `visited_` yet.
   std::uint32_t next_query();
 
   detail::Owner<const Index::Storage> storage_;

@@ -31,16 +31,16 @@ MESHHOOD_API_BEGIN
 /// Throws Error{VertexOutOfRange, InvalidRadius}; arguments are then unchanged.
 class ReferenceSearcher {
  public:
-  /// Throws Error{InvalidMesh, TooLarge}. O(#V + #corners log(valence)).
+  /// Throws Error{InvalidMesh, TooLarge}. Takes O(#V + #corners log(valence)).
   explicit ReferenceSearcher(const MeshView& mesh);
 
   /// Searches a graph given directly. Its adjacency must outlive the searcher. Throws Error{InvalidMesh, TooLarge}.
   explicit ReferenceSearcher(const GraphView& graph);
 
-  /// #V.
+  /// Returns #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// Empty: ranges are in the caller's order.
+  /// Returns an empty permutation: ranges are in the caller's order.
   [[nodiscard]] std::span<const VertexId> permutation() const { return {}; }
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
@@ -56,13 +56,13 @@ class ReferenceSearcher {
   /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.
   void neighborhood(Vertex v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
-  /// The neighborhood as ranges of ids, disjoint, none empty, in the order of the search; valid until the next call.
+  /// Returns the neighborhood as disjoint, nonempty ranges of ids in search order; valid until the next call.
   [[nodiscard]] std::span<const VertexRange> ranges(Vertex v, double radius) &;
 
-  /// The number of vertices of the neighborhood.
+  /// Returns the number of vertices of the neighborhood.
   [[nodiscard]] std::size_t count(Vertex v, double radius);
 
-  /// The graph that is searched. Lives as long as the searcher.
+  /// Returns the graph that is searched. It lives as long as the searcher.
   [[nodiscard]] AdjacencyView adjacency() const&;
   [[nodiscard]] AdjacencyView adjacency() const&& = delete;
 
@@ -79,15 +79,15 @@ class ReferenceSearcher {
 /// neighborhood: it contains vertices of other parts of the surface that pass through the ball.
 ///
 /// Arguments and errors are those of `ReferenceSearcher`. Each query costs O(#V). The coordinates must be valid (see
-/// `validate`) and outlive the searcher. One object per thread.
+/// `validate`) and outlive the searcher. Use one object per thread.
 class BallSearcher {
  public:
   explicit BallSearcher(const PositionsView& positions) : positions_(positions) {}
 
-  /// #V.
+  /// Returns #V.
   [[nodiscard]] std::size_t vertex_count() const { return positions_.size(); }
 
-  /// Empty: ranges are in the caller's order.
+  /// Returns an empty permutation: ranges are in the caller's order.
   [[nodiscard]] std::span<const VertexId> permutation() const { return {}; }
 
   /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
@@ -103,10 +103,10 @@ class BallSearcher {
   /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.
   void neighborhood(Vertex v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
-  /// The vertices as ascending ranges of ids, disjoint, none empty; valid until the next call.
+  /// Returns the vertices as ascending ranges of ids, disjoint, none empty; valid until the next call.
   [[nodiscard]] std::span<const VertexRange> ranges(Vertex v, double radius) &;
 
-  /// The number of vertices in the ball.
+  /// Returns the number of vertices in the ball.
   [[nodiscard]] std::size_t count(Vertex v, double radius);
 
  private:
@@ -114,9 +114,9 @@ class BallSearcher {
   std::vector<VertexRange> ranges_;
 };
 
-/// One exact neighborhood of a mesh, by a `ReferenceSearcher` that is built for this call. For a single query; for
-/// more, keep a searcher or an index. Ids in the order of the search, `v` first; a vertex at exactly `radius` is
-/// inside. O(#V + #corners log(valence)), whatever the radius.
+/// Returns one exact neighborhood of a mesh, by a `ReferenceSearcher` that is built for this call; for more, keep a
+/// searcher or an index. Ids are in the order of the search, `v` first; a vertex at exactly `radius` is inside. Takes
+/// O(#V + #corners log(valence)), whatever the radius.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidMesh, TooLarge}.
 [[nodiscard]] std::vector<VertexId> exact_neighborhood(const MeshView& mesh, Vertex v, double radius);

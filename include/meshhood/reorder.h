@@ -20,17 +20,17 @@ struct ReorderedMesh {
   std::vector<std::uint32_t> face_offsets;      ///< #F + 1 (see `FacesView`); empty if triangles were given
   std::vector<std::uint32_t> corners;           ///< of each face in the order given, as new ids
 
-  /// The mesh. Borrows from this object; a view of a temporary does not compile.
+  /// Returns the mesh, borrowed from this object. A view of a temporary does not compile.
   [[nodiscard]] MeshView view() const&;
   [[nodiscard]] MeshView view() const&& = delete;
 };
 
 /// Builds the index of `mesh` and renumbers the mesh: vertices in index order, faces by their first vertex in it,
-/// otherwise in the order given, those without corners last. The same for any number of threads.
+/// otherwise in the order given, those without corners last. The result is the same for any number of threads.
 ///
 /// mesh    any polygonal mesh (see `validate`); borrowed for the call.
-/// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. TooLarge also beyond 2^32 - 1 faces. O(#V log #V + #E
-/// + #corners).
+/// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. TooLarge also beyond 2^32 - 1 faces. Takes O(#V log
+/// #V + #E + #corners).
 [[nodiscard]] ReorderedMesh reorder(const MeshView& mesh, const Run& run = {});
 
 MESHHOOD_API_END

@@ -31,9 +31,9 @@ inline constexpr unsigned kMaxThreads = 1024;
 struct Run {
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
-  /// The calling thread included; at most `kMaxThreads`. 1 starts no thread. Uses fewer threads if the system cannot
-  /// create them, and one where the platform has none, as WebAssembly. They end with the call. `kAllProcessors` is -1
-  /// in Python.
+  /// The number of threads, the calling one included; at most `kMaxThreads`. 1 starts no thread. Fewer are used if the
+  /// system cannot create them, and one where the platform has none, as WebAssembly. They end with the call.
+  /// `kAllProcessors` is -1 in Python.
   unsigned threads = kAllProcessors;
 
   Progress progress = {};

@@ -24,8 +24,7 @@ MESHHOOD_API_BEGIN
 
 struct SingleQueries;
 
-/// Consecutive vertices `begin .. end - 1` in the order of a searcher; its `permutation()` maps them to the caller's
-/// ids.
+/// The vertices `begin .. end - 1` in the order of a searcher; its `permutation()` maps them to the caller's ids.
 struct VertexRange {
   VertexId begin;
   VertexId end;
@@ -43,8 +42,7 @@ struct VertexRange {
 /// - `neighborhood` fills `ids`, and `distances` in the same order. Each vertex is listed once, `v` included unless a
 ///   mask leaves it out (see masks.h).
 /// - `count` returns the number of vertices.
-/// - `ranges` returns the neighborhood as disjoint, nonempty ranges of the searcher's order. They are valid until the
-///   next call.
+/// - `ranges` returns the neighborhood as disjoint, nonempty ranges of the searcher's order, valid until the next call.
 /// - `permutation()` gives the caller's id of each vertex in that order; it is empty if the two orders are the same.
 /// - An answer depends on the index or mesh, the vertex and the radius alone, and so does the order of its ids and
 ///   ranges. Earlier queries, threads and the processor have no effect.
@@ -126,10 +124,10 @@ class Searcher {
   void rebind(const Index& index);
   void rebind(const Index&&) = delete;
 
-  /// #V.
+  /// Returns #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// The permutation of the index.
+  /// Returns the permutation of the index.
   [[nodiscard]] std::span<const VertexId> permutation() const&;
   [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 
@@ -147,19 +145,19 @@ class Searcher {
   /// edges, in the order of the ids.
   void neighborhood(const Start& start, Radius radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
-  /// The neighborhood as ranges of the index order, without copying ids. Ascending, with gaps between them, none empty;
-  /// valid until the next call. For a vertex, `visit` and `reduce` loop over them.
+  /// Returns the neighborhood as ranges of the index order, without copying ids. They ascend, with gaps between them,
+  /// are not empty, and are valid until the next call. For a vertex, `visit` and `reduce` loop over them.
   [[nodiscard]] std::span<const VertexRange> ranges(const Start& start, Radius radius) &;
 
-  /// The number of vertices of the neighborhood.
+  /// Returns the number of vertices of the neighborhood.
   [[nodiscard]] std::size_t count(const Start& start, Radius radius);
 
-  /// Whether a seed lies in the ball, as a vertex that is the start always does; in space, which needs none, true. If
-  /// none does, the center is too far from the mesh, and the neighborhood is empty. O(#seeds).
+  /// Returns whether a seed lies in the ball, as a vertex that is the start always does; in space, which needs none,
+  /// true. If none does, the center is too far from the mesh, and the neighborhood is empty. Takes O(#seeds).
   [[nodiscard]] bool has_seed(const Start& start, Radius radius) const;
 
-  /// The neighborhoods of one start for several radii, each vertex once. About as fast as the neighborhoods one by one
-  /// for balls around a vertex; else as that of the largest radius.
+  /// Finds the neighborhoods of one start for several radii, each vertex once. For balls around a vertex, this is about
+  /// as fast as the neighborhoods one by one; else as that of the largest radius.
   ///
   /// radii   strictly ascending.
   /// out     replaced: the neighborhood of the largest radius, ring by ring. Ring `i` has the vertices of the
@@ -169,26 +167,27 @@ class Searcher {
   void nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
               std::vector<std::size_t>& counts);
 
-  /// Whether the neighborhood has vertex `w`. Costs at most as much as it, and less if the search reaches `w` early.
+  /// Returns whether the neighborhood has vertex `w`. Costs at most as much as finding it, and less if the search
+  /// reaches `w` early.
   [[nodiscard]] bool contains(const Start& start, Vertex w, Radius radius);
 
-  /// The smallest radius whose neighborhood has vertex `w`; infinite if there is none. Straight, it is the minimum,
-  /// over all paths from a seed to `w`, of the largest distance between a vertex of the path and the center (a
+  /// Returns the smallest radius whose neighborhood has vertex `w`; infinite if there is none. Straight, it is the
+  /// minimum, over all paths from a seed to `w`, of the largest distance between a vertex of the path and the center (a
   /// bottleneck shortest path); else the path distance, the number of edges, or the distance in space.
   ///
   /// Costs about as much as the neighborhood of the result.
   [[nodiscard]] double connecting_radius(const Start& start, Vertex w);
 
-  /// The `k` >= 1 nearest connected vertices: the first, ordered by connecting radius; straight, then by distance from
-  /// the center, then by id; else then by place in index order. So the answer for a smaller `k` is the beginning of
-  /// that for a larger one. Fewer than `k` if no more are connected.
+  /// Finds the `k` >= 1 nearest connected vertices: the first, ordered by connecting radius; straight, then by distance
+  /// from the center, then by id; else then by place in index order. So the answer for a smaller `k` is the beginning
+  /// of that for a larger one. There are fewer than `k` if no more are connected.
   ///
   /// out     replaced: ids in that order.
   /// radii   replaced: the connecting radius of each vertex.
-  /// O(k log k) on most surfaces.
+  /// Takes O(k log k) on most surfaces.
   void nearest_connected(const Start& start, std::size_t k, std::vector<VertexId>& out, std::vector<double>& radii);
 
-  /// The union of the neighborhoods of `dabs`, such as those of a brush stroke.
+  /// Finds the union of the neighborhoods of `dabs`, such as those of a brush stroke.
   ///
   /// out     replaced: ids in index order.
   /// The cost is that of the single neighborhoods together.
@@ -220,9 +219,8 @@ bool visit(S& searcher, Vertex v, double radius, F&& on_run) {
   return true;
 }
 
-/// Folds the neighborhood: starts with `init` and replaces it by `f(value, VertexRange)` for each range, as `visit`
-/// gives them. The same query gives the same ranges in the same order, so a floating-point sum has the same bits.
-/// Throws as `visit`.
+/// Folds the neighborhood: starts with `init` and replaces it by `f(value, VertexRange)` for each range of `visit`. The
+/// same query gives the same ranges in order, so a floating-point sum has the same bits. Throws as `visit`.
 template <NeighborhoodSearcher S, class T, class F>
 [[nodiscard]] T reduce(S& searcher, Vertex v, double radius, T init, F&& f) {
   visit(searcher, v, radius, [&](VertexRange run) { init = std::invoke(f, std::move(init), run); });

@@ -15,7 +15,7 @@
 #include "meshhood/paper.h"
 #include "meshhood/run.h"
 
-/// An index as bytes. For files see `meshhood/io/index_io.h`.
+/// Saves an index as bytes, and loads it. `meshhood/io/index_io.h` does this with files.
 ///
 /// The bytes are the same on every machine, for any compiler and number of threads. docs/index_file.md describes the
 /// format, which has a version number of its own. Every byte is covered by a checksum or must be zero, so that every
@@ -42,7 +42,7 @@ struct SaveOptions {
 /// the checksum of each section, and pieces of the bytes. The longest part takes O(bytes). Peak memory is one copy of
 /// the graph, for the fingerprint, and one of the faces. Throws Error{InvalidMesh, TooLarge} if the faces are invalid,
 /// or are not all triangles and have 2^32 corners or more; Error{InvalidOption} for an index with masks or of paths
-/// along a surface; Error{Cancelled}. O(bytes of the index), on one thread, as all that saves and loads.
+/// along a surface; Error{Cancelled}. Takes O(bytes of the index), on one thread, as all that saves and loads.
 void save(const Index& index, const Sink& sink, const SaveOptions& options = {}, const Run& run = {});
 
 /// Returns the index that was saved as `bytes`, which are copied. Progress is reported between the parts of the
@@ -52,27 +52,27 @@ void save(const Index& index, const Sink& sink, const SaveOptions& options = {},
 /// query within its arrays, even if it was forged; its answers may then be wrong.
 ///
 /// Throws Error{MalformedIndex}, naming the section, the byte, what it contains and what was expected;
-/// Error{Cancelled}. O(bytes).
+/// Error{Cancelled}. Takes O(bytes).
 [[nodiscard]] Index load(std::span<const std::byte> bytes, const Run& run = {});
 
 /// How an index is mapped.
 struct MapOptions {
-  /// Skip everything that reads the data: the checksums of the sections, and the verification of what a search relies
+  /// Skips everything that reads the data: the checksums of the sections, and the verification of what a search relies
   /// on. The header and the table of sections are still verified. Mapping then takes no time, but damaged bytes lead to
-  /// undefined behavior: wrong answers, a crash, or a query that does not end. Only for files that no other user can
-  /// write.
+  /// undefined behavior: wrong answers, a crash, or a query that does not end. Use it only for files that no other user
+  /// can write.
   bool trusted = false;
 };
 
 /// Returns the index in place: nothing is copied, and pages of a mapped file are read when queries need them. Progress
-/// as of `load`; a trusted file has no parts.
+/// is that of `load`; a trusted file has no parts.
 ///
 /// bytes   at an address that is a multiple of `kIndexAlignment`; must not change as long as the index lives. A file
 ///         that is truncated or overwritten in place changes under its mapping (a file replaced by renaming does not).
 ///         If that can happen, use `load`.
 /// owner   kept as long as the index lives; null if the caller keeps the bytes.
 ///
-/// Throws as `load`, and Error{InvalidOption} if the address is not aligned. O(bytes), or O(1) if trusted.
+/// Throws as `load`, and Error{InvalidOption} if the address is not aligned. Takes O(bytes), or O(1) if trusted.
 [[nodiscard]] Index map(std::span<const std::byte> bytes, std::shared_ptr<const void> owner,
                         const MapOptions& options = {}, const Run& run = {});
 
@@ -92,8 +92,8 @@ struct IndexHeader {
   Fingerprint mesh;         ///< of the mesh that the index was built from
 };
 
-/// Whether bytes that begin with `first_bytes` are meant to be an index. Eight bytes distinguish it from every mesh
-/// file.
+/// Returns whether bytes that begin with `first_bytes` are meant to be an index. Eight bytes distinguish it from every
+/// mesh file.
 [[nodiscard]] bool is_index(std::span<const std::byte> first_bytes);
 
 /// The number of bytes that always contain the header of a saved index and its table of sections.
@@ -103,23 +103,22 @@ inline constexpr std::size_t kIndexHeadBytes = std::size_t{1} << 14;
 /// contents of the table and the sections are not verified.
 ///
 /// first_bytes   the first `kIndexHeadBytes` or more, or all.
-/// Throws Error{MalformedIndex}. O(1).
+/// Throws Error{MalformedIndex}. Takes O(1).
 [[nodiscard]] IndexHeader read_header(std::span<const std::byte> first_bytes, std::uint64_t size);
 
-/// The overload above for all bytes of an index.
+/// Does the same for all bytes of an index.
 [[nodiscard]] IndexHeader read_header(std::span<const std::byte> bytes);
 
 /// Throws Error{MalformedIndex}, naming both fingerprints, unless `mesh` is that of the header.
 void check_mesh(const IndexHeader& header, const Fingerprint& mesh);
 
-/// The paper's index as bytes. It can be loaded but not mapped: some of its arrays are computed when it
-/// is loaded.
+/// The index of the paper can be loaded but not mapped: some of its arrays are computed when it is loaded.
 namespace paper {
 
-/// As `meshhood::save`, without faces. The fingerprint was computed by `build`: nothing is copied.
+/// Saves as `meshhood::save`, without faces. The fingerprint was computed by `build`: nothing is copied.
 void save(const Index& index, const Sink& sink, const Run& run = {});
 
-/// As `meshhood::load`.
+/// Loads as `meshhood::load`.
 [[nodiscard]] Index load(std::span<const std::byte> bytes, const Run& run = {});
 
 }  // namespace paper

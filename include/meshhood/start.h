@@ -19,8 +19,8 @@ MESHHOOD_API_BEGIN
 /// A point in space, in the unit of the positions.
 using SpacePoint = std::array<double, 3>;
 
-/// Where a search starts: the center of its balls, and its seeds, the vertices from which it spreads. Borrows seeds
-/// that are given, which must outlive the call.
+/// Where a search starts: the center of its balls, and its seeds, the vertices from which it spreads. Seeds that are
+/// given are borrowed, and must outlive the call.
 class Start {
  public:
   /// Vertex `v` is the center and the only seed.
@@ -35,12 +35,12 @@ class Start {
   /// a tracked tool gives. Throws as `nearest`.
   [[nodiscard]] static Start nearest(const Index& index, const SpacePoint& center);
 
-  /// The vertex, if the start is a vertex; then `center` is empty.
+  /// Returns the vertex, if the start is a vertex; then `center` is empty.
   [[nodiscard]] VertexId vertex() const { return vertex_; }
   [[nodiscard]] const std::optional<SpacePoint>& center() const& { return center_; }
   [[nodiscard]] const std::optional<SpacePoint>& center() const&& = delete;
 
-  /// Valid as long as this object and the seeds that it was given.
+  /// Returns the seeds, which are valid as long as this object and the seeds that it was given.
   [[nodiscard]] std::span<const VertexId> seeds() const& { return seeds_ ? *seeds_ : std::span(&vertex_, 1); }
   [[nodiscard]] std::span<const VertexId> seeds() const&& = delete;
 
@@ -50,13 +50,13 @@ class Start {
   std::optional<std::span<const VertexId>> seeds_;
 };
 
-/// The point of a face with the barycentric coordinates `weights`: the sum of each weight times its corner, added in
-/// order. With the corners as seeds it is the `Start` at that point.
+/// Returns the point of a face with the barycentric coordinates `weights`: the sum of each weight times its corner,
+/// added in order. With the corners as seeds it is the `Start` at that point.
 ///
 /// corners  vertices of the mesh.
 /// weights  one for each corner, finite; their sum should be 1, which is not checked.
 ///
-/// Throws Error{VertexOutOfRange, InvalidOption}. O(#corners).
+/// Throws Error{VertexOutOfRange, InvalidOption}. Takes O(#corners).
 [[nodiscard]] SpacePoint point_on_face(const Index& index, std::span<const VertexId> corners,
                                        std::span<const double> weights);
 
@@ -67,15 +67,15 @@ struct NearestVertex {
   friend bool operator==(const NearestVertex&, const NearestVertex&) = default;
 };
 
-/// The vertex nearest to `point`, connected or not, ignored or not, but no wall; of several at the same distance, the
-/// one with the smallest id.
+/// Returns the vertex nearest to `point`, connected or not, ignored or not, but no wall; of several at the same
+/// distance, the one with the smallest id.
 ///
 /// Throws Error{InvalidOption} if a coordinate is not finite or beyond 2^500, and Error{VertexOutOfRange} if the mesh
-/// has no such vertex. O(log #V) on most surfaces. Allocates nothing; any thread.
+/// has no such vertex. Takes O(log #V) on most surfaces. Allocates nothing. Any number of threads may call it.
 [[nodiscard]] NearestVertex nearest(const Index& index, const SpacePoint& point);
 
-/// The same for many points, in their order; faster than one by one, as near points are searched after each other.
-/// Throws as the overload above, naming the row, and Error{Cancelled}. 32 bytes a point, half of them the result.
+/// Does the same for many points, in their order; faster than one by one, as near points are searched after each other.
+/// Throws as the overload above, naming the row, and Error{Cancelled}. Needs 32 bytes a point, half of them the result.
 [[nodiscard]] std::vector<NearestVertex> nearest(const Index& index, std::span<const SpacePoint> points,
                                                  const Run& run = {});
 

@@ -24,7 +24,7 @@ MESHHOOD_API_BEGIN
 /// No face.
 inline constexpr std::size_t kNoFace = std::numeric_limits<std::size_t>::max();
 
-/// A point on a face. As it stands: there is none.
+/// A point on a face; by default none.
 struct SurfacePoint {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -35,8 +35,8 @@ struct SurfacePoint {
   SpacePoint point{kNone, kNone, kNone};
   double distance = std::numeric_limits<double>::infinity();  ///< from the point that was asked for
 
-  /// The search from the corners of the triangle, with the point as center: what a click on a surface gives. Borrows
-  /// from this object.
+  /// Returns a search from the corners of the triangle, with the point as center: what a click on a surface gives. It
+  /// borrows from this object.
   [[nodiscard]] Start start() const& { return {point, vertices}; }
   [[nodiscard]] Start start() const&& = delete;
 };
@@ -63,12 +63,12 @@ struct Rim {
   std::vector<std::size_t> offsets;            ///< #polylines + 1: the first point of each polyline
   std::vector<std::uint8_t> closed;            ///< of each polyline, 1: a loop, whose last point is joined to its first
 
-  /// The number of polylines.
+  /// Returns the number of polylines.
   [[nodiscard]] std::size_t size() const { return closed.size(); }
 };
 
-/// The faces of a mesh beside its index, for what a set of vertices does not say: the nearest point of the
-/// surface, the faces of a neighborhood, its outline, its area and its shape.
+/// The faces of a mesh beside its index. They give what a set of vertices does not: the nearest point of the surface,
+/// and the faces of a neighborhood, its outline, its area and its shape.
 ///
 ///     const meshhood::Surface surface(index, faces);
 ///     const auto hit = surface.closest_point({0.1, 0.2, 0.3});
@@ -85,19 +85,19 @@ struct Rim {
 /// curvature, 4 bytes a corner and 8 a vertex for the faces of each vertex, 8 bytes a vertex for areas. The first call
 /// of its kind so takes O(#V + #corners), and O(n log n) for the n triangles of closest points and patches.
 ///
-/// Any number of threads may use it, but for `refit_in_place`. Shares the memory of the index, as a searcher does: the
-/// index may be moved or destroyed. After a refit of the index in place, calls throw Error{InvalidOption} until
+/// Any number of threads may use it, but for `refit_in_place`. It shares the memory of the index, as a searcher does:
+/// the index may be moved or destroyed. After a refit of the index in place, calls throw Error{InvalidOption} until
 /// `refit_in_place` of the surface. A surface that has been moved from can be assigned and destroyed.
 class Surface {
  public:
   /// faces  those of the mesh that the index was built from; copied, 4 bytes a corner.
-  /// Throws Error{InvalidMesh, TooLarge} if they are invalid (see `validate`). O(#V + #corners).
+  /// Throws Error{InvalidMesh, TooLarge} if they are invalid (see `validate`). Takes O(#V + #corners).
   Surface(const Index& index, const FacesView& faces);
 
-  /// The same, and Error{InvalidMesh} if `mesh` has other positions than the index.
+  /// Does the same; throws also Error{InvalidMesh} if `mesh` has other positions than the index.
   Surface(const Index& index, const MeshView& mesh);
 
-  /// A surface with these normals instead of those of its faces. Without faces, it serves for curvature alone.
+  /// Returns a surface with these normals instead of those of its faces. Without faces, it serves for curvature alone.
   ///
   /// normals  #V by 3, in the order of the caller's vertices, of any length; copied. A vertex whose normal has length 0
   ///          or a NaN counts as one without a normal.
@@ -106,8 +106,8 @@ class Surface {
   [[nodiscard]] static Surface of_normals(const Index& index, std::span<const double> normals,
                                           const FacesView& faces = {});
 
-  /// The same surface for an index of the same mesh with other masks, or without: see `masked`. Shares all that is
-  /// made. O(1). Throws Error{InvalidOption} if the index is of another mesh.
+  /// Returns the same surface for an index of the same mesh with other masks, or without: see `masked`. It shares all
+  /// that is made. Takes O(1). Throws Error{InvalidOption} if the index is of another mesh.
   [[nodiscard]] Surface on(const Index& index) const;
 
   /// Follows a refit of its index: answers are then those of a new surface. With `changed`, boxes, normals and what
@@ -124,15 +124,15 @@ class Surface {
   void refit_in_place(const Index& index);
   void refit_in_place(const Index& index, const IndicesView& changed);
 
-  /// #V, #F.
+  /// Return #V and #F.
   [[nodiscard]] std::size_t vertex_count() const;
   [[nodiscard]] std::size_t face_count() const;
 
-  /// Memory without the index, in bytes, of all that has been made so far.
+  /// Returns the memory without the index, in bytes, of all that has been made so far.
   [[nodiscard]] std::size_t bytes() const;
 
-  /// The point of the surface nearest to `point`. Of several faces at the same distance, the one with the smallest
-  /// number; faces that meet at an edge or a vertex have the same distance there, bit for bit.
+  /// Returns the point of the surface nearest to `point`. Of several faces at the same distance, the one with the
+  /// smallest number; faces that meet at an edge or a vertex have the same distance there, bit for bit.
   ///
   /// The distance from a triangle is the least of those from its corners, its sides and the foot of the perpendicular,
   /// each computed in double: it is off by a few units in the last place of itself and of the longest side, whatever
@@ -140,12 +140,13 @@ class Surface {
   /// triangle without an area has only sides. Points on a side or at a corner have coordinates that are exactly 0.
   ///
   /// Throws Error{InvalidOption} if a coordinate is not finite or beyond 2^500, and Error{InvalidMesh} if no face has
-  /// three corners. O(log #V) on most surfaces; more where many triangles are about equally far. Allocates nothing.
+  /// three corners. Takes O(log #V) on most surfaces; more where many triangles are about equally far. Allocates
+  /// nothing.
   [[nodiscard]] SurfacePoint closest_point(const SpacePoint& point) const;
 
-  /// The same for each of `points`. They are taken along a space-filling curve, and each search begins with the last
-  /// answer, so that one takes about a third of the time of a single call. 16 bytes a point. Throws as above, naming
-  /// the row, and Error{Cancelled}.
+  /// Does the same for each of `points`. They are taken along a space-filling curve, and each search begins with the
+  /// last answer, so that one takes about a third of the time of a single call. Needs 16 bytes a point. Throws as
+  /// above, naming the row, and Error{Cancelled}.
   [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const SpacePoint> points, const Run& run = {}) const;
 
   /// Calls `visit(row, point)` once for each row instead, in any order and on the threads of the call, several at a
@@ -153,9 +154,9 @@ class Surface {
   void for_each_closest_point(std::span<const SpacePoint> points, const SurfacePointVisitor& visit,
                               const Run& run = {}) const;
 
-  /// The first point of the surface on the ray from `origin` along `direction`, seen from either side of a face; at the
-  /// origin if this lies on the surface. Of several faces at the same distance, the one with the smallest number; none
-  /// (see `SurfacePoint`) if the ray meets nothing.
+  /// Returns the first point of the surface on the ray from `origin` along `direction`, seen from either side of a
+  /// face; it is the origin if this lies on the surface. Of several faces at the same distance, the one with the
+  /// smallest number; none (see `SurfacePoint`) if the ray meets nothing.
   ///
   /// direction  finite and not 0, of any length. The distance is in the unit of the positions.
   ///
@@ -167,11 +168,11 @@ class Surface {
   /// corners, times the slope of the triangle against the ray.
   ///
   /// Throws Error{InvalidOption} as `closest_point` for `origin`, and for `direction`, and Error{InvalidMesh} if no
-  /// face has three corners. O(log #V) on most surfaces; O(#F) from farther away than 10^14 times the mesh. Allocates
-  /// nothing.
+  /// face has three corners. Takes O(log #V) on most surfaces; O(#F) from farther away than 10^14 times the mesh.
+  /// Allocates nothing.
   [[nodiscard]] SurfacePoint first_hit(const SpacePoint& origin, const SpacePoint& direction) const;
 
-  /// The same for each row of `origins` and `directions`. Throws as above, naming the row, Error{InvalidOption} if
+  /// Does the same for each row of `origins` and `directions`. Throws as above, naming the row, Error{InvalidOption} if
   /// there are not as many directions as origins, and Error{Cancelled}.
   [[nodiscard]] std::vector<SurfacePoint> first_hits(std::span<const SpacePoint> origins,
                                                      std::span<const SpacePoint> directions, const Run& run = {}) const;
@@ -180,18 +181,18 @@ class Surface {
   void for_each_first_hit(std::span<const SpacePoint> origins, std::span<const SpacePoint> directions,
                           const SurfacePointVisitor& visit, const Run& run = {}) const;
 
-  /// The faces with all corners in `ids`, or with at least one; ascending. A face without corners is never one.
+  /// Returns the faces with all corners in `ids`, or with at least one; ascending. A face without corners is never one.
   ///
   /// ids  vertices in [0, #V), in any order; repeats are allowed.
-  /// O(k log k), where k is the number of corners of the faces around `ids`, and #V bits, as for the calls below.
+  /// Takes O(k log k), where k is the number of corners of the faces around `ids`, and #V bits, as for the calls below.
   /// Throws Error{VertexOutOfRange}, naming the position in `ids`.
   [[nodiscard]] std::vector<std::size_t> faces(std::span<const VertexId> ids, Corners corners = Corners::All) const;
 
-  /// These faces as a mesh. Its positions are those of `vertices`. With `Corners::All`, faces that the surface of the
-  /// ball cuts are left out, and so is their area: see `PatchSearcher::clip`. Throws as `faces`.
+  /// Returns these faces as a mesh. Its positions are those of `vertices`. With `Corners::All`, faces that the surface
+  /// of the ball cuts are left out, and so is their area: see `PatchSearcher::clip`. Throws as `faces`.
   [[nodiscard]] Submesh submesh(std::span<const VertexId> ids, Corners corners = Corners::All) const;
 
-  /// Where the surface leaves a region: `ids` is the region of `center` and `radius` (see `Searcher`).
+  /// Returns where the surface leaves a region: `ids` is the region of `center` and `radius` (see `Searcher`).
   ///
   /// A point of the rim lies on an edge from a vertex of `ids` to one that is not, where the edge leaves the ball: its
   /// distance from `center` is `radius` up to the rounding of its coordinates. If the outer end lies inside the ball,
@@ -208,8 +209,8 @@ class Surface {
   /// beyond 2^500, or a vertex of `ids` at the rim lies outside the ball.
   [[nodiscard]] Rim rim(std::span<const VertexId> ids, const SpacePoint& center, double radius) const;
 
-  /// The area of each vertex, #V in the caller's order (see `vertex_areas`). Valid as long as the surface, or until it
-  /// is refitted.
+  /// Returns the area of each vertex, #V in the caller's order (see `vertex_areas`). The areas are valid as long as the
+  /// surface, or until it is refitted.
   [[nodiscard]] std::span<const double> vertex_areas() const&;
   [[nodiscard]] std::span<const double> vertex_areas() const&& = delete;
 
@@ -221,8 +222,8 @@ class Surface {
   detail::Owner<State> state_;
 };
 
-/// The index of a surface, with its masks, by whose paths (`Metric::Path`) distances are those along the surface: a
-/// path has edges, and straight lines over two triangles that share a side, unfolded into a plane. It is
+/// Returns the index of a surface, with its masks, by whose paths (`Metric::Path`) distances are those along the
+/// surface: a path has edges, and straight lines over two triangles that share a side, unfolded into a plane. It is
 /// nearer to a geodesic than one along the edges (docs/queries.md). All calls by other metrics answer as before, and
 /// `Surface::on` makes a surface of it.
 ///
@@ -231,11 +232,11 @@ class Surface {
 /// `Surface`; the sides between them are lines, too. The length of a line is computed in double, off by a few units in
 /// the last place of the longest side.
 ///
-/// The arrays of the index are shared. Memory: 150 bytes a vertex of a mesh of triangles, 12 for each line in both
-/// directions and 4; three times that meanwhile, and what the surface needs for closest points. O(#V + #F), on one
-/// thread; `build/release/bench/bench_paths` compares the searches with those along the edges. The same holds for it as
-/// for an index of `masked`: it is not saved, checked, refitted or masked, and refuses to answer after a refit in place
-/// of its mesh.
+/// The arrays of the index are shared. The lines take 150 bytes a vertex of a mesh of triangles, 12 for each line in
+/// both directions and 4; three times that meanwhile, and what the surface needs for closest points. Takes O(#V + #F),
+/// on one thread; `build/release/bench/bench_paths` compares the searches with those along the edges. The same holds
+/// for it as for an index of `masked`: it is not saved, checked, refitted or masked, and refuses to answer after a
+/// refit in place of its mesh.
 ///
 /// Throws Error{InvalidMesh} if no face has three corners, Error{InvalidOption} after a refit in place, Error{TooLarge}
 /// beyond `kMaxNeighbors`, and Error{Cancelled}. Connectome Workbench measures geodesic distances in this way.
@@ -248,33 +249,32 @@ enum class ThicknessMethod : std::uint8_t {
 
   /// The diameter of the largest ball that touches the surface at the vertex from inside, and has no point of an
   /// opposite face in it. A face is opposite if its normal turns from that of the vertex by more than 53 degrees, the
-  /// cosine of which is 0.6: on a curved wall, those beside the vertex lie inside every ball that touches there. By
-  /// a shrinking ball (J. Ma, S. W. Bae, S. Choi, "3D medial axis point approximation using nearest neighbors and the
-  /// normal field", The Visual Computer 28, 2012), but with the nearest points of faces.
+  /// cosine of which is 0.6: on a curved wall, those beside the vertex lie inside every ball that touches there. The
+  /// ball is found by shrinking (J. Ma, S. W. Bae, S. Choi, "3D medial axis point approximation using nearest neighbors
+  /// and the normal field", The Visual Computer 28, 2012), but with the nearest points of faces.
   Sphere,
 };
 
-/// The thickness at each of `vertices`, in the unit of the positions. Faces with the vertex as a corner do not count,
-/// nor does what lies at the same place: no farther than 2^-46 times the extent of the mesh, or times the largest
-/// coordinate of the vertex. Infinite where nothing else is met, or the radius of the ball exceeds the diagonal of the
-/// box around the faces; NaN for a vertex without a normal.
+/// Returns the thickness at each of `vertices`, in the unit of the positions. Faces with the vertex as a corner do not
+/// count, nor does what lies at the same place: no farther than 2^-46 times the extent of the mesh, or times the
+/// largest coordinate of the vertex. It is infinite where nothing else is met, or the radius of the ball exceeds the
+/// diagonal of the box around the faces, and NaN for a vertex without a normal.
 ///
 /// Masks have no effect. A row depends on the surface with its index, its vertex and the method alone, bit for bit.
-/// O(log #V) a row on most surfaces; for a ball, O(#F) where the whole surface is nearly a ball, all faces of which it
-/// touches. 16 bytes a row.
-/// Throws Error{VertexOutOfRange, Cancelled}, naming the row, Error{InvalidOption} after a refit in place, and
-/// Error{InvalidMesh} if no face has three corners.
+/// Takes O(log #V) a row on most surfaces; for a ball, O(#F) where the whole surface is nearly a ball, all faces of
+/// which it touches. Needs 16 bytes a row. Throws Error{VertexOutOfRange, Cancelled}, naming the row,
+/// Error{InvalidOption} after a refit in place, and Error{InvalidMesh} if no face has three corners.
 [[nodiscard]] std::vector<double> thickness(const Surface& surface, const BatchVertices& vertices = {},
                                             ThicknessMethod method = ThicknessMethod::Ray, const Run& run = {});
 
-/// The same at points of faces, against the normals of these; of a polygon, that of its vector area. A face does not
-/// count for its own points, nor do other faces for points on their sides, up to rounding. NaN for a face without an
-/// area.
+/// Does the same at points of faces, against the normals of these; of a polygon, that of its vector area. A face does
+/// not count for its own points, nor do other faces for points on their sides, up to rounding. The thickness is NaN for
+/// a face without an area.
 ///
 /// faces   #rows numbers.
 /// points  #rows. The point of the face nearest to each of them counts, in O(#corners of the face).
 /// Throws as above, and Error{InvalidOption}, naming the row, for a face that the mesh does not have, or a coordinate
-/// that is not finite or beyond 2^500; and if the numbers of rows differ. At most 72 bytes a row.
+/// that is not finite or beyond 2^500; and if the numbers of rows differ. Needs at most 72 bytes a row.
 [[nodiscard]] std::vector<double> thickness(const Surface& surface, const IndicesView& faces,
                                             std::span<const SpacePoint> points,
                                             ThicknessMethod method = ThicknessMethod::Ray, const Run& run = {});

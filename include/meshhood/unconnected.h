@@ -8,7 +8,8 @@
 #include "meshhood/index.h"
 #include "meshhood/vertex_id.h"
 
-/// What is near in space, but not connected nearby: the other side of a wall, the next fold, sheets that nearly touch.
+/// Finds what is near in space, but not connected nearby: the other side of a wall, the next fold, sheets that nearly
+/// touch.
 namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 
@@ -29,14 +30,15 @@ struct Unconnected {
 /// query    as for `counts`: one radius for all rows, or one for each, or scales. By paths, the neighborhood has the
 ///          vertices within `r` along the edges, and the ball is that of radius `r` in space. A number of edges is no
 ///          radius in space: by rings, the nearest of all other vertices is found. Walls and ignored vertices are never
-///          the nearest, and for a wall there is none. Not by `Metric::Space`, in which nothing is connected.
+///          the nearest, and for a wall there is none. `Metric::Space`, in which nothing is connected, is
+///          Error{InvalidOption}.
 ///
 /// The neighborhoods are found as by `counts`; what the tree of the index has in the balls besides them is searched,
 /// the nearest first. So far away from any other sheet, all leaves that the surface of a ball meets are compared with
 /// it. Where neighbors are not near in space, as in a random tree, all vertices are compared, as by a plain scan;
 /// between hubs this takes longer than a scan. Vertices at the same place that no edge joins are not connected: of a
-/// mesh whose corners were not merged, distances are 0 along its seams; weld it first (`io/weld.h`). Memory besides the
-/// result: as for `counts`.
+/// mesh whose corners were not merged, distances are 0 along its seams; weld it first (`io/weld.h`). Besides the
+/// result, it needs the memory of `counts`.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const Run& run = {});

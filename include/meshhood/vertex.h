@@ -19,8 +19,8 @@ concept VertexHandle = std::is_class_v<Handle> && requires(const Handle& handle)
 
 }  // namespace detail
 
-/// A vertex as an argument, so that an integer of 64 bits is not cut to another vertex, and that no bool or floating
-/// point number is one.
+/// A vertex as an argument. An integer of 64 bits is never cut to the id of another vertex, and a bool or a
+/// floating-point number is not accepted.
 class Vertex {
  public:
   /// An integer that no `VertexId` can hold becomes `kNoVertex`, which every call refuses; the message then names
@@ -29,7 +29,7 @@ class Vertex {
     requires(!std::same_as<Integer, bool>)
   Vertex(Integer v) : id_(std::in_range<VertexId>(v) ? static_cast<VertexId>(v) : kNoVertex) {}
 
-  /// The vertex of another library's index that is a `VertexId` without a loss, as `CGAL::SM_Vertex_index`.
+  /// Takes a vertex of another library whose type converts to `VertexId` without a loss, as `CGAL::SM_Vertex_index`.
   template <detail::VertexHandle Handle>
   Vertex(const Handle& v) : id_{v} {}
 

@@ -59,7 +59,7 @@ void check_reduction(const SignalView& signal, const AggregateQuery& query) {
   }
 }
 
-/// A copy of what the caller might change during the call, checked.
+/// Holds a checked copy of what the caller might change during the call.
 class CheckedQuery {
  public:
   CheckedQuery(const Index& index, const SignalView& signal, const AggregateQuery& query)
@@ -85,7 +85,7 @@ class CheckedQuery {
   [[nodiscard]] const AggregateQuery& query() const { return query_; }
   [[nodiscard]] std::size_t rows() const { return rows_; }
 
-  /// The radius of each pass over the rows.
+  /// Returns the radius of each pass over the rows.
   [[nodiscard]] std::span<const BatchRadius> passes() const { return passes_; }
 
  private:
@@ -96,13 +96,13 @@ class CheckedQuery {
   std::size_t rows_;
 };
 
-/// Some channels of the signal, as a reduction needs them.
+/// Returns some channels of the signal, as a reduction needs them.
 SignalBlock make_block(const IndexView& index, SignalView signal, std::size_t first, std::size_t count, Reduce reduce,
                        MissingValues missing) {
   const bool compares =
       reduce == Reduce::Minimum || reduce == Reduce::Maximum || reduce == Reduce::Median || reduce == Reduce::Quantile;
   if (compares || reduce == Reduce::Count) signal.weights = {};
-  // These handle NaN themselves: a 0 in place of a missing value would be compared with the others.
+  // Comparing reductions handle NaN themselves: a 0 in place of a missing value would be compared with the others.
   return {index, signal, first, count, compares ? MissingValues::Propagate : missing, !compares};
 }
 
@@ -128,7 +128,7 @@ ReducerFactory make_factory(const IndexView& index, const NodeTree& tree, Signal
   return kernel_sum_reducers(index, tree, std::move(columns), query.kernel == SmoothingKernel::Biweight);
 }
 
-/// Several reductions of the same packets: the numbers of a channel side by side.
+/// Runs several reductions of the same packets. The numbers of a channel are side by side.
 class Reducers final : public PacketReducer {
  public:
   explicit Reducers(const std::vector<ReducerFactory>& factories) {
@@ -139,7 +139,7 @@ class Reducers final : public PacketReducer {
     for (const auto& reducer : all_) reducer->begin(packet);
   }
 
-  /// The same for all: it follows from metric and kernel.
+  /// All agree, because the answer follows from metric and kernel.
   [[nodiscard]] bool takes_nodes() const override { return all_.front()->takes_nodes(); }
 
   void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) override {
@@ -174,13 +174,13 @@ struct Destination {
       const std::span<double> channels(first + packet.rows[i] * stride, count);
       reducer.write(i, channels);
       for (double& value : channels) {
-        if (std::isnan(value)) value = kNan;  // its sign and payload vary
+        if (std::isnan(value)) value = kNan;  // sign and payload of a NaN vary
       }
     }
   }
 };
 
-/// All of an aggregate: blocks of channels, and passes over the rows.
+/// Runs a whole aggregate: blocks of channels, and passes over the rows.
 class Aggregation {
  public:
   Aggregation(const Index& index, const SignalView& signal, const CheckedQuery& checked, std::span<double> result,
@@ -229,15 +229,13 @@ class Aggregation {
     return !has_patches_ && !radius.list() && is_better_listed(index_, signal_, query_, radius.common(), run_);
   }
 
-  /// All channels of one radius.
   void reduce_listed(std::size_t radius) {
     const std::size_t size = rows_ * numbers_;
     sum_listed(index_, signal_, query_, radii_[radius].common(), result_.subspan(radius * size, size),
                next_pass(blocks_));
   }
 
-  /// Reduces what one search finds. Of several scales, which share it, what belongs to a smaller one is cut from the
-  /// largest.
+  /// Reduces what one search finds. If several scales share it, the answer of each is cut from that of the largest.
   void reduce_scales(const ReducerFactory& make_reducer, std::span<const std::size_t> scales, std::size_t first,
                      std::size_t count) {
     struct Cut {
@@ -266,7 +264,7 @@ class Aggregation {
         next_pass(), packet_form());
   }
 
-  /// Whether one search serves all scales. By rings, each has its own: their rows have lengths only one by one.
+  /// Returns whether one search serves all scales. By rings, each has its own: their rows have lengths only one by one.
   [[nodiscard]] bool shares_search() const {
     return query_.metric == Metric::Path ? passes_.size() > 1
                                          : query_.metric == Metric::Straight && has_patches_ && !passes_.empty();
@@ -284,7 +282,7 @@ class Aggregation {
     return has_weights ? PacketForm::InOrder : PacketForm::AsFound;
   }
 
-  /// `blocks`: how many blocks of channels it reduces.
+  /// Begins a pass that reduces `blocks` blocks of channels.
   Run next_pass(std::size_t blocks = 1) {
     Run pass{.threads = run_.threads};
     const std::size_t passes = blocks_ * (shares_search() ? radii_.size() - passes_.size() + 1 : radii_.size());
@@ -318,8 +316,8 @@ bool overlap(std::span<const std::byte> a, std::span<const std::byte> b) {
   return std::less()(a.data(), b.data() + b.size()) && std::less()(b.data(), a.data() + a.size());
 }
 
-/// The signal, copied into `values` and `weights` where the result lies in its memory: a part of the result is written
-/// before all is read.
+/// Copies the signal into `values` and `weights` where the result lies in its memory, because a part of the result is
+/// written before all is read.
 SignalView unchanged(const SignalView& signal, std::span<const double> result, std::vector<double>& values,
                      std::vector<double>& weights) {
   SignalView kept = signal;
@@ -335,7 +333,7 @@ SignalView unchanged(const SignalView& signal, std::span<const double> result, s
   return kept;
 }
 
-/// The product, if its doubles fit into memory of `max_bytes`.
+/// Returns the product, if its doubles fit into `max_bytes`.
 std::size_t checked_size(std::size_t radii, std::size_t rows, std::size_t channels, std::size_t reductions,
                          std::uint64_t max_bytes) {
   const std::uint64_t most =

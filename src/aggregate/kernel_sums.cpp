@@ -17,14 +17,14 @@ namespace {
 constexpr double kLeastRadius = 0x1p-200;
 
 // The sum over a node is rounded as if each vertex had the weight 1. That is too much where a vertex near the rim has a
-// value that is much larger than the others. So a node is summed by its parts if it reaches nearer to the rim than this
-// part of the radius, and most of its values are less than the largest by this factor.
+// value that is much larger than the others. So a node is summed by its parts if it reaches nearer to the rim than
+// `kRim` times the radius, and most of its values are less than the largest by the factor `kUneven`.
 constexpr double kRim = 1.0 / 64;
 constexpr double kUneven = 64;
 
 Point as_point(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-/// The symmetric matrix of six entries times a vector.
+/// Multiplies the symmetric matrix of six entries by a vector.
 Point product(const std::array<double, 6>& m, const Point& t) {
   const auto& [xx, xy, xz, yy, yz, zz] = m;
   return {xx * t.x + xy * t.y + xz * t.z, xy * t.x + yy * t.y + yz * t.z, xz * t.x + yz * t.y + zz * t.z};
@@ -39,7 +39,7 @@ void add(Moments& sum, const Moments& moments) {
   for (std::size_t i = 0; i < 3; ++i) sum.third[i] += moments.third[i];
 }
 
-/// The moments of a value `s` at the offset `q`.
+/// Returns the moments of a value `s` at the offset `q`.
 Moments moments_of(double s, const Point& q) {
   const double square = dot(q, q);
   const Point first = s * q;
@@ -52,8 +52,8 @@ Moments moments_of(double s, const Point& q) {
           (s * square) * square};
 }
 
-/// The same moments about the point that lies at `-t` from the present one: every offset q becomes q + t, and the
-/// products are multiplied out.
+/// Returns the same moments about the point that lies at `-t` from the present one: every offset q becomes q + t, and
+/// the products are multiplied out.
 Moments shifted(const Moments& moments, const Point& t) {
   const double s0 = moments.zeroth;
   const Point s1 = as_point(moments.first);
@@ -75,7 +75,7 @@ Moments shifted(const Moments& moments, const Point& t) {
       moments.fourth + 4 * (dot(t, s3) + dot(t, matrix_t)) + square * (2 * moments.trace + 4 * along + square * s0)};
 }
 
-/// The same moments in a unit in which lengths are `factor` times as large.
+/// Returns the same moments in a unit in which lengths are `factor` times as large.
 Moments rescaled(const Moments& moments, double factor) {
   Moments result = moments;
   for (double& value : result.first) value *= factor;
@@ -86,7 +86,7 @@ Moments rescaled(const Moments& moments, double factor) {
   return result;
 }
 
-/// The moments of a column over each node, about its center (see `NodeTree::center`), in units of the frame.
+/// Returns the moments of a column over each node, about its center (see `NodeTree::center`), in units of the frame.
 std::vector<Moments> moments_by_node(const IndexView& index, const NodeTree& tree, const Column& column) {
   std::vector<Moments> moments(tree.size());
   for (NodeTree::Node node = 0; node < tree.size(); ++node) {
@@ -179,7 +179,7 @@ class KernelSumReducer final : public PacketReducer {
   void write(std::size_t row, std::span<double> channels) override { tables_->columns.write(sums_, row, channels); }
 
  private:
-  /// The rows whose radius has one unit.
+  /// The rows whose radius has the same unit.
   struct Unit {
     double unit;
     QueryWord rows;
@@ -199,13 +199,13 @@ class KernelSumReducer final : public PacketReducer {
   }
 
   void set_radius(std::size_t row, double radius) {
-    if (radius == given_[row]) return;  // nearly all rows of a call have one radius
+    if (radius == given_[row]) return;  // nearly all rows of a call have the same radius
     given_[row] = radius;
     in_frame_[row] = radius * tables_->index->frame.scale;
     const bool has_square = radius > 0 && std::isfinite(radius);
     centers_.unit[row] = has_square ? std::ldexp(1.0, std::min(-std::ilogb(radius), 1000)) : 0;
-    radius_[row] = has_square ? radius * centers_.unit[row] : 1;  // for weights of 1, all offsets are 0
-    // By Dekker's product: the parts of the radius have 24 and 29 bits.
+    radius_[row] = has_square ? radius * centers_.unit[row] : 1;  // with a unit of 0, all weights are 1
+    // This is Dekker's product: the parts of the radius have 24 and 29 bits.
     const double square = radius_[row] * radius_[row];
     const auto high = static_cast<double>(static_cast<float>(radius_[row]));
     const double rest = radius_[row] - high;
@@ -224,7 +224,7 @@ class KernelSumReducer final : public PacketReducer {
     if (inner != queries) add_parts(node, queries & ~inner);
   }
 
-  /// The queries in whose balls the sphere of a node lies, away from the rim.
+  /// Returns the queries in whose balls the sphere of a node lies, away from the rim.
   [[nodiscard]] QueryWord inside_the_rim(NodeTree::Node node) const {
     QueryWord word = 0;
     for (const auto& [unit, rows] : units_) {
@@ -239,7 +239,7 @@ class KernelSumReducer final : public PacketReducer {
     return word;
   }
 
-  /// `offsets_` are those of the center of the node.
+  /// `offsets_` must be those of the center of the node.
   void add_moments(NodeTree::Node node, QueryWord inner) {
     for (const auto& [unit, rows] : units_) {
       if ((rows & inner) == 0) continue;
@@ -252,8 +252,9 @@ class KernelSumReducer final : public PacketReducer {
 
   [[nodiscard]] double from_frame(double unit) const { return unit / tables_->index->frame.scale; }
 
-  /// The vertices of a node that is added lie in the ball, but its sphere, whose center is rounded to floats, may be
-  /// larger. Then offsets from the center are longer than the radius, and their sums would cancel.
+  /// Returns the queries for which moments of the node are accurate. Its vertices lie in the ball, but its sphere,
+  /// whose center is rounded to floats, may be larger. Then offsets from the center are longer than the radius, and
+  /// their sums would cancel.
   [[nodiscard]] QueryWord with_moments_for(NodeTree::Node node) const {
     const double least = std::max(static_cast<double>(tables_->tree->sphere(node).radius), kLeastRadius);
     if (least_in_frame_ >= least) return ~QueryWord{0};
@@ -312,7 +313,7 @@ double smoothing_weight(SmoothingKernel kernel, double distance, double radius) 
   if (kernel == SmoothingKernel::Box || distance == 0) return 1;
   const double share = distance / radius;
   if (kernel == SmoothingKernel::Gaussian) return gaussian(share * share);
-  // Not 1 - share^2, whose rounding would give a vertex at the rim a weight.
+  // The formula is not 1 - share^2, whose rounding would give a vertex at the radius a weight.
   const double weight = (1 - share) * (1 + share);
   return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
 }

@@ -18,16 +18,16 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-constexpr std::size_t kFewestChannels = 17;  // more than share one search over nodes
-constexpr double kMostVertices = 400;        // of a mean row; with more, the rounding errors would be too large
+constexpr std::size_t kFewestChannels = 17;  // at most 16 share one search over nodes
+constexpr double kMostVertices = 400;        // with more in a mean row, the rounding errors would be too large
 // A Gaussian has no sums over nodes, and its weights serve all channels either way. With fewer channels than these, and
 // more vertices than these, a list takes longer.
 constexpr std::size_t kManyChannels = 48;
 constexpr double kFewVertices = 60;
-constexpr std::size_t kRowsTogether = 4096;    // whose lists wait for the product
-constexpr std::size_t kChannelsOfABlock = 32;  // the values of a row's vertices, 32 of each, stay in the cache
+constexpr std::size_t kRowsTogether = 4096;    // the lists of so many rows wait for the product
+constexpr std::size_t kChannelsOfABlock = 32;  // so many values of each vertex of a row stay in the cache
 
-/// Far from overflow and underflow, so that values need no scaling.
+/// Returns whether the numbers are far from overflow and underflow, so that they need no scaling.
 bool is_moderate(const SignalView& signal) {
   constexpr double kLargestTerm = 0x1p+300;
   const auto is_fine = [](double value) { return !(std::abs(value) > kLargestTerm); };  // NaN is fine
@@ -40,7 +40,7 @@ bool is_moderate(const SignalView& signal) {
   return std::all_of(signal.weights.begin(), signal.weights.end(), is_fine_weight);
 }
 
-/// The mean size of the neighborhoods of some vertices, which depend on the index alone.
+/// Returns the mean size of the neighborhoods of some vertices, which depend on the index alone.
 double mean_count(const Index& index, Metric metric, double radius, const Run& run) {
   constexpr std::size_t kSample = 64;
   const std::size_t vertices = index.vertex_count();
@@ -60,7 +60,7 @@ struct Sums {
   std::array<double, kChannelsOfABlock> weights{};
 };
 
-/// Adds the values of the channels `first ..` of a row's vertices. `Omit`: a NaN is left out.
+/// Adds `count` values of each of a row's vertices. With `Omit`, a NaN is left out.
 template <bool Omit, class Real>
 void add(std::span<const VertexId> ids, const double* weights, const Real* values, std::size_t channels,
          std::size_t count, Sums& sums) {
@@ -76,7 +76,7 @@ void add(std::span<const VertexId> ids, const double* weights, const Real* value
         sums.values[c] += weight * value;
       }
     };
-    if (count == kChannelsOfABlock) {  // a loop of constant length, which the compiler unrolls
+    if (count == kChannelsOfABlock) {  // the compiler unrolls a loop of constant length
       for (std::size_t c = 0; c < kChannelsOfABlock; ++c) add_channel(c);
     } else {
       for (std::size_t c = 0; c < count; ++c) add_channel(c);
@@ -84,7 +84,7 @@ void add(std::span<const VertexId> ids, const double* weights, const Real* value
   }
 }
 
-/// Some rows, near each other, as lists.
+/// Holds some rows, near each other, as lists, and reduces them.
 class ListedRows {
  public:
   ListedRows(const SignalView& signal, const AggregateQuery& query, double radius)
@@ -133,7 +133,7 @@ class ListedRows {
  private:
   [[nodiscard]] static double result(Reduce reduce, double sum, double weights) {
     if (reduce == Reduce::Mean) sum = weights > 0 ? sum / weights : kNan;
-    return std::isnan(sum) ? kNan : sum;  // its sign and payload vary
+    return std::isnan(sum) ? kNan : sum;  // sign and payload of a NaN vary
   }
 
   const SignalView& signal_;
@@ -159,7 +159,7 @@ void sum_listed(const Index& index, const SignalView& signal, const AggregateQue
   const IndexView& view = IndexAccess::view(index);
   const std::size_t count = query.vertices.count(index.vertex_count());
   TaskContext task(run.threads, run.progress, count);
-  // Near rows share values that are in the cache.
+  // Rows that are near each other follow each other, because they share values in the cache.
   const RawVector<std::size_t> rows =
       rows_by_position(count, [&](std::size_t row) { return view.slot[query.vertices[row]]; }, task);
   ListedRows listed(signal, query, radius);

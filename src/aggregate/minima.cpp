@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kAboveAll = kInfinity;
 
-/// Of negated values for the maximum.
+/// The minima of each node; for the maximum, those of negated values.
 struct Minima {
   struct Channel {
     Column values;
@@ -23,7 +23,7 @@ struct Minima {
 
   Minima(const NodeTree& tree, SignalBlock block, bool maximum, MissingValues missing);
 
-  /// NaN if a NaN propagates, or if there is nothing else.
+  /// Returns NaN if a NaN propagates, or if there is nothing else.
   [[nodiscard]] double minimum_of(std::span<const double> values) const;
 
   bool maximum;

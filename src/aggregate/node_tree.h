@@ -13,20 +13,20 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The nodes of the tree of an index, by their numbers. Everything that an aggregate keeps by node has this order, with
-/// places for nodes that do not exist, which have no vertices and no children.
+/// Numbers the nodes of the tree of an index. Everything that an aggregate keeps by node has this order, with places
+/// for nodes that do not exist, which have no vertices and no children.
 class NodeTree {
  public:
   using Node = std::uint32_t;
 
   explicit NodeTree(const IndexView& index) : index_(&index) {}
 
-  /// The number of places for nodes on all levels.
+  /// Returns the number of places for nodes on all levels.
   [[nodiscard]] std::size_t size() const { return index_->records.size() * kFanOut; }
   [[nodiscard]] std::size_t leaf_count() const { return index_->leaf_count(); }
   [[nodiscard]] bool is_leaf(Node node) const { return node < leaf_count(); }
 
-  /// The children of a node that is not a leaf: consecutive nodes.
+  /// The children of a node that is not a leaf are consecutive nodes.
   struct Children {
     Node begin;
     Node end;
@@ -35,25 +35,25 @@ class NodeTree {
   };
   [[nodiscard]] Children children(Node node) const;
 
-  /// The groups of nodes: those of one parent, or neighbors without a parent.
+  /// A group holds the nodes of one parent, or neighbors without a parent.
   [[nodiscard]] std::size_t group_count() const { return index_->records.size(); }
   [[nodiscard]] static std::uint32_t group(Node node) { return node / kFanOut; }
   [[nodiscard]] Children members(std::uint32_t group) const {
     return {group * kFanOut, group * kFanOut + index_->records[group].nodes};
   }
-  /// The parent of its nodes, or `kNoNode`.
+  /// Returns the parent of the nodes of a group, or `kNoNode`.
   [[nodiscard]] Node parent(std::uint32_t group) const { return index_->parents[group]; }
 
-  /// The vertices of a node, in index order.
+  /// Returns the vertices of a node, in index order.
   [[nodiscard]] VertexRange vertices(Node node) const;
 
-  /// Its leaves.
+  /// Returns the leaves of a node.
   [[nodiscard]] LeafRun run(Node node) const;
 
-  /// The bounding sphere, in the frame.
+  /// Returns the bounding sphere, in the frame.
   [[nodiscard]] FrameSphere sphere(Node node) const;
 
-  /// The center of that sphere in the unit of the positions: the same double wherever it is used.
+  /// Returns the center of that sphere in the unit of the positions: the same double wherever it is used.
   [[nodiscard]] Point center(Node node) const;
 
   /// Calls `f(node)` for few nodes whose vertices together are those of the run, in an order that the run determines.
@@ -68,15 +68,15 @@ class NodeTree {
   }
 
  private:
-  /// The largest node that begins with `leaf` and ends before the leaf `end`.
+  /// Returns the largest node that begins with `leaf` and ends before the leaf `end`.
   [[nodiscard]] Node largest_from(std::size_t leaf, std::size_t end) const;
-  /// The place after its last leaf.
+  /// Returns the place after the last leaf of a node.
   [[nodiscard]] std::size_t end_leaf(Node node) const;
 
   const IndexView* index_;
 };
 
-/// Of each node, `reduce` of the values of its vertices, or of what this gave for its children.
+/// Applies `reduce` to the values of the vertices of each leaf, and to the results of the children of each other node.
 template <class F>
 [[nodiscard]] std::vector<double> reduced_by_node(const NodeTree& tree, std::span<const double> values, F&& reduce) {
   std::vector<double> result(tree.size());

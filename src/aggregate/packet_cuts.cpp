@@ -42,7 +42,7 @@ void MaximalNodes::pass_on_leaves(const PacketAnswer& packet, PacketReducer& red
   }
 }
 
-/// The rows of the group of a node. A new one is noted in `groups`.
+/// Returns the rows of the group of a node. A new one is noted in `groups`.
 MaximalNodes::GroupRows& MaximalNodes::group_with(NodeTree::Node node, std::vector<std::uint32_t>& groups) {
   const std::uint32_t group = NodeTree::group(node);
   if (place_of_[group] == kNone) {
@@ -140,7 +140,7 @@ const PacketAnswer& PatchCutter::cut(const PacketAnswer& packet) {
   return rest_;
 }
 
-/// A piece with lengths has words.
+/// A piece of a packet with lengths always has words.
 void PatchCutter::cut_by_length(const Piece& piece, PacketLengths& lengths) {
   PerLane<QueryWord> words{};
   lengths.select(piece.leaves.begin);
@@ -151,7 +151,7 @@ void PatchCutter::cut_by_length(const Piece& piece, PacketLengths& lengths) {
   add_leaf(piece.leaves.begin, words);
 }
 
-/// Unless no query has a vertex of it.
+/// Adds a leaf unless no query has a vertex of it.
 void PatchCutter::add_leaf(LeafId leaf, const PerLane<QueryWord>& words) {
   if (std::ranges::all_of(words, [](QueryWord word) { return word == 0; })) return;
   pieces_.push_back({{leaf, leaf + 1}, 0, nullptr});
@@ -184,7 +184,7 @@ void PatchCutter::cut_leaf(NodeTree::Node leaf, const QueryWord* queries) {
   add_leaf(leaf, words);
 }
 
-/// The queries whose ball holds a vertex: the predicate.
+/// Returns the queries whose ball holds a vertex, by the predicate.
 QueryWord PatchCutter::inside(std::size_t vertex, QueryWord queries) const {
   const Point p = index_->position(vertex);
   QueryWord result = 0;

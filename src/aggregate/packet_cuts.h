@@ -16,19 +16,19 @@ namespace meshhood::inline v0_1 {
 
 /// Cuts the neighborhoods of a packet into the largest nodes of the tree whose vertices a row has, and the leaves of
 /// which it has some. So the parts of a row, and their order, depend on its neighborhood alone: not on the other rows
-/// of the packet, nor on how the search found it. One object a thread.
+/// of the packet, nor on how the search found it. Each thread needs its own.
 class MaximalNodes {
  public:
   explicit MaximalNodes(const NodeTree& tree) : tree_(&tree), place_of_(tree.group_count(), kNone) {}
 
-  /// Passes the neighborhoods of a packet to a reducer, level by level, each in index order. If it takes no nodes, the
-  /// leaves alone.
+  /// Passes the neighborhoods of a packet to a reducer, level by level, each in index order. A reducer that takes no
+  /// nodes gets leaves alone.
   void reduce(const PacketAnswer& packet, PacketReducer& reducer);
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
-  /// A group of nodes of which some row has vertices.
+  /// The rows that have vertices of a group of nodes.
   struct GroupRows {
     std::array<QueryWord, kFanOut> queries{};       // by node: the rows that have all of its vertices
     std::array<const QueryWord*, kFanOut> parts{};  // by node, of leaves with words: these; else null
@@ -53,8 +53,7 @@ class PatchCutter {
  public:
   PatchCutter(const IndexView& index, const NodeTree& tree, double radius);
 
-  /// Returns what is left. The radii of `packet` are at least that of the cutter. Valid
-  /// until the next call.
+  /// Returns what is left, valid until the next call. The radii of `packet` are at least that of the cutter.
   const PacketAnswer& cut(const PacketAnswer& packet);
 
  private:

@@ -15,7 +15,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// A vertex has a rank by its value, so that the vertices of a packet are read in order without sorting them, once for
+/// Ranks each vertex by its value, so that the vertices of a packet are read in order without sorting them, once for
 /// all of its rows.
 struct Ranks {
   struct Channel {
@@ -36,7 +36,7 @@ std::vector<Ranks::Channel> rank(const std::vector<Column>& block) {
     std::iota(places.begin(), places.end(), 0U);
     const auto numbers =
         std::partition(places.begin(), places.end(), [&](std::uint32_t place) { return !std::isnan(values[place]); });
-    // Equal values by place, so that the sign of a zero depends on the row alone.
+    // Equal values are ordered by place, so that the sign of a zero depends on the row alone.
     std::sort(places.begin(), numbers,
               [&](std::uint32_t a, std::uint32_t b) { return std::pair(values[a], a) < std::pair(values[b], b); });
     Ranks::Channel channel{std::vector<std::uint32_t>(places.size()), {}};
@@ -60,7 +60,7 @@ class OrderedRows {
     words_.push_back(word);
   }
 
-  /// The number of vertices of a row. Before `place_of`.
+  /// Returns the number of vertices of a row. To be called before `place_of`.
   std::size_t count(std::size_t row) {
     words_.resize((ranks_.size() + kBlock - 1) / kBlock * kBlock);
     counts_.clear();
@@ -74,14 +74,14 @@ class OrderedRows {
     return count;
   }
 
-  /// The place of vertex number `n` of the row that was counted.
+  /// Returns the place of vertex number `n` of the row that was counted.
   [[nodiscard]] std::size_t place_of(std::size_t row, std::size_t n) const {
     std::size_t block = 0;
     for (; n >= counts_[block]; ++block) n -= counts_[block];
     return next(row, block * kBlock, n);
   }
 
-  /// The place of its vertex that has `n` others before it from `place` on.
+  /// Returns the place of the row's vertex that has `n` others before it from `place` on.
   [[nodiscard]] std::size_t next(std::size_t row, std::size_t place, std::size_t n) const {
     for (;; ++place) {
       if ((words_[place] >> row & 1U) != 0 && n-- == 0) return place;
@@ -91,7 +91,7 @@ class OrderedRows {
   [[nodiscard]] std::uint32_t rank(std::size_t place) const { return ranks_[place]; }
 
  private:
-  static constexpr std::size_t kBlock = 64;  // counted without branches
+  static constexpr std::size_t kBlock = 64;  // blocks are counted without branches
 
   std::vector<std::uint32_t> ranks_;
   std::vector<QueryWord> words_;  // those after the last are 0
@@ -134,7 +134,7 @@ class QuantileReducer final : public PacketReducer {
   }
 
  private:
-  /// Vertices that belong to the rows of `word`, or unless there is one, each to those of its own word.
+  /// Vertices that belong to the rows of `word`, or, if that is 0, each to those of its own word.
   struct Part {
     VertexRange vertices;
     QueryWord word;
@@ -164,7 +164,7 @@ class QuantileReducer final : public PacketReducer {
     }
   }
 
-  /// Between two values by linear interpolation, as in NumPy.
+  /// Interpolates linearly between two values, as NumPy does.
   double result(const Ranks::Channel& channel, std::size_t row) {
     const std::size_t count = ordered_.count(row);
     if (count == 0) return kNan;

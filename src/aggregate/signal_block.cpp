@@ -7,11 +7,11 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-// The binary exponent of the largest magnitude of a column: then 2^32 squares of it, with such weights, do not
+// The largest magnitude of a column gets this binary exponent: then 2^32 squares of it, with such weights, do not
 // overflow, and squares of numbers 2^750 times smaller do not underflow.
 constexpr int kLargestExponent = 300;
 
-/// The power of two by which a column is multiplied to bring its largest finite magnitude there.
+/// Returns the exponent of the power of two that brings the largest finite magnitude of a column there.
 int exponent_of(const Column& column) {
   double largest = 0;
   for (const double value : column) {
@@ -20,8 +20,8 @@ int exponent_of(const Column& column) {
   return largest == 0 ? 0 : kLargestExponent - std::ilogb(largest);
 }
 
-/// Multiplies by 2^exponent, in two steps, because 2^exponent may be too large for a number. Exact, unless a product
-/// underflows.
+/// Multiplies by 2^exponent, in two steps, because 2^exponent may be too large for a number. It is exact, unless a
+/// product underflows.
 void multiply(Column& column, int exponent) {
   if (exponent == 0) return;
   const double first = std::ldexp(1.0, exponent / 2);
@@ -37,7 +37,7 @@ void drop_large(Column& column) {
   }
 }
 
-/// Every `stride`-th number from `first` on, in index order.
+/// Returns every `stride`-th number from `first` on, in index order.
 Column in_index_order(const IndexView& index, const ValuesView& numbers, std::size_t first, std::size_t stride) {
   const std::size_t vertices = index.vertex_count();
   Column column(vertices + kLeafCapacity);
@@ -49,7 +49,7 @@ Column in_index_order(const IndexView& index, const ValuesView& numbers, std::si
   return column;
 }
 
-/// Vertices of weight 0 are left out: their values become 0, so that a NaN or an infinite one has no effect.
+/// Sets the values of vertices of weight 0 to 0, so that a NaN or an infinite one has no effect.
 void clear_unweighted(Column& values, const Column& weights) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (weights[i] == 0) values[i] = 0;
@@ -80,7 +80,7 @@ SignalBlock::SignalBlock(const IndexView& index, const SignalView& signal, std::
   }
 }
 
-/// Of values that are too large, a second column has all values, scaled down.
+/// Scales a channel. If it has values that are too large, a second column gets all values, scaled down.
 void SignalBlock::scale(std::size_t channel) {
   const int exponent = exponent_of(values_[channel]);
   if (exponent >= 0) {

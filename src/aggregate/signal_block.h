@@ -11,15 +11,15 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Numbers by vertex in index order, followed by `kLeafCapacity` zeros.
+/// A number for each vertex in index order, followed by `kLeafCapacity` zeros.
 using Column = std::vector<double>;
 
 /// Some channels of a signal, in index order.
 class SignalBlock {
  public:
-  /// Channels `first .. first + count - 1` of a signal whose size fits the index. With `scaled`, values and weights are
-  /// multiplied by a power of two each, so that the largest lies where neither squares nor sums overflow. Values that
-  /// are so large that this would lose small ones are infinite; `large` has them.
+  /// Takes the channels `first .. first + count - 1` of a signal whose size fits the index. With `scaled`, values and
+  /// weights are multiplied by a power of two each, so that the largest lies where neither squares nor sums overflow.
+  /// Values that are so large that this would lose small ones are infinite; `large` has them.
   SignalBlock(const IndexView& index, const SignalView& signal, std::size_t first, std::size_t count,
               MissingValues missing, bool scaled);
 
@@ -28,12 +28,12 @@ class SignalBlock {
   /// With `MissingValues::Omit`, missing values are 0, and so are their weights.
   [[nodiscard]] std::vector<Column>& values() { return values_; }
 
-  /// The distinct columns of weights, and which of them a channel has.
+  /// Return the distinct columns of weights, and which of them a channel has.
   [[nodiscard]] std::vector<Column>& weights() { return weights_; }
   [[nodiscard]] std::size_t weights_of(std::size_t channel) const { return weights_of_[channel]; }
 
-  /// All values of a channel that has large ones, times `two to the exponent`. Small ones may be lost. So a row whose
-  /// result is not finite has large values, and these columns have its result.
+  /// All values of a channel that has large ones, times 2^exponent. Small ones may be lost. So a row whose result is
+  /// not finite has large values, and these columns have its result.
   struct LargeValues {
     std::size_t channel;
     Column values;
@@ -44,7 +44,7 @@ class SignalBlock {
   /// Multiplies the values by their weights.
   void weight_values();
 
-  /// The exponents of the powers of two by which values and weights were multiplied.
+  /// Return the exponents of the powers of two by which values and weights were multiplied.
   [[nodiscard]] int exponent(std::size_t channel) const { return exponents_[channel]; }
   [[nodiscard]] int weight_exponent() const { return weight_exponent_; }
 

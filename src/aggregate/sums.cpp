@@ -18,7 +18,7 @@ double sum_of(std::span<const double> values) {
   return sum.value();
 }
 
-/// The words of values, those of infinite ones without the rows in which their weight is 0.
+/// Returns the words of values, those of infinite ones without the rows in which their weight is 0.
 std::array<QueryWord, kLeafCapacity> with_weights(std::span<const double> values, const QueryWord* queries,
                                                   const RowWeights& weights) {
   std::array<QueryWord, kLeafCapacity> words{};

@@ -22,14 +22,14 @@ struct CompensatedSum {
     high = sum;
   }
 
-  /// The sum, rounded. Where it is infinite, `low` is NaN.
+  /// Returns the rounded sum. Where it is infinite, `low` is NaN.
   [[nodiscard]] double value() const { return std::isfinite(low) ? high + low : high; }
 };
 
-/// The columns that are added up for a sum, a mean or a count, and how the result follows from their sums.
+/// Holds the columns that are added up for a sum, a mean or a count, and computes the result from their sums.
 class SumColumns {
  public:
-  /// `reduce` is one of these three. A count has no values to add; of a mean and a count, the weights are added, too.
+  /// `reduce` is one of these three. A count adds no values; a mean and a count add the weights, too.
   SumColumns(SignalBlock block, Reduce reduce);
 
   [[nodiscard]] std::size_t size() const { return columns_.size(); }

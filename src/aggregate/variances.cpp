@@ -22,8 +22,8 @@ struct Spread {
   double low = 0;
   double squares = 0;
 
-  /// From a sum of weights, a mean that is rounded, and the weighted sums of deviations from it and of their squares:
-  /// the corrected two-pass algorithm (loc. cit., eq. 1.7).
+  /// Makes a spread from a sum of weights, a mean that is rounded, and the weighted sums of deviations from it and of
+  /// their squares, by the corrected two-pass algorithm (loc. cit., eq. 1.7).
   [[nodiscard]] static Spread of(double weight, double mean, double deviations, double squares) {
     if (weight == 0) return {};
     return {weight, mean, deviations / weight, std::max(squares - deviations * (deviations / weight), 0.0)};
@@ -47,7 +47,7 @@ struct Spread {
   }
 };
 
-/// Of up to 32 vertices.
+/// Returns the spread of up to 32 vertices.
 Spread spread_of(std::span<const double> values, const double* weighted, const double* weights) {
   double weight = 0;
   double sum = 0;
@@ -67,7 +67,7 @@ Spread spread_of(std::span<const double> values, const double* weighted, const d
   return Spread::of(weight, mean, deviations, squares);
 }
 
-/// Of all vertices and nodes.
+/// Holds the values of all vertices and the spreads of all nodes.
 struct Spreads {
   struct Channel {
     Column values;

@@ -27,7 +27,7 @@ void for_each_side(const FacesView& faces, std::size_t begin, std::size_t end, F
   });
 }
 
-/// Fills rows of neighbors, of which there are at most `kMaxNeighbors`, as the lists of `gather_rows`.
+/// Fills rows of neighbors as the other `gather_rows` fills lists. There are at most `kMaxNeighbors` neighbors.
 template <class ForEach>
 [[nodiscard]] Adjacency gather_rows(std::size_t vertices, ForEach&& for_each) {
   Adjacency result;
@@ -38,7 +38,7 @@ template <class ForEach>
 /// Throws Error{TooLarge} if the neighbors over all vertices may be more than `kMaxNeighbors`.
 void check_corner_count(const FacesView& faces);
 
-/// The graph of a mesh, on several threads.
+/// Returns the graph of a mesh, on several threads.
 [[nodiscard]] Adjacency adjacency(const MeshView& mesh, TaskContext& task);
 
 }  // namespace meshhood::inline v0_1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The range search of sec. 4.3: a scan of all vertices.
+// Implements the range search of sec. 4.3 by a scan of all vertices.
 #include <cmath>
 
 #include "meshhood/reference.h"

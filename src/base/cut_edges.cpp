@@ -13,7 +13,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// The vertex `edges[i]`, in [0, #V).
+/// Returns the vertex `edges[i]`, in [0, #V).
 VertexId checked_end(const IndicesView& edges, std::size_t i, std::size_t vertices) {
   const std::uint64_t end = edges[i];
   if (end < vertices) return static_cast<VertexId>(end);

@@ -10,13 +10,12 @@
 namespace meshhood::inline v0_1 {
 
 /// An array of states that are valid for one search only. `forget` makes all of them unknown at once, in constant time
-/// but for the calls at which the epochs run out.
+/// except for the calls at which the epochs run out.
 template <class State, class Epoch = std::uint32_t>
 class EpochArray {
  public:
   explicit EpochArray(std::size_t size) : slots_(size) {}
 
-  /// Begins a new search: nothing is known.
   void forget() {
     epoch_ = static_cast<Epoch>(epoch_ + 1);
     if (epoch_ != 0) return;
@@ -27,7 +26,7 @@ class EpochArray {
   [[nodiscard]] std::size_t size() const { return slots_.size(); }
   [[nodiscard]] bool is_known(std::size_t i) const { return slots_[i].epoch == epoch_; }
 
-  /// A state that is known.
+  /// Returns a state, which must be known.
   [[nodiscard]] State& operator[](std::size_t i) {
     assert(is_known(i));
     return slots_[i].state;
@@ -37,16 +36,15 @@ class EpochArray {
     return slots_[i].state;
   }
 
-  /// Makes a state known.
   State& set(std::size_t i, const State& state) {
     slots_[i] = {epoch_, state};
     return slots_[i].state;
   }
 
-  /// Where a state is, to be prefetched.
+  /// Returns the address of a state, to be prefetched.
   [[nodiscard]] const void* address(std::size_t i) const { return &slots_[i]; }
 
-  /// For tests: continues as if `forget` had been called so many times.
+  /// Continues as if `forget` had been called `epoch` times. Only tests need it.
   void set_epoch(Epoch epoch) { epoch_ = epoch; }
 
  private:
@@ -61,7 +59,8 @@ class EpochArray {
 
 struct NoState {};
 
-/// Numbers that one search has added. 2 bytes for each number below `size`; every 65,535th `forget` writes them.
+/// The numbers that one search has added. They take 2 bytes for each number below `size`; every 65,535th `forget`
+/// writes all of these bytes.
 class EpochSet : EpochArray<NoState, std::uint16_t> {
  public:
   using EpochArray::EpochArray;

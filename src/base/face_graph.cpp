@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The faces at each edge, found by sorting their sides.
+// Finds the faces at each edge by sorting their sides.
 #include "meshhood/face_graph.h"
 
 #include <algorithm>
@@ -25,7 +25,6 @@ namespace {
 /// A side of a face: its ends, ascending, and the face.
 using Side = std::array<VertexId, 3>;
 
-/// Two faces that share an edge.
 using FacePair = std::pair<VertexId, VertexId>;
 
 std::vector<Side> sides_of(const FacesView& faces) {
@@ -41,7 +40,7 @@ std::vector<Side> sides_of(const FacesView& faces) {
   return sides;
 }
 
-/// Both directions, ascending.
+/// Returns the pairs of faces that share an edge, in both directions, ascending.
 std::vector<FacePair> pairs_of(std::span<const Side> sides) {
   std::vector<FacePair> pairs;
   for (std::size_t begin = 0; begin < sides.size();) {

@@ -24,7 +24,6 @@ struct FramePoint {
 /// A sphere in the coordinates of a `Frame`.
 using FrameSphere = Sphere<float>;
 
-/// A box around points.
 struct BoundingBox {
   Point low{kNone, kNone, kNone};
   Point high{-kNone, -kNone, -kNone};
@@ -56,20 +55,20 @@ struct Frame {
   }
 };
 
-/// Whether `p` lies in the cube of the frame, [-1, 1]^3.
+/// Returns whether `p` lies in the cube of the frame, [-1, 1]^3.
 [[nodiscard]] inline bool covers(const Frame& frame, const Point& p) {
   const Point q = frame.to_frame(p);
   return std::abs(q.x) <= 1 && std::abs(q.y) <= 1 && std::abs(q.z) <= 1;
 }
 
-/// Whether squares of distances in the mesh of the frame may underflow.
+/// Returns whether squares of distances in the mesh of the frame may underflow.
 [[nodiscard]] inline bool may_squares_underflow(const Frame& frame) { return frame.scale > 0x1p480; }
 
-/// The frame centered at the bounding box of the positions, which must be valid.
+/// Returns the frame centered at the bounding box of the positions, which must be valid.
 [[nodiscard]] Frame make_frame(const PositionsView& positions);
 [[nodiscard]] Frame make_frame(const PositionsView& positions, TaskContext& task);
 
-/// A float greater than `value`: the one after the nearest.
+/// Returns a float greater than `value`: the one after the nearest.
 [[nodiscard]] inline float next_above(double value) {
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }

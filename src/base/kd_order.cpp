@@ -22,7 +22,7 @@ struct Cuts {
   std::size_t unit;
   KdCut where;
 
-  /// The size of the first part of more than `unit` points.
+  /// Returns the size of the first part of `points` points; `points` > `unit`.
   [[nodiscard]] std::size_t operator()(std::size_t points) const {
     const std::size_t units = (points + unit - 1) / unit;
     return unit * (where == KdCut::Middle ? units / 2 : std::bit_floor(units - 1));
@@ -57,7 +57,8 @@ PointBox box_of(std::span<const KdPoint> points) {
   return box;
 }
 
-/// Equal intervals of a side of a box, fewer if it is nearly 0 long. Their numbers ascend with the coordinate.
+/// Divides a side of a box into equal intervals, fewer if it is nearly 0 long. Their numbers ascend with the
+/// coordinate.
 class Intervals {
  public:
   static constexpr std::size_t kMost = 1024;
@@ -103,7 +104,7 @@ struct Chunk {
   }
 };
 
-/// Calls `f(chunk)` for each, on several threads if there are several chunks.
+/// Calls `f` for each chunk, on several threads if there are several chunks.
 template <class F>
 void for_each_chunk(std::span<Chunk> chunks, TaskContext& task, F&& f) {
   if (chunks.size() == 1) {
@@ -113,7 +114,7 @@ void for_each_chunk(std::span<Chunk> chunks, TaskContext& task, F&& f) {
   }
 }
 
-/// Sets where the chunks put their points: in each third in the order given. `next` is where the thirds begin.
+/// Sets where the chunks put their points: in each third, in the order given. The thirds begin at `next`.
 void divide(std::span<Chunk> chunks, std::size_t cut, std::array<KdPoint*, 3> next) {
   for (Chunk& chunk : chunks) {
     chunk.next = next;
@@ -172,7 +173,7 @@ std::size_t cut(std::span<Chunk> chunks, const Cuts& cuts, std::span<KdPoint> to
   return middle;
 }
 
-/// The same for points in one run, on this thread.
+/// Cuts one run on this thread.
 std::size_t cut(std::span<const KdPoint> points, const Cuts& cuts, std::span<KdPoint> to) {
   TaskContext alone;
   Chunk chunk;
@@ -180,7 +181,7 @@ std::size_t cut(std::span<const KdPoint> points, const Cuts& cuts, std::span<KdP
   return cut(std::span(&chunk, 1), cuts, to, alone);
 }
 
-/// The same on all threads.
+/// Cuts one run on all threads.
 std::size_t cut(std::span<const KdPoint> points, const Cuts& cuts, std::span<KdPoint> to, TaskContext& task) {
   constexpr std::size_t kMostChunks = 64;
   constexpr std::size_t kSmallest = 2048;
@@ -253,7 +254,7 @@ std::vector<PointRun> cut_each(const std::vector<PointRun>& runs, const Cuts& cu
 
 void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task, KdCut where) {
   const Cuts cuts{unit, where};
-  // Several runs a thread, so that all threads end at about the same time; but none so short that starting it costs
+  // Each thread gets several runs, so that all end at about the same time; but none is so short that starting it costs
   // more than cutting it. By `KdCut::Power`, a part may have one unit or none; `cut` then copies it.
   constexpr std::size_t kRunsPerThread = 8;
   const std::size_t shortest = std::max<std::size_t>(400, 4 * unit);

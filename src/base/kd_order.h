@@ -16,12 +16,12 @@ struct KdPoint {
   std::uint32_t id;
 };
 
-/// At the nearest floats.
+/// Rounds to the nearest floats.
 [[nodiscard]] inline KdPoint kd_point(const Point& p, std::size_t id) {
   return {{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, static_cast<std::uint32_t>(id)};
 }
 
-/// Where a set of n points is cut.
+/// The place where a set of n points is cut.
 enum class KdCut {
   Middle,  // after half of the units, rounded down; the last of them may be short
   Power,   // at the largest power of two of units below n, so that each such number of units lies close together

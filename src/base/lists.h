@@ -32,7 +32,7 @@ struct Lists {
   [[nodiscard]] std::size_t bytes() const { return offsets.size() * sizeof(Offset) + elements.size() * sizeof(T); }
 };
 
-/// Without repeats, ascending.
+/// Sorts the values, and removes repeats.
 template <class T>
 void sort_out(std::vector<T>& values) {
   std::sort(values.begin(), values.end());
@@ -40,7 +40,8 @@ void sort_out(std::vector<T>& values) {
 }
 
 /// Fills lists: `for_each(f)` calls `f(list, element)` for every element of each list, and does so twice, in the same
-/// order. A list has its elements in the reverse of that order. `offsets` can count them all. O(#lists + #elements).
+/// order. A list has its elements in the reverse of that order. An `Offset` must be able to count all elements. Takes
+/// O(#lists + #elements).
 template <class Offset, class T, class ForEach>
 void gather_rows(std::size_t lists, ForEach&& for_each, std::vector<Offset>& offsets, std::vector<T>& elements) {
   offsets.assign(lists + 1, 0);
@@ -84,7 +85,7 @@ Lists<T> collect_rows(std::size_t count, TaskContext& task, const Append& append
   result.elements.reserve(all);
   for (std::vector<T>& piece : pieces) {
     result.elements.insert(result.elements.end(), piece.begin(), piece.end());
-    piece = std::vector<T>();  // its memory is free for others
+    piece = std::vector<T>();  // this frees its memory for others
   }
   return result;
 }

@@ -14,11 +14,11 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// The first of the numbers `0 .. count - 1` that is not valid, whatever the thread that finds one first; `count` if
-/// there is none.
+/// Returns the first of the numbers `0 .. count - 1` that is not valid, whatever the thread that finds one first;
+/// `count` if there is none.
 template <class IsValid>
 std::size_t first_invalid(std::size_t count, TaskContext& task, IsValid&& is_valid) {
-  constexpr std::size_t kGrain = 4096;  // enough that passing them to a thread costs little
+  constexpr std::size_t kGrain = 4096;  // a chunk of this size takes much longer than passing it to a thread
   std::atomic<std::size_t> first{count};
   task.parallel_for(count, kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
     std::size_t i = begin;
@@ -38,7 +38,7 @@ void validate_coordinates(const PositionsView& positions, TaskContext& task) {
   });
 }
 
-/// Offsets must ascend from 0 to the number of corners.
+/// Checks that the offsets ascend from 0 to the number of corners.
 void validate_offsets(const IndicesView& offsets, std::size_t corners) {
   const auto text_of = [&](std::size_t i) { return to_text(offsets, i); };
   if (offsets.size() == 0) {
@@ -66,8 +66,8 @@ void validate_offsets(const IndicesView& offsets, std::size_t corners) {
   }
 }
 
-/// Whether the last corner of the last triangle, `(#F - 1) * face_stride + 2 * corner_stride`, is one of `corners`.
-/// Divides, because that number may have more than 64 bits.
+/// Returns whether the last corner of the last triangle, `(#F - 1) * face_stride + 2 * corner_stride`, is one of
+/// `corners`. It divides, because that number may have more than 64 bits.
 bool fit_into(std::size_t corners, const FacesView& faces) {
   if (faces.size() == 0) return true;
   if (corners == 0 || faces.corner_stride() > (corners - 1) / 2) return false;
@@ -135,8 +135,8 @@ void validate_corners(const FacesView& faces, std::size_t vertices, TaskContext&
   });
 }
 
-/// The memory of indices whose type has the size of `VertexId`; otherwise null. Valid indices are not negative, and a
-/// signed type may be read as the unsigned one of its size.
+/// Returns the memory of indices whose type has the size of `VertexId`; otherwise null. Valid indices are not negative,
+/// and a signed type may be read as the unsigned one of its size.
 const VertexId* as_ids(const IndicesView& indices) {
   return indices.visit([]<class Index>(std::span<const Index> all) {
     return sizeof(Index) == sizeof(VertexId) ? reinterpret_cast<const VertexId*>(all.data()) : nullptr;

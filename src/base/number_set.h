@@ -10,8 +10,8 @@
 
 namespace meshhood::inline v0_1 {
 
-/// A set of numbers below a bound, as bits, with a bit for each of their words above: it lists its numbers in ascending
-/// order without sorting them.
+/// A set of numbers below a bound, as bits, with a bit for each word of them in a summary. It lists its numbers in
+/// ascending order without sorting them.
 class NumberSet {
  public:
   explicit NumberSet(std::size_t bound) : words_(bound / 64 + 1), summary_(bound / 4096 + 1) {}
@@ -22,7 +22,7 @@ class NumberSet {
     summary_[number / 4096] |= bit(number / 64);
   }
 
-  /// O(bound / 4096 + numbers).
+  /// Takes O(bound / 4096 + numbers).
   void clear() {
     take_all([](std::size_t) {});
   }
@@ -35,7 +35,7 @@ class NumberSet {
     });
   }
 
-  /// The same by words: calls `f(first, bits)` for the numbers `first + i` of the bits `i`.
+  /// Does the same by words: calls `f(first, bits)`, where bit `i` stands for the number `first + i`.
   template <class F>
   void take_words(F&& f) {
     for (std::size_t s = 0; s < summary_.size(); ++s) {

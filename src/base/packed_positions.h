@@ -26,7 +26,7 @@ class PackedPositions {
   PackedPositions& operator=(const PackedPositions&) = delete;
   ~PackedPositions() = default;
 
-  /// #V by 3.
+  /// Returns the positions, #V by 3.
   [[nodiscard]] std::span<const Real> view() const { return view_; }
 
  private:
@@ -34,7 +34,8 @@ class PackedPositions {
   std::span<const Real> view_;
 };
 
-/// The positions of `vertices`, #vertices by 3, from `xyz`, #V by 3. A place in `xyz` may need more bits than an id.
+/// Returns the positions of `vertices`, #vertices by 3, from `xyz`, #V by 3. A place in `xyz` may need more bits than
+/// an id.
 template <class Real>
 [[nodiscard]] std::vector<Real> rows_of(std::span<const Real> xyz, std::span<const VertexId> vertices) {
   std::vector<Real> rows;

@@ -6,8 +6,8 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Asks the processor to fetch what lies at `address`, which will be read soon. Never faults. Loops keep the number of
-/// items they prefetch ahead in a constant named after the items: `kLeavesAhead`.
+/// Asks the processor to fetch what lies at `address`, which will be read soon. It never faults. Loops keep the number
+/// of items they prefetch ahead in a constant named after the items: `kLeavesAhead`.
 inline void prefetch(const void* address) {
 #if defined(__GNUC__) || defined(__clang__)
   __builtin_prefetch(address);
@@ -20,7 +20,7 @@ inline void prefetch(const void* address) {
 
 inline constexpr std::size_t kCacheLine = 64;
 
-/// The same for `count` lines from `address` on, which may be null or end before the last line.
+/// Prefetches `count` lines from `address` on, which may be null; the memory may end before the last line.
 inline void fetch_lines(const void* address, std::size_t count) {
   // Arithmetic on the pointer would be undefined beyond the end of an array.
   const auto first = reinterpret_cast<std::uintptr_t>(address);

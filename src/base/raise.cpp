@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// In a file of its own, because the package for JavaScript has another one (bindings/wasm/src/raise.cpp).
+// This file is separate because the package for JavaScript has another one (bindings/wasm/src/raise.cpp).
 #include <cstdlib>
 #include <string>
 #include <utility>

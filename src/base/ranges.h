@@ -7,7 +7,7 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Appends a range, to the last one if it follows.
+/// Appends a range, or extends the last one if it follows.
 inline void append_to(std::vector<VertexRange>& ranges, const VertexRange& next) {
   if (!ranges.empty() && ranges.back().end == next.begin) {
     ranges.back().end = next.end;

@@ -54,7 +54,7 @@ struct ReferenceSearcher::State {
     graph.positions.visit([&](const auto& xyz) { records = make_records(xyz); });
   }
 
-  /// A number that marks no record yet. All marks are cleared once in 2^32 queries.
+  /// Returns a number that marks no record yet. All marks are cleared once in 2^32 queries.
   std::uint32_t next_query() {
     if (++query == 0) {
       std::visit(
@@ -88,7 +88,7 @@ struct ReferenceSearcher::State {
         Record<Real>& record = all[w];
         if (record.seen == current) continue;
         record.seen = current;
-        // Branch-free: avoids mispredictions.
+        // A branch would often be mispredicted.
         queue[end] = w;
         end += static_cast<std::size_t>(squared_distance(center, position(record)) <= squared_radius);
       }
@@ -105,7 +105,6 @@ struct ReferenceSearcher::State {
     return search(v, squared_radius(radius));
   }
 
-  /// The distances of `ids` from `v`.
   void measure(VertexId v, std::span<const VertexId> ids, std::vector<double>& out) const {
     std::visit(
         [&](const auto& all) {
@@ -135,14 +134,14 @@ std::size_t ReferenceSearcher::vertex_count() const { return state_->adjacency.s
 
 void ReferenceSearcher::neighborhood(Vertex v, double radius, std::vector<VertexId>& out) {
   const std::span<const VertexId> found = state_->neighborhood(v, radius);
-  out.reserve(found.size());  // `assign` of libc++ frees what there was before it allocates
+  out.reserve(found.size());  // `assign` of libc++ frees the old memory before it allocates
   out.assign(found.begin(), found.end());
 }
 
 void ReferenceSearcher::neighborhood(Vertex v, double radius, std::vector<VertexId>& out,
                                      std::vector<double>& distances) {
   const std::span<const VertexId> found = state_->neighborhood(v, radius);
-  // Reserved first: if memory runs out, neither has changed.
+  // Both are reserved first, so that neither has changed if memory runs out.
   distances.reserve(found.size());
   out.reserve(found.size());
   out.assign(found.begin(), found.end());

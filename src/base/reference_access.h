@@ -9,13 +9,13 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Access to the search itself for the exact index, and to rare states for tests.
+/// Gives the exact index access to the search itself, and tests access to rare states.
 struct ReferenceAccess {
-  /// The neighborhood in the order of the search, valid until the next call. `squared_radius` is that of the radius by
+  /// Returns the neighborhood in the order of the search, valid until the next call. `squared_radius` is the result of
   /// the function of this name. Nothing is checked.
   [[nodiscard]] static std::span<const VertexId> search(ReferenceSearcher& searcher, VertexId v, double squared_radius);
 
-  /// A searcher of a valid graph.
+  /// Makes a searcher of a graph, which must be valid.
   [[nodiscard]] static ReferenceSearcher make(const GraphView& graph);
 
   /// No later search enters `v`, which is in no ball from now on. It must not be the vertex of a query.

@@ -75,8 +75,8 @@ std::optional<Vector> solve(Matrix a, Vector b, std::size_t n) {
   return x;
 }
 
-/// The ball with all of `support` on its boundary and its center in their convex hull, if there is one. If the center
-/// lies outside the hull, fewer of the points determine the smallest ball.
+/// Returns the ball with all of `support` on its boundary and its center in their convex hull, if there is one. If the
+/// center lies outside the hull, fewer of the points determine the smallest ball.
 std::optional<Ball> circumscribed(const Support& support) {
   const std::size_t n = support.size() - 1;
   std::array<Point, 3> edge{};
@@ -86,7 +86,7 @@ std::optional<Ball> circumscribed(const Support& support) {
     scale = std::max(scale, largest_component(edge[i]));
   }
   if (n > 0 && !(scale > 0)) return std::nullopt;
-  // In units of the longest edge, so that no product overflows.
+  // The unit is the largest component of an edge, so that no product overflows.
   for (std::size_t i = 0; i < n; ++i) edge[i] = {edge[i].x / scale, edge[i].y / scale, edge[i].z / scale};
   Matrix gram{};
   Vector half_square{};
@@ -108,7 +108,7 @@ std::optional<Ball> circumscribed(const Support& support) {
   return Ball{center, squared_distance(center, support[0])};
 }
 
-/// `p` and the points of `support` whose bits are set in `chosen`, at most three.
+/// Returns `p` and the points of `support` whose bits are set in `chosen`, at most three.
 Support select(const Support& support, unsigned chosen, const Point& p) {
   Support result;
   result.add(p);
@@ -125,9 +125,9 @@ bool encloses(const Ball& ball, const Support& support) {
   return true;
 }
 
-/// The smallest ball around `support` and `p`, a point outside the present ball. The new ball has `p` on its boundary,
-/// so its support is `p` with some of the old points: tests each selection of them, and makes the right one the
-/// support.
+/// Returns the smallest ball around `support` and `p`, a point outside the present ball. The new ball has `p` on its
+/// boundary, so its support is `p` with some of the old points. This tests each selection of them, and makes the right
+/// one the support.
 std::optional<Ball> exchange(Support& support, const Point& p) {
   for (unsigned chosen = 1; chosen < 1U << support.size(); ++chosen) {
     if (std::popcount(chosen) > 3) continue;
@@ -140,7 +140,7 @@ std::optional<Ball> exchange(Support& support, const Point& p) {
   return std::nullopt;
 }
 
-/// The point farthest from `from` and its squared distance. `at(i)` is point `i`.
+/// Returns the index of the point farthest from `from`, and its squared distance. `at(i)` is point `i`.
 template <class At>
 std::pair<std::size_t, double> farthest(std::size_t count, const At& at, const Point& from) {
   std::size_t index = 0;

@@ -16,7 +16,7 @@ struct Flat {
   double y;
 };
 
-/// Twice the signed area of a triangle.
+/// Returns twice the signed area of a triangle.
 double turn(const Flat& a, const Flat& b, const Flat& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -42,7 +42,7 @@ class Flattening {
   Point area_;
 };
 
-/// Whether it turns right at no corner.
+/// Returns whether the polygon turns right at no corner.
 bool is_convex(std::span<const Point> corners, const Flattening& flat) {
   Flat a = flat(corners[corners.size() - 2]);
   Flat b = flat(corners.back());
@@ -55,7 +55,7 @@ bool is_convex(std::span<const Point> corners, const Flattening& flat) {
   return true;
 }
 
-/// What is left of a polygon, as a ring of corners.
+/// Cuts ears off a polygon; what is left is a ring of corners.
 class EarClipper {
  public:
   explicit EarClipper(std::vector<Flat> corners)
@@ -76,7 +76,7 @@ class EarClipper {
       corner = find_ear(corner, left);
       out.push_back({previous_[corner], corner, next_[corner]});
       cut(corner);
-      corner = next_[next_[corner]];  // so that the triangles do not all meet at one corner
+      corner = next_[next_[corner]];  // else the triangles might all meet at one corner
     }
     out.push_back({previous_[corner], corner, next_[corner]});
   }
@@ -86,7 +86,8 @@ class EarClipper {
     return turn(corners_[previous_[i]], corners_[i], corners_[next_[i]]);
   }
 
-  /// An ear from `begin` on. A polygon that crosses itself may have none: then a corner of least harm.
+  /// Returns an ear from `begin` on. If a polygon that crosses itself has none, returns a corner at which it does not
+  /// turn, or `begin`.
   [[nodiscard]] std::uint32_t find_ear(std::uint32_t begin, std::size_t left) const {
     std::uint32_t straight = begin;
     for (std::uint32_t i = begin; left != 0; i = next_[i], --left) {

@@ -17,7 +17,7 @@ namespace meshhood::inline v0_1 {
 
 [[nodiscard]] inline bool is_valid_coordinate(double coordinate) { return std::abs(coordinate) <= kLargestCoordinate; }
 
-/// Whether the coordinates are finite and at most 2^500 in magnitude.
+/// Returns whether the coordinates are finite and at most 2^500 in magnitude.
 [[nodiscard]] inline bool is_valid_position(const Point& p) {
   return is_valid_coordinate(p.x) && is_valid_coordinate(p.y) && is_valid_coordinate(p.z);
 }
@@ -31,7 +31,7 @@ namespace meshhood::inline v0_1 {
                                     ", expected a finite number of at most 2^500 in magnitude");
 }
 
-/// As the public functions, on several threads, with the same errors. Throw also Error{Cancelled}.
+/// Validate as the public functions do, with the same errors, but on several threads. They also throw Error{Cancelled}.
 void validate(const PositionsView& positions, TaskContext& task);
 void validate(const MeshView& mesh, TaskContext& task);
 

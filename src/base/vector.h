@@ -21,13 +21,13 @@ namespace meshhood::inline v0_1 {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Twice the vector area of a triangle: the same bits as those of the polygon below, without its loop.
+/// Returns twice the vector area of a triangle: the same bits as those of the polygon below, without its loop.
 [[nodiscard]] inline Point doubled_vector_area(const Point& a, const Point& b, const Point& c) {
-  return Point{0, 0, 0} + cross(b - a, c - a);  // so that there is no -0, as for polygons
+  return Point{0, 0, 0} + cross(b - a, c - a);  // the sum has no -0, as for polygons
 }
 
-/// Twice the vector area of a polygon, about its first corner: the sum of the cross products of consecutive corners
-/// (Newell). `corner(i)` is the position of corner `i`; 0 for fewer than three corners.
+/// Returns twice the vector area of a polygon, about its first corner: the sum of the cross products of consecutive
+/// corners (Newell). `corner(i)` is the position of corner `i`; 0 for fewer than three corners.
 template <class F>
 [[nodiscard]] Point doubled_vector_area(std::size_t corners, F&& corner) {
   Point sum{0, 0, 0};

@@ -157,7 +157,7 @@ void Batch::cut_into_chunks(std::span<const std::uint64_t> in_order) {
   constexpr std::size_t kMaxChunk = 512;  // where many rows share their vertices
   const std::size_t count = in_order.size();
   const std::uint64_t together = std::uint64_t{factory_.positions_together} << 32;
-  // Where there are few rows, each may take long: then a chunk has one row, and those that belong together with it.
+  // If there are few rows, each may take long: then a chunk has one row, and those that belong together with it.
   const std::size_t grain = std::clamp<std::size_t>(count / kChunk, 1, kChunk);
   chunk_ends_.clear();
   for (std::size_t end = 0; end < count;) {

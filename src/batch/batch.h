@@ -31,11 +31,11 @@ using SizeSink = std::function<bool(std::span<const BatchItem> rows, std::span<c
 /// chunk does not depend on earlier chunks, because which chunks a thread gets differs from run to run.
 class BatchWorker {
  public:
-  /// `writer`: that of the index. `find` needs it if the search writes pieces.
+  /// `writer` is that of the index. `find` needs it if the search writes pieces.
   explicit BatchWorker(std::unique_ptr<RowSearch> search, std::optional<RowWriter> writer = {})
       : search_(std::move(search)), writer_(writer) {}
 
-  /// `kept` is null, or receives what spares a `find` with these `distances` a second search.
+  /// `kept` is null, or receives answers, so that a `find` with these `distances` need not search again.
   void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept, bool distances);
 
   /// `kept` is null, or reads what `count` kept of the same chunk, none of whose rows was dropped.
@@ -73,7 +73,7 @@ class BatchWorker {
   std::unique_ptr<RowSearch> search_;
   std::optional<RowWriter> writer_;
   std::vector<RowRun> runs_;
-  // The rows of a packet, an array for each property:
+  // The rows of a packet, with an array for each property.
   std::vector<std::size_t> rows_;
   std::vector<VertexId> vertices_;
   std::vector<double> radii_;
@@ -91,8 +91,8 @@ class Batch {
   /// The most rows of one call of `for_each_chunk`.
   static constexpr std::size_t kMaxRows = std::size_t{1} << 22;
 
-  /// Shares `method`, borrows `run`, and copies the rest. `passes`: the number of passes over all rows.
-  /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
+  /// Shares `method`, borrows `run`, and copies the rest. `passes` is the number of passes over all rows. Throws
+  /// Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
   Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, const Run& run,
         std::size_t passes);
 
@@ -111,11 +111,11 @@ class Batch {
   /// Sorts the rows by their position in the index, and returns the former number of each.
   RawVector<std::size_t> put_in_index_order();
 
-  /// Whether the positions of the rows ascend.
+  /// Returns whether the positions of the rows ascend.
   [[nodiscard]] bool is_in_index_order() const;
 
-  /// The largest number of rows, in index order from `first` on, that fit the window and end with a group of leaves. If
-  /// the window has no whole group, they end with a leaf; if it has no whole leaf, they are all.
+  /// Returns the largest number of rows, in index order from `first` on, that fit the window and end with a group of
+  /// leaves. If the window has no whole group, they end with a leaf; if it has no whole leaf, they are all.
   [[nodiscard]] std::size_t whole_units(std::size_t first, std::size_t window) const;
 
   /// Calls `f(thread, chunk)` for chunks of the rows `row_of(i)`, `i < count`, on any thread. Which chunks there are
@@ -123,31 +123,31 @@ class Batch {
   template <class RowOf, class F>
   void for_each_chunk(std::size_t count, RowOf&& row_of, F&& f);
 
-  /// As above, for all rows, `kMaxRows` at a time.
+  /// Does the same for all rows, `kMaxRows` at a time.
   template <class F>
   void for_all_chunks(F&& f);
 
-  /// The worker of a thread, made by the thread itself at its first use.
+  /// Returns the worker of a thread, which the thread itself makes at its first use.
   [[nodiscard]] BatchWorker& worker(unsigned thread);
 
  private:
-  /// What a thread uses. Not beside that of another thread, which writes to its own all the time.
+  /// Each thread has a cache line of its own, because the others write to theirs all the time.
   struct alignas(64) PerThread {
     std::unique_ptr<BatchWorker> worker;
     RawVector<BatchItem> items;  // of its chunk
   };
 
-  /// The rows `row_of(i)`, `i < count`, sorted by position. The two functions set `in_order_` and `chunk_ends_`.
+  /// Sorts the rows `row_of(i)`, `i < count`, by position. Sets `in_order_` and `chunk_ends_`, as the next function.
   template <class RowOf>
   void sort_rows(std::size_t count, RowOf&& row_of);
 
-  /// The same for a row for each vertex, without a sort: the slots are those of an index.
+  /// Takes a row for each vertex, without a sort: the slots are those of an index.
   void take_index_order();
 
   template <class RowOf, class F>
   void run_chunks(std::size_t first_number, RowOf&& row_of, F&& f);
 
-  /// Whether the row after `row` has a position beyond the next multiple of `positions`.
+  /// Returns whether the row after `row` has a position beyond the next multiple of `positions`.
   [[nodiscard]] bool ends_unit(std::size_t row, std::uint32_t positions) const;
 
   /// Cuts the rows so that those that belong together are in one chunk.

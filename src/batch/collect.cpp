@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rows kept in memory, all in one array. They are counted first, so that each is written to its final place. What was
-// found is kept meanwhile, in less memory than the ids take, so that most rows are searched once.
+// All rows are kept in one array. They are counted first, so that each is written to its final place. Their answers are
+// kept meanwhile, in less memory than the ids take, so that most rows are searched once.
 #include <algorithm>
 #include <numeric>
 #include <span>
@@ -41,19 +41,17 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
   limit.check_sample(sizes, "about ");
 }
 
-/// The limit on the bytes of the result.
 SizeLimit limit_of(const BatchOptions& options, const Run& run, std::size_t rows) {
   return {run.max_bytes, sizeof(VertexId) + (options.distances ? sizeof(double) : 0), rows};
 }
 
-/// What rows need that are counted first and written later: a limit for their ids, and a place for what was found.
+/// Rows that are counted first and written later need a limit for their ids, and a place for what was found.
 struct ForWriting {
   SizeLimit& limit;
   KeptChunks& kept;
 };
 
-/// Ids that a thread has counted and not yet added to the limit (see `share_at_once`). Not beside those of another
-/// thread.
+/// Counts ids that a thread has not yet added to the limit (see `share_at_once`), in a cache line of its own.
 struct alignas(64) NewIds {
   std::uint64_t count = 0;
 };
@@ -78,7 +76,7 @@ void count_rows(Batch& batch, std::uint64_t* sizes, const ForWriting* writing) {
   for (const NewIds& ids : new_ids) writing->limit.add(ids.count);
 }
 
-/// Searches each row once. The rows wait in memory of our own until their number of ids is known.
+/// Searches each row once. The rows wait in memory of the library until their number of ids is known.
 std::vector<std::uint64_t> stream_and_copy(const SearchMethod& method, const BatchQuery& query,
                                            const BatchAllocator& allocate, const BatchOptions& options,
                                            const Run& run) {
@@ -112,7 +110,7 @@ class RowsInPlace final : public RowReceiver {
   }
 
   bool done(std::size_t /*row*/) override {
-    constexpr std::size_t kIdsBetweenLooks = 4096;  // to look at the clock takes a tenth of the time of a small row
+    constexpr std::size_t kIdsBetweenLooks = 4096;  // a look at the clock takes a tenth of the time of a small row
     if (batch_.options().sorted) by_id_.sort(last_.ids, last_.distances);
     ids_since_look_ += last_.ids.size();
     if (ids_since_look_ < kIdsBetweenLooks) return true;
@@ -130,7 +128,8 @@ class RowsInPlace final : public RowReceiver {
   std::size_t ids_since_look_ = 0;
 };
 
-/// The rows of a chunk lie far from each other. The processor itself fetches what follows on their first lines.
+/// Prefetches the first lines of a row, because the rows of a chunk lie far from each other. The processor itself
+/// fetches what follows.
 void prefetch_row(std::span<const VertexId> ids) {
   constexpr std::size_t kLines = 4;
   fetch_lines(ids.data(), kLines);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of nearest vertices: each thread searches row after row, in index order, until the row is full.
+// Finds rows of nearest vertices: each thread searches row after row, in index order, until the row is full.
 #include "meshhood/k_nearest.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::size_t kRowsAtOnce = 32;
 
-// Of a result. Fewer where addresses have 32 bits.
+// The most values of a result; fewer where addresses have 32 bits.
 constexpr std::size_t kMostValues = static_cast<std::size_t>(
     std::min<std::uint64_t>(std::uint64_t{1} << 40U, std::numeric_limits<std::size_t>::max() / 16));
 
@@ -39,7 +39,7 @@ constexpr std::size_t kItemBytes = sizeof(VertexId) + sizeof(double);
 // The areas of a row are added in two orders, each of fewer than 2^31 terms: the sums differ by less than this share.
 constexpr double kAreaSlack = 1e-6;
 
-/// The rows of a call, in index order.
+/// Visits the rows of a call in index order.
 class NearestRows {
  public:
   NearestRows(const Index& index, const BatchVertices& vertices, const NearestOptions& options, const Run& run)
@@ -71,8 +71,8 @@ class NearestRows {
   Rows rows_;
 };
 
-/// The vertices around one vertex by connecting radius. The rows of a leaf share a packet. How far it looks is guessed
-/// from the last leaf, and farther where that was not enough; a row does not depend on it.
+/// Finds the vertices around one vertex by connecting radius. The rows of a leaf share a packet. How far it looks is
+/// guessed from the last leaf, and grows where that was not enough; no row depends on it.
 class StraightRowSearch {
  public:
   StraightRowSearch(const Index& index, const NearestOptions& options)
@@ -82,7 +82,7 @@ class StraightRowSearch {
         most_(options.radius),
         leaf_radius_(index_->tree.empty() ? 0 : index_->tree.front().mean_radius / index_->frame.scale) {}
 
-  /// Calls `take(vertex, distance)` for the nearest vertices in order until it returns false. `areas`: not used.
+  /// Calls `take(vertex, distance)` for the nearest vertices in order until it returns false. The areas are not used.
   template <class Take>
   void run(VertexId v, std::size_t /*enough*/, double /*enough_area*/, std::span<const double> /*areas*/, Take&& take) {
     const std::uint32_t slot = index_->slot[v];
@@ -122,8 +122,8 @@ class StraightRowSearch {
     gather(kMargin * row_radius_);
   }
 
-  /// On surfaces, a fourth of these leaves is enough. Where it is not, the vertices lie so unevenly that a ball may
-  /// hold far more of them than a row.
+  /// Gathers the vertices in a ball, unless it has too many leaves. On surfaces, a fourth of this limit is enough.
+  /// Where it is not, the vertices lie so unevenly that a ball may hold far more of them than a row.
   void gather(double radius) {
     constexpr std::size_t kFewLeaves = 64;
     radius_ = radius > 0 ? std::min(radius, most_) : most_;
@@ -142,7 +142,7 @@ class StraightRowSearch {
   std::size_t most_taken_ = 0;
 };
 
-/// The same by path distance or number of edges.
+/// Finds vertices by path distance or number of edges.
 class LengthRowSearch {
  public:
   LengthRowSearch(const Index& index, const NearestOptions& options)
@@ -286,7 +286,7 @@ Neighborhoods discs(const Index& index, const BatchVertices& vertices, double ar
     Disc disc;
     find_disc(search, rows.vertex(row), index.vertex_count() + 1, area, areas, disc);
     limit.add(disc.ids.size());
-    found[row] = disc;  // a copy has no spare memory
+    found[row] = disc;  // the copy has no spare memory
   });
   Neighborhoods result;
   result.offsets.push_back(0);

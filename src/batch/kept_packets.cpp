@@ -57,7 +57,7 @@ std::size_t KeptPackets::bytes() const {
 }
 
 KeptPackets::Word* KeptPackets::add_words(std::size_t count) {
-  // Words. Smaller than what the allocator of glibc takes from the system for each block alone.
+  // In words. Blocks stay smaller than those for which the allocator of glibc asks the system each time.
   constexpr std::size_t kBlock = std::size_t{1} << 14;
   if (blocks_.empty() || blocks_.back().capacity() - blocks_.back().size() < count) {
     blocks_.emplace_back().reserve(std::max(kBlock, count));

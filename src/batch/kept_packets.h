@@ -11,13 +11,13 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The answers of packets that one thread found, in that order: kept while rows are counted, so that they need not be
+/// Keeps the answers of packets that one thread found, in that order, while rows are counted, so that they need not be
 /// searched again when they are written. An answer that would take more memory than its ids is left out.
 class KeptPackets {
  public:
   class Reader;
 
-  /// Where a packet is: its block, and how many words are before it there.
+  /// The place of a packet: its block, and how many words are before it there.
   struct Place {
     std::size_t block = 0;
     std::size_t word = 0;
@@ -26,10 +26,10 @@ class KeptPackets {
   /// Adds the answer of a packet whose rows, 1 to 32, have `counts` vertices.
   void add(std::span<const Piece> pieces, std::span<const std::uint64_t> counts);
 
-  /// The place of the next packet to be added.
+  /// Returns the place of the next packet that is added.
   [[nodiscard]] Place end() const;
 
-  /// The memory of all blocks, with what is not used of them.
+  /// Returns the memory of all blocks, with what is not used of them.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -46,13 +46,12 @@ class KeptPackets {
 /// Reads packets in the order in which they were added.
 class KeptPackets::Reader {
  public:
-  /// Begins at `place`.
   void begin(const KeptPackets& kept, const Place& place);
 
   /// Goes to the next packet. Returns false if its answer was not kept.
   bool next();
 
-  // Of this packet:
+  // These return the answer of this packet.
   [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
   [[nodiscard]] const PerLane<std::uint64_t>& counts() const { return counts_; }
 
@@ -72,15 +71,15 @@ class KeptChunks {
   /// Begins a chunk on a thread, which adds the packets of the chunk to the result.
   [[nodiscard]] KeptPackets& begin(unsigned thread, std::size_t number);
 
-  /// Called once, after all chunks and before `find`.
+  /// Must be called once, after all chunks and before `find`.
   void finish();
 
-  /// The reader of a thread, set to the first packet of a chunk, whichever thread has added it. Null after `clear`.
+  /// Returns the reader of a thread, set to the first packet of a chunk, whichever thread has added it. Null after
+  /// `clear`.
   [[nodiscard]] KeptPackets::Reader* find(unsigned thread, std::size_t number);
 
   [[nodiscard]] std::size_t bytes() const;
 
-  /// Drops what is kept.
   void clear();
 
  private:
@@ -89,7 +88,7 @@ class KeptChunks {
     KeptPackets::Place begin;
   };
 
-  /// Not beside that of another thread, which writes to its own all the time.
+  /// Each thread has cache lines of its own, because the others write to theirs all the time.
   struct alignas(64) PerThread {
     KeptPackets packets;
     std::vector<Chunk> chunks;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The methods, each by its searcher.
+// Makes the factory of each method from its searcher.
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -46,7 +46,7 @@ class SingleRows final : public RowSearch {
 
   [[nodiscard]] QueryWord queries() const override { return 1; }
 
-  /// Not called: packets are those of an index.
+  /// Is never called, because packets are those of an index.
   [[nodiscard]] std::span<const Piece> pieces(bool /*in_order*/) override { return {}; }
 
   [[nodiscard]] bool writes_pieces(bool /*distances*/) const override { return false; }
@@ -97,7 +97,7 @@ SearcherFactory exact_factory(const Index& index, Metric metric) {
           .make_rows = [&index, metric] { return make_rows(index, metric); }};
 }
 
-/// Of a method that answers rows one by one.
+/// Makes the factory of a method that answers rows one by one.
 SearcherFactory single_factory(std::size_t vertices, const std::function<AnySearcher()>& make_searcher,
                                std::function<std::uint32_t(VertexId v)> position, bool is_count_cheap = false) {
   return {.vertex_count = vertices,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The vertices nearest to points: of one, and of many along a curve on which near points follow each other.
+// Finds the vertices nearest to points: for one, and for many along a curve on which near points follow each other.
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -22,7 +22,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// The vertex nearest to a point, of one point after the other.
+/// Finds the vertex nearest to a point, for one point after the other.
 class NearestVertexSearch {
  public:
   explicit NearestVertexSearch(const IndexView& index) : index_(&index), center_(index.frame, {}) {}
@@ -57,7 +57,7 @@ class NearestVertexSearch {
   }
 
  private:
-  /// Different squares may have one root.
+  /// Roots are compared, because different squares may have the same root.
   [[nodiscard]] double distance_to(const Point& p) const { return std::sqrt(squared_distance(center_.exact, p)); }
 
   const IndexView* index_;

@@ -12,11 +12,11 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Called with each packet of one thread.
+/// Receives each packet of one thread.
 using PacketVisitor = std::function<void(const PacketAnswer&)>;
 
-/// Makes the visitor of thread number `thread`, which is less than that of the threads of the call. Called at most once
-/// for each number, by the thread itself, before its first packet.
+/// Makes the visitor of thread number `thread`, which is less than the number of threads of the call. Each thread calls
+/// it at most once, before its first packet.
 using PacketVisitorFactory = std::function<PacketVisitor(unsigned thread)>;
 
 /// What the visitors read.
@@ -33,9 +33,9 @@ enum class PacketForm : std::uint8_t {
 /// must not write to the same memory, except that each row belongs to one packet: `result[rows[i]] = ...` is safe.
 /// Packets depend on the query alone, so floating-point sums have the same bits for any number of threads.
 ///
-/// A leaf with few queries is searched row by row: packets then have one row. If a vertex is queried more
-/// than once, its rows may be in different packets. Time is that of `counts`. Memory: a copy of the query;
-/// 8 bytes a row, of at most 2^22 rows at a time, and 16 where these are not in index order; and for each thread a
+/// A leaf with few queries is searched row by row: packets then have one row. If a vertex is queried more than once,
+/// its rows may be in different packets. It takes the time of `counts`. It needs memory for a copy of the query; 8
+/// bytes a row, of at most 2^22 rows at a time, and 16 where these are not in index order; and for each thread a
 /// searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).
 ///
 /// form    what the visitors read. For `WithLengths`, rings are searched row by row.

@@ -13,7 +13,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// The neighborhoods of a batch along the edges, as a `Searcher` finds them one by one.
+/// Finds the neighborhoods of a batch along the edges, as a `Searcher` finds them one by one.
 class PathRows final : public RowSearch {
  public:
   explicit PathRows(const Index& index)
@@ -56,7 +56,7 @@ class PathRows final : public RowSearch {
   const IndexView& view_;
   std::shared_ptr<KeptGraph> graph_;
   PathPacket packet_;
-  // Of the last run:
+  // The state of the last run.
   std::vector<PathQuery> queries_;
   PerLane<std::uint64_t> counts_{};
 };

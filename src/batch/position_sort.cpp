@@ -15,13 +15,13 @@ namespace {
 constexpr unsigned kDigitBits = 11;
 constexpr std::size_t kDigits = 1U << kDigitBits;
 
-// Rows that one thread counts and moves. Their counts take a sixteenth of the memory of the rows.
+// The number of rows that one thread counts and moves. Their counts take a sixteenth of the memory of the rows.
 constexpr std::size_t kChunk = 1U << 15;
 
 /// How many rows of a chunk have each digit; then the place of the next one.
 using Places = std::array<std::size_t, kDigits>;
 
-/// Turns the counts of the chunks into places. False if all `rows` have the same digit.
+/// Turns the counts of the chunks into places. Returns false if all `rows` have the same digit.
 bool set_places(std::span<Places> chunks, std::size_t rows) {
   Places next{};
   for (const Places& counts : chunks) std::ranges::transform(next, counts, next.begin(), std::plus<>());

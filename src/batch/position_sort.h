@@ -15,12 +15,12 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Sorts `rows` by their upper halves, which are positions. Rows of equal positions keep their order. A radix sort,
-/// because the rows of a whole mesh are millions, and comparing them takes longer than small neighborhoods. Rows that
-/// are sorted cost one look at each, and no memory.
+/// Sorts `rows` by their upper halves, which are positions. Rows of equal positions keep their order. It is a radix
+/// sort, because a whole mesh has millions of rows, and comparing them takes longer than small neighborhoods. If the
+/// rows are sorted already, it looks once at each, and needs no memory.
 void sort_by_position(RawVector<std::uint64_t>& rows, TaskContext& task);
 
-/// The numbers 0 to `count - 1`, of 32 bits, in the order of `position(number)`, which is in the upper half of each.
+/// Returns the numbers 0 to `count - 1`, of 32 bits, in the order of `position(number)`, the upper half of each.
 template <class Position>
 [[nodiscard]] RawVector<std::uint64_t> sorted_by_position(std::size_t count, const Position& position,
                                                           TaskContext& task) {
@@ -33,7 +33,7 @@ template <class Position>
   return rows;
 }
 
-/// The rows 0 to `rows - 1` in the order of `position(row)`, 2^32 at a time.
+/// Returns the rows 0 to `rows - 1` in the order of `position(row)`, 2^32 at a time.
 template <class Position>
 [[nodiscard]] RawVector<std::size_t> rows_by_position(std::size_t rows, const Position& position, TaskContext& task) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
@@ -63,14 +63,14 @@ void for_each_by_position(std::size_t rows, std::size_t at_once, const Position&
   task.finish();
 }
 
-/// The rows along a curve of Morton (1966), on which near points mostly follow each other. `at(row)`: its point in the
+/// Returns the rows along a curve of Morton (1966), on which near points mostly follow each other. `at(row)` is in the
 /// frame.
 template <class At>
 [[nodiscard]] RawVector<std::size_t> rows_along_curve(std::size_t rows, const At& at, TaskContext& task) {
-  constexpr double kCells = 1U << 10U;  // an axis
+  constexpr double kCells = 1U << 10U;  // per axis
   const auto spread = [](double coordinate) {
     const double cell = (coordinate + 1) * (kCells / 2);
-    std::uint32_t bits = cell > 0 ? static_cast<std::uint32_t>(std::min(cell, kCells - 1)) : 0;  // 0 if not a number
+    std::uint32_t bits = cell > 0 ? static_cast<std::uint32_t>(std::min(cell, kCells - 1)) : 0;  // a NaN becomes 0
     bits = (bits | bits << 16U) & 0x030000ffU;
     bits = (bits | bits << 8U) & 0x0300f00fU;
     bits = (bits | bits << 4U) & 0x030c30c3U;

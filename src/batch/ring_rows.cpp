@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows by the number of edges: one breadth-first search for up to 32 queries of a leaf, and the rows that it gives.
+// Finds rows by the number of edges: one breadth-first search answers up to 32 queries of a leaf.
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
@@ -23,7 +23,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// A query by the number of edges: a vertex of a leaf, and how many edges may separate it from a vertex of its answer.
+/// A query: a vertex of a leaf, and how many edges may separate it from a vertex of its answer.
 struct RingQuery {
   unsigned lane;
   std::uint32_t rings;
@@ -31,12 +31,12 @@ struct RingQuery {
 
 /// Answers up to 32 queries of one leaf at once: a breadth-first search for all of them, a word for each vertex, and
 /// one ring after the other (M. Then et al., "The More the Merrier: Efficient Multi-Source Graph Traversal", PVLDB
-/// 2014; for sources that lie close together L. Wang et al., "Cluster-BFS", 2024). A step passes the words that are
+/// 2014; for sources that lie close together: L. Wang et al., "Cluster-BFS", 2024). A step passes the words that are
 /// fresh over the edges of all leaves that have some, so each edge is followed once for all queries that reach it in
 /// that step.
 ///
-/// One object a thread. Owns 8 bytes a leaf of the mesh, and 0.7 kB for each leaf of the largest answer. What is found
-/// does not depend on earlier calls.
+/// Each thread needs its own. It owns 8 bytes a leaf of the mesh, and 0.7 kB for each leaf of the largest answer. What
+/// is found does not depend on earlier calls.
 class RingPacket final : public PacketLengths {
  public:
   RingPacket(const IndexView& index, Isa isa)
@@ -68,16 +68,16 @@ class RingPacket final : public PacketLengths {
     finish();
   }
 
-  // Of the queries of the last `run`:
+  // The functions below answer for the queries of the last `run`.
 
-  /// How many vertices their answers have.
+  /// Returns how many vertices their answers have.
   [[nodiscard]] PerLane<std::uint64_t> counts() const {
     PerLane<std::uint64_t> counts{};
     kernels_->count_words(words_.data(), found_, counts);
     return counts;
   }
 
-  /// The answers, leaf by leaf in index order. Valid until the next `run`.
+  /// Returns the answers, leaf by leaf in index order. They are valid until the next `run`.
   [[nodiscard]] std::span<const Piece> pieces() {
     pieces_.clear();
     for (const LeafOfWords& found : found_) {
@@ -88,7 +88,7 @@ class RingPacket final : public PacketLengths {
     return pieces_;
   }
 
-  /// Of a run with one query: numbers of edges as lengths.
+  /// After a run with one query, the lengths are numbers of edges.
   void select(LeafId leaf) override { selected_ = entries_[leaf]; }
   [[nodiscard]] const PathLengths& at(unsigned lane) override {
     length_[0] = edges_[selected_][lane];
@@ -108,7 +108,7 @@ class RingPacket final : public PacketLengths {
     bool is_reached;
   };
 
-  /// That of a leaf, which is made when the search first meets it.
+  /// Returns the entry of a leaf, which is made when the search first meets it.
   Entry entry_of(LeafId leaf) {
     if (entries_.is_known(leaf)) return entries_[leaf];
     const auto entry = static_cast<Entry>(states_.size());
@@ -179,14 +179,14 @@ class RingPacket final : public PacketLengths {
   PathLengths length_{};
 };
 
-/// More edges than a mesh has vertices are as good as any number of them.
+/// Cuts a radius to 32 bits. This changes no answer, because no path needs more edges than the mesh has vertices.
 std::uint32_t rings_of(double radius) {
   constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
   return static_cast<std::uint32_t>(std::min(radius, kMost));
 }
 
-/// The rings of a batch: those of a leaf are answered together, with distances one by one; on a graph unlike a surface,
-/// vertex by vertex.
+/// Finds the rings of a batch: those of a leaf together, with distances one by one; on a graph unlike a surface, vertex
+/// by vertex.
 class RingRows final : public RowSearch {
  public:
   explicit RingRows(const Index& index)
@@ -234,7 +234,7 @@ class RingRows final : public RowSearch {
   }
 
  private:
-  /// Of one query: calls `f(vertex, edges)` for the vertices of the answer, in index order, ascending.
+  /// Calls `f(vertex, edges)` for the vertices of the answer of one query, in index order.
   template <class F>
   void for_each(F&& f) {
     if (by_vertex_) {
@@ -253,7 +253,7 @@ class RingRows final : public RowSearch {
   std::shared_ptr<KeptGraph> graph_;
   RingPacket packet_;
   std::optional<VertexRings> by_vertex_;
-  // Of the last run:
+  // The state of the last run.
   unsigned rows_ = 0;
   std::vector<RingQuery> queries_;
   PerLane<std::uint64_t> counts_{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a metric answers the rows of a batch, and the writer of rows that come as pieces.
+// The search by which a metric answers the rows of a batch, and the writer of rows that come as pieces.
 #pragma once
 
 #include <cassert>
@@ -67,7 +67,6 @@ inline void RowWriter::write_distances(std::span<const Piece> pieces, unsigned q
   assert(next == distances.data() + distances.size());
 }
 
-/// One row of a batch.
 struct BatchItem {
   std::size_t row;
   VertexId vertex;
@@ -83,10 +82,10 @@ class RowReceiver {
   RowReceiver& operator=(const RowReceiver&) = delete;
   virtual ~RowReceiver() = default;
 
-  /// Memory for the ids of a row of `size` vertices, and for its distances if they are requested.
+  /// Returns memory for the ids of a row of `size` vertices, and for its distances if they are requested.
   virtual BatchMemory memory(std::size_t row, std::size_t size) = 0;
 
-  /// The row has been written there. Returns false to drop the rest of the chunk.
+  /// Reports that the row has been written there. Returns false to drop the rest of the chunk.
   virtual bool done(std::size_t row) = 0;
 };
 
@@ -96,8 +95,8 @@ struct RowRun {
   bool is_joint;                     // else it is one row
 };
 
-/// The search of a metric: answers the rows of a batch, up to 32 of one leaf at once. One object a thread. What is
-/// found for a row depends on the index, its vertex and its radius alone.
+/// Answers the rows of a batch by a metric, up to 32 of one leaf at once. Each thread needs its own. What is found for
+/// a row depends on the index, its vertex and its radius alone.
 class RowSearch {
  public:
   RowSearch() = default;
@@ -108,28 +107,28 @@ class RowSearch {
   /// Begins with another chunk.
   virtual void begin_chunk() {}
 
-  /// Whether `items`, rows of one leaf, are answered faster together than one by one.
+  /// Returns whether `items`, rows of one leaf, are answered faster together than one by one.
   [[nodiscard]] virtual bool pays(std::span<const BatchItem> items, bool distances) const = 0;
 
   /// Answers the first of `runs`; the others follow it in its chunk. Returns false if its rows must be answered one by
   /// one, each as a run.
   [[nodiscard]] virtual bool run(std::span<const RowRun> runs) = 0;
 
-  // Of the last run, valid until the next:
+  // The functions below answer for the last run. Results are valid until the next.
 
-  /// How many vertices each row has.
+  /// Returns how many vertices each row has.
   [[nodiscard]] virtual const PerLane<std::uint64_t>& counts() = 0;
 
-  /// The queries that have a neighborhood, as far as it is known.
+  /// Returns the queries that have a neighborhood, as far as it is known.
   [[nodiscard]] virtual QueryWord queries() const = 0;
 
-  /// The answers as pieces without overlap, in index order if that is wanted. Not of `SingleRows`.
+  /// Returns the answers as pieces without overlap, in index order if that is wanted. `SingleRows` has none.
   [[nodiscard]] virtual std::span<const Piece> pieces(bool in_order) = 0;
 
-  /// The lengths of what `pieces` has returned, if `pays` was asked with distances; null by straight lines.
+  /// Returns the lengths of what `pieces` has returned, if `pays` was asked with distances; null by straight lines.
   [[nodiscard]] virtual PacketLengths* lengths() { return nullptr; }
 
-  /// Whether rows are written from their pieces and counts alone, by a `RowWriter`.
+  /// Returns whether rows are written from their pieces and counts alone, by a `RowWriter`.
   [[nodiscard]] virtual bool writes_pieces(bool distances) const = 0;
 
   /// Writes the rows of the last run if `writes_pieces` is false. Returns false as soon as the receiver does.
@@ -149,10 +148,11 @@ struct SearcherFactory {
   /// Ascends with the order in which vertices are best searched: near vertices have near positions.
   std::function<std::uint32_t(VertexId v)> position;
 
-  /// The index whose slots the positions are, of a method that has metrics; else null. Lives as long as the functions.
+  /// If the method has metrics, the positions are slots of this index, which lives as long as the functions; else it is
+  /// null.
   const Index* of_slots = nullptr;
 
-  /// Counting takes much less time than listing. If not, rows to be kept are searched once, and copied.
+  /// Whether counting takes much less time than listing. If not, rows to be kept are searched once, and copied.
   bool is_count_cheap = false;
 
   /// Rows that lie between two multiples of this many positions are computed together.
@@ -165,7 +165,7 @@ struct SearcherFactory {
 /// The positions of a group: rows by straight lines that lie between two multiples of it should come in one chunk.
 inline constexpr std::uint32_t kGroupPositions = kFanOut * kLeafCapacity;
 
-/// Of straight lines, or in space. The index must outlive this search and the others.
+/// Makes a search of straight lines, or in space. The index must outlive this search and the others.
 [[nodiscard]] std::unique_ptr<RowSearch> make_straight_rows(const Index& index, Metric metric, Isa isa = best_isa());
 [[nodiscard]] std::unique_ptr<RowSearch> make_path_rows(const Index& index);
 [[nodiscard]] std::unique_ptr<RowSearch> make_ring_rows(const Index& index);

@@ -77,7 +77,7 @@ Rows::Rows(const BatchQuery& query, std::size_t vertex_count)
   }
 }
 
-// Without branches, so that compilers use vectors.
+// Has no branches, so that compilers use vectors.
 bool Rows::are_valid(std::size_t vertex_count) const {
   bool result = true;
   for (const VertexId v : vertices_ ? std::span<const VertexId>(*vertices_) : std::span<const VertexId>()) {

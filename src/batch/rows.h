@@ -18,22 +18,22 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The passes over all rows, one for each of the scales; the radius itself if there are none.
-/// Throws Error{InvalidRadius}, naming the scale, and Error{InvalidOption} if there are scales, but none.
+/// Returns the passes over all rows, one for each of the scales; the radius itself if it has no scales. Throws
+/// Error{InvalidRadius}, naming the scale, and Error{InvalidOption} if the list of scales is empty.
 [[nodiscard]] std::vector<BatchRadius> radius_of_passes(const BatchRadius& radius);
 
-/// Memory for `count` ids, and as many distances if they are wanted. Throws Error{InvalidOption} if it is not for
-/// these.
+/// Returns memory for `count` ids, and as many distances if they are wanted. Throws Error{InvalidOption} if its size is
+/// wrong.
 [[nodiscard]] BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances);
 
-/// How much of a limit each thread may use before it adds that to the number that all share. It adds seldom, because
-/// threads wait for each other there. All together are at most a sixteenth of the limit.
+/// Returns how much of a limit each thread may use before it adds that to the number that all share. It adds seldom,
+/// because threads wait for each other there. All threads together use at most a sixteenth of the limit.
 [[nodiscard]] inline std::uint64_t share_at_once(std::uint64_t limit, unsigned threads) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 16;
   return std::min(kMost, limit / (std::uint64_t{16} * threads));
 }
 
-/// The rows of a batch, checked. A copy: nothing that the caller changes later has an effect.
+/// A checked copy of the rows of a batch: nothing that the caller changes later has an effect.
 class Rows {
  public:
   /// Throws Error{VertexOutOfRange, InvalidRadius}, naming the row, and Error{InvalidRadius} if there are scales.
@@ -41,7 +41,7 @@ class Rows {
 
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// Whether row `v` is of vertex `v`, for all vertices.
+  /// Returns whether row `v` is of vertex `v`, for all vertices.
   [[nodiscard]] bool are_all_vertices() const { return !vertices_; }
 
   [[nodiscard]] VertexId vertex(std::size_t row) const {
@@ -68,15 +68,15 @@ class Rows {
 /// Refuses lists of more bytes than the caller allows.
 class SizeLimit {
  public:
-  /// `item_bytes`: of an id with what stands beside it. No limit is beyond what an array can have.
+  /// `item_bytes` is the size of an id with what stands beside it. No limit is beyond what an array can have.
   SizeLimit(std::uint64_t max_bytes, std::size_t item_bytes, std::size_t rows)
       : rows_(rows),
         max_bytes_(std::min<std::uint64_t>(max_bytes, std::numeric_limits<std::ptrdiff_t>::max())),
         item_bytes_(item_bytes),
         max_items_(max_bytes_ / item_bytes) {}
 
-  /// A row from each of `kSample` stretches of the rows. The multiplier scatters them, so that the sample is right for
-  /// alternating rows too.
+  /// Takes a row from each of `kSample` stretches of the rows. The multiplier scatters them, so that the sample is
+  /// right for alternating rows, too.
   static constexpr std::size_t kSample = 64;
   [[nodiscard]] std::size_t sampled_row(std::size_t i) const {
     return i * stretch() + i * std::size_t{0x9E37'79B1} % stretch();
@@ -84,7 +84,7 @@ class SizeLimit {
   [[nodiscard]] std::size_t stretch() const { return rows_ / kSample; }
 
   /// Refuses a result that is far too large, by the sizes of the sampled rows: to find all rows would show it only
-  /// after most of the time is spent. `how_exact`: what the sizes are.
+  /// after most of the time is spent. `how_exact` says what the sizes are.
   void check_sample(std::span<const double> sizes, const char* how_exact) const {
     constexpr double kDeviations = 4;  // so that no result is refused by chance
     const auto rows = static_cast<double>(rows_);
@@ -98,16 +98,16 @@ class SizeLimit {
   [[nodiscard]] bool allows(double items) const { return items <= static_cast<double>(max_items_); }
   [[nodiscard]] std::uint64_t max_items() const { return max_items_; }
 
-  /// Any thread: counts the items of some rows.
+  /// Counts the items of some rows. Any thread may call it.
   void add(std::uint64_t items) {
     const std::uint64_t total = total_.fetch_add(items, std::memory_order_relaxed) + items;
     if (total > max_items_) refuse("at least ", total);
   }
 
-  /// After all rows were added: whether the result and `bytes` more are within the limit.
+  /// Returns, after all rows were added, whether the result and `bytes` more are within the limit.
   [[nodiscard]] bool leaves(std::uint64_t bytes) const { return bytes <= max_bytes_ - total_ * item_bytes_; }
 
-  /// `items`: the size of the result, as far as it is known.
+  /// `items` is the size of the result, as far as it is known.
   [[noreturn]] void refuse(const char* how_exact, std::uint64_t items) const {
     constexpr auto kMost = std::numeric_limits<std::uint64_t>::max();
     const std::uint64_t bytes = items > kMost / item_bytes_ ? kMost : items * item_bytes_;

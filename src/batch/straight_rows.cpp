@@ -26,8 +26,7 @@ constexpr double kLargeRadius = 5;             // in mean leaf radii
 LeafId leaf_of_run(const RowRun& run) { return leaf_of(run.items.front().position); }
 LeafId group_of(const RowRun& run) { return leaf_of_run(run) / kFanOut; }
 
-/// The rows of straight lines. Neighborhoods: the joint search for many rows of a leaf, and a single search for others.
-/// In space, each row alone.
+/// Answers rows by straight lines: many rows of a leaf by the joint search; others, and rows in space, each alone.
 class StraightRows final : public RowSearch {
  public:
   StraightRows(const Index& index, Metric metric, Isa isa)
@@ -81,7 +80,7 @@ class StraightRows final : public RowSearch {
   }
 
  private:
-  /// With the first run. The radii of its rows belong to the group.
+  /// Begins the group of the first run, with the radii of all its rows.
   void begin_group(std::span<const RowRun> runs) {
     leaves_.clear();
     double low = kInfinity;
@@ -135,7 +134,7 @@ class StraightRows final : public RowSearch {
   // Made by the first run that needs them:
   std::unique_ptr<SingleQueries> single_;
   std::optional<JointSearch> joint_;
-  // Of the last run:
+  // The state of the last run.
   bool is_joint_ = false;
   VertexSet* found_ = nullptr;  // of a single row
   std::vector<LeafId> leaves_;  // of its group; none at the begin of a chunk

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows in order and in bounded memory: a window of rows is computed in index order, then passed on in row order.
+// Passes on rows in order, in bounded memory: a window of rows is computed in index order, then passed on in row order.
 #include <algorithm>
 #include <atomic>
 #include <span>
@@ -29,13 +29,13 @@ struct Store {
     distances.clear();
   }
 
-  /// Memory for a row, with `size` distances if they are requested.
+  /// Adds memory for a row, with `size` distances if they are requested.
   BatchMemory add(std::size_t size, bool with_distances) {
     return {add_raw(ids, size), with_distances ? add_raw(distances, size) : std::span<double>()};
   }
 };
 
-/// Rows whose order is the index order, on one thread: each is passed on as soon as it is computed.
+/// Passes on each row as soon as it is computed, on one thread, if the rows are in index order.
 class DirectRows final : public RowReceiver {
  public:
   DirectRows(Batch& batch, const RowSink& sink, std::span<const std::size_t> row_of)
@@ -174,7 +174,7 @@ class Stream {
     }
   }
 
-  /// The number of rows that will probably fit, with a margin.
+  /// Returns the number of rows that will probably fit, with a margin.
   [[nodiscard]] std::size_t next_window(std::size_t window) const {
     const double row = static_cast<double>(bytes_) / static_cast<double>(window);
     const auto most = static_cast<double>(batch_.options().buffer_bytes);

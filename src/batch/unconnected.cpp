@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The nearest vertices that do not belong to the neighborhoods of a packet: a search through the tree, which leaves out
-// the nodes that all queries have reached.
+// Finds the nearest vertices that do not belong to the neighborhoods of a packet, by a search through the tree that
+// leaves out the nodes that all queries have reached.
 #include "meshhood/unconnected.h"
 
 #include <algorithm>
@@ -26,13 +26,12 @@ namespace meshhood::inline v0_1 {
 namespace {
 
 /// Where neighbors are not near in space, nodes are large, and a search through the tree visits most of them. To visit
-/// one for each so many vertices takes about as long as a scan, which then takes over.
+/// one node for every `kVerticesPerNode` vertices takes about as long as a scan, which then takes over.
 constexpr std::size_t kVerticesPerNode = 32;
 
-/// So many packets that follow are then scanned at once, because they are probably like this one.
+/// The number of packets that are then scanned without a search, because they are probably like this one.
 constexpr std::size_t kScans = 16;
 
-/// Searches around one packet at a time.
 class UnconnectedSearch {
  public:
   /// Borrows the index.
@@ -68,7 +67,7 @@ class UnconnectedSearch {
 
   [[nodiscard]] double reach() const { return reach_; }
 
-  /// Whether a query has not reached a vertex of the node, and the search goes on.
+  /// Returns whether a query has not reached a vertex of the node, and the search goes on.
   [[nodiscard]] bool wants(NodeId node) {
     if (nodes_left_ > 0) --nodes_left_;
     if (nodes_left_ == 0) {
@@ -136,7 +135,7 @@ class UnconnectedSearch {
     return has_shrunk;
   }
 
-  /// The piece that holds a vertex, by its place in index order; null if no query has reached it.
+  /// Returns the piece that holds a vertex, by its place in index order; null if no query has reached it.
   [[nodiscard]] const Piece* find_piece(std::size_t vertex) const {
     const auto after = std::ranges::partition_point(
         pieces_, [&](const Piece& piece) { return index_->leaf_begin[piece.leaves.end] <= vertex; });
@@ -144,7 +143,7 @@ class UnconnectedSearch {
     return is_found ? &*after : nullptr;
   }
 
-  /// The queries for which the leaf may hold a vertex that is near enough.
+  /// Returns the queries for which the leaf may hold a vertex that is near enough.
   [[nodiscard]] QueryWord queries_near(LeafId leaf) const {
     QueryWord near = 0;
     for_each_query(open_, [&](std::size_t i) {
@@ -169,7 +168,7 @@ class UnconnectedSearch {
     return has_shrunk;
   }
 
-  /// What is farther from the center is farther from each query than its limit.
+  /// Sets the reach. What is farther from the center is farther from each query than its limit.
   void update_reach() {
     double reach = -1;
     for_each_query(open_, [&](std::size_t i) { reach = std::max(reach, queries_[i].limit + queries_[i].from_center); });

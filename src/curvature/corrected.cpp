@@ -69,7 +69,7 @@ Measures measures_of(std::span<const Corner> face) {
   return sum;
 }
 
-/// The measures that each vertex holds, #V by 12 in the caller's order. Lengths are in the frame, where nothing
+/// Returns the measures that each vertex holds, #V by 12 in the caller's order. Lengths are in the frame, where nothing
 /// overflows.
 std::vector<double> measures_by_vertex(const OrientedIndex& surface, const FacesView& faces) {
   const IndexView& index = *surface.index;
@@ -97,8 +97,8 @@ std::vector<double> measures_by_vertex(const OrientedIndex& surface, const Faces
   return held;
 }
 
-/// Half of the symmetric part of the anisotropic measure over the tangent plane: the quadric whose shape operator it
-/// is. CGAL excludes the normal by a large eigenvalue; this is the limit of its result for an infinite one.
+/// Returns the quadric whose shape operator is the symmetric part of the anisotropic measure over the tangent plane.
+/// CGAL excludes the normal by a large eigenvalue; this is the limit of its result for an infinite one.
 Quadric quadric_of(std::span<const double> m, const TangentFrame& frame) {
   const auto along = [&](const Point& a, const Point& b) {
     const Point m_b{m[3] * b.x + m[4] * b.y + m[5] * b.z, m[6] * b.x + m[7] * b.y + m[8] * b.z,
@@ -109,7 +109,7 @@ Quadric quadric_of(std::span<const double> m, const TangentFrame& frame) {
           along(frame.v, frame.v) / 2, 0, 0};
 }
 
-/// The measures of all neighborhoods, of which rows are written.
+/// Writes rows from the measures of all neighborhoods.
 struct CorrectedRows {
   std::span<const double> sums;  // #rows by `CorrectedCurvatures::kMeasures`
   double scale;                  // of the frame
@@ -119,7 +119,7 @@ struct CorrectedRows {
     return sums.subspan(CorrectedCurvatures::kMeasures * row, CorrectedCurvatures::kMeasures);
   }
 
-  /// Up to 32 rows. `normal(row)` is that of the query vertex.
+  /// Writes up to 32 rows. `normal(row)` is that of the query vertex.
   template <class F>
   void write(std::size_t begin, std::size_t end, F&& normal) const {
     QueryFrames frames{};

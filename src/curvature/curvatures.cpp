@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Principal curvatures of a batch, packet by packet.
+// Computes the principal curvatures of a batch, packet by packet.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -31,7 +31,7 @@ TangentFrame frame_at(const OrientedIndex& surface, std::uint32_t place, ShapeOp
   return frame_towards(normal, surface.position(surface.first_neighbor(place)) - surface.position(place));
 }
 
-/// Fits the rows of packets. One object a thread.
+/// Fits the rows of packets. Each thread needs its own.
 class CurvatureFitter {
  public:
   CurvatureFitter(const OrientedIndex& surface, Metric metric, const CurvatureOptions& options,
@@ -98,7 +98,7 @@ void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sum
               count});
 }
 
-/// The rows of a packet are scattered over the results.
+/// Prefetches the results of a row, because the rows of a packet are scattered over them.
 void CurvatureFitter::prefetch_row(std::size_t row) const {
   prefetch(&out_.state[row]);
   prefetch(&out_.count[row]);
@@ -131,8 +131,8 @@ void check_sizes(const CurvatureMemory& memory, std::size_t rows) {
   check("count", memory.count.size(), rows);
 }
 
-/// The radii of the closed balls that have the vertices nearer than `radius`; a ball of radius 0 has its vertex. What
-/// is no radius stays so. A list is written into `memory`.
+/// Returns the radii of the closed balls that have the vertices nearer than `radius`; a ball of radius 0 has its
+/// vertex. Numbers that are no radii stay as they are. A list is written into `memory`.
 BatchRadius opened(const BatchRadius& radius, std::vector<double>& memory) {
   const auto open = [](double r) { return r > 0 ? std::nextafter(r, 0.0) : r; };
   if (!radius.list() && !radius.scales()) return open(radius.common());

@@ -44,7 +44,7 @@ Source source_of(Feature kind) {
   }
 }
 
-/// From the curvatures, times the radius.
+/// Computes a feature from the curvatures, times the radius.
 double curvature_feature(Feature kind, double k1, double k2) {
   switch (kind) {
     case Feature::Crease: return std::abs(k1) >= std::abs(k2) ? k1 : k2;
@@ -58,7 +58,7 @@ double curvature_feature(Feature kind, double k1, double k2) {
   }
 }
 
-/// From the neighborhood of one row around a vertex with this normal.
+/// Computes a feature from the neighborhood of one row around a vertex with this normal.
 double moment_feature(Feature kind, const PrincipalComponents& found, std::size_t row, const Point& normal,
                       double radius) {
   if (!(found.weight[row] > 0)) return kNan;
@@ -97,7 +97,7 @@ void check_radii(const BatchRadius& radius) {
   }
 }
 
-/// The same packet, whose rows are numbered from 0.
+/// Returns the same packet, with rows that are numbered from 0.
 PacketAnswer numbered_by_query(PacketAnswer packet) {
   static constexpr auto kQueries = [] {
     std::array<std::size_t, kPacketCapacity> queries{};
@@ -108,7 +108,7 @@ PacketAnswer numbered_by_query(PacketAnswer packet) {
   return packet;
 }
 
-/// What one call of `features` computes. What the kinds follow from is found of one packet at a time.
+/// Runs one call of `features`. What the kinds are computed from is found for one packet at a time.
 class FeatureExtraction {
  public:
   FeatureExtraction(const Surface& surface, const BatchQuery& query, const FeatureOptions& options, unsigned threads)
@@ -152,7 +152,8 @@ class FeatureExtraction {
   }
 
  private:
-  /// What each search finds. Ignored vertices are in patches, but in no neighborhood: then patches are searched alone.
+  /// Returns what each search finds. Ignored vertices are in patches, but in no neighborhood: then patches are searched
+  /// alone.
   [[nodiscard]] std::vector<std::vector<Source>> sources_of_searches() const {
     std::vector<std::vector<Source>> searches(1);
     for (const Source source : {Source::Curvatures, Source::Moments, Source::Patches}) {
@@ -188,7 +189,7 @@ class FeatureExtraction {
     if (!has_faces) raise(ErrorCode::InvalidOption, kinds + "expected a surface with faces");
   }
 
-  /// `value(kind)` for the kinds of a source.
+  /// Writes `value(kind)` for the kinds of a source.
   template <class F>
   void write_row(Source source, std::size_t row, const F& value) {
     for (std::size_t i = 0; i < kinds_.size(); ++i) {
@@ -196,7 +197,7 @@ class FeatureExtraction {
     }
   }
 
-  /// `value(kind, query, radius)` for the rows of a packet. A ring is as wide as an edge is long.
+  /// Writes `value(kind, query, radius)` for the rows of a packet. A ring is as wide as an edge is long.
   template <class F>
   void write(Source source, const PacketAnswer& packet, const F& value) {
     for (std::size_t q = 0; q < packet.rows.size(); ++q) {
@@ -260,7 +261,7 @@ struct Streak {
   [[nodiscard]] std::size_t size() const { return end - begin; }
 };
 
-/// The longest run of values of one sign that are as strong as the threshold.
+/// Returns the longest run of values of one sign that are as strong as the threshold.
 template <class ValueAt>
 Streak longest_streak(std::size_t radii, double threshold, const ValueAt& value) {
   Streak longest{0, 0};
@@ -291,7 +292,7 @@ std::vector<double> geometric_radii(double smallest, double largest, std::size_t
   }
   if (count == 1) return {largest};
   std::vector<double> radii;
-  // Exponents apart, because the quotient of the radii may overflow, and products with a denormal number lose digits.
+  // Exponents are kept apart, because the quotient of the radii may overflow, and products with denormals lose digits.
   int low = 0;
   int high = 0;
   const double first = std::frexp(smallest, &low);

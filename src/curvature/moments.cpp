@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The moments of neighborhoods as callers get them, and principal components.
+// Computes the moments of neighborhoods as callers get them, and principal components.
 #include "meshhood/moments.h"
 
 #include <algorithm>
@@ -22,8 +22,9 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// The moments of one neighborhood from the offsets of its vertices from the query vertex. Slower than `PacketMoments`,
-/// but accurate where the vertices of a leaf are much farther apart than the radius. One object a thread.
+/// Sums the moments of one neighborhood from the offsets of its vertices from the query vertex. It is slower than
+/// `PacketMoments`, but accurate where the vertices of a leaf are much farther apart than the radius. Each thread needs
+/// its own.
 class DirectMoments {
  public:
   /// Borrows what `source` names, which has no filter. `index` is that of `source`.
@@ -51,14 +52,14 @@ class DirectMoments {
     for (std::size_t m = 0; m < kMomentCount; ++m) moments_.at[m][0] = sums.at[m];
   }
 
-  /// The moments about the query vertex, those of query 0, in the unit of `scale()`. Valid until the next `sum`.
+  /// Returns the moments about the query vertex, as query 0, in the unit of `scale()`; valid until the next `sum`.
   [[nodiscard]] const QueryMoments& moments() const { return moments_; }
   [[nodiscard]] double scale() const { return scale_; }
-  /// Weights were multiplied by two to this power.
+  /// Weights were multiplied by 2 to this power.
   [[nodiscard]] int weight_exponent() const { return weight_exponent_; }
 
  private:
-  /// Powers of two that bring the longest offset and the largest weight of the neighborhood to about 1.
+  /// Sets powers of two that bring the longest offset and the largest weight of the neighborhood to about 1.
   void set_units(const Point& center) {
     scale_ = unit_factor(extent_of(*source_.index, found_, center), source_.index->frame);
     double weight = 0;
@@ -83,7 +84,7 @@ struct RowMoments {
   double scale;         // of coordinates, a power of two
   int weight_exponent;  // of two, by which weights were multiplied
 
-  /// In the unit of the caller.
+  /// Returns a moment in the unit of the caller.
   [[nodiscard]] double at(unsigned i, unsigned j, unsigned k) const {
     const int degree = static_cast<int>(i + j + k);
     return std::ldexp(sums.at[moment_index(i, j, k)][query], -degree * std::ilogb(scale) - weight_exponent);

@@ -51,14 +51,14 @@ QueryWord PacketMoments::begin(LeafId leaf, std::span<const std::uint32_t> place
   return queries;
 }
 
-/// How far a neighborhood reaches, in the frame, for the size of its unit. The mesh is not larger than 4. The leaf of
-/// the query has a few vertices side by side, so a ring adds less than its extent.
+/// Returns about how far a neighborhood reaches, in the frame, for the size of its unit. The mesh is not larger than 4.
+/// The leaf of the query has a few vertices side by side, so a ring adds less than its extent.
 double PacketMoments::reach_of(double radius, double extent) const {
   const double reach = source_.metric == Metric::Rings ? radius * extent : radius * source_.index->frame.scale;
   return std::min(reach, 4.0);
 }
 
-/// The center is that of the box around the leaf. The unit follows from the size of that box and the radius.
+/// Sets the center to that of the box around the leaf. The unit follows from the size of that box and the radius.
 QueryWord PacketMoments::set_unit(LeafId leaf, std::span<const double> radii, QueryWord queries) {
   const IndexView& index = *source_.index;
   double extent = 0;
@@ -129,7 +129,7 @@ void PacketMoments::set_axis(LeafId leaf) {
   if (least > 0) facing_.all = static_cast<float>(std::sqrt(std::max(0.0, 1 - least * least))) + 2 * kMargin;
 }
 
-/// The sums begin with the sure leaves for their radius. With a filter, those are left out that do not face all
+/// Begins the sums with the sure leaves for their radius. With a filter, those are left out that do not face all
 /// vertices of this one.
 void PacketMoments::add_sure_leaves(LeafId leaf, std::span<const double> radii) {
   std::array<std::size_t, kPacketCapacity> by_radius;
@@ -162,7 +162,7 @@ void PacketMoments::add_sure_leaves(LeafId leaf, std::span<const double> radii) 
   }
 }
 
-/// Whether each vertex of `leaf` surely faces each vertex of the leaf of the queries.
+/// Returns whether each vertex of `leaf` surely faces each vertex of the leaf of the queries.
 bool PacketMoments::faces_all(const Leaf& leaf) const {
   const OrientedIndex& surface = *source_.filter;
   bool all = true;
@@ -172,7 +172,7 @@ bool PacketMoments::faces_all(const Leaf& leaf) const {
   return all;
 }
 
-/// In index order, which does not depend on what else is in the packet.
+/// Adds the leaves in index order, which does not depend on what else is in the packet.
 void PacketMoments::add(const Piece& piece) {
   if (!piece.is_run()) return add_leaf(piece.leaves.begin, piece.reached);
   std::array<QueryWord, kPacketCapacity> words;
@@ -180,7 +180,7 @@ void PacketMoments::add(const Piece& piece) {
   for (LeafId leaf = piece.leaves.begin; leaf < piece.leaves.end; ++leaf) add_leaf(leaf, words.data());
 }
 
-/// A query that has all vertices of a leaf gets their sum, another one those that it has.
+/// Adds the sum of a leaf to a query that has all of its vertices, and single vertices to another one.
 void PacketMoments::add_leaf(LeafId leaf, const QueryWord* words) {
   const QueryWord open = active_ & ~sure_.queries(leaf);
   const Leaf& of = source_.index->leaves[leaf];
@@ -254,7 +254,7 @@ bool PacketMoments::is_accurate(std::size_t query) const {
   constexpr double kMostLoss = 400;
   constexpr double kLeastWeight = 0x1p-800;  // products of smaller weights and powers may underflow
   const double weight = moments_.at[moment_index(0, 0, 0)][query];
-  if (weight == 0) return true;  // of no vertex
+  if (weight == 0) return true;  // the sums are 0
   if (!(weight >= kLeastWeight)) return false;
   const double t2 = (offsets_.x[query] * offsets_.x[query] + offsets_.y[query] * offsets_.y[query]) +
                     offsets_.z[query] * offsets_.z[query];

@@ -29,15 +29,16 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The power of two by which coordinates are multiplied before their powers are summed. It brings `extent`, a length in
-/// the frame, to between 1/2 and 1; a length below 2^-1000 stays less than that, because the factor must be finite.
+/// Returns the power of two by which coordinates are multiplied before their powers are summed. It brings `extent`, a
+/// length in the frame, to between 1/2 and 1; a length below 2^-1000 stays less than that, because the factor must be
+/// finite.
 [[nodiscard]] inline double unit_factor(double extent, const Frame& frame) {
   if (!(extent > 0)) return frame.scale;
   constexpr int kLargestFactorExponent = 1000;
   return std::ldexp(1.0, std::min(std::ilogb(frame.scale) - std::ilogb(extent) - 1, kLargestFactorExponent));
 }
 
-/// The places in index order of the vertices of the neighborhood of the one at `place`. They ascend.
+/// Finds the places in index order of the vertices of the neighborhood of the one at `place`. They ascend.
 inline void find_places(Searcher& searcher, const IndexView& index, std::uint32_t place, double radius,
                         std::vector<std::uint32_t>& found) {
   found.clear();
@@ -46,7 +47,7 @@ inline void find_places(Searcher& searcher, const IndexView& index, std::uint32_
   }
 }
 
-/// How far these places reach from a point along an axis, in the frame.
+/// Returns how far these places reach from a point along an axis, in the frame.
 [[nodiscard]] inline double extent_of(const IndexView& index, std::span<const std::uint32_t> places,
                                       const Point& center) {
   double extent = 0;
@@ -72,9 +73,9 @@ struct PointDistribution {
 };
 [[nodiscard]] PointDistribution distribution_of(const QueryMoments& moments, std::size_t query);
 
-/// The *sure leaves* of a leaf for a radius: leaves that are whole in the neighborhoods of all its vertices, as spheres
-/// and links tell. They depend on index, leaf and radius alone, and those of a smaller radius are a prefix of those of
-/// a larger one. So a sum over them is made once for queries of any radii.
+/// Finds the *sure leaves* of a leaf for a radius: leaves that are whole in the neighborhoods of all its vertices, as
+/// spheres and links tell. They depend on index, leaf and radius alone, and those of a smaller radius are a prefix of
+/// those of a larger one. So a sum over them is made once for queries of any radii.
 ///
 /// Let the leaf have the sphere (c, s), and another leaf the sphere (d, t). Each vertex of the one is at most
 /// s + |c - d| + t, the *reach* of the other, from each vertex of the latter. A sure leaf is connected, has a reach of
@@ -89,11 +90,12 @@ class SureLeaves {
   /// Begins with a leaf, for growing radii.
   void begin(LeafId leaf);
 
-  /// The next sure leaf for this radius; none if there are no more. The order is that of Prim's algorithm: of
+  /// Returns the next sure leaf for this radius; none if there are no more. The order is that of Prim's algorithm: of
   /// the leaves that are linked with those before, the one of least reach. It does not depend on the radii.
   [[nodiscard]] std::optional<LeafId> next(const TreeBounds& radius);
 
-  /// The queries whose sum has a leaf already: set by the caller for one that `next` returned, at first none.
+  /// Set and return the queries whose sum has a leaf already. The caller sets them for one that `next` returned; at
+  /// first there are none.
   void set_queries(LeafId leaf, QueryWord queries) { queries_[leaf] = queries; }
   [[nodiscard]] QueryWord queries(LeafId leaf) const { return queries_.is_known(leaf) ? queries_[leaf] : 0; }
 
@@ -103,7 +105,6 @@ class SureLeaves {
     LeafId leaf;
   };
 
-  /// Whether `a` comes after `b`.
   static bool is_later(const Entry& a, const Entry& b) {
     return a.reach != b.reach ? a.reach > b.reach : a.leaf > b.leaf;
   }
@@ -143,19 +144,18 @@ inline void SureLeaves::meet(LeafId leaf) {
   std::push_heap(frontier_.begin(), frontier_.end(), is_later);
 }
 
-/// Of each query, the sums of the squares and fourth powers of distances.
+/// For each query, the sums of the squares and fourth powers of distances.
 struct MomentSizes {
   QueryRow second;
   QueryRow fourth;
 };
 
-/// The moments of the neighborhoods of up to 32 vertices of a leaf. What is added is the powers of vertices, and sums
-/// of these over leaves: first the sure leaves for the radius of a query (see `SureLeaves`), which are summed once for
-/// all queries; then, in index order, each leaf that the query has as a whole, and each vertex of the other leaves.
-/// By paths and rings, no leaves are sure.
-/// The coordinates are relative to the center of the leaf, and the sums are moved to each query vertex at the end. All
-/// of this depends on index, leaf, vertex and radius alone, not on the other queries. Owns 45 kB of memory, and 8 bytes
-/// for each leaf of the mesh.
+/// Sums the moments of the neighborhoods of up to 32 vertices of a leaf. It adds the powers of vertices, and sums of
+/// these over leaves: first the sure leaves for the radius of a query (see `SureLeaves`), which are summed once for all
+/// queries; then, in index order, each leaf that the query has as a whole, and each vertex of the other leaves. By
+/// paths and rings, no leaves are sure. The coordinates are relative to the center of the leaf, and the sums are moved
+/// to each query vertex at the end. All of this depends on index, leaf, vertex and radius alone, not on the other
+/// queries. It owns 45 kB of memory, and 8 bytes for each leaf of the mesh.
 class PacketMoments {
  public:
   /// Borrows what `source` names.
@@ -167,18 +167,18 @@ class PacketMoments {
   QueryWord begin(LeafId leaf, std::span<const std::uint32_t> places, std::span<const double> radii, QueryWord queries,
                   QueryWord with_vertices);
 
-  /// A part of the answer. Leaves ascend from call to call.
+  /// Adds a part of the answer. Leaves ascend from call to call.
   void add(const Piece& piece);
 
-  /// The moments about the query vertices, in a unit that makes their coordinates about 1: `scale()` times those of
-  /// the mesh, a power of two. Valid until the next `begin`.
+  /// Returns the moments about the query vertices, in a unit that makes their coordinates about 1: `scale()` times
+  /// those of the mesh, a power of two. They are valid until the next `begin`.
   const QueryMoments& finish();
 
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] const MomentKernels& kernels() const { return *kernels_; }
 
-  /// The sizes of the moments before they were moved to the query vertices, or after, whichever are larger. The errors
-  /// of the moments of degree 2 and 4 are of the order of epsilon times them.
+  /// Return the sizes of the moments before they were moved to the query vertices, or after, whichever are larger. The
+  /// errors of the moments of degree 2 and 4 are of the order of epsilon times them.
   [[nodiscard]] double second_size(std::size_t query) const {
     return std::max(before_.second[query], after_.second[query]);
   }
@@ -186,8 +186,9 @@ class PacketMoments {
     return std::max(before_.fourth[query], after_.fourth[query]);
   }
 
-  /// Whether the moments are accurate to 1e-13 of the sum of w |p|^(i + j + k). They are not where the vertices of the
-  /// leaf lie much farther apart than those of the neighborhood, as in a leaf with vertices of large and small faces.
+  /// Returns whether the moments are accurate to 1e-13 of the sum of w |p|^(i + j + k). They are not where the vertices
+  /// of the leaf lie much farther apart than those of the neighborhood, as in a leaf with vertices of large and small
+  /// faces.
   [[nodiscard]] bool is_accurate(std::size_t query) const;
 
  private:
@@ -229,7 +230,7 @@ class PacketMoments {
   MomentSizes after_;   // about the query vertices
 };
 
-// The visitors of packets that sum moments, and what is made of these. Each is for one thread, and borrows its
+// The visitors below sum the moments of packets, and compute results from them. Each is for one thread, and borrows its
 // arguments.
 
 /// The rows of a packet. Row i is query i of the moments.
@@ -249,28 +250,26 @@ using MomentVisitor =
 /// The moments of a row depend on index, source, vertex and radius alone, bit for bit: see `PacketMoments`.
 [[nodiscard]] PacketVisitor moment_visitor(const MomentSource& source, MomentVisitor visit);
 
-/// Weights in index order, times a power of two that brings the largest to where no sum overflows and weights 2^1300
-/// times smaller are sums without loss.
+/// Weights in index order, times a power of two. It brings the largest to where no sum overflows, and sums of weights
+/// 2^1300 times smaller lose nothing.
 struct MomentWeights {
   std::vector<double> values;
   int exponent = 0;
 
-  /// `name`: of the argument, in Error{InvalidOption}.
+  /// Error{InvalidOption} names the argument `name`.
   MomentWeights(const IndexView& index, std::span<const double> given, std::string_view name = "weights");
 };
 
-/// Writes the principal components of each row.
 [[nodiscard]] PacketVisitor component_visitor(const Index& index, Metric metric, const MomentWeights& weights,
                                               PrincipalComponents& out);
 
-/// Memory for as many rows.
+/// Makes memory for as many rows.
 [[nodiscard]] PrincipalComponents make_components(std::size_t rows);
 
-/// Writes the curvatures of each row.
 [[nodiscard]] PacketVisitor curvature_visitor(const OrientedIndex& surface, Metric metric,
                                               const CurvatureOptions& options, const CurvatureMemory& out);
 
-/// Memory for as many rows.
+/// Makes memory for as many rows.
 [[nodiscard]] Curvatures make_curvatures(std::size_t rows);
 [[nodiscard]] CurvatureMemory memory_of(Curvatures& curvatures);
 

@@ -33,8 +33,8 @@ double product(std::span<const double> a, std::span<const double> b) {
   return sum;
 }
 
-/// Householder's QR decomposition of the first N of the columns; the last is the right-hand side. Leaves R in the first
-/// N rows.
+/// Decomposes the first N of the columns by Householder's QR method; the last is the right-hand side. Leaves R in the
+/// first N rows.
 template <std::size_t N>
 void triangularize(std::array<std::vector<double>, N + 1>& columns) {
   for (std::size_t k = 0; k < N; ++k) {
@@ -54,8 +54,8 @@ void triangularize(std::array<std::vector<double>, N + 1>& columns) {
   }
 }
 
-/// One-sided Jacobi: rotates pairs of columns of `a`, and those of `v` likewise, until all columns of `a` are
-/// orthogonal. Then a = a0 v. `a[j]` is column j.
+/// Rotates pairs of columns of `a`, and those of `v` likewise, until all columns of `a` are orthogonal (the one-sided
+/// Jacobi method). Then a = a0 v. `a[j]` is column j.
 template <std::size_t N>
 void orthogonalize(SmallMatrix<N>& a, SmallMatrix<N>& v) {
   constexpr int kMostSweeps = 60;
@@ -81,8 +81,8 @@ void orthogonalize(SmallMatrix<N>& a, SmallMatrix<N>& v) {
 }
 
 /// Fits the rows of the points: N coefficients, of which the first five are those of the quadric, and a right-hand
-/// side. The solution with the smallest coefficients if there are several. By a QR decomposition and the singular
-/// values of its factor, of which those below N epsilon of the largest count as 0.
+/// side. Of several solutions, it returns that with the smallest coefficients. It uses a QR decomposition and the
+/// singular values of its factor, of which those below N epsilon of the largest count as 0.
 template <std::size_t N, class RowOf>
 PointFit fit_rows(std::span<const Point> points, RowOf&& row_of) {
   std::array<std::vector<double>, N + 1> columns;
@@ -151,8 +151,8 @@ void set_quadric(QueryQuadrics& quadrics, std::size_t query, const Quadric& quad
 
 double smallest_determinant(const FrameMoments& s, std::size_t query, double second_size, double fourth_size) {
   const auto at = [query](const QueryRow& row) { return row[query]; };
-  // The relative errors of the elements of the normal equations are about epsilon times `amplification`. Measured,
-  // results are then within 1e-9 of the exact ones.
+  // The relative errors of the elements of the normal equations are about epsilon times `amplification`. With this
+  // bound, results were measured to be within 1e-9 of the exact ones.
   const double amplification = std::max(ratio(fourth_size, std::min({at(s.u4), at(s.u2v2), at(s.v4)})),
                                         ratio(second_size, std::min(at(s.uu), at(s.vv))));
   return 1e-6 * amplification;
@@ -205,7 +205,7 @@ PrincipalCurvature principal_curvature(const Quadric& quadric, const TangentFram
 }
 
 /// Adds the vertices nearest to the query vertex among those that are linked to the set, one by one; of several the one
-/// with the lowest id. No walls and no ignored vertices.
+/// with the lowest id. Walls and ignored vertices are left out.
 void DirectFit::extend(std::uint32_t place) {
   const IndexView& index = *surface_->index;
   const Point center = surface_->position(place);
@@ -269,9 +269,9 @@ DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const Tange
   return result(fit_points(points_), frame);
 }
 
-/// The factor of all coordinates: a power of two. Of several fits, the one with the smallest coefficients depends
-/// on the unit. libigl fits in the unit of the mesh; where squares and coordinates differ too much there, it drops
-/// terms.
+/// Returns the factor of all coordinates, a power of two. If the fit is not unique, the one with the smallest
+/// coefficients depends on the unit. libigl fits in the unit of the mesh; where squares and coordinates differ too much
+/// there, it drops terms.
 double DirectFit::scale_for(double extent) const {
   const double scale = unit_factor(extent, surface_->index->frame);
   if (!(extent > 0)) return scale;

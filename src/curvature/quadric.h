@@ -18,7 +18,7 @@
 
 namespace meshhood::inline v0_1 {
 
-/// z = a x^2 + b x y + c y^2 + d x + e y in the frame of a vertex.
+/// The coefficients of z = a x^2 + b x y + c y^2 + d x + e y in the frame of a vertex.
 using Quadric = std::array<double, 5>;
 
 /// A quadric has five coefficients; libigl requires one vertex more.
@@ -31,19 +31,21 @@ struct TangentFrame {
   Point n;
 };
 
-/// A frame with any axes in the tangent plane, chosen by the normal alone.
+/// Returns a frame whose axes in the tangent plane follow from the normal alone.
 [[nodiscard]] TangentFrame frame_of(const Point& normal);
 
-/// libigl's frame: `u` points to a neighbor at `offset`, projected into the plane. As above if that has no length.
+/// Returns libigl's frame: `u` points to a neighbor at `offset`, projected into the plane. If that has no length, it
+/// returns the frame above.
 [[nodiscard]] TangentFrame frame_towards(const Point& normal, const Point& offset);
 
-// The row of one query.
+// These read and write the row of one query.
 [[nodiscard]] TangentFrame frame_of_query(const QueryFrames& frames, std::size_t query);
 void set_frame(QueryFrames& frames, std::size_t query, const TangentFrame& frame);
 void set_quadric(QueryQuadrics& quadrics, std::size_t query, const Quadric& quadric);
 
-/// The smallest determinant of the normal equations of `query` (see `MomentKernels::fit_quadrics`) for which the errors
-/// of the moments, which follow from their sizes (see `PacketMoments::second_size`), hardly change the solution.
+/// Returns the smallest determinant of the normal equations of `query` (see `MomentKernels::fit_quadrics`) for which
+/// the errors of the moments, which follow from their sizes (see `PacketMoments::second_size`), hardly change the
+/// solution.
 [[nodiscard]] double smallest_determinant(const FrameMoments& moments, std::size_t query, double second_size,
                                           double fourth_size);
 
@@ -53,25 +55,25 @@ struct PointFit {
   bool unique;
 };
 
-/// The fit to `points`, in the frame of the vertex: that with the smallest coefficients if it is not unique. By a QR
-/// decomposition and the singular values of its factor, of which those below 5 epsilon of the largest count as 0, as in
-/// libigl.
+/// Fits `points`, in the frame of the vertex; if the fit is not unique, it returns the one with the smallest
+/// coefficients. It uses a QR decomposition and the singular values of its factor, of which those below 5 epsilon of
+/// the largest count as 0, as in libigl.
 [[nodiscard]] PointFit fit_points(std::span<const Point> points);
 
-// The jet z = f + d x + e y + a x^2 + b x y + c y^2 over the plane of the principal components of its points. Its
+// The jet is z = f + d x + e y + a x^2 + b x y + c y^2 over the plane of the principal components of its points. Its
 // curvatures are those of the quadric without f: the constant moves the surface, but does not bend it.
 
-/// The axes of the principal components, that of the least variance as `n`, on the side of `normal`.
+/// Returns the axes of the principal components, that of the least variance as `n`, on the side of `normal`.
 [[nodiscard]] TangentFrame jet_frame(const Eigen3& axes, const Point& normal);
 
-/// The fit to `points`, relative to the query vertex, and its frame.
+/// A fit to points relative to the query vertex, and its frame.
 struct JetFit {
   TangentFrame frame;
   PointFit fit;
 };
 [[nodiscard]] JetFit fit_jet(std::span<const Point> points, const Point& normal);
 
-/// The principal curvatures of the quadrics of the first queries (see `MomentKernels`).
+/// Computes the principal curvatures of the quadrics of the first queries (see `MomentKernels`).
 void principal_curvatures(const MomentKernels& kernels, const QueryQuadrics& quadrics, const QueryFrames& frames,
                           std::size_t queries, ShapeOperator shape_operator, QueryCurvatures& out);
 
@@ -82,12 +84,12 @@ struct PrincipalCurvature {
   Point d2;
 };
 
-/// Those of one quadric.
+/// Computes the principal curvatures of one quadric.
 [[nodiscard]] PrincipalCurvature principal_curvature(const Quadric& quadric, const TangentFrame& frame,
                                                      ShapeOperator shape_operator);
 
-/// The curvature of one vertex, from the points of its neighborhood themselves. Slow, but right also where the normal
-/// equations are not: for few or badly placed vertices. One object a thread.
+/// Fits one vertex from the points of its neighborhood themselves. It is slow, but right also where the normal
+/// equations are not: for few or badly placed vertices. Each thread needs its own.
 class DirectFit {
  public:
   /// Borrows its arguments.
@@ -100,7 +102,7 @@ class DirectFit {
     std::size_t count;  // of the vertices within the radius that are fitted
   };
 
-  /// The vertex at `place` in index order. `frame` is that of its normal, for a quadric.
+  /// Fits the vertex at `place` in index order. `frame` is that of its normal, for a quadric.
   Result fit(std::uint32_t place, double radius, const TangentFrame& frame);
 
  private:

@@ -22,8 +22,8 @@ struct Symmetric3 {
   double zz;
 };
 
-/// Its eigenvalues, ascending, and a unit vector for each, orthogonal to the others. If an element is not finite, all
-/// are NaN.
+/// The eigenvalues of a symmetric matrix, ascending, and a unit vector for each, orthogonal to the others. If an
+/// element is not finite, all are NaN.
 struct Eigen3 {
   std::array<double, 3> values;
   std::array<Point, 3> vectors;
@@ -49,7 +49,7 @@ struct JacobiRotation {
   double s;
 };
 
-/// By Jacobi's method: every eigenvalue is right to a few epsilon of the largest.
+/// Decomposes a matrix by Jacobi's method: every eigenvalue is right to a few epsilon of the largest.
 [[nodiscard]] Eigen3 eigen(const Symmetric3& matrix);
 
 /// A vector of length 0, which has no direction, stays as it is.
@@ -58,7 +58,7 @@ struct JacobiRotation {
   return size == 0 ? a : (1 / size) * a;
 }
 
-/// The vector, or its negative: the one whose component of largest magnitude is positive.
+/// Returns the vector, or its negative: the one whose component of largest magnitude is positive.
 [[nodiscard]] inline Point with_sign(const Point& a) {
   const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
   const bool negative = a.x == -largest || (a.x != largest && (a.y == -largest || (a.y != largest && a.z < 0)));

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kMaxFaults = 16;
 
-/// Collects the faults found, up to a limit.
+/// Collects faults, up to a limit.
 class Faults {
  public:
   /// Calls `text()` only if there is a fault to describe.

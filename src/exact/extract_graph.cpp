@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The graph of the mesh, from the leaves and the links between them.
+// Makes the graph of the mesh from the leaves and the links between them.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +16,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// The positions in the caller's order.
+/// Returns the positions in the caller's order.
 PositionsData positions_of(const IndexView& index, TaskContext& task) {
   return std::visit(
       [&]<class Real>(std::span<const Real> xyz) -> PositionsData {

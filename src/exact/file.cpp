@@ -21,7 +21,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-// No padding bytes: every byte in the file has a defined value.
+// There are no padding bytes: every byte in the file has a defined value.
 static_assert(sizeof(Frame) == 32 && sizeof(Leaf) == 28 && sizeof(Link) == 12 && sizeof(CrossEdge) == 2 &&
               sizeof(Group) == 128 && sizeof(GroupRecord) == 64 && sizeof(NodeLink) == 5);
 
@@ -82,7 +82,7 @@ void verify_sizes(const IndexView& view, const file::SectionReader& file) {
   expect("mean_radii", view.mean_radii.size(), view.levels.size() - 1, " values");
 }
 
-/// The sections of faces, which are optional and follow on those of all arrays. Does not read their elements.
+/// Takes the sections of faces, which are optional, and follow those of all arrays. Does not read their elements.
 std::optional<StoredFaces> take_faces(file::SectionReader& file) {
   if (!file.is_next("face_corners")) return std::nullopt;
   StoredFaces faces{.corners = file.take<VertexId>("face_corners"), .offsets = {}};
@@ -102,7 +102,7 @@ void add(file::SectionWriter& writer, const FaceArrays& faces) {
   if (!faces.offsets.empty()) writer.add("face_offsets", std::span<const std::uint32_t>(faces.offsets));
 }
 
-/// A view of the arrays in the file; only their sizes are verified.
+/// Returns a view of the arrays in the file; only their sizes are verified.
 std::shared_ptr<IndexView> take_arrays(file::SectionReader& file) {
   auto view = std::make_shared<IndexView>();
   view->frame = file.take<Frame>("frame", 1).front();
@@ -155,7 +155,7 @@ void save(const Index& index, const Sink& sink, const SaveOptions& options, cons
 }
 
 Index load(std::span<const std::byte> bytes, const Run& run) {
-  // Before the copy is allocated.
+  // The header is verified before the copy is allocated.
   static_cast<void>(read_header(bytes));
   AlignedBuffer copy = AlignedBuffer::copy_of(bytes);
   const auto at = copy.bytes();

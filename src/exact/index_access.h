@@ -15,16 +15,16 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Access to the arrays of an index, for `build`, for index files and for tests.
+/// Gives access to the arrays of an index to `build`, to index files and to tests.
 struct IndexAccess {
   [[nodiscard]] static Index make(std::shared_ptr<IndexView> view) { return Index(std::move(view)); }
-  /// With the graph of another index that has the same edges, or with other paths.
+  /// Makes an index with the graph of another that has the same edges, or with other paths.
   [[nodiscard]] static Index make(std::shared_ptr<IndexView> view, std::shared_ptr<KeptGraph> graph) {
     Index result(std::move(view));
     result.graph_ = std::move(graph);
     return result;
   }
-  /// The same index, which must not be refitted in place.
+  /// Returns the same index, which must not be refitted in place.
   [[nodiscard]] static Index alias(const Index& index) {
     static_cast<void>(index.view());
     return make(index.view_.share(), index.graph_);
@@ -34,8 +34,8 @@ struct IndexAccess {
   [[nodiscard]] static const IndexView& view(const Index& index) { return index.view(); }
   [[nodiscard]] static IndexView& changeable(Index& index) { return index.view(); }
 
-  /// The view of an index without masks. `done`: what cannot be done with one that has some. Throws
-  /// Error{InvalidOption}.
+  /// Returns the view of an index without masks. Throws Error{InvalidOption} if it has some; `done` says what cannot be
+  /// done then.
   [[nodiscard]] static const IndexView& whole(const Index& index, const char* done);
 
   /// Keeps the view alive, for `BoundIndex`.
@@ -44,17 +44,17 @@ struct IndexAccess {
     return index.view_.share();
   }
 
-  /// The graph vertex by vertex, for the same.
+  /// Returns the graph vertex by vertex.
   [[nodiscard]] static std::shared_ptr<KeptGraph> share_graph(const Index& index) { return index.graph_; }
 
-  /// The number of steps of a build, for progress: those of `make_leaves`, links between nodes, and those of
+  /// The number of steps that a build reports: those of `make_leaves`, links between nodes, and those of
   /// `make_geometry`.
   static constexpr std::size_t kBuildSteps = 7;
 
-  /// The arrays of the index of a mesh. The caller reports the last step. Throws as `build`.
+  /// Makes the arrays of the index of a mesh. The caller reports the last step. Throws as `build`.
   [[nodiscard]] static IndexData build_arrays(const MeshView& mesh, TaskContext& task);
 
-  /// The same from positions and edges, which must be valid.
+  /// Makes them from positions and edges, which must be valid.
   [[nodiscard]] static IndexData build_arrays(const PositionsView& positions, const EdgeSource& edges,
                                               TaskContext& task);
 };
@@ -67,7 +67,7 @@ class BoundIndex {
   [[nodiscard]] const IndexView& operator*() const { return *view_; }
   [[nodiscard]] const IndexView* operator->() const { return view_.get(); }
 
-  /// Whether `index` has this memory, so that scratch memory made for this fits, too.
+  /// Returns whether `index` has this memory, so that scratch memory made for this fits, too.
   [[nodiscard]] bool is_of(const Index& index) const { return view_ == IndexAccess::share(index); }
 
   /// Throws Error{InvalidOption} if `refit_in_place` has changed the index since.
@@ -82,7 +82,7 @@ class BoundIndex {
   std::uint64_t version_;
 };
 
-/// As without `task`, but polls `task` for cancellation. Reports no progress. Throws Error{Cancelled}.
+/// Do the same as without `task`, but poll it for cancellation. They report no progress, and throw Error{Cancelled}.
 [[nodiscard]] GraphData extract_graph(const IndexView& index, TaskContext& task);
 [[nodiscard]] Fingerprint fingerprint(const Index& index, TaskContext& task);
 

@@ -12,7 +12,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// A sphere around at least one sphere.
+/// Returns a sphere around at least one sphere.
 FrameSphere enclosing(std::span<const FrameSphere> spheres) {
   assert(!spheres.empty());
   Point sum{0, 0, 0};
@@ -34,7 +34,7 @@ FrameSphere enclosing(const Group& group, std::size_t nodes) {
   return enclosing(std::span(spheres).first(size));
 }
 
-/// The levels of a tree. There is a mean radius for each.
+/// Makes the levels of a tree. There is a mean radius for each.
 Tree make_levels(std::span<const std::uint32_t> levels, std::span<const GroupRecord> records,
                  std::span<const double> mean_radii) {
   Tree tree;
@@ -49,7 +49,7 @@ Tree make_levels(std::span<const std::uint32_t> levels, std::span<const GroupRec
   return tree;
 }
 
-/// From the groups below to those above. Ranges that records not verified yet would place outside are empty.
+/// Goes from the groups below to those above. Ranges that records not verified yet would place outside are empty.
 std::vector<LeafGroupRange> make_leaf_groups(std::span<const std::uint32_t> levels,
                                              std::span<const GroupRecord> records) {
   if (levels.size() < 2) return {};

@@ -40,7 +40,7 @@ inline constexpr std::size_t kMaxLevels = 66;
 [[nodiscard]] constexpr LeafId leaf_of(std::uint32_t slot) { return slot / kLeafCapacity; }
 [[nodiscard]] constexpr unsigned lane_of(std::uint32_t slot) { return slot % kLeafCapacity; }
 
-/// Up to 32 vertices that lie close together; a contiguous range in index order.
+/// Up to 32 vertices that lie close together: a contiguous range in index order.
 struct Leaf {
   FrameSphere bounds;
   std::uint32_t first;       // in index order
@@ -66,10 +66,10 @@ inline constexpr NodeId kNoNode = std::numeric_limits<NodeId>::max();
 /// Some of the nodes of a group: bit `i` stands for the node at place `i`.
 using NodeSet = std::uint8_t;
 
-/// The nodes of a group that has `nodes` of them.
+/// Returns the nodes of a group that has `nodes` of them.
 [[nodiscard]] constexpr NodeSet first_nodes(unsigned nodes) { return static_cast<NodeSet>((1U << nodes) - 1); }
 
-/// What a search reads of a group beside the bounds of its nodes.
+/// What a search reads of a group besides the bounds of its nodes.
 struct alignas(64) GroupRecord {
   std::array<std::uint32_t, kFanOut + 1> begin{};  // by node: its first vertex in index order; and the end of the last
   std::uint32_t first_child = 0;                   // node `i` covers the group `first_child + i`; 0 for leaves
@@ -82,7 +82,7 @@ struct alignas(64) GroupRecord {
 };
 
 /// At least one edge of the mesh joins `node()` to each of the nodes `mine` of the group that the link belongs to,
-/// which is another group of the same level. Has five bytes, without padding.
+/// which is another group of the same level. It has five bytes, without padding.
 struct NodeLink {
   std::array<std::uint8_t, sizeof(NodeId)> node_bytes;
   NodeSet mine;
@@ -106,7 +106,7 @@ struct LeafGroupRange {
   std::uint32_t end = 0;
 };
 
-/// Leaves first.
+/// The levels, leaves first.
 using Tree = std::vector<TreeLevel>;
 
 /// Bounding spheres over the root groups, for searches that follow no links. A mesh of many components has many root
@@ -117,7 +117,7 @@ struct RootTree {
   std::vector<std::vector<FrameSphere>> levels;
 };
 
-/// Read-only view of an index, used by searches. `owner` and `geometry` keep the arrays alive.
+/// A read-only view of an index, used by searches. `owner` and `geometry` keep the arrays alive.
 struct IndexView {
   Frame frame;
   PositionsInOrder positions;
@@ -151,69 +151,69 @@ struct IndexView {
   [[nodiscard]] bool is_current() const { return version == *newest; }
 
   [[nodiscard]] std::size_t vertex_count() const { return slot.size(); }
-  /// The number of places for leaves. A leaf that does not exist has no vertices.
+  /// Returns the number of places for leaves. A leaf that does not exist has no vertices.
   [[nodiscard]] std::size_t leaf_count() const { return leaf_begin.size() - 1; }
 
-  /// Whether the nodes of a group are leaves.
+  /// Returns whether the nodes of a group are leaves.
   [[nodiscard]] bool is_of_leaves(std::size_t group) const { return group * kFanOut < leaf_count(); }
 
-  /// The groups of leaves below a node that is not a leaf.
+  /// Returns the groups of leaves below a node that is not a leaf.
   [[nodiscard]] const LeafGroupRange& leaf_groups_of(NodeId node) const { return leaf_groups[node - leaf_count()]; }
 
-  /// The vertices of a leaf that a search may pass.
+  /// Returns the vertices of a leaf that a search may pass.
   [[nodiscard]] LaneMask open_lanes(LeafId leaf) const {
     return first_lanes(leaves[leaf].size) & ~(walls.empty() ? LaneMask{0} : walls[leaf]);
   }
 
-  /// The vertices of a leaf that are in no answer, although a search may pass them.
+  /// Returns the vertices of a leaf that are in no answer, although a search may pass them.
   [[nodiscard]] LaneMask ignored_lanes(LeafId leaf) const { return ignored.empty() ? LaneMask{0} : ignored[leaf]; }
 
-  /// Whether the vertex at a slot is masked.
+  /// Return whether the vertex at a slot is masked.
   [[nodiscard]] bool is_wall(std::uint32_t at) const { return has(walls, at); }
   [[nodiscard]] bool is_ignored(std::uint32_t at) const { return has(ignored, at); }
 
-  /// The same of a vertex in index order.
+  /// Return whether a vertex in index order is masked.
   [[nodiscard]] bool is_wall_at(std::size_t vertex) const { return !walls.empty() && is_wall(slot_at(vertex)); }
   [[nodiscard]] bool is_ignored_at(std::size_t vertex) const { return !ignored.empty() && is_ignored(slot_at(vertex)); }
 
-  /// The caller's id of a vertex in index order.
+  /// Returns the caller's id of a vertex in index order.
   [[nodiscard]] VertexId id(std::size_t vertex) const {
     return permutation.empty() ? static_cast<VertexId>(vertex) : permutation[vertex];
   }
 
-  /// The place in index order of a slot, and of a vertex of the caller.
+  /// Return the place in index order of a slot, and of a vertex of the caller.
   [[nodiscard]] std::uint32_t place_at(std::uint32_t at) const { return leaf_begin[leaf_of(at)] + lane_of(at); }
   [[nodiscard]] std::uint32_t place(VertexId v) const { return place_at(slot[v]); }
 
-  /// The slot of a vertex in index order.
+  /// Returns the slot of a vertex in index order.
   [[nodiscard]] std::uint32_t slot_at(std::size_t vertex) const { return slot[id(vertex)]; }
 
-  /// The position of a vertex in index order, in the unit of the mesh.
+  /// Returns the position of a vertex in index order, in the unit of the mesh.
   [[nodiscard]] Point position(std::size_t vertex) const {
     return std::visit([&](auto xyz) { return point(xyz, vertex); }, positions);
   }
-  /// The same in the frame.
+  /// Returns the same position in the frame.
   [[nodiscard]] Point in_frame(std::size_t vertex) const { return frame.to_frame(position(vertex)); }
 
-  /// The position at a slot, and that of a vertex of the caller.
+  /// Return the position at a slot, and that of a vertex of the caller.
   [[nodiscard]] Point position_at(std::uint32_t at) const { return position(place_at(at)); }
   [[nodiscard]] Point position_of(VertexId v) const { return position_at(slot[v]); }
   [[nodiscard]] Point position(LeafId leaf, unsigned lane) const {
     return position(std::size_t{leaf_begin[leaf]} + lane);
   }
 
-  /// The links of a leaf, ascending by the linked leaf.
+  /// Returns the links of a leaf, ascending by the linked leaf.
   [[nodiscard]] std::span<const Link> links_of(std::size_t leaf) const {
     assert(leaf < leaf_count());
     return links.subspan(leaves[leaf].first_link, leaves[leaf + 1].first_link - leaves[leaf].first_link);
   }
 
-  /// The links of the nodes of a group with nodes of other groups, ascending by node.
+  /// Returns the links of the nodes of a group with nodes of other groups, ascending by node.
   [[nodiscard]] std::span<const NodeLink> node_links_of(const GroupRecord& record) const {
     return node_links.subspan(record.first_link, record.end_link - record.first_link);
   }
 
-  /// The cross edges of a link, ascending by `from`, then `to`. `link` must be an element of `links`.
+  /// Returns the cross edges of a link, ascending by `from`, then `to`. `link` must be an element of `links`.
   [[nodiscard]] std::span<const CrossEdge> cross_edges_of(const Link& link) const {
     assert(&link >= links.data() && &link + 1 < links.data() + links.size());
     const Link& next = *(&link + 1);
@@ -258,11 +258,11 @@ void for_each_array(F&& f, Indexes&... indexes) {
   f(ArrayInfo{"mean_radii", &IndexBytes::tree}, indexes.mean_radii...);
 }
 
-/// Bounding spheres over the root groups. O(groups). Takes records that are not verified yet.
+/// Makes bounding spheres over the root groups. Takes O(#groups). The records need not be verified.
 [[nodiscard]] RootTree make_root_tree(std::span<const Group> groups, std::span<const GroupRecord> records,
                                       std::span<const std::uint32_t> parents);
 
-/// Sets `tree`, `roots` and `leaf_groups`, which follow from the arrays. Takes arrays that are not verified yet.
+/// Sets `tree`, `roots` and `leaf_groups`, which follow from the arrays. These need not be verified.
 void derive(IndexView& index);
 
 /// The arrays of an `IndexView` that follow from the edges and from the division into leaves. Indexes that `refit` has
@@ -292,15 +292,15 @@ struct GeometryData {
   std::vector<double> mean_radii;
 };
 
-/// All arrays of an `IndexView`, filled by `build`.
+/// All arrays of an `IndexView`; `build` fills them.
 struct IndexData : ConnectivityData, GeometryData {};
 
 [[nodiscard]] PositionsInOrder view_of(const OrderedPositions& positions);
 
-/// A view of `data`, which must outlive it. Without `tree` if the groups are not filled yet.
+/// Returns a view of `data`, which must outlive it. It has no `tree` if the groups are not filled yet.
 [[nodiscard]] IndexView view_of(const IndexData& data);
 
-/// A view that owns `data`.
+/// Returns a view that owns `data`.
 [[nodiscard]] std::shared_ptr<IndexView> make_view(IndexData data);
 
 /// Makes `view` own `geometry`, and refer to it. If memory runs out, `view` is as it was.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The points near another one lie in the cells of a grid around it.
+// The points near one lie in the cells of a grid around it.
 #include "meshhood/link_points.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ constexpr double kLinkSlack = 0x1p-40;
 constexpr double kExtentSlack = 0x1p-50;
 constexpr double kSmallestWidth = 0x1p-500;
 
-/// The points by the cells of a grid, whose width is at least the link.
+/// Sorts the points into the cells of a grid, whose width is at least the link.
 ///
 /// A cell has a 64-bit *key*. Cells that follow each other along the last axis have consecutive keys, and each row has
 /// a free key before and after its cells. If there are more cells than keys, a key may stand for several cells: then
@@ -53,7 +53,8 @@ class PointGrid {
 
   [[nodiscard]] std::size_t cell_count() const { return keys_.size(); }
 
-  /// Whether many points share a cell because another point is so far away that the cells are wider than the link.
+  /// Returns whether many points share a cell because another point is so far away that the cells are wider than the
+  /// link.
   [[nodiscard]] bool is_crowded() const {
     constexpr std::size_t kMany = 64;
     const auto is_large = [](std::size_t begin, std::size_t end) { return end - begin > kMany; };
@@ -68,7 +69,7 @@ class PointGrid {
 
     [[nodiscard]] VertexId id() const { return grid->order_[point].second; }
 
-    /// The number of points within the link, this one included. Without branches.
+    /// Returns the number of points within the link, this one included, without branches.
     [[nodiscard]] std::size_t count() const {
       std::size_t count = 0;
       for (const auto& [begin, end] : runs) {
@@ -77,8 +78,8 @@ class PointGrid {
       return count;
     }
 
-    /// Writes their ids but that of this one, ascending. Which points are near cannot be predicted, so there is no
-    /// branch; `scratch` has room for one more.
+    /// Writes the ids of these points but this one, ascending. Which points are near cannot be predicted, so there is
+    /// no branch; `scratch` has room for one more.
     void write(std::span<VertexId> out, std::vector<VertexId>& scratch) const {
       if (scratch.size() <= out.size()) scratch.resize(2 * out.size() + 1);
       VertexId* next = scratch.data();
@@ -113,7 +114,7 @@ class PointGrid {
       }
     }
     std::sort(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(count));
-    for (std::size_t i = 1; i < count; ++i) {  // a key that stands for several cells
+    for (std::size_t i = 1; i < count; ++i) {  // runs overlap where a key stands for several cells
       runs[i].first = std::max(runs[i].first, runs[i - 1].second);
       runs[i].second = std::max(runs[i].second, runs[i].first);
     }
@@ -170,7 +171,7 @@ class PointGrid {
     begin_.push_back(order_.size());
   }
 
-  /// By key, then by id: two halves at once.
+  /// Sorts by key, then by id: two halves at once.
   void sort_order(TaskContext& task) {
     const std::size_t half = order_.size() / 2;
     const auto middle = order_.begin() + static_cast<std::ptrdiff_t>(half);
@@ -182,7 +183,7 @@ class PointGrid {
     order_ = std::move(merged);
   }
 
-  /// The first point whose cell has a key of at least `key`.
+  /// Returns the first point whose cell has a key of at least `key`.
   [[nodiscard]] std::size_t first_from(std::uint64_t key) const {
     return begin_[static_cast<std::size_t>(std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin())];
   }
@@ -226,7 +227,7 @@ std::vector<std::vector<VertexId>> split_at_gaps(const PositionsView& points, st
   return parts;
 }
 
-/// Grids of points whose cells hold few more than near ones: one, unless some points are very far from others.
+/// Makes grids whose cells hold few more points than near ones: one grid, unless some points are very far from others.
 std::vector<PointGrid> make_grids(const PositionsView& points, double link, TaskContext& task) {
   std::vector<VertexId> all(points.size());
   std::iota(all.begin(), all.end(), VertexId{0});
@@ -276,7 +277,7 @@ Adjacency linked(const PositionsView& points, double link, std::size_t max_edges
   graph.offsets.assign(points.size() + 1, 0);
   std::atomic<std::size_t> neighbors{0};
   for_each_point(grids, task, [&](const PointGrid::Near& near, std::vector<VertexId>&) {
-    const std::size_t count = near.count() - 1;  // without itself
+    const std::size_t count = near.count() - 1;  // the point itself does not count
     if (neighbors.fetch_add(count, std::memory_order_relaxed) + count > 2 * most) {
       raise(ErrorCode::TooLarge, "link: " + to_text(link) + " joins the " + std::to_string(points.size()) +
                                      " points by more than " + std::to_string(most) +

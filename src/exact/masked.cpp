@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The same index for searches with masks. It shares the positions, edges and spheres, all of which remain valid without
-// the walls: a sphere still contains what is below it, and a link may be one more than is needed. What would be wrong
-// is changed in copies:
+// Derives an index for searches with masks. It shares the positions, edges and spheres, all of which remain valid
+// without the walls: a sphere still contains what is below it, and a link may be one more than is needed. What would be
+// wrong is changed in copies:
 //
 // - the walls of each leaf are kept as lanes, which every search takes out of those that are in the ball;
 // - a leaf with walls is not connected, and every node above it is *pierced*, that is never whole. So a search goes
@@ -46,7 +46,7 @@ LaneMask lanes_of(const IndexView& index, const VertexMask& mask, std::size_t le
   return lanes;
 }
 
-/// The lanes of each leaf; nothing if the mask has no vertex.
+/// Returns the lanes of each leaf; nothing if the mask has no vertex.
 std::vector<LaneMask> lanes_by_leaf(const IndexView& index, const VertexMask& mask, TaskContext& task) {
   constexpr std::size_t kLeavesAtOnce = 512;
   if (mask.size() == 0) return {};

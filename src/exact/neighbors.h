@@ -39,7 +39,7 @@ void for_each_neighbor(const IndexView& index, std::uint32_t slot, F&& f) {
   }
 }
 
-/// Called for every vertex or edge; polls seldom enough to cost nothing.
+/// To be called for every vertex or edge; it polls seldom enough to cost nothing.
 inline void poll_cancel(TaskContext& task, std::size_t vertex) {
   constexpr std::size_t kInterval = 1024;
   if (vertex % kInterval == 0) task.should_continue(0);

@@ -10,17 +10,17 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The bounding sphere of the node at a place of a group.
+/// Returns the bounding sphere of the node at a place of a group.
 [[nodiscard]] inline FrameSphere sphere_of(const Group& group, std::size_t place) {
   return {group.x[place], group.y[place], group.z[place], group.radius[place]};
 }
 
-/// The same of a node of the tree.
+/// Returns the bounding sphere of a node of the tree.
 [[nodiscard]] inline FrameSphere sphere_of(const IndexView& index, NodeId node) {
   return sphere_of(index.groups[node / kFanOut], node % kFanOut);
 }
 
-/// The set of the node at a place.
+/// Returns the set of the node at a place.
 [[nodiscard]] constexpr NodeSet node_at(unsigned place) { return static_cast<NodeSet>(1U << place); }
 
 /// Calls `f(place)` for every node of the set, in ascending order.
@@ -29,7 +29,7 @@ void for_each_node(NodeSet nodes, F&& f) {
   for (unsigned left = nodes; left != 0; left &= left - 1) f(static_cast<unsigned>(std::countr_zero(left)));
 }
 
-/// The nodes of a group that can be reached from `from` by links within `among`; `from` is a part of it.
+/// Returns the nodes of a group that can be reached from `from` by links within `among`; `from` is a part of it.
 [[nodiscard]] inline NodeSet reachable_nodes(const std::array<NodeSet, kFanOut>& linked, NodeSet from, NodeSet among) {
   assert((from & ~among) == 0);
   unsigned reached = from;

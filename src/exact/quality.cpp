@@ -21,11 +21,11 @@ namespace {
 
 constexpr std::size_t kSamples = 16;
 constexpr std::size_t kSampleSize = 1024;
-// The part of a sample, nearest to its center, that is compared. Leaves at its surface are cut off.
+// Only this part of a sample, nearest to its center, is compared, because leaves at its surface are cut off.
 constexpr std::size_t kInnerSize = kSampleSize / 4;
 
-/// Leaves that together hold the `size` vertices nearest to a point. If a ball around the point holds enough leaves for
-/// that many vertices, the leaves that meet the ball are sufficient.
+/// Returns leaves that together hold the `size` vertices nearest to a point. If a ball around the point holds enough
+/// leaves for that many vertices, the leaves that meet the ball are sufficient.
 std::vector<LeafId> leaves_around(const IndexView& index, const Point& center, std::size_t size) {
   struct Reach {
     double nearest;
@@ -61,7 +61,7 @@ std::vector<LeafId> leaves_around(const IndexView& index, const Point& center, s
   return leaves;
 }
 
-/// The `size` vertices nearest to the seed, by places in index order, in order of distance.
+/// Returns the `size` vertices nearest to the seed, by places in index order, in order of distance.
 std::vector<std::uint32_t> take_sample(const IndexView& index, std::size_t seed, std::size_t size) {
   const Point center = index.in_frame(seed);
   std::vector<std::pair<double, std::uint32_t>> found;
@@ -76,9 +76,9 @@ std::vector<std::uint32_t> take_sample(const IndexView& index, std::size_t seed,
   return sample;
 }
 
-/// The part of the mesh between the vertices of a sample, which are numbered in the order given.
+/// Returns the part of the mesh between the vertices of a sample, which are numbered in the order given.
 GraphData graph_of(const IndexView& index, const std::vector<std::uint32_t>& sample) {
-  std::vector<std::pair<std::uint32_t, VertexId>> number;  // by place
+  std::vector<std::pair<std::uint32_t, VertexId>> number;  // ascending by place
   std::vector<double> positions;
   for (std::size_t i = 0; i < sample.size(); ++i) {
     number.emplace_back(sample[i], static_cast<VertexId>(i));
@@ -99,7 +99,7 @@ GraphData graph_of(const IndexView& index, const std::vector<std::uint32_t>& sam
   return {std::move(positions), std::move(adjacency)};
 }
 
-/// The radius of the new leaf of each vertex, in the frame.
+/// Returns the radius of the new leaf of each vertex, in the frame.
 std::vector<double> new_radii(const GraphData& graph, const Frame& frame) {
   TaskContext task;
   const LeafPartition leaves = make_leaves(graph.view().positions, EdgeSource(graph.view().adjacency), frame, task);

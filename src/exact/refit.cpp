@@ -30,9 +30,9 @@ struct Move {
   Point to;
 };
 
-/// The vertices `changed`, ascending by slot, each once. Reads each argument once, because another thread may write to
-/// it.
-/// Throws Error{InvalidMesh, VertexOutOfRange} for a vertex that the mesh does not have, and for an invalid position.
+/// Returns the vertices `changed`, ascending by slot, each once. Reads each argument once, because another thread may
+/// write to it. Throws Error{InvalidMesh, VertexOutOfRange} for a vertex that the mesh does not have, and for an
+/// invalid position.
 std::vector<Move> read_moves(const IndexView& index, const PositionsView& positions, const IndicesView& changed) {
   std::vector<Move> moves;
   moves.reserve(changed.size());
@@ -53,12 +53,12 @@ std::vector<Move> read_moves(const IndexView& index, const PositionsView& positi
   return moves;
 }
 
-/// Whether the frame covers all new positions.
+/// Returns whether the frame covers all new positions.
 bool stay_in_frame(std::span<const Move> moves, const Frame& frame) {
   return std::all_of(moves.begin(), moves.end(), [&](const Move& move) { return covers(frame, move.to); });
 }
 
-/// The leaves of the vertices, ascending, as the moves do.
+/// Returns the leaves of the vertices, ascending, as the moves do.
 std::vector<LeafId> leaves_to_measure(std::span<const Move> moves) {
   std::vector<LeafId> leaves;
   for (const Move& move : moves) {
@@ -82,7 +82,7 @@ void write_moves(std::span<const Move> moves, const IndexView& index, OrderedPos
       positions);
 }
 
-/// The parts of a geometry that some moves change. Puts them back at the end unless `keep` has been called.
+/// Copies the parts of a geometry that some moves change, and puts them back at the end unless `keep` has been called.
 class Backup {
  public:
   Backup(std::span<const Move> moves, std::span<const LeafId> leaves, IndexView& index)
@@ -141,7 +141,7 @@ void check_size(const PositionsView& positions, const IndexView& index) {
                                     std::to_string(index.vertex_count()) + " vertices, expected three a vertex");
 }
 
-/// Moves are written to the positions of the index, which must not lose digits.
+/// Checks that moves lose no digits in the positions of the index.
 void check_precision(const PositionsView& positions, const IndexView& index) {
   const bool is_double = positions.visit([](const auto& xyz) { return sizeof(*xyz.first) == sizeof(double); });
   if (!is_double || std::holds_alternative<std::span<const double>>(index.positions)) return;
@@ -149,7 +149,7 @@ void check_precision(const PositionsView& positions, const IndexView& index) {
         "the positions are double, but those of the index are float: expected float, or a call without `changed`");
 }
 
-/// An index with the connectivity of `index` and another geometry.
+/// Makes an index with the connectivity of `index` and another geometry.
 Index with_geometry(const Index& index, std::shared_ptr<GeometryData> geometry) {
   auto view = std::make_shared<IndexView>(IndexAccess::view(index));
   view->newest = std::make_shared<std::uint64_t>(view->version);
@@ -182,7 +182,7 @@ PositionsView without_padding(const OrderedPositions& positions, std::size_t ver
   return std::visit([&](const auto& xyz) { return PositionsView(std::span(xyz).first(3 * vertices)); }, positions);
 }
 
-/// The geometry with all positions given, in any precision.
+/// Makes the geometry with all positions given, in any precision.
 std::shared_ptr<GeometryData> geometry_at(const PositionsView& positions, const IndexView& index, TaskContext& task) {
   check_size(positions, index);
   validate(positions);
@@ -194,7 +194,7 @@ std::shared_ptr<GeometryData> geometry_at(const PositionsView& positions, const 
   return geometry;
 }
 
-/// The geometry after moves that leave the frame: makes a new one, and all bounds in it.
+/// Makes the geometry after moves that leave the frame: a new frame, and all bounds in it.
 std::shared_ptr<GeometryData> geometry_beyond_frame(std::span<const Move> moves, const IndexView& index,
                                                     TaskContext& task) {
   auto geometry = std::make_shared<GeometryData>();
@@ -219,7 +219,7 @@ void move_in_place(std::span<const Move> moves, IndexView& index, TaskContext& t
     set_geometry(index, geometry_beyond_frame(moves, index, task));
     return;
   }
-  if (!index.geometry) set_geometry(index, copy_geometry(index));  // of a file, which must not change
+  if (!index.geometry) set_geometry(index, copy_geometry(index));  // the bytes of a file must not change
   apply_moves(moves, index, task);
 }
 

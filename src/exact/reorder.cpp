@@ -38,8 +38,8 @@ std::vector<VertexId> inverse(std::span<const VertexId> permutation) {
   return result;
 }
 
-/// The new number of each face. Faces are sorted by their first vertex in the new order, those without corners last,
-/// and keep their order otherwise.
+/// Returns the new number of each face. Faces are sorted by their first vertex in the new order, those without corners
+/// last, and keep their order otherwise.
 std::vector<std::uint32_t> number_faces(const FacesView& faces, std::span<const VertexId> new_id) {
   const auto first_vertex = [&](std::span<const VertexId> corners) {
     std::size_t first = new_id.size();

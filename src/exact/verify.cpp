@@ -43,7 +43,7 @@ void verify_leaf(const IndexView& index, std::size_t leaf, const SectionReader& 
   }
 }
 
-/// The frame of an index whose vertices have moved may be larger than they need.
+/// The frame may be larger than the positions need, because vertices may have moved.
 void verify_frame(const IndexView& index, const SectionReader& file) {
   const double scale = index.frame.scale;
   int exponent = 0;

@@ -14,12 +14,14 @@ namespace meshhood::inline v0_1::file {
 /// whatever the file contains.
 ///
 /// index   a view of the arrays in `file`, whose sizes are verified already
-/// Throws Error{MalformedIndex, Cancelled}. One pass over each array; advances `task` by `kVerifyParts`.
+/// Throws Error{MalformedIndex, Cancelled}. Takes about one pass over each array, and advances `task` by
+/// `kVerifyParts`.
 void verify(const IndexView& index, const SectionReader& file, TaskContext& task);
 
 inline constexpr std::size_t kVerifyParts = 8;
 
-// The parts of the verification, in this order: each relies on those before.
+// These are the parts of the verification, in this order. Each relies on those before it, and throws unless its
+// statement holds.
 
 /// Every group is covered by one node of the level above, or by none.
 void verify_forest(const IndexView& index, const SectionReader& file);
@@ -37,10 +39,10 @@ void verify_links(const IndexView& index, const SectionReader& file);
 /// between leaves, and every node above the leaves is connected by them.
 void verify_node_links(const IndexView& index, const SectionReader& file);
 
-/// Positions are finite, and the frame is that of the positions.
+/// Positions are finite and lie in the frame, whose scale is a power of two.
 void verify_positions(const IndexView& index, const SectionReader& file);
 
-/// Spheres enclose their vertices, regions are not NaN, and mean radii are those of their levels.
+/// Spheres enclose their vertices, and mean radii are those of their levels.
 void verify_tree(const IndexView& index, const SectionReader& file);
 
 /// Corners of faces are vertices, offsets ascend from 0 to the number of corners, and are left out if all faces are

@@ -9,7 +9,7 @@
 namespace meshhood::inline v0_1::file {
 namespace {
 
-/// A cross edge as one number, which orders cross edges by `from`, then `to`.
+/// Returns a cross edge as one number, which orders cross edges by `from`, then `to`.
 unsigned number_of(unsigned from, unsigned to) { return from * kLeafCapacity + to; }
 
 class LinkCheck {
@@ -33,7 +33,7 @@ class LinkCheck {
   [[nodiscard]] std::size_t begin(std::size_t leaf) const { return index_.leaves[leaf].first_link; }
   [[nodiscard]] std::size_t end(std::size_t leaf) const { return index_.leaves[leaf + 1].first_link; }
 
-  /// The links of consecutive leaves follow one another without a gap, up to the last link.
+  /// The links of consecutive leaves must follow one another without a gap, up to the last link.
   void check_ends() const {
     if (begin(0) != 0) file_.refuse(&index_.leaves.front().first_link, "the links of leaf 0 do not begin at link 0");
     for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) {

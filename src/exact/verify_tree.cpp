@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The groups of nodes: which group each node covers, the links between nodes, and their spheres.
+// Verifies the groups of nodes: which group each node covers, the links between nodes, and their spheres.
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -16,7 +16,7 @@ namespace {
 
 std::string name(std::size_t group) { return "group " + std::to_string(group); }
 
-/// The groups of a level cover the first groups of the level below, in order; the others are root groups.
+/// The groups of a level must cover the first groups of the level below, in order; the others must be root groups.
 class ForestCheck {
  public:
   ForestCheck(const IndexView& index, const SectionReader& file) : index_(index), file_(file) {}
@@ -57,7 +57,7 @@ class ForestCheck {
                  name(group) + ": expected a group covered by node " + std::to_string(parent));
   }
 
-  /// The groups of a level from `group` on have no parent.
+  /// The groups of a level from `group` on must have no parent.
   void check_roots(std::size_t level, std::size_t group) const {
     for (; group < index_.tree[level].first_group + index_.tree[level].groups; ++group) {
       if (index_.parents[group] == kNoNode) continue;

@@ -18,7 +18,7 @@ constexpr std::size_t kPartsAhead = 4;
 constexpr std::size_t kIdsPerLine = kCacheLine / sizeof(VertexId);
 
 void prefetch_ids(const VertexId* first, std::size_t count) {
-  // The processor itself prefetches the rest of a long run.
+  // The processor prefetches the rest of a long run.
   for (std::size_t i = 0; i < std::min(count, 4 * kIdsPerLine); i += kIdsPerLine) prefetch(first + i);
 }
 
@@ -45,7 +45,7 @@ void VertexSet::align_to_leaves() {
     last = {next, 0};
     leaf = vertices_of(next);
   };
-  // Mostly to the next leaf: a lookup for each takes as long as the search.
+  // Most moves are to the next leaf; a lookup for each would take as long as the search.
   const auto move_to_vertex = [&](VertexId vertex) {
     if (vertex < leaf.end) return;
     const bool is_next = vertex < vertices_of(last.leaf + 1).end;

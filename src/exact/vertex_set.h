@@ -19,12 +19,12 @@ struct LeafSubset {
   LaneMask lanes;
 };
 
-/// The vertices of the node at a place of a group.
+/// Returns the vertices of the node at a place of a group.
 [[nodiscard]] inline VertexRange run_of(const GroupRecord& group, unsigned place) {
   return {static_cast<VertexId>(group.begin[place]), static_cast<VertexId>(group.begin[place + 1])};
 }
 
-/// The same of a node of the tree.
+/// Returns the vertices of a node of the tree.
 [[nodiscard]] inline VertexRange run_of(const IndexView& index, NodeId node) {
   return run_of(index.records[node / kFanOut], node % kFanOut);
 }
@@ -52,10 +52,10 @@ class VertexSet {
     add_if(true, run, 0);
   }
 
-  /// The same for vertices of a leaf: none of them, some or all.
+  /// Adds vertices of a leaf: none of them, some or all.
   void add_lanes(const LeafSubset& subset) { add_lanes(vertices_of(subset.leaf), subset.lanes); }
 
-  /// The same for any range of at most 32 vertices.
+  /// Adds vertices of any range of at most 32 vertices.
   void add_lanes(const VertexRange& all, LaneMask lanes) {
     assert(all.end <= index_->vertex_count());
     make_room(1);
@@ -67,7 +67,7 @@ class VertexSet {
     if (parts_.size() < size_ + parts + 1) parts_.resize(2 * (size_ + parts + 1));
   }
 
-  /// Adds the vertices of a run, or the lanes of a leaf, if `condition` holds. Without branches.
+  /// Adds the vertices of a run, or the lanes of a leaf, if `condition` holds, without branches.
   void add_if(bool condition, const VertexRange& vertices, LaneMask lanes) {
     Part* next = parts_.data() + size_;
     const bool follows =
@@ -77,14 +77,14 @@ class VertexSet {
     size_ += static_cast<std::size_t>(condition && !follows);
   }
 
-  /// Cuts it at the ends of leaves, and joins what is of one leaf, so that every run has whole leaves and every subset
-  /// is one of a leaf. Only sets of `VertexBfs` need it.
+  /// Cuts the set at the ends of leaves, and joins what is of one leaf, so that every run has whole leaves and every
+  /// subset is one of a leaf. Only sets of `VertexBfs` need it.
   void align_to_leaves();
 
   /// Adds the vertices of each leaf to `found`. Runs have whole leaves, and subsets are of a leaf.
   void collect(std::vector<LeafSubset>& found) const;
 
-  /// Takes vertices out, given by leaf, of such a set.
+  /// Takes vertices, given by leaf, out of such a set.
   void leave_out(std::span<const LaneMask> by_leaf);
 
   /// Refills the set with the union of `subsets`, in any order, each vertex once.
@@ -114,7 +114,7 @@ class VertexSet {
     }
   }
 
-  /// The set as ranges, ascending, as few as possible. Valid until the set changes.
+  /// Returns the set as ranges, ascending, as few as possible. They are valid until the set changes.
   [[nodiscard]] std::span<const VertexRange> ranges();
 
  private:

@@ -35,7 +35,7 @@ std::string quoted(std::string_view name) {
   return is_plain ? "section " + std::string(name) : "a section without a readable name";
 }
 
-/// The fields that all formats have in common, so that the error for another format states its number.
+/// Verifies only the fields that all formats have in common, so that the error for another format states its number.
 void verify_beginning(const Header& header) {
   if (header.magic != kMagic) refuse_header(0, "not a saved index");
   if (header.byte_order == kOtherByteOrder) {
@@ -225,7 +225,7 @@ void SectionWriter::add_bytes(std::string_view name, std::span<const std::byte> 
 std::size_t SectionWriter::parts() const {
   std::size_t bytes = 0;
   for (const Part& part : parts_) bytes += part.bytes.size();
-  return 2 * bytes;  // one pass for the checksums, one to write
+  return 2 * bytes;  // one pass computes the checksums, one writes
 }
 
 std::vector<Section> SectionWriter::make_table(TaskContext& task) const {
@@ -251,7 +251,7 @@ void SectionWriter::write(Header header, const Sink& sink, TaskContext& task) co
   std::vector<Section> table = make_table(task);
   header.sections = static_cast<std::uint32_t>(table.size());
   header.bytes = aligned(table.back().begin + table.back().bytes);
-  // The section table and the zeros up to the first section, which the header's checksum covers.
+  // The checksum of the header also covers the section table and the zeros up to the first section.
   std::vector<std::byte> rest(static_cast<std::size_t>(head_bytes(table.size())) - sizeof(Header));
   std::ranges::copy(std::as_bytes(std::span(table)), rest.begin());
   header.checksum = checksum({bytes_of(header).first(offsetof(Header, checksum)), rest});

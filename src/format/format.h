@@ -18,8 +18,8 @@
 #include "shared/distance.h"
 #include "shared/parallel.h"
 
-/// The format of an index file: a header, a table of sections, and the sections, each at a multiple of 64 bytes, with
-/// zeros between them. Little-endian; the structures below have the same bytes in the file as in memory.
+/// An index file has a header, a table of sections, and the sections, each at a multiple of 64 bytes, with zeros
+/// between them. It is little-endian; the structures below have the same bytes in the file as in memory.
 namespace meshhood::inline v0_1::file {
 
 /// Like that of PNG: no text begins with it, and a transfer that converts line ends damages it.
@@ -27,8 +27,8 @@ inline constexpr std::array<std::uint8_t, 8> kMagic{0x8B, 'M', 'H', 'I', '\r', '
 inline constexpr std::uint32_t kByteOrderMark = 0x01020304;
 inline constexpr std::uint32_t kOtherByteOrder = 0x04030201;
 
-/// The format of files of this kind. Exact indexes of format 1 had a tree without
-/// links; those of format 2 had regions for each node that the search no longer uses.
+/// Returns the format of files of this kind. Exact indexes of format 1 had a tree without links; those of format 2 had
+/// regions of each node, which the search no longer uses.
 [[nodiscard]] constexpr std::uint32_t format_of(IndexKind kind) { return kind == IndexKind::Paper ? 1 : 3; }
 
 struct Header {
@@ -55,12 +55,12 @@ struct Section {
 };
 static_assert(sizeof(Section) == 40);
 
-/// The next multiple of the alignment.
+/// Returns the next multiple of the alignment.
 [[nodiscard]] constexpr std::uint64_t aligned(std::uint64_t byte) {
   return (byte + kIndexAlignment - 1) / kIndexAlignment * kIndexAlignment;
 }
 
-/// The position of the first of `sections` sections.
+/// Returns the position of the first of `sections` sections.
 [[nodiscard]] constexpr std::uint64_t head_bytes(std::uint64_t sections) {
   return aligned(sizeof(Header) + sections * sizeof(Section));
 }
@@ -69,15 +69,14 @@ static_assert(sizeof(Section) == 40);
 inline constexpr std::uint64_t kMaxSections = 3 + 4 * paper::BuildOptions::kAllLevels;
 static_assert(head_bytes(kMaxSections) <= kIndexHeadBytes);
 
-/// The header of an index file of `size` bytes that begins with `first_bytes`. Throws Error{MalformedIndex} if it is
-/// not valid, not of this format, or states another size.
+/// Returns the header of an index file of `size` bytes that begins with `first_bytes`. Throws Error{MalformedIndex} if
+/// it is not valid, not of this format, or states another size.
 [[nodiscard]] Header read_header(std::span<const std::byte> first_bytes, std::uint64_t size);
 
 /// Throws Error{MalformedIndex} if the kinds differ.
 void expect_kind(IndexKind kind, IndexKind expected);
 
-/// Reads the sections of an index file in order. All errors are Error{MalformedIndex} and name the section and the
-/// byte.
+/// Reads the sections of an index file in order. All errors are Error{MalformedIndex} and name section and byte.
 class SectionReader {
  public:
   /// Verifies the header, and that the sections follow one another without a gap to the end of the file.
@@ -86,10 +85,10 @@ class SectionReader {
 
   [[nodiscard]] const Header& header() const { return header_; }
 
-  /// Whether there is a next section, and has this name.
+  /// Returns whether there is a next section, and has this name.
   [[nodiscard]] bool is_next(std::string_view name) const;
 
-  /// The next section, which must have this name; a view of the bytes.
+  /// Returns a view of the next section, which must have this name.
   template <class T>
   [[nodiscard]] std::span<const T> take(std::string_view name) {
     static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= kIndexAlignment);
@@ -97,7 +96,7 @@ class SectionReader {
     return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
   }
 
-  /// The same, which must have `count` elements.
+  /// Does the same for a section that must have `count` elements.
   template <class T>
   [[nodiscard]] std::span<const T> take(std::string_view name, std::uint64_t count) {
     const std::span<const T> values = take<T>(name);
@@ -115,10 +114,10 @@ class SectionReader {
   /// Throws an error that begins with the section and the byte at `place`, which points into the bytes.
   [[noreturn]] void refuse(const void* place, const std::string& message) const;
 
-  /// The same for a byte of a section, counted from the first byte of the section.
+  /// Throws an error about a byte of a section, counted from the first of the section.
   [[noreturn]] void refuse_in(std::string_view section, std::uint64_t byte, const std::string& message) const;
 
-  /// The same for the section taken last, which may be empty.
+  /// Throws an error about the section taken last, which may be empty.
   [[noreturn]] void refuse_last(const std::string& message) const;
 
  private:
@@ -151,7 +150,7 @@ class SectionWriter {
     add_bytes(name, std::as_bytes(values));
   }
 
-  /// By how much `write` advances its task.
+  /// Returns by how much `write` advances its task.
   [[nodiscard]] std::size_t parts() const;
 
   /// Completes `header`, of which the caller sets kind, vertices, precision and fingerprint. Throws Error{Cancelled}.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The index order. From the highest level down, the children of each cluster get consecutive numbers. The vertices of
-// each cluster of each level then form one range (sec. 3: "precomputed groups of vertices contiguously stored").
+// Makes the index order: from the highest level down, the children of each cluster get consecutive numbers. The
+// vertices of each cluster then form one range (sec. 3: "precomputed groups of vertices contiguously stored").
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -35,7 +35,7 @@ Numbering number_below(const Numbering& above, const std::vector<ClusterId>& par
   return Numbering(child_lists(new_parent, above.old_id.size()).elements);
 }
 
-/// By level, the base level first.
+/// Returns the numberings, that of the base level first.
 std::vector<Numbering> number_levels(const std::vector<std::vector<ClusterId>>& parents, std::size_t highest_size) {
   std::vector<Numbering> levels{identity(highest_size)};
   for (std::size_t l = parents.size(); l-- > 0;) levels.push_back(number_below(levels.back(), parents[l]));
@@ -43,7 +43,7 @@ std::vector<Numbering> number_levels(const std::vector<std::vector<ClusterId>>& 
   return levels;
 }
 
-/// Skips the levels below `lowest`: for each vertex, its cluster on that level.
+/// Returns for each vertex its cluster on the level `lowest`.
 std::vector<ClusterId> drop_lower(const std::vector<std::vector<ClusterId>>& parents, std::size_t vertices,
                                   std::size_t lowest) {
   std::vector<ClusterId> cluster(vertices);
@@ -54,7 +54,8 @@ std::vector<ClusterId> drop_lower(const std::vector<std::vector<ClusterId>>& par
   return cluster;
 }
 
-/// Where the members of each cluster begin in the new order, and where they all end. cluster: by member, old numbers.
+/// Returns where the members of each cluster begin in the new order, and where they all end. `cluster` has the old
+/// number of the cluster of each member.
 std::vector<ClusterId> first_members(const std::vector<ClusterId>& cluster, const Numbering& numbering) {
   std::vector<ClusterId> first(numbering.old_id.size() + 1, 0);
   for (const ClusterId c : cluster) ++first[numbering.new_id[c] + std::size_t{1}];
@@ -76,7 +77,7 @@ Adjacency renumber(const AdjacencyView& siblings, const Numbering& numbering) {
   return result;
 }
 
-/// members: of each cluster, where its vertices begin on the lowest level, and its children above.
+/// `members` states where the members of each cluster begin: vertices on the lowest level, children above.
 template <class Real>
 Level<Real> fill_level(std::size_t number, std::vector<ClusterId> members, Adjacency siblings, bool is_lowest) {
   Level<Real> level;

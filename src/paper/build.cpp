@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The level loop of sec. 3.2, and its steps in our order: create and select in select.cpp, fusion in fusion.cpp, link
-// in link.cpp. The spheres of step 3 come last, in `keep`, by `enclose` in hierarchy.cpp.
+// Runs the level loop of sec. 3.2, and its steps in our order: create and select in select.cpp, fusion in fusion.cpp,
+// link in link.cpp. The spheres of step 3 come last, in `keep`, by `enclose` in hierarchy.cpp.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -31,7 +31,8 @@ void check_options(const BuildOptions& options) {
   }
 }
 
-/// The number of levels is not known in advance: at most those requested, of four steps each and one for the spheres.
+/// Returns an upper bound, as the number of levels is not known in advance. Each has four steps, and one for its
+/// spheres.
 std::size_t max_steps(const BuildOptions& options) {
   return 5 * static_cast<std::size_t>(std::min(options.levels, BuildOptions::kAllLevels));
 }
@@ -46,8 +47,8 @@ DraftLevel base_level(std::span<const Real> xyz, const AdjacencyView& graph) {
   return level;
 }
 
-/// Whether each component is a single cluster. Deviation: the paper continues until the whole mesh is one cluster,
-/// which never happens on a mesh of several components.
+/// Returns whether each component is a single cluster. Deviation: the paper continues until the whole mesh is one
+/// cluster, which never happens on a mesh of several components.
 bool is_complete(const DraftLevel& level) { return level.siblings.neighbors.empty(); }
 
 /// Discards the lowest levels (4.1) and computes the spheres of the others. Deviation: spheres are computed last, once
@@ -96,7 +97,7 @@ Hierarchy<Real> compute(std::span<const Real> xyz, const AdjacencyView& graph, c
   return hierarchy;
 }
 
-/// Whether all radii are finite as float.
+/// Returns whether all radii are surely finite as float.
 bool fits_float_spheres(std::span<const float> xyz) {
   return std::all_of(xyz.begin(), xyz.end(), [](float x) { return std::abs(x) <= 0x1p125F; });
 }
@@ -113,7 +114,7 @@ AnyHierarchy compute_any(std::span<const float> xyz, const AdjacencyView& graph,
   return compute<double>(wide, graph, options, run);
 }
 
-/// `graph` and `options` are valid.
+/// `graph` and `options` must be valid.
 Index make_index(const GraphView& graph, const BuildOptions& options, const Run& run) {
   AnyHierarchy hierarchy = graph.positions.visit([&]<class Real>(const StridedPositions<Real>& xyz) {
     return compute_any(PackedPositions<Real>(xyz).view(), graph.adjacency, options, run);

@@ -39,7 +39,7 @@ inline constexpr ClusterId kNoCluster = static_cast<ClusterId>(-1);
 /// have no parent yet. So the number of `C` identifies the candidate, and only the count of its children is stored.
 class CandidateQueue {
  public:
-  /// children[c]: the number of children of the candidate of cluster `c`.
+  /// `children[c]` is the number of children of the candidate of cluster `c`.
   explicit CandidateQueue(const std::vector<VertexId>& children);
 
   struct Candidate {
@@ -66,11 +66,11 @@ class CandidateQueue {
   std::priority_queue<Candidate, std::vector<Candidate>, ComesLater> queue_;
 };
 
-/// The number of children of each candidate at first: its cluster and all siblings.
+/// Returns the number of children of each candidate at first: its cluster and all siblings.
 [[nodiscard]] std::vector<VertexId> create(const DraftLevel& below);
 
-/// Chooses clusters for the next level until each cluster of `below` is the child of exactly one.
-/// children: the result of `create`.
+/// Chooses clusters for the next level until each cluster of `below` has exactly one parent. `children` is the result
+/// of `create`.
 [[nodiscard]] Partition select(const DraftLevel& below, std::vector<VertexId> children);
 
 /// Dissolves the clusters of `partition` that have fewer than `threshold` vertices or a single child into the clusters
@@ -81,7 +81,7 @@ void fuse(const DraftLevel& below, double threshold, Partition& partition);
 /// Computes the next level: vertices and siblings of each cluster, from those of its children.
 [[nodiscard]] DraftLevel link(const DraftLevel& below, const Partition& partition);
 
-/// The children of each parent, ascending. parent[c]: the parent of child `c`, below `parents`.
+/// Returns the children of each parent, ascending. `parent[c]` is the parent of child `c`, below `parents`.
 [[nodiscard]] inline Lists<VertexId, VertexId> child_lists(std::span<const VertexId> parent, std::size_t parents) {
   return gather_lists<VertexId, VertexId>(parents, [&](auto&& f) {
     for (std::size_t c = parent.size(); c-- > 0;) f(parent[c], static_cast<VertexId>(c));

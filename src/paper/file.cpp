@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sections of the paper's index. Data that follows from other data is not stored and so cannot contradict it:
+// Saves and loads the index of the paper. Data that follows from other data is not stored and so cannot contradict it:
 // parents, the vertices of clusters above the lowest level, the cluster of each vertex, mean radii.
 #include <cmath>
 #include <span>
@@ -35,7 +35,7 @@ std::vector<T> copy(std::span<const T> values) {
   return {values.begin(), values.end()};
 }
 
-/// The section that says where the members of each cluster begin: vertices on the lowest level, children above.
+/// Returns the name of the section of the first members of clusters: vertices on the lowest level, children above.
 std::string members_name(std::size_t level) { return level == 0 ? "first_vertex" : on_level("first_child", level); }
 
 template <class Real>
@@ -87,7 +87,7 @@ void verify_row(const AdjacencyView& siblings, std::size_t cluster, const Sectio
   }
 }
 
-/// `ids` has each of 0 .. size - 1 once.
+/// `ids` must have each of 0 .. size - 1 once.
 void verify_permutation(std::span<const VertexId> ids, const SectionReader& file) {
   std::vector<bool> seen(ids.size());
   for (const VertexId& id : ids) {
@@ -98,7 +98,7 @@ void verify_permutation(std::span<const VertexId> ids, const SectionReader& file
   }
 }
 
-/// `starts` ascends strictly from 0 to `end`.
+/// `starts` must ascend strictly from 0 to `end`.
 void verify_starts(std::span<const ClusterId> starts, std::size_t end, const SectionReader& file) {
   if (starts.front() != 0) file.refuse(starts.data(), "begins with " + std::to_string(starts.front()) + ", expected 0");
   for (std::size_t c = 0; c + 1 < starts.size(); ++c) {
@@ -112,7 +112,7 @@ void verify_starts(std::span<const ClusterId> starts, std::size_t end, const Sec
   }
 }
 
-/// Each row ascends, is in range, and does not contain its own cluster; each pair occurs in both directions.
+/// Each row must ascend, be in range, and not contain its own cluster; each pair must occur in both directions.
 void verify_siblings(const AdjacencyView& siblings, const SectionReader& file) {
   const std::size_t end = siblings.neighbors.size();
   if (siblings.offsets.front() != 0 || siblings.offsets.back() != end) {
@@ -144,7 +144,7 @@ void verify_spheres(std::span<const Sphere<Real>> spheres, const SectionReader& 
   }
 }
 
-/// Spheres enclose their vertices, with the distances of the query.
+/// Spheres must enclose their vertices, with the distances of the query.
 template <class Real>
 void verify_enclosed(const Hierarchy<Real>& hierarchy, const SectionReader& file) {
   for (std::size_t l = 0; l < hierarchy.levels.size(); ++l) {
@@ -162,7 +162,7 @@ void verify_enclosed(const Hierarchy<Real>& hierarchy, const SectionReader& file
   }
 }
 
-/// below: the levels below, and the vertices.
+/// `below` has the levels below, and the vertices.
 template <class Real>
 Level<Real> take_level(SectionReader& file, std::size_t l, const LevelRecord& record, const Hierarchy<Real>& below) {
   const std::size_t clusters = record.clusters;

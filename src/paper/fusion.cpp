@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Step 4 of sec. 3.2, fusion: Algorithm 2. Deviation: it runs before step 3, because it only needs the parents of the
-// clusters. So there are no siblings or spheres yet to update.
+// Implements step 4 of sec. 3.2, fusion: Algorithm 2. Deviation: it runs before step 3, because it only needs the
+// parents of the clusters. So there are no siblings or spheres yet to update.
 #include <queue>
 #include <utility>
 
@@ -20,12 +20,12 @@ class Fusion {
         child_count_(partition.clusters, 0),
         vertex_count_(partition.clusters, 0),
         position_sum_(partition.clusters, Point{}) {
-    // Backwards, so that each list of children ascends.
+    // The loop runs backwards, so that each list of children ascends.
     for (std::size_t c = below.size(); c-- > 0;) add_child(partition.parent[c], static_cast<ClusterId>(c));
   }
 
-  /// Smallest first, so that the children of a cluster below the threshold move to clusters at least as large, and none
-  /// moves often. Each cluster that is dissolved is one less, so the loop ends.
+  /// Dissolves small clusters, the smallest first: children of one below the threshold move to clusters at least as
+  /// large, so none moves often. Each cluster that is dissolved is one less, so the loop ends.
   void run() {
     for (std::size_t c = 0; c < partition_.clusters; ++c) queue_if_small(static_cast<ClusterId>(c));
     while (!donors_.empty()) {
@@ -61,10 +61,11 @@ class Fusion {
     total = {total.x + sum.x, total.y + sum.y, total.z + sum.z};
   }
 
-  /// Algorithm 2, D being `donor`. Deviation: a child goes to the nearest cluster that it touches. In the paper it goes
-  /// to nearSibling, the nearest sibling of the donor, which it need not touch; that cluster would be disconnected.
-  /// Children inside the donor, which touch no other cluster, follow after a neighbor has moved: the donor is
-  /// connected, so all are reached. Deviation: a donor without siblings stays; in the paper its vertices would be lost.
+  /// Dissolves a cluster by Algorithm 2, whose D is `donor`. Deviation: a child goes to the nearest cluster that it
+  /// touches. In the paper it goes to nearSibling, the nearest sibling of the donor, which it need not touch; that
+  /// cluster would be disconnected. Children inside the donor, which touch no other cluster, follow after a neighbor
+  /// has moved: the donor is connected, so all are reached. Deviation: a donor without siblings stays; in the paper its
+  /// vertices would be lost.
   void dissolve(ClusterId donor) {
     to_move_.clear();
     for (ClusterId child = first_child_[donor]; child != kNoCluster; child = next_child_[child]) {

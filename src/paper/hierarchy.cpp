@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What follows from the rest of a hierarchy: parents, vertices, spheres, and what users see of it.
+// Computes what follows from the rest of a hierarchy: parents, vertices, spheres, and what users see of it.
 #include "paper/hierarchy.h"
 
 #include <utility>

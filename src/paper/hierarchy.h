@@ -18,8 +18,8 @@
 
 namespace meshhood::inline v0_1::paper {
 
-/// A list of numbers below a common bound, each in as few bits as the bound requires. The lowest cluster of each vertex
-/// would otherwise take a tenth of the index.
+/// Numbers below a common bound, each in as few bits as the bound requires. The lowest cluster of each vertex would
+/// otherwise take a tenth of the index.
 class PackedIds {
  public:
   PackedIds() = default;
@@ -82,12 +82,12 @@ struct Index::Storage {
   Fingerprint mesh;  // computed by the build, because the graph is not kept
 };
 
-/// Computes the bounding sphere of each cluster of `level`, and the mean radius of the level. Deviation: a sphere may
-/// be a little larger than the smallest (see `bounding_sphere`). positions: in index order, #V by 3.
+/// Computes the bounding sphere of each cluster of `level`, and their mean radius; `positions` are #V by 3, in index
+/// order. Deviation: a sphere may be a little larger than the smallest (see `bounding_sphere`).
 template <class Real>
 void enclose(std::span<const Real> positions, Level<Real>& level);
 
-/// The mean radius of the spheres of `level`; 0 if it has none.
+/// Returns the mean radius of the spheres of `level`; 0 if it has none.
 template <class Real>
 [[nodiscard]] double mean_radius(const Level<Real>& level);
 
@@ -107,7 +107,7 @@ template <class Real>
 [[nodiscard]] Hierarchy<Real> arrange(std::span<const Real> xyz, const std::vector<std::vector<ClusterId>>& parents,
                                       const std::vector<AdjacencyView>& siblings, std::size_t lowest);
 
-/// Access to the data of an index, for `build`, for files, and for tests that damage an index on purpose.
+/// Gives access to the data of an index: to `build`, to files, and to tests that damage an index on purpose.
 struct IndexAccess {
   [[nodiscard]] static Index make(AnyHierarchy hierarchy, const Fingerprint& mesh = {}) {
     return Index(std::make_unique<const Index::Storage>(Index::Storage{std::move(hierarchy), mesh}));

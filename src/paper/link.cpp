@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Step 3 of sec. 3.2, link. A cluster has the vertices of its children. Its siblings are the other clusters that are
-// parents of siblings of its children. Spheres are computed last (`enclose`).
+// Implements step 3 of sec. 3.2, link. A cluster has the vertices of its children. Its siblings are the other clusters
+// that are parents of siblings of its children. Spheres are computed last (`enclose`).
 #include <algorithm>
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The query of sec. 3.3 in its three phases: climb up, breadth-first search, range search. In its words, `radius` is d,
+// The query of sec. 3.3 has three phases: climb up, breadth-first search, range search. In its words, `radius` is d,
 // `ball_` is S, `cluster_` is C and `reached_` is SC. The answer is first a list of ranges of the index order; ids are
 // copied, or vertices counted, afterwards.
 #include <algorithm>
@@ -27,7 +27,7 @@ class Searcher::Query {
         cluster_(static_cast<ClusterId>(hierarchy.lowest_cluster[v])),
         ball_(position_of(v), radius) {}
 
-  /// The three phases. Stores the pieces of the answer in the searcher.
+  /// Runs the three phases, and stores the pieces of the answer in the searcher.
   void run(double radius, double radius_ratio) {
     searcher_.pieces_.clear();
     climb_up(radius / radius_ratio);
@@ -35,7 +35,7 @@ class Searcher::Query {
     range_search();
   }
 
-  /// An upper bound of the size of the answer.
+  /// Returns an upper bound of the size of the answer.
   [[nodiscard]] std::size_t max_size() const {
     std::size_t result = 0;
     for (const Piece& piece : searcher_.pieces_) result += piece.size();
@@ -52,7 +52,7 @@ class Searcher::Query {
 
   [[nodiscard]] const Level<Real>& level() const { return hierarchy_.levels[level_]; }
 
-  /// The position of `v`, found among the few vertices of its lowest cluster.
+  /// Finds the position of `v` among the few vertices of its lowest cluster.
   [[nodiscard]] Point position_of(VertexId v) const {
     const auto first = hierarchy_.vertices.begin() + hierarchy_.levels.front().first_vertex[cluster_];
     const auto position = std::find(first, hierarchy_.vertices.end(), v) - hierarchy_.vertices.begin();
@@ -132,7 +132,7 @@ void Searcher::Query<Real>::collect(std::vector<VertexId>& out) const {
       continue;
     }
     for (std::size_t i = piece.begin; i < piece.end; ++i) {
-      // Branch-free: avoids mispredictions.
+      // Branch-free, because a branch would often be mispredicted.
       *end = vertices[i];
       end += static_cast<std::ptrdiff_t>(ball_.contains(point<Real>(hierarchy_.positions, i)));
     }
@@ -142,7 +142,7 @@ void Searcher::Query<Real>::collect(std::vector<VertexId>& out) const {
 
 template <class Real>
 void Searcher::Query<Real>::collect(std::vector<VertexId>& out, std::vector<double>& distances) const {
-  // Reserved first: if memory runs out, neither has changed.
+  // Both are reserved first, so that neither has changed if memory runs out.
   out.reserve(max_size());
   distances.reserve(max_size());
   out.clear();

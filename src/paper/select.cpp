@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Step 1 of sec. 3.2, create: one candidate for each cluster of the level below, in a priority queue ordered by how far
-// its number of children is from the average. Step 2, select: Algorithm 1, a greedy set cover. A candidate that has
-// lost children since it was queued is queued again with its new count; any other becomes a cluster. O(#siblings
-// log #clusters).
+// Step 1 of sec. 3.2, create, makes one candidate for each cluster of the level below, in a priority queue ordered by
+// how far its number of children is from the average. Step 2, select, is Algorithm 1, a greedy set cover. A candidate
+// that has lost children since it was queued is queued again with its new count; any other becomes a cluster. This
+// takes O(#siblings log #clusters).
 //
 // In the words of Algorithm 1, `top` is T, `visited(c)` is Ci.visited, and T has deletedChildren if its count in
 // `children_` is not that of `top`. It always has children, as its own cluster is one until it is dropped.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A patch as a mesh. The part of a triangle in the ball is convex: its outline runs along the chords of its sides, and
-// along arcs, which points divide. A point on a side has a name that all triangles at the side give it.
+// Makes a mesh of a patch. The part of a triangle in the ball is convex: its outline runs along the chords of its
+// sides, and along arcs, which points divide. A point on a side has a name that all triangles at the side give it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,7 +39,7 @@ struct NewPoint {
   SpacePoint point;
 };
 
-/// A triangle of the mesh, on the way.
+/// A triangle of the mesh by the names of its corners.
 struct NamedTriangle {
   std::size_t face;
   std::array<PointName, 3> corners;
@@ -86,7 +86,7 @@ class Clip {
     }
   }
 
-  /// From any point of the circle, and around to it.
+  /// Adds a whole circle, from any point of it and around to it.
   void add_disc(const Circle& circle) {
     const Point side = triangle_.corners[1] - triangle_.corners[0];
     const Point begin = circle.distance * circle.normal + (circle.radius() / length(side)) * side;
@@ -94,7 +94,7 @@ class Clip {
     divide(circle, 2 * std::numbers::pi, begin, begin);
   }
 
-  /// The point where side `i` enters the ball, or leaves it.
+  /// Adds the point where side `i` enters the ball, or leaves it, and returns its name.
   PointName add_on_side(const ClippedTriangle& clipped, std::size_t i, bool enters) {
     const std::size_t beyond = enters ? i : (i + 1) % 3;
     const std::size_t other = enters ? (i + 1) % 3 : i;
@@ -121,12 +121,12 @@ class Clip {
     outline_.push_back(name);
   }
 
-  /// The points between the ends of an arc.
+  /// Adds points between the ends of an arc.
   void divide(const Circle& circle, double angle, const Point& from, const Point& to) {
     constexpr double kLong = 2;
     const double size = circle.radius();
     const double half = length(to - from) / 2;
-    // Of a circle that is a point, the ends may differ by their rounding.
+    // If the circle is a point, the ends of the arc may differ by their rounding.
     const double height = half < size ? half * half / (size + std::sqrt((size - half) * (size + half))) : size;
     if (angle < kLong && !(height > tolerance_)) return;
     const Point middle = circle.middle(angle, from, to);
@@ -135,13 +135,13 @@ class Clip {
     divide(circle, angle / 2, middle, to);
   }
 
-  /// A point of a line whose ends are far away is off the unit sphere by some units in the last place.
+  /// Moves a point onto the sphere. On a line whose ends are far away, it is off it by some units in the last place.
   [[nodiscard]] SpacePoint in_space(const Point& near_sphere) const {
     const Point p = ball_.center + (radius_ / length(near_sphere)) * near_sphere;
     return {p.x, p.y, p.z};
   }
 
-  /// A corner, in the frame.
+  /// Returns a corner relative to `p`, in the frame.
   [[nodiscard]] Point from_point(const SpacePoint& p, std::size_t corner) const {
     return ball_.scale * (triangle_.corners[corner] - Point{p[0], p[1], p[2]});
   }
@@ -150,10 +150,10 @@ class Clip {
     return *std::ranges::lower_bound(new_points_, name, {}, &NewPoint::name);
   }
 
-  /// What the first triangle of a side says of its points holds for all.
+  /// Returns the name by which a point is stored. What the first triangle of a side says of its points holds for all.
   [[nodiscard]] PointName resolved(PointName name) const { return is_vertex(name) ? name : new_point(name).same; }
 
-  /// The fans of the outlines.
+  /// Divides each outline into a fan of triangles.
   [[nodiscard]] std::vector<NamedTriangle> named_triangles() const {
     std::vector<NamedTriangle> triangles;
     std::vector<PointName> corners;

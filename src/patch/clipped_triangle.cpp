@@ -38,7 +38,8 @@ ClippedTriangle::ClippedTriangle(const PatchBall& ball, const PatchTriangle& tri
   }
 }
 
-/// The nearest point of the line from `begin` along `whole`, both times `unit`. `sign`: of the direction of the side.
+/// Sets the nearest point of the line from `begin` along `whole`, both times `unit`. The side has the direction of
+/// `whole` times `sign`.
 template <class Real>
 void ClippedTriangle::set_line(Side& side, const RealVector<Real>& begin, const RealVector<Real>& whole, double unit,
                                double sign) {
@@ -56,7 +57,7 @@ void ClippedTriangle::set_line(Side& side, const RealVector<Real>& begin, const 
   side.is_between = static_cast<double>(share) > 0 && static_cast<double>(share) < 1;
 }
 
-/// Whether the nearest point of a line lies between the ends and in the ball, but for rounding.
+/// Returns whether the nearest point of a line lies between the ends and in the ball, but for rounding.
 bool ClippedTriangle::may_dip(std::size_t i) const {
   if (is_far_) return true;
   const Point& a = corners_[i];
@@ -67,7 +68,7 @@ bool ClippedTriangle::may_dip(std::size_t i) const {
          dot(a, a) * square - along * along <= (1 + kTouchSlack) * square;
 }
 
-/// From the same end for all triangles that have the side: the one in the ball, if the other is not.
+/// Measures from the same end for all triangles that have the side: the one in the ball, if the other is not.
 void ClippedTriangle::find_nearest(std::size_t i) {
   const bool begins = triangle_->inside[i];
   const bool ends = triangle_->inside[after(i)];
@@ -93,20 +94,20 @@ void ClippedTriangle::find_chord(std::size_t i) {
   side.to = triangle_->inside[after(i)] ? dot(corners_[after(i)], side.along) : side.half;
 }
 
-/// The turn of the boundary at a corner between two sides that are cut.
+/// Returns the turn of the boundary at a corner between two sides that are cut.
 Complex ClippedTriangle::turn_at(std::size_t corner) const {
   const Point& before = sides_[after(after(corner))].along;
   const Point& behind = sides_[corner].along;
   return {dot(before, behind), dot(plane_.circle.normal, cross(before, behind))};
 }
 
-/// The angle of the arc from where side `from` leaves the ball to where the one `steps` sides later enters it.
+/// Returns the angle of the arc from where side `from` leaves the ball to where the one `steps` sides later enters it.
 ///
 /// The boundary turns at both ends of the arc, each time by the argument of (offset, half), and along the arc. All of
 /// it is the turn at the corners in between: at the next corner; or, one side later, 2 pi without that at the corner
 /// that both sides have; or 2 pi for the same side again. So the numbers are divided, and the angle is an argument, in
-/// [0, 2 pi]; in [0, pi] for the next side, since both ends of the arc are seen from the corner that is outside. Near
-/// the ends of the first range the angles themselves are subtracted.
+/// [0, 2 pi], or in [0, pi] for the next side, since both ends of the arc are seen from the corner that is outside.
+/// Near the ends of the first range the angles themselves are subtracted.
 double ClippedTriangle::angle_of_arc(std::size_t from, std::size_t steps) const {
   const Side& to = sides_[(from + steps) % 3];
   const Complex leaves{sides_[from].offset, sides_[from].half};
@@ -120,7 +121,7 @@ double ClippedTriangle::angle_of_arc(std::size_t from, std::size_t steps) const 
   return std::clamp(all - argument(leaves) - argument(enters), 0.0, 2 * kPi);
 }
 
-/// Twice the area times the normal: that of a needle from its short side; none if the direction of this is rounding.
+/// Returns twice the area times the normal: that of a needle from its short side, and 0 if the direction is rounding.
 Point ClippedTriangle::vector_area() const {
   constexpr double kDust = 0x1p-88;  // of the square of a side
   const std::array sides{corners_[1] - corners_[0], corners_[2] - corners_[1], corners_[2] - corners_[0]};
@@ -129,7 +130,7 @@ Point ClippedTriangle::vector_area() const {
   return cross(sides[0], squares[1] < kNeedle * squares[0] ? sides[1] : sides[2]);
 }
 
-/// From the longest chord, whose line is near.
+/// Computes the distance from the longest chord, whose line is near.
 double ClippedTriangle::distance_of_plane() const {
   double longest = -1;
   Point nearest{0, 0, 0};
@@ -141,7 +142,7 @@ double ClippedTriangle::distance_of_plane() const {
   return std::clamp(dot(plane_.circle.normal, nearest), -1.0, 1.0);
 }
 
-/// The vector area of the triangle and whether the foot of the center on its plane lies in it, in the frame.
+/// Finds the plane of the triangle, and whether the foot of the center on it lies in the triangle.
 template <class Real>
 ClippedTriangle::Plane ClippedTriangle::find_plane() const {
   std::array<RealVector<Real>, 3> corners{offset<Real>(*ball_, triangle_->corners[0]),

@@ -14,18 +14,18 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The corner or side of a triangle after number `i`.
+/// Returns the number of the corner or side of a triangle after `i`.
 [[nodiscard]] constexpr std::size_t after(std::size_t i) { return i == 2 ? 0 : i + 1; }
 
-/// A triangle by its corners in the unit of the mesh, with what is known of them.
+/// The corners of a triangle in the unit of the mesh, and what is known of them.
 struct PatchTriangle {
   std::array<Point, 3> corners;
   std::array<std::uint32_t, 3> places;
   std::array<bool, 3> inside;
 };
 
-/// The part of a triangle in a ball that does not contain all of its corners. Lengths are in units of the radius, from
-/// the center of the ball.
+/// Finds the part of a triangle in a ball that does not contain all of its corners. Lengths are in units of the radius,
+/// from the center of the ball.
 ///
 /// Its boundary runs along chords, the parts of the sides in the ball, and along arcs from where a side leaves the ball
 /// to where the next one enters it. All of it follows from the point of each side's line that is nearest to the center.
@@ -35,7 +35,7 @@ class ClippedTriangle {
  public:
   ClippedTriangle(const PatchBall& ball, const PatchTriangle& triangle);
 
-  /// Whether side `i`, from corner `i`, has a point in the ball, and whether it has one although no corner is.
+  /// Return whether side `i`, from corner `i`, meets the ball, and whether it does although no corner is in it.
   [[nodiscard]] bool meets(std::size_t i) const { return sides_[i].is_cut; }
   [[nodiscard]] bool dips(std::size_t i) const { return sides_[i].dips; }
 
@@ -44,26 +44,26 @@ class ClippedTriangle {
     double distance;  // of the plane, along the normal
   };
 
-  /// Adds the arcs to `rim`.
+  /// Measures the part in the ball, and adds its arcs to `rim`.
   [[nodiscard]] Measure measure(RimArcs& rim);
   void add_to(PatchSums& sums);
 
-  /// Finds what follows.
+  /// Finds what the functions below return.
   void find_outline();
 
   [[nodiscard]] bool is_cut() const { return sides_[0].is_cut || sides_[1].is_cut || sides_[2].is_cut; }
-  /// Whether no side is cut, and the disc in which the plane meets the ball lies in the triangle.
+  /// Returns whether no side is cut, and the disc in which the plane meets the ball lies in the triangle.
   [[nodiscard]] bool has_disc() const { return !is_cut() && plane_.has_foot && std::abs(plane_.circle.distance) < 1; }
   /// Without an area, the normal is 0.
   [[nodiscard]] const Circle& circle() const { return plane_.circle; }
 
-  /// Where side `i` enters the ball, and where it leaves it, unless a corner is inside.
+  /// Return where side `i` enters the ball, and where it leaves it, unless a corner is inside.
   [[nodiscard]] Point entry(std::size_t i) const { return sides_[i].nearest - sides_[i].half * sides_[i].along; }
   [[nodiscard]] Point exit(std::size_t i) const { return sides_[i].nearest + sides_[i].half * sides_[i].along; }
-  /// Whether no point of side `i` in the ball is away from the sphere, but for rounding.
+  /// Returns whether no point of side `i` in the ball is away from the sphere, but for rounding.
   [[nodiscard]] bool touches(std::size_t i) const;
 
-  /// Whether the boundary leaves side `i` where this leaves the ball.
+  /// Returns whether the boundary leaves side `i` where this leaves the ball.
   [[nodiscard]] bool has_arc(std::size_t i) const { return meets(i) && !triangle_->inside[(i + 1) % 3]; }
 
   struct Arc {

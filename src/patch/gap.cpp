@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The meshlets, the nearest first, but those that the patch has as a whole.
+// Searches the meshlets, the nearest first, but not those that the patch has as a whole.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// The distance of a triangle from `q`, in twice the precision.
+/// Returns the distance of a triangle from `q`, in twice the precision.
 double far_distance(const Point& q, const std::array<Point, 3>& corners, double scale) {
   std::array<RealVector<Twofold>, 3> p{offset_of<Twofold>(corners[0], q, scale),
                                        offset_of<Twofold>(corners[1], q, scale),
@@ -39,8 +39,8 @@ double far_distance(const Point& q, const std::array<Point, 3>& corners, double 
   return (has_foot ? std::abs(static_cast<double>(dot(area, p[0]))) / size : least) / scale;
 }
 
-/// The nearest triangles that patches do not have. Those of a packet are near each other, so their centers are compared
-/// with a triangle at once. Only what surely is too far is left out, so the order of the triangles changes no answer.
+/// Finds the nearest triangles that patches do not have. Compares a triangle with all centers of a packet at once, as
+/// they are close. Leaves out only what surely is too far, so the order of triangles changes no answer.
 template <class Patches>
 class GapSearch {
  public:
@@ -57,7 +57,7 @@ class GapSearch {
     });
   }
 
-  /// Writes those of the queries.
+  /// Writes the gaps of the queries.
   void run(std::span<SurfacePoint> gaps) {
     std::visit(
         [&](auto xyz) {
@@ -82,7 +82,7 @@ class GapSearch {
     squared_reaches_[q] = reaches_[q] * reaches_[q];
   }
 
-  /// From the middle, of all queries.
+  /// Returns how far the queries reach from the middle.
   [[nodiscard]] double reach() const {
     double most = 0;
     for_each_query(queries_, [&](std::size_t q) { most = std::max(most, off_middle_[q] + reaches_[q]); });
@@ -98,7 +98,7 @@ class GapSearch {
     }
   }
 
-  /// The queries that may.
+  /// Returns the queries that may reach a meshlet.
   [[nodiscard]] QueryWord may_reach(MeshletId meshlet) const {
     const Meshlet& sums = state_->meshlets.meshlets[meshlet];
     const Point center = scale_ * sums.center();

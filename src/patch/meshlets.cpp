@@ -27,7 +27,7 @@ namespace {
 using GivenTriangle = std::uint32_t;
 constexpr GivenTriangle kLast = GivenTriangle{1} << 31U;
 
-/// The parts of a few triangles that are joined by corners.
+/// Divides a few triangles into the parts that corners join.
 class LeafParts {
  public:
   explicit LeafParts(std::span<const Triangle> triangles) {
@@ -43,7 +43,7 @@ class LeafParts {
     }
   }
 
-  /// Sorted by their parts, each named by its first triangle, then by their numbers, of which the first is `first`.
+  /// Appends the triangles from number `first`, sorted by parts, each named by its first triangle, then by numbers.
   void append(std::size_t first, std::vector<GivenTriangle>& out) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> by_parts;
     by_parts.reserve(parts_.size());
@@ -121,7 +121,7 @@ void Triangles::make_fans(std::size_t places) {
 
 namespace {
 
-/// The neighbors of a vertex that come after it in index order, ascending; no walls.
+/// Finds the neighbors of a vertex that come after it in index order, ascending, without walls.
 void later_neighbors(const IndexView& index, std::uint32_t place, std::vector<std::uint32_t>& neighbors) {
   neighbors.clear();
   if (index.is_wall_at(place)) return;
@@ -159,7 +159,7 @@ void Triangles::find_borders(const IndexView& index, TaskContext& task) {
                                                                  std::vector<LooseEdge>& out) mutable {
     const auto first = static_cast<std::uint32_t>(place);
     gather_sides(first, sides);
-    ends.clear();  // of sides that are no diagonals
+    ends.clear();  // those of sides that are no diagonals
     const auto is_other = [](const GivenSide& a, const GivenSide& b) { return a.side != b.side; };
     for (auto begin = sides.begin(), end = begin; begin != sides.end(); begin = end) {
       end = std::adjacent_find(begin, sides.end(), is_other);
@@ -186,7 +186,7 @@ void Triangles::find_borders(const IndexView& index, TaskContext& task) {
 
 namespace {
 
-/// Corners are seen from the center of the sphere, so that the moment is as accurate far from the origin.
+/// Takes corners relative to the center of the sphere, so that the moment is as accurate far from the origin.
 Meshlet make_meshlet(const IndexView& index, const Triangles& triangles, MeshletId meshlet) {
   BoundingBox box;
   for (const TriangleId t : triangles.of_meshlet(meshlet)) {
@@ -212,7 +212,7 @@ BoundingBox box_in_frame(const IndexView& index, const Meshlet& meshlet) {
   return {index.frame.to_frame(meshlet.box.low), index.frame.to_frame(meshlet.box.high)};
 }
 
-/// The same index, whose answers have the ignored vertices, too.
+/// Returns the same index, but its answers have the ignored vertices, too.
 Index without_ignored(const Index& given) {
   if (IndexAccess::view(given).ignored.empty()) return IndexAccess::alias(given);
   auto view = std::make_shared<IndexView>(IndexAccess::view(given));
@@ -239,7 +239,7 @@ Meshlets::Meshlets(const IndexView& index, const Triangles& triangles, TaskConte
   of_leaf = gather_lists<MeshletId, std::uint32_t>(index.leaf_count(), [&](auto&& f) {
     for (auto meshlet = static_cast<MeshletId>(size()); meshlet-- > 0;) {
       std::optional<LeafId> last;
-      for (const std::uint32_t place : corners[meshlet]) {  // those of a leaf follow each other
+      for (const std::uint32_t place : corners[meshlet]) {  // the places of a leaf follow each other
         const LeafId leaf = leaf_of(index.slot_at(place));
         if (leaf != last) f(leaf, meshlet);
         last = leaf;

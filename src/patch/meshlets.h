@@ -25,15 +25,15 @@
 
 namespace meshhood::inline v0_1 {
 
-/// A triangle by its number. Those of a meshlet follow each other.
+/// A triangle, by its number. Those of a meshlet follow each other.
 using TriangleId = std::uint32_t;
 using MeshletId = std::uint32_t;
 
 /// The triangles of the faces of a mesh, and which of them meet.
 ///
 /// A face with a wall, or with fewer than three corners, has none. A *side* joins two corners. A diagonal of a polygon
-/// is a side of its own, even where another face has the same corners. A *meshlet* has the triangles of faces whose
-/// corners that come first in index order are in one leaf, as far as corners join them.
+/// is a side of its own, even where another face has the same corners. A *meshlet* is a set of triangles that are
+/// joined by corners; the first corners, in index order, of their faces are in one leaf.
 struct Triangles {
   std::vector<std::array<std::uint32_t, 3>> corners;  // places in index order
   std::vector<std::uint32_t> face;                    // of each: its number in the mesh
@@ -43,7 +43,7 @@ struct Triangles {
   std::vector<MeshletId> of_block;                    // the meshlet of each eighth triangle
   bool are_of_index = true;                           // whether each side that is no diagonal is an edge of the index
 
-  /// An edge of the index that is no side: between two faces with walls, or of a face with two corners. By places.
+  /// The places of an edge of the index that is no side: between faces with walls, or of a face of two corners.
   struct LooseEdge {
     std::uint32_t first;
     std::uint32_t last;
@@ -57,12 +57,12 @@ struct Triangles {
   [[nodiscard]] std::size_t size() const { return corners.size(); }
   [[nodiscard]] std::size_t bytes() const;
 
-  /// Those of a meshlet.
+  /// Returns the triangles of a meshlet.
   [[nodiscard]] auto of_meshlet(MeshletId meshlet) const {
     return std::views::iota(first_of_meshlet[meshlet], first_of_meshlet[meshlet + std::size_t{1}]);
   }
 
-  /// The first step is without a branch, since whether it is needed is seldom clear. More are rare.
+  /// The first step has no branch, because it could not be predicted. More steps are rare.
   [[nodiscard]] MeshletId meshlet_of(TriangleId t) const {
     MeshletId meshlet = of_block[t / kBlock];
     meshlet += static_cast<MeshletId>(first_of_meshlet[meshlet + std::size_t{1}] <= t);
@@ -70,11 +70,11 @@ struct Triangles {
     return meshlet;
   }
 
-  /// The sum of the vector areas of some triangles, in the frame.
+  /// Returns twice the sum of the vector areas of some triangles, in the frame.
   [[nodiscard]] Point normal_of(const IndexView& index, std::span<const TriangleId> some) const;
 
-  /// Whether a side does not have as many triangles in one direction as in the other, or one twice: a border of the
-  /// surface, where its orientation changes, or where a face is listed again.
+  /// Returns whether a side does not have as many triangles in one direction as in the other, or one twice: at a border
+  /// of the surface, where its orientation changes, or where a face is listed again.
   [[nodiscard]] bool is_border(TriangleId t, unsigned side) const { return (flags[t] >> side & 1U) != 0; }
   [[nodiscard]] bool is_diagonal(TriangleId t, unsigned side) const { return (flags[t] >> (3 + side) & 1U) != 0; }
   [[nodiscard]] bool has_border(TriangleId t) const { return (flags[t] & 7U) != 0; }
@@ -95,7 +95,7 @@ struct Triangles {
  private:
   static constexpr TriangleId kBlock = 8;
 
-  /// Its ends, ascending; and the face of a diagonal, `kShared` of other sides.
+  /// The ends of a side, ascending, and the face of a diagonal, or `kShared` for other sides.
   struct Side {
     static constexpr std::uint32_t kShared = std::numeric_limits<std::uint32_t>::max();
 
@@ -118,15 +118,15 @@ struct Triangles {
     return {first, last, is_diagonal(t, static_cast<unsigned>(i)) ? face[t] : Side::kShared};
   }
 
-  /// `all`: by leaf.
+  /// `all` has the triangles by leaf.
   void make_meshlets(const Lists<Triangle, std::size_t>& all, TaskContext& task);
   void make_fans(std::size_t places);
   void find_borders(const IndexView& index, TaskContext& task);
 
-  /// Those whose first end is a place, sorted so that the same ones follow each other.
+  /// Finds the sides whose first end is the place `first`, sorted so that the same ones follow each other.
   void gather_sides(std::uint32_t first, std::vector<GivenSide>& sides) const;
 
-  /// Whether the triangles at one side are as many in one direction as in the other, and each is listed once.
+  /// Returns whether the triangles at one side are as many in one direction as in the other, and each is listed once.
   [[nodiscard]] static bool are_balanced(std::span<const GivenSide> same);
 };
 
@@ -142,7 +142,7 @@ struct Meshlet {
   [[nodiscard]] Point center() const { return 0.5 * box.low + 0.5 * box.high; }
 };
 
-/// What a search takes at once where it lies inside a ball, and finds at once where it lies far away.
+/// The meshlets of a surface. A search takes or leaves out a whole one if it lies inside a ball or far away.
 struct Meshlets {
   std::vector<Meshlet> meshlets;
   Lists<std::uint32_t> corners;  // the places at each meshlet, ascending
@@ -151,7 +151,7 @@ struct Meshlets {
 
   Meshlets(const IndexView& index, const Triangles& triangles, TaskContext& task);
 
-  /// After the vertices `changed` have moved, within the same frame.
+  /// Updates the sums after the vertices `changed` have moved, within the same frame.
   void renew(const IndexView& index, const Triangles& triangles, std::span<const VertexId> changed);
 
   [[nodiscard]] std::size_t size() const { return meshlets.size(); }
@@ -165,14 +165,14 @@ struct PatchState {
   /// Borrows the faces. Throws as `Triangles`.
   PatchState(const Index& given, const StoredFaces& all, TaskContext& task);
 
-  /// Shares the triangles.
+  /// Shares the triangles with `other`.
   PatchState(const PatchState& other);
   PatchState(PatchState&&) = default;
   PatchState& operator=(const PatchState&) = delete;
   PatchState& operator=(PatchState&&) = delete;
   ~PatchState() = default;
 
-  /// Follows a refit, in the same frame, in which the vertices `changed` have moved. All faces have three corners.
+  /// Follows a refit, in the same frame, in which the vertices `changed` have moved. All faces must have three corners.
   void renew(const Index& refitted, std::span<const VertexId> changed);
 
   Index searched;  // answers with ignored vertices, too, which are on the surface as others are
@@ -182,8 +182,8 @@ struct PatchState {
   const Triangles& triangles = *kept_triangles;
   Meshlets meshlets;
 
-  /// Whether the vertices of a patch that are in its ball are the neighborhood of its center, but for loose edges,
-  /// diagonals, and sides that dip into the ball.
+  /// Returns whether the vertices of a patch that are in its ball are the neighborhood of its center, but for loose
+  /// edges, diagonals, and sides that dip into the ball.
   [[nodiscard]] bool follows_neighborhoods() const { return triangles.are_of_index; }
 
   [[nodiscard]] std::size_t bytes() const { return triangles.bytes() + meshlets.bytes(); }

@@ -79,7 +79,7 @@ void PacketPatches::set_words(const PacketAnswer& packet) {
   }
 }
 
-/// A loose edge joins a neighborhood, but no patch.
+/// Drops the queries at loose edges, which join a neighborhood, but no patch.
 void PacketPatches::leave_loose() {
   const std::vector<Triangles::LooseEdge>& loose = state_->triangles.loose;
   for (std::size_t i = 0; i < leaves_.size() && !loose.empty(); ++i) {
@@ -119,7 +119,7 @@ void PacketPatches::add_meshlet(MeshletId meshlet) {
   if (measures_) kernels_->add_whole(inside_, sums.center(), centers_, state_->index->frame.scale, whole_);
 }
 
-/// Moments are seen from `point`.
+/// Adds a triangle, with its moment about `point`.
 void PacketPatches::add_triangle(TriangleId t, const Point& point, QueryWord queries) {
   auto [a, b, c] = words_of(t);
   a &= queries;
@@ -163,7 +163,7 @@ void PacketPatches::leave_at_diagonals(TriangleId t, const std::array<QueryWord,
 
 namespace {
 
-/// Which corner is alone inside or outside, and 1 if it is inside, else -1, by the corners inside: corner i is bit i.
+/// Which corner is alone inside or outside, and 1 if inside, else -1, by the corners inside: corner i is bit i.
 struct CutKind {
   std::size_t first;
   double inside;
@@ -172,7 +172,8 @@ constexpr std::array<CutKind, 8> kCutKinds{{{}, {0, 1}, {1, 1}, {2, -1}, {2, 1},
 
 }  // namespace
 
-/// Of queries that have one corner or two. From any corner on, three follow each other in the list of five.
+/// Adds a triangle of which the queries have one corner or two. From any corner on, three follow each other in the list
+/// of five.
 void PacketPatches::add_cut(TriangleId t, const std::array<Point, 3>& corners, const std::array<QueryWord, 3>& words,
                             QueryWord queries) {
   const LaneRow* rows = nullptr;
@@ -226,14 +227,14 @@ void PacketPatches::add_clipped(TriangleId t, std::size_t query) {
   if (measures_) clipped.add_to(sums_[query]);
 }
 
-/// In the order in which they were found, which may find more.
+/// Follows the dips in the order in which they were found. This may find more.
 void PacketPatches::follow_dips() {
   // NOLINTNEXTLINE(modernize-loop-convert): the list grows meanwhile
   for (std::size_t next = 0; next < dips_.size(); ++next) follow(Dip(dips_[next]));
 }
 
 void PacketPatches::follow(const Dip& dip) {
-  constexpr std::size_t kMostExtras = 64;  // so that a list is searched in little time
+  constexpr std::size_t kMostExtras = 64;  // a longer list would take long to search
   const Triangles& all = state_->triangles;
   all.for_each_beside(dip.triangle, dip.side, [&](TriangleId t) {
     if (!is_found(dip.query) || has(dip.query, t)) return;

@@ -19,7 +19,7 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The patches around the queries of a packet, from their neighborhoods. One object a thread.
+/// Finds the patches around the queries of a packet from their neighborhoods. Each thread needs its own.
 ///
 /// A patch whose vertices are a neighborhood has the triangles with a corner in it, and those behind a side that dips
 /// into the ball between its ends. So each triangle is looked at once for all queries, by the words of its corners: it
@@ -30,17 +30,17 @@ namespace meshhood::inline v0_1 {
 /// over whole ones are apart from those over cut ones, which wait until a vector is full.
 class PacketPatches {
  public:
-  /// Of packets of `state.searched`. Borrows the state.
+  /// Takes packets of `state.searched`. Borrows the state.
   explicit PacketPatches(const PatchState& state);
   PacketPatches(const PacketPatches&) = delete;  // it points to rows of its own
   PacketPatches& operator=(const PacketPatches&) = delete;
 
-  /// Returns the queries whose patches it has found. Of the others patch and neighborhood may differ, by a loose edge,
-  /// a diagonal or what is behind a side that dips into the ball; or much is behind such sides; or the radius is next
-  /// to nothing or infinite. `measures`: area and volume, too.
+  /// Returns the queries whose patches it has found. For the others, patch and neighborhood may differ, by a loose
+  /// edge, a diagonal or what is behind a side that dips into the ball; or much is behind such sides; or the radius is
+  /// almost 0, or infinite. With `measures`, it also finds area and volume.
   QueryWord find(const PacketAnswer& packet, bool measures);
 
-  // Of a query that was found:
+  // The functions below are for a query that was found.
   [[nodiscard]] const PatchBall& ball(std::size_t query) const { return balls_[query]; }
   [[nodiscard]] bool exists(std::size_t query) const { return (met_ >> query & 1U) != 0; }
   [[nodiscard]] double area(std::size_t query) const { return sums_[query].area(balls_[query]); }
@@ -48,10 +48,10 @@ class PacketPatches {
     return exists(query) ? sums_[query].volume(balls_[query]) : kNan;
   }
   [[nodiscard]] bool has(std::size_t query, TriangleId t) const;
-  /// The nearest point of a triangle in the ball that the patch does not have. The first call finds those of all.
+  /// Returns the nearest point of a triangle in the ball that the patch does not have. The first call finds all gaps.
   [[nodiscard]] const SurfacePoint& gap(std::size_t query);
 
-  // Words of the queries that have a corner of a triangle, or all of a meshlet.
+  // These return the queries that have a corner of a triangle, or all of a meshlet.
   [[nodiscard]] QueryWord having(TriangleId t) const {
     const auto [a, b, c] = words_of(t);
     return a | b | c;
@@ -118,7 +118,7 @@ class PacketPatches {
   std::vector<SurfacePoint> gaps_;  // by query; none before they are asked for
 };
 
-/// What of patches is asked for.
+/// The parts of patches that are asked for.
 struct PatchParts {
   bool measures;
   bool gaps;
@@ -134,7 +134,7 @@ struct RowPatch {
 
 using RowPatchVisitor = std::function<void(std::size_t row, const RowPatch& patch)>;
 
-/// A visitor of packets of `state.searched`, for one thread, that calls `visit` with the patch of each row.
+/// Returns a visitor of packets of `state.searched`, for one thread, that calls `visit` with the patch of each row.
 [[nodiscard]] PacketVisitor patch_visitor(const PatchState& state, PatchParts parts, RowPatchVisitor visit);
 
 }  // namespace meshhood::inline v0_1

@@ -65,8 +65,8 @@ struct PatchSearcher::State {
     search.run(center, radius, starts, measures);
   }
 
-  /// The triangle of a face that is nearest to a point; none if it has no point in the ball. A point on the face is off
-  /// it by the rounding of its coordinates, which are as large as those of the corners.
+  /// Finds the triangle of a face that is nearest to a point; none if it has no point in the ball. A point on the face
+  /// is off it by the rounding of its coordinates, which are as large as those of the corners.
   void find_start(std::size_t face, const Point& p, double radius) {
     constexpr double kRounding = 0x1p-48;
     const IndexView& index = *surface->index;
@@ -130,7 +130,7 @@ class PacketVisit {
 
   void run(const PacketAnswer& answer) {
     const QueryWord found = packet_.find(answer, parts_.measures);
-    for (std::size_t q = 0; q < answer.rows.size(); ++q) {  // walls, too, which are no queries of a packet
+    for (std::size_t q = 0; q < answer.rows.size(); ++q) {  // this includes walls, which are no queries of a packet
       RowPatch patch{answer.radii[q]};
       if ((found >> q & 1U) != 0) {
         if (parts_.measures) patch = {patch.radius, packet_.area(q), packet_.volume(q)};
@@ -174,7 +174,7 @@ void for_each_point(const Surface& surface, const IndicesView& faces, std::span<
   const FacePoints starts(state.faces(), faces, points);
   const std::vector<BatchRadius> passes = radius_of_passes(radius);
   TaskContext task(run.threads, run.progress, passes.size() * starts.size());
-  static_cast<void>(state.patches(task));  // before the threads begin: each of them would make it
+  static_cast<void>(state.patches(task));  // else each thread would make it
   const Rows rows({.vertices = starts.corners(), .radius = passes.front()}, surface.vertex_count());
   const auto slot_of = [&](std::size_t row) { return state.index->slot[starts.corners()[row]]; };
   std::vector<std::optional<PatchSearcher>> searchers(task.threads());

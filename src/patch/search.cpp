@@ -28,7 +28,7 @@ std::vector<TriangleId> PatchSearch::triangles() const {
   return result;
 }
 
-/// Whole if the bounding sphere of a meshlet lies in the ball, or its box.
+/// A meshlet is whole if its bounding sphere or its box lies in the ball.
 inline PatchSearch::Kind PatchSearch::kind_of(MeshletId meshlet) {
   constexpr double kDipSlack = 0x1p-46;
   if (kinds_.is_known(meshlet)) return kinds_[meshlet];
@@ -45,7 +45,7 @@ inline PatchSearch::Kind PatchSearch::kind_of(MeshletId meshlet) {
   return kinds_.set(meshlet, is_whole ? Kind::Whole : Kind::Partial);
 }
 
-/// Without a branch on what was seen before, which is seldom clear.
+/// There is no branch on what was seen before, because it could not be predicted.
 inline void PatchSearch::visit(TriangleId t) {
   if (seen_count_ == triangles_.size()) triangles_.resize(2 * seen_count_ + 64);
   triangles_[seen_count_] = t;
@@ -109,7 +109,7 @@ void PatchSearch::take(MeshletId meshlet) {
   if (sums.has_border) sums_.meet_border();
 }
 
-/// All corners of a meshlet that is taken are in the ball.
+/// Enters the corners of a taken meshlet, all of which are in the ball.
 void PatchSearch::leave(MeshletId meshlet) {
   for (const std::uint32_t place : state_->meshlets.corners[meshlet]) {
     if (!inside_.has(place)) enter(place);
@@ -129,7 +129,7 @@ void PatchSearch::add_cut(TriangleId t, const PatchTriangle& triangle) {
     if (clipped.dips(i)) state_->triangles.for_each_beside(t, i, [&](TriangleId other) { visit(other); });
     if (clipped.meets(i) && state_->triangles.is_border(t, static_cast<unsigned>(i))) sums_.meet_border();
   }
-  if (measures_ && std::isfinite(ball_.unit)) clipped.add_to(sums_);  // else the ball is next to nothing
+  if (measures_ && std::isfinite(ball_.unit)) clipped.add_to(sums_);  // else the radius is almost 0
 }
 
 }  // namespace meshhood::inline v0_1

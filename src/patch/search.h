@@ -18,7 +18,7 @@
 
 namespace meshhood::inline v0_1 {
 
-/// A search over triangles from a start, for one thread. A meshlet inside the ball is one step.
+/// Searches triangles from a start, on one thread. A meshlet inside the ball is one step.
 ///
 /// The triangles of a patch are joined by the corners and sides that they share, where these have a point in the ball.
 /// A side has one if an end has; then its triangles share a corner in the ball. So a search steps from a triangle to
@@ -28,25 +28,25 @@ class PatchSearch {
   /// Borrows the state.
   explicit PatchSearch(const PatchState& state);
 
-  /// Finds the patch around `center` that has the triangles `starts`. `measures`: its area and volume, too.
+  /// Finds the patch around `center` that has the triangles `starts`; with `measures`, its area and volume, too.
   void run(const Point& center, double radius, std::span<const TriangleId> starts, bool measures);
 
-  // Of the last run.
+  // The functions below answer for the last run.
 
-  /// Whether there is a triangle.
+  /// Returns whether the patch has a triangle.
   [[nodiscard]] bool exists() const { return seen_count_ > 0; }
 
-  /// In the unit of the mesh, with `measures`.
+  /// Return area and volume in the unit of the mesh, after a run with `measures`.
   [[nodiscard]] double area() const { return sums_.area(ball_); }
   [[nodiscard]] double volume() const { return exists() ? sums_.volume(ball_) : kNan; }
 
-  /// The nearest point of a triangle in the ball that the patch does not have.
+  /// Returns the nearest point of a triangle in the ball that the patch does not have.
   [[nodiscard]] SurfacePoint gap() const;
 
-  /// As a mesh, without its area. `radius`: that of the run.
+  /// Returns the patch as a mesh, without its area. `radius` is that of the run.
   [[nodiscard]] ClippedMesh clip(double radius, double tolerance) const;
 
-  // As those of `PacketPatches`, for its first query. A triangle is of the patch if it was seen, or its meshlet taken.
+  // As in `PacketPatches`, for query 0. A triangle is of the patch if it was seen, or its meshlet taken.
   [[nodiscard]] const PatchBall& ball(std::size_t /*query*/) const { return ball_; }
   [[nodiscard]] bool has(std::size_t /*query*/, TriangleId t) const { return seen_.has(t); }
   [[nodiscard]] QueryWord having(TriangleId t) const { return seen_.has(t) ? 1 : 0; }
@@ -54,11 +54,11 @@ class PatchSearch {
     return kinds_.is_known(m) && kinds_[m] == Kind::Taken ? 1 : 0;
   }
 
-  /// By the numbers of their faces.
+  /// Returns the triangles in the order of their faces.
   [[nodiscard]] std::vector<TriangleId> triangles() const;
 
  private:
-  /// Whole: inside the ball, not reached yet.
+  /// A whole meshlet lies inside the ball, and is not taken yet.
   enum class Kind : std::uint8_t { Partial, Whole, Taken };
 
   template <class Real>

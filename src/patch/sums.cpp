@@ -11,17 +11,17 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// A number whose argument is half the signed area of a spherical triangle.
+/// Returns a number whose argument is half the signed area of a spherical triangle.
 Complex half_area(const Point& n, const Point& u, const Point& w) {
   return {1 + dot(n, u) + dot(u, w) + dot(w, n), dot(n, cross(u, w))};
 }
 
 bool is_clear(const Complex& from_pole) { return std::norm(from_pole) >= kClearPole; }
 
-/// Only the argument of a factor counts. One is 0 if an end is where the potential is singular, to all digits.
+/// Only the argument of a factor counts. A factor is exactly 0 if an end lies where the potential is singular.
 Complex not_zero(const Complex& z) { return z == Complex(0) ? 1 : z; }
 
-/// Times a power of the radius, which may be infinite: then no triangle is cut.
+/// Multiplies by a power of the radius, which may be infinite: then no triangle is cut.
 double times_power(double sum, double power) { return sum == 0 ? 0 : sum * power; }
 
 }  // namespace
@@ -36,7 +36,7 @@ Point Circle::middle(double theta, const Point& u, const Point& w) const {
 }
 
 void RimArcs::clear(const Point& normal) {
-  // Oblique, so that the singular point is none of those where symmetric surfaces have corners and sides.
+  // The pole is oblique, so that the singular point is none of those where symmetric surfaces have corners and sides.
   const Point oblique{0.0731, -0.0417, 0.0593};
   const double size = length(normal);
   const Point about = (size > 0 ? (1 / size) * normal : Point{0, 0, 1}) + oblique;
@@ -65,7 +65,7 @@ void RimArcs::add(const Circle& circle, double theta, const Point& u, const Poin
   const auto add_part = [&](const Point& from, const Point& to) {
     add_factor(times(std::conj(half_area(n, from, to)), from_pole(from, to)));
   };
-  // From near the opposite of one pole, half a long arc does not lead near that of the other.
+  // Half a long arc from near the opposite of one pole does not lead near that of the other.
   if (theta < (is_clear(half_area(pole_, u, w)) ? kLongArc : kLongArc / 2)) return add_part(u, w);
   const Point half = circle.middle(theta, u, w);
   const Point first = circle.middle(theta / 2, u, half);
@@ -113,10 +113,10 @@ double PatchSums::area(const PatchBall& ball) const {
 /// The arcs tell the area behind up to all of the sphere, and so the volume up to that of the ball. It is neither
 /// negative nor larger than the ball, which a surface that intersects itself might enclose more than once.
 ///
-/// Below 0 by no more than its error it is 0. A term of the moment is the area of a triangle times a part of the offset
-/// of a corner from the center, which is at most the radius, and less than 4 in the frame. So its error is a few 2^-53
-/// of area times offset, and that of a needle as many times more as it is longer than high: the slack has room for
-/// 1000. A body as thin as 2^-41 radii, or units of the frame, is below it, too.
+/// A result below 0 by no more than its error becomes 0. A term of the moment is the area of a triangle times a part of
+/// the offset of a corner from the center, which is at most the radius, and less than 4 in the frame. So its error is a
+/// few 2^-53 of area times offset, and that of a needle as many times more as it is longer than high: the slack has
+/// room for 1000. A body as thin as 2^-41 radii, or units of the frame, is below it, too.
 double PatchSums::volume(const PatchBall& ball) const {
   constexpr double kSlack = 0x1p-40;
   if (has_border_) return kNan;

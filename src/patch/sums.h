@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The area and the volume of a patch, summed from its triangles and from the arcs of its rim; and the ball that cuts
-// it.
+// The area and the volume of a patch are sums over its triangles and the arcs of its rim, where a ball cuts it.
 #pragma once
 
 #include <algorithm>
@@ -37,11 +36,11 @@ struct Circle {
   [[nodiscard]] bool exists() const { return normal.x != 0 || normal.y != 0 || normal.z != 0; }
   [[nodiscard]] double radius() const { return std::sqrt((1 - distance) * (1 + distance)); }
 
-  /// The middle of the arc of the angle `theta` counterclockwise about the normal, from `u` to `w`.
+  /// Returns the middle of the arc of the angle `theta` counterclockwise about the normal, from `u` to `w`.
   [[nodiscard]] Point middle(double theta, const Point& u, const Point& w) const;
 };
 
-/// The arcs of the unit sphere along which a patch leaves it, which bound the part of the sphere behind the patch.
+/// Sums the arcs of the unit sphere along which a patch leaves it, which bound the part of the sphere behind the patch.
 ///
 /// The potential of the area form that is singular at -k, the opposite of the pole k, gives, for the arc from u to w
 /// about the unit vector n in the plane at height h, of the angle theta,
@@ -63,21 +62,21 @@ class RimArcs {
 
   [[nodiscard]] const Point& pole() const { return pole_; }
 
-  /// An arc of the angle `theta` counterclockwise about the normal, from `u` to `w`. O(1).
+  /// Adds an arc of the angle `theta` counterclockwise about the normal, from `u` to `w`. Takes O(1).
   void add(const Circle& circle, double theta, const Point& u, const Point& w);
 
-  /// An arc that `PatchKernels` have measured: what its angle adds, and its factor.
+  /// Adds an arc that `PatchKernels` have measured: what its angle adds, and its factor.
   void add_measured(double turn, const Complex& factor) {
     sum_ += turn;
     add_factor(factor);
   }
 
-  /// A whole circle.
+  /// Adds a whole circle.
   void add_circle(double h);
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
 
-  /// The area behind, in [0, 4 pi). What is less than the error below 4 pi is 0, from which the arcs do not tell it.
+  /// Returns the area behind, in [0, 4 pi). Within the error of 4 pi, it is 0, since arcs do not tell these apart.
   [[nodiscard]] double area_behind() const;
 
  private:
@@ -99,7 +98,7 @@ class RimArcs {
   std::size_t count_ = 0;
 };
 
-/// Area and volume of the patch around the center of a ball, from its parts.
+/// Sums area and volume of the patch around the center of a ball from its parts.
 ///
 /// The volume behind a patch is (sum of d A + r S) / 3, by the divergence theorem: d is the distance of a triangle's
 /// plane from the center, along its normal, A the area of its part in the ball, S that of the part of the sphere
@@ -109,13 +108,13 @@ class PatchSums {
   /// Begins with a patch whose normal is about this one, of any length.
   void clear(const Point& normal);
 
-  /// Triangles in the ball: the sums of area and of area times distance, in the frame.
+  /// Adds triangles in the ball: the sums of area and of area times distance, in the frame.
   void add_whole(double area, double moment) {
     area_ += area;
     moment_ += moment;
   }
 
-  /// The part of a triangle that is not, in units of the radius. The caller adds its arcs to `rim`.
+  /// Adds the part in the ball of another triangle, in units of the radius. The caller adds its arcs to `rim`.
   void add_cut(double area, double distance) {
     cut_area_ += area;
     cut_moment_ += area * distance;
@@ -125,10 +124,10 @@ class PatchSums {
 
   void meet_border() { has_border_ = true; }
 
-  /// In the unit of the mesh.
+  /// Returns the area in the unit of the mesh.
   [[nodiscard]] double area(const PatchBall& ball) const;
 
-  /// NaN if a border is in the ball, else not negative. Of a patch, which has a triangle.
+  /// Returns NaN if a border is in the ball, else a volume that is not negative. The patch must have a triangle.
   [[nodiscard]] double volume(const PatchBall& ball) const;
 
  private:

@@ -9,8 +9,8 @@
 namespace meshhood::inline v0_1 {
 
 /// A number of about 106 bits, the sum of two doubles that do not overlap (T. J. Dekker, "A floating-point technique
-/// for extending the available precision", Numerische Mathematik 18, 1971). For corners so far from a ball that what
-/// cancels in double would be seen in it.
+/// for extending the available precision", Numerische Mathematik 18, 1971). It serves corners so far from a ball that
+/// what cancels in double would matter there.
 struct Twofold {
   double high;
   double low = 0;
@@ -18,14 +18,14 @@ struct Twofold {
   Twofold(double value) : high(value) {}
   Twofold(double first, double second) : high(first + second), low(second - (high - first)) {}  // |first| >= |second|
 
-  /// Without an error.
+  /// Adds without an error.
   [[nodiscard]] static Twofold sum(double a, double b) {
     const double sum = a + b;
     const double part = sum - a;
     return {sum, (a - (sum - part)) + (b - part)};
   }
 
-  /// Likewise, unless a factor is beyond 2^995. Without a fused operation, which the library never uses.
+  /// Multiplies without an error, unless a factor is beyond 2^995. It uses no fused operation; the library never does.
   [[nodiscard]] static Twofold product(double a, double b) {
     const auto [a_high, a_low] = halves(a);
     const auto [b_high, b_low] = halves(b);
@@ -49,7 +49,7 @@ struct Twofold {
   explicit operator double() const { return high; }
 
  private:
-  /// The upper and the lower 26 bits of a number.
+  /// Returns the upper and the lower 26 bits of a number.
   static std::pair<double, double> halves(double a) {
     const double shifted = 0x1.0000002p27 * a;
     const double upper = shifted - (shifted - a);
@@ -57,7 +57,7 @@ struct Twofold {
   }
 };
 
-/// A vector of numbers of either kind.
+/// A vector of doubles or of `Twofold`.
 template <class Real>
 struct RealVector {
   Real x;
@@ -81,7 +81,7 @@ template <class Real>
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// `p` - `center`, times `scale`, a power of two, which does not round.
+/// Returns `p` - `center`, times `scale`, a power of two, which does not round.
 template <class Real>
 [[nodiscard]] RealVector<Real> offset_of(const Point& p, const Point& center, double scale) {
   const auto axis = [&](double x, double from) -> Real {

@@ -16,7 +16,7 @@ namespace meshhood::inline v0_1 {
 
 // NOLINTBEGIN(modernize-avoid-c-arrays): a vector would initialize its memory before it is overwritten.
 
-/// Growing bytes at the alignment that `map` requires.
+/// A growing array of bytes, at the alignment that `map` requires.
 class AlignedBuffer {
  public:
   explicit AlignedBuffer(std::size_t capacity) : lines_(make_lines(capacity)), capacity_(capacity) {}
@@ -28,7 +28,7 @@ class AlignedBuffer {
     return copy;
   }
 
-  /// The unused memory at the end.
+  /// Returns the unused memory at the end.
   [[nodiscard]] std::span<char> room() { return {chars() + size_, capacity_ - size_}; }
 
   /// Appends the first `bytes` of `room()`.
@@ -37,7 +37,6 @@ class AlignedBuffer {
     size_ += bytes;
   }
 
-  /// Doubles the capacity.
   void grow() {
     AlignedBuffer larger(2 * capacity_);
     std::copy_n(chars(), size_, larger.chars());

@@ -14,10 +14,10 @@ MESHHOOD_API_BEGIN
 
 using ByteSpans = std::initializer_list<std::span<const std::byte>>;
 
-/// The 64-bit XXH3 hash of the concatenation of `parts`.
+/// Returns the 64-bit XXH3 hash of the concatenation of `parts`.
 [[nodiscard]] std::uint64_t checksum(ByteSpans parts);
 
-/// The 128-bit XXH3 hash of the concatenation of `parts`.
+/// Returns the 128-bit XXH3 hash of the concatenation of `parts`.
 [[nodiscard]] Fingerprint wide_checksum(ByteSpans parts);
 
 MESHHOOD_API_END

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLeastSteps = 64;
 
-// From a float of this magnitude to the next.
+// Returns the difference between a float of this magnitude and the next.
 double step_at(double largest) {
   using Limits = std::numeric_limits<float>;
   int exponent = 0;
@@ -33,7 +33,7 @@ double largest_coordinate(const StridedPositions<Real>& xyz) {
   return static_cast<double>(*std::max_element(largest.begin(), largest.end()));
 }
 
-// The mean length of the sides of the faces; nothing if there are none, or if it is at least `least`.
+// Returns the mean length of the sides of the faces; nothing if there are none, or if it is at least `least`.
 template <class Real>
 std::optional<double> mean_side_below(double least, const StridedPositions<Real>& xyz, const FacesView& faces) {
   constexpr std::size_t kFaces = 1024;

@@ -7,7 +7,7 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Sets of the elements 0, 1, ... without a common one. A set is named by its smallest element.
+/// Divides the elements 0, 1, ... into disjoint sets. A set is named by its smallest element.
 class DisjointSets {
  public:
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(parents_.size()); }
@@ -17,7 +17,7 @@ class DisjointSets {
   /// Adds the element `size()`, in a set of its own.
   void add() { parents_.push_back(size()); }
 
-  /// The smallest element of a set. Halves the way to it (Tarjan and van Leeuwen 1984).
+  /// Returns the smallest element of a set, and halves the path to it (Tarjan and van Leeuwen 1984).
   [[nodiscard]] std::uint32_t first_of(std::uint32_t element) {
     while (parents_[element] != element) element = parents_[element] = parents_[parents_[element]];
     return element;

@@ -23,7 +23,7 @@ MESHHOOD_API_BEGIN
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Beyond this the square of a distance overflows.
+/// Up to this, no square of a distance overflows.
 inline constexpr double kLargestCoordinate = 0x1p500;
 
 struct Point {
@@ -32,24 +32,23 @@ struct Point {
   double z;
 };
 
-/// Vertex `v`.
 template <class Real>
 [[nodiscard]] Point point(const StridedPositions<Real>& xyz, std::size_t v) {
   return {static_cast<double>(xyz(v, 0)), static_cast<double>(xyz(v, 1)), static_cast<double>(xyz(v, 2))};
 }
 
-/// The same of positions whose type is known only at run time. Where many points are read, `visit` is faster.
+/// The type of these positions is known only at run time. Where many points are read, `visit` is faster.
 [[nodiscard]] inline Point point(const PositionsView& positions, std::size_t v) {
   return positions.visit([v](const auto& xyz) { return point(xyz, v); });
 }
 
-/// Vertex `v` of `xyz`, #V by 3.
 template <class Real>
 [[nodiscard]] Point point(std::span<const Real> xyz, std::size_t v) {
   return {static_cast<double>(xyz[3 * v]), static_cast<double>(xyz[3 * v + 1]), static_cast<double>(xyz[3 * v + 2])};
 }
 
-/// The one distance of the library. Contraction is off for all of our code, so that every path rounds alike.
+/// The library computes every distance with this function. Contraction is off for all its code, so every path rounds
+/// alike.
 [[nodiscard]] inline double squared_distance(const Point& p, const Point& q) {
   const double dx = p.x - q.x;
   const double dy = p.y - q.y;
@@ -57,8 +56,8 @@ template <class Real>
   return (dx * dx + dy * dy) + dz * dz;
 }
 
-/// The largest double whose square root is at most `radius`: `sqrt(d2) <= radius` exactly if `d2 <=` this. Testing
-/// against `radius * radius` instead would lose a vertex whose distance is `radius` in about a quarter of the cases.
+/// Returns the largest double whose square root is at most `radius`: `sqrt(d2) <= radius` exactly if `d2 <=` this.
+/// Testing against `radius * radius` would lose a vertex at the distance `radius` in about a quarter of the cases.
 [[nodiscard]] double squared_radius(double radius);
 
 /// Throws Error{InvalidRadius} unless `radius` is >= 0 or infinite. The message begins with `where`.
@@ -67,7 +66,7 @@ void check_radius(double radius, std::string_view where = {});
 /// Throws Error{VertexOutOfRange} unless `v` < `vertices`, and as `check_radius`.
 void check_query(VertexId v, std::size_t vertices, double radius, std::string_view where = {});
 
-/// A sphere stored with an index, its center and radius rounded so that it still encloses what it was made for.
+/// A sphere of an index, its center and radius rounded so that it still encloses what it was made for.
 template <class Real>
 struct Sphere {
   Real x;
@@ -83,7 +82,7 @@ template <class Real>
 
 enum class Containment { Outside, Intersecting, Inside };
 
-/// The closed ball around a query vertex: decides single vertices exactly and whole spheres conservatively.
+/// Compares vertices with the closed ball around a query vertex: single vertices exactly, whole spheres conservatively.
 class SearchBall {
  public:
   SearchBall(const Point& center, double radius)
@@ -96,7 +95,8 @@ class SearchBall {
 
   [[nodiscard]] const Point& center() const { return center_; }
 
-  /// Outside: no vertex in `sphere` is contained. Inside: every one is. Intersecting: neither is certain.
+  /// `Outside` means that the ball contains no vertex in `sphere`, `Inside` that it contains every one, `Intersecting`
+  /// that neither is certain.
   template <class Real>
   [[nodiscard]] Containment classify(const Sphere<Real>& sphere) const {
     const double distance2 = squared_distance(center_, center_of(sphere));

@@ -13,7 +13,7 @@ namespace meshhood::inline v0_1 {
 bool prepare_exceptions() {
 #if defined(__cpp_exceptions)
   constexpr std::size_t kMoreThanEnough = 4096;
-  void* const volatile trial = std::malloc(kMoreThanEnough);  // volatile: or compilers omit it
+  void* const volatile trial = std::malloc(kMoreThanEnough);  // without volatile, compilers omit it
   if (trial == nullptr) return false;
   std::free(trial);
   static_cast<void>(std::current_exception());
@@ -27,7 +27,7 @@ namespace {
 
 long this_process() {
 #if defined(_WIN32)
-  return 0;  // cannot be forked
+  return 0;  // it cannot be forked
 #else
   return long{getpid()};
 #endif
@@ -52,7 +52,7 @@ void HelperThreads::run(std::size_t most, const std::function<void(unsigned)>& b
 
 bool HelperThreads::are_lost() const { return !threads_.empty() && process_ != this_process(); }
 
-/// So that there are `count`, or as many as the system can create.
+/// Starts threads until there are `count`, or as many as the system can create.
 void HelperThreads::start(std::size_t count) {
   if (threads_.empty()) process_ = this_process();
   Failure ignored;

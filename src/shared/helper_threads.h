@@ -20,13 +20,13 @@ MESHHOOD_API_BEGIN
 
 /// Lets the C++ runtime allocate what it needs on this thread to handle exceptions. It would do so at the first
 /// exception; if memory has run out by then, glibc ends the process, where the runtime was loaded by the program while
-/// it ran, as Python does. False if memory is that short already.
+/// it ran, as Python does. Returns false if memory is that short already.
 bool prepare_exceptions();
 
 /// Keeps the first exception of several threads. Without exceptions, nothing fails.
 class Failure {
  public:
-  /// Calls `f`; false if it threw.
+  /// Calls `f`, and returns false if it threw.
   template <class F>
   bool guard(F&& f) {
 #if defined(__cpp_exceptions)
@@ -42,7 +42,7 @@ class Failure {
     return true;
   }
 
-  /// Called when all threads have stopped.
+  /// To be called when all threads have stopped.
   void pass_on() const {
     if (exception_) std::rethrow_exception(exception_);
   }
@@ -54,7 +54,7 @@ class Failure {
 
 #if defined(__STDCPP_THREADS__)
 
-/// The threads that take part in the loops of a task, beside that which it belongs to. They are started once, and sleep
+/// The threads that take part in the loops of a task, beside the one that it belongs to. They start once, and sleep
 /// between the loops.
 class HelperThreads {
  public:
@@ -62,7 +62,6 @@ class HelperThreads {
   HelperThreads(const HelperThreads&) = delete;
   HelperThreads& operator=(const HelperThreads&) = delete;
 
-  /// Ends the threads.
   ~HelperThreads();
 
   /// Calls `body(0)` on this thread, and `body(1)`, `body(2)` ... `body(most)` on others, but only on those that are
@@ -70,12 +69,11 @@ class HelperThreads {
   /// their start. Returns when all have ended. `body` must not throw.
   void run(std::size_t most, const std::function<void(unsigned)>& body);
 
-  /// Whether this process was forked since the threads were started. They are those of the parent then: this object can
-  /// neither be used nor destroyed.
+  /// Returns whether this process was forked since the threads were started. They belong to the parent then: this
+  /// object can neither be used nor destroyed.
   [[nodiscard]] bool are_lost() const;
 
  private:
-  /// What the threads are to do.
   enum class Order { Wait, Help, End };
 
   void start(std::size_t count);

@@ -7,8 +7,8 @@
 
 namespace meshhood::inline v0_1 {
 
-/// What is made at its first use, and kept. Any thread may ask for it. There is no lock, because a fork could leave it
-/// held: if several threads make it at once, one result is kept.
+/// Holds a value that is made at its first use, and kept. Any thread may ask for it. There is no lock, because a fork
+/// could leave it held: if several threads make it at once, one result is kept.
 template <class T>
 class Kept {
  public:
@@ -26,10 +26,10 @@ class Kept {
     return *value.release();
   }
 
-  /// Null if it has not been made. May be changed while no other thread uses it.
+  /// Returns the value, or null if it has not been made. It may be changed while no other thread uses it.
   [[nodiscard]] T* made() const { return value_.load(std::memory_order_acquire); }
 
-  /// While no other thread uses it.
+  /// Deletes the value, which no other thread may use meanwhile.
   void drop() { delete value_.exchange(nullptr, std::memory_order_acq_rel); }
 
  private:

@@ -13,7 +13,7 @@ void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 #if defined(MADV_HUGEPAGE)
   constexpr std::size_t kLargePage = std::size_t{1} << 21;
   if (std::align(kLargePage, kLargePage, memory, bytes) == nullptr) return;
-  static_cast<void>(madvise(memory, bytes, MADV_HUGEPAGE));  // without them, all is as it was
+  static_cast<void>(madvise(memory, bytes, MADV_HUGEPAGE));  // if it fails, all is as it was
 #endif
 }
 

@@ -6,10 +6,10 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Asks the system for large pages where it has them: it hands over memory several times as fast in these.
+/// Asks the system for large pages where it has them, because it hands over memory in these several times as fast.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
-/// A vector of `count` values, in large pages: most of the time to make a vector of millions is that of the system.
+/// Returns `count` values in large pages: most of the time to make a vector of millions is that of the system.
 template <class T>
 [[nodiscard]] std::vector<T> make_values(std::size_t count, const T& value = T()) {
   std::vector<T> values;

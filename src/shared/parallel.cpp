@@ -42,7 +42,7 @@ TaskContext::TaskContext(unsigned threads) : TaskContext(threads, kNoProgress, 0
 TaskContext::TaskContext() : threads_(1), progress_(&kNoProgress), total_(0) {}
 
 TaskContext::~TaskContext() {
-  // In a child, they are threads of the parent, and cannot be joined.
+  // In a child, the helpers are threads of the parent, and cannot be joined.
   if (!helpers_ || !helpers_->are_lost()) return;
   const HelperThreads* const left_alone = helpers_.release();
   static_cast<void>(left_alone);

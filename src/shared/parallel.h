@@ -23,8 +23,8 @@ MESHHOOD_API_BEGIN
 
 class HelperThreads;
 
-/// The time of `std::chrono::steady_clock`, on Linux up to ten milliseconds late. A batch with progress reads it for
-/// each row, and reading the exact time takes 8 % of a small row.
+/// Returns the time of `std::chrono::steady_clock`, on Linux up to ten milliseconds late. A batch with progress reads
+/// it for each row, and reading the exact time takes 8 % of a small row.
 inline std::chrono::steady_clock::time_point coarse_time() {
   using Clock = std::chrono::steady_clock;
 #if defined(__linux__)
@@ -37,8 +37,8 @@ inline std::chrono::steady_clock::time_point coarse_time() {
   return Clock::now();
 }
 
-/// A long call: its threads, its progress and whether it was cancelled. Belongs to the calling thread, which takes part
-/// in the work as thread 0.
+/// Holds the threads of a long call, its progress and whether it was cancelled. It belongs to the calling thread, which
+/// takes part in the work as thread 0.
 class TaskContext {
  public:
   /// threads     0: one per processor; always one if the platform has no threads, as WebAssembly.
@@ -46,10 +46,10 @@ class TaskContext {
   /// Reports the beginning. Throws Error{InvalidOption, Cancelled}.
   TaskContext(unsigned threads, const Progress& progress, std::size_t total);
 
-  /// No progress, never cancelled. Throws Error{InvalidOption}.
+  /// Makes a task that has no progress and is never cancelled. Throws Error{InvalidOption}.
   explicit TaskContext(unsigned threads);
 
-  /// The same with one thread; throws nothing.
+  /// Makes such a task with one thread, and throws nothing.
   TaskContext();
 
   TaskContext(const TaskContext&) = delete;
@@ -65,37 +65,37 @@ class TaskContext {
   template <class F>
   void parallel_for(std::size_t count, std::size_t grain, F&& f);
 
-  /// In a loop: a thread has done `parts` more.
+  /// Counts `parts` that `thread` has done in a loop.
   void advance(unsigned thread, std::size_t parts) {
     assert(thread < shares_.size());
     std::atomic<std::size_t>& done = shares_[thread].done;
     done.store(done.load(std::memory_order_relaxed) + parts, std::memory_order_relaxed);
   }
 
-  /// Thread 0: `parts` more are done.
+  /// Counts `parts` that thread 0 has done.
   void advance(std::size_t parts) { done_ += parts; }
 
-  /// Whether to continue; called within chunks that take long. Thread 0 reports progress if it is due, and may throw as
-  /// `report_progress`.
+  /// Returns whether to continue; to be called within chunks that take long. Thread 0 reports progress if it is due,
+  /// and may throw as `report_progress`.
   bool should_continue(unsigned thread) {
     if (thread == 0 && *progress_ && coarse_time() >= next_report_) report_progress();
     return !stopped_.load(std::memory_order_relaxed);
   }
 
-  /// Thread 0: reports progress now. Throws Error{Cancelled}, or what the callback throws.
+  /// Reports progress now, on thread 0. Throws Error{Cancelled}, or what the callback throws.
   void report_progress();
 
-  /// Thread 0: `parts` more are done; reports it.
+  /// Counts `parts` that thread 0 has done, and reports progress.
   void step(std::size_t parts = 1) {
     advance(parts);
     report_progress();
   }
 
-  /// Between loops: all parts are done, also those that turned out not to be needed; reports it.
+  /// Counts all parts as done, also those that turned out not to be needed, and reports it. Not to be called in a loop.
   void finish();
 
  private:
-  /// What a thread takes part with. Not beside that of another thread, which changes all the time.
+  /// Each thread has a share, in a cache line of its own, because the others change theirs all the time.
   struct alignas(64) Share {
     std::atomic<std::size_t> next{0};  // of the chunks that this thread begins with, the first that is left
     std::size_t end = 0;               // the chunk after these
@@ -127,7 +127,7 @@ void TaskContext::parallel_for(std::size_t count, std::size_t grain, F&& f) {
   run(shares.size(), [&](unsigned thread) {
     for (std::size_t i = 0; i < shares.size(); ++i) {
       Share& share = shares[(thread + i) % shares.size()];
-      // Each thread reads at first: a share that has ended then stays in the caches of all processors.
+      // Threads read before they add: a share that has ended then stays in the caches of all processors.
       while (share.next.load(std::memory_order_relaxed) < share.end) {
         const std::size_t chunk = share.next.fetch_add(1, std::memory_order_relaxed);
         if (chunk >= share.end) break;

@@ -11,7 +11,7 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Leaves new elements as they are in memory where `std::allocator` would set them to zero.
+/// Leaves the memory of new elements as it is, which `std::allocator` would set to zero.
 template <class T>
 class RawAllocator : public std::allocator<T> {
  public:
@@ -35,8 +35,8 @@ class RawAllocator : public std::allocator<T> {
   }
 };
 
-/// A vector that leaves new elements unset: each must be written before it is read. Where several threads write them,
-/// each also has its part of the page faults, which take longer than the writing.
+/// A vector that leaves new elements unset: each must be written before it is read. If several threads write them, they
+/// share the page faults, which take longer than the writing.
 template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 

@@ -16,15 +16,15 @@ namespace meshhood::inline v0_1 {
 /// Puts the vertices of a row into an order, and their distances along with them.
 class RowOrder {
  public:
-  /// Ascending ids.
+  /// Orders by ascending ids.
   RowOrder() = default;
 
-  /// The order of an index, whose permutation is borrowed.
+  /// Takes the order of an index, whose permutation is borrowed.
   explicit RowOrder(std::span<const VertexId> permutation) : permutation_(permutation), places_(permutation.size()) {
     for (std::size_t i = 0; i < permutation.size(); ++i) places_[permutation[i]] = static_cast<VertexId>(i);
   }
 
-  /// Ascending distances; of equal ones, the smaller id comes first.
+  /// Orders by ascending distances, equal ones by id.
   [[nodiscard]] static RowOrder by_distance() {
     RowOrder order;
     order.by_distance_ = true;

@@ -12,19 +12,19 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The shortest text that reads back as `value`.
+/// Returns the shortest text that reads back as `value`.
 [[nodiscard]] inline std::string to_text(double value) {
   std::array<char, 32> buffer{};
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), result.ptr};
 }
 
-/// Index `i` as it was given, with its sign.
+/// Returns index `i` as it was given, with its sign.
 [[nodiscard]] inline std::string to_text(const IndicesView& indices, std::size_t i) {
   return indices.visit([i](auto all) { return std::to_string(all[i]); });
 }
 
-/// Throws Error{code} about a vertex that the mesh does not have. `where` tells what named it, as in `edge 3: vertex `,
+/// Throws Error{code} about a vertex that the mesh does not have. `where` says what named it, as in `edge 3: vertex `,
 /// and `vertex` is its number as it was given, with its sign.
 [[noreturn]] inline void raise_no_such_vertex(ErrorCode code, std::string_view where, std::string_view vertex,
                                               std::size_t vertices) {

@@ -13,13 +13,12 @@
 
 namespace meshhood::inline v0_1 {
 
-/// A corner of a face.
 struct FaceCorner {
   std::size_t face;
   std::size_t corner;
   VertexId vertex;
 
-  /// Why the corner is refused. `first`: the number of the first element, 0 or 1.
+  /// Returns why the corner is refused. Elements are counted from `first`, 0 or 1.
   [[nodiscard]] std::string text(std::size_t first = 0) const {
     return "vertex " + std::to_string(vertex + first) + " has no position (NaN), but face " +
            std::to_string(face + first) + " has it as corner " + std::to_string(corner + first);
@@ -34,7 +33,7 @@ struct Unplaced {
   std::optional<FaceCorner> used;  ///< the first corner that is one of them: then the mesh is to be refused
 };
 
-/// The first corner of a face that `walls` has.
+/// Returns the first corner of a face that `walls` has.
 [[nodiscard]] inline std::optional<FaceCorner> first_corner_of(const FacesView& faces,
                                                                std::span<const std::uint8_t> walls) {
   std::optional<FaceCorner> found;
@@ -46,8 +45,9 @@ struct Unplaced {
   return found;
 }
 
-/// Finds the vertices without a position, and moves them to the first vertex that has one, where they change no bounds;
-/// if there is none, to the origin. Throws as `validate` if there are some, and the rest is no mesh. O(#V + #corners).
+/// Finds the vertices without a position, and moves them to the first vertex with one, where they change no bounds, or
+/// to the origin if there is none. If it finds some, it throws as `validate` unless the rest is a mesh.
+/// O(#V + #corners).
 template <class Real>
 [[nodiscard]] Unplaced place(std::span<Real> xyz, const FacesView& faces) {
   Unplaced unplaced;

@@ -11,8 +11,8 @@
 #include "simd/joint.h"
 #include "simd/kernels.h"
 
-/// The inner loops of aggregates: what up to 32 rows of a packet get from a few values, where a word for each value
-/// says which rows have it. As in `Kernels`, each function gives the same result on every processor, bit for bit.
+/// The inner loops of aggregates compute what up to 32 rows of a packet get from a few values, where a word for each
+/// value says which rows have it. As in `Kernels`, each function gives the same result on every processor, bit for bit.
 namespace meshhood::inline v0_1 {
 
 /// A sum for each row, as two doubles `high + low`: the rounding of each addition to `high` is added to `low` (Knuth's
@@ -53,7 +53,7 @@ struct Moments {
   double zeroth;                // sum of s
   std::array<double, 3> first;  // s q
   double trace;                 // s |q|^2
-  // For the biweight.
+  // Only the biweight needs these.
   std::array<double, 6> second;  // s q q^T: xx, xy, xz, yy, yz, zz
   std::array<double, 3> third;   // s |q|^2 q
   double fourth;                 // s |q|^4
@@ -62,9 +62,9 @@ struct Moments {
 /// A weight for each row, for each of up to 32 vertices.
 using RowWeights = std::array<PerLane<double>, kLeafCapacity>;
 
-/// The Gaussian that falls from 1 to 1/1000, `1000^-s` for the share s of the squared radius, 0 to 1: a polynomial for
-/// `1000^(-s/32)`, which is 1 at 0, squared `kGaussianSquarings` times. Its relative error with all roundings is at
-/// most 1e-14. No function of a C library takes part, so it has the same bits everywhere.
+/// The Gaussian falls from 1 to 1/1000: it is `1000^-s` for the share s of the squared radius, 0 to 1. It is computed
+/// by a polynomial for `1000^(-s/32)`, which is 1 at 0, and squared `kGaussianSquarings` times. Its relative error with
+/// all roundings is at most 1e-14. No function of a C library takes part, so it has the same bits everywhere.
 constexpr std::array kGaussian{1.0,
                                -0.2158673524681917,
                                0.023299356930803216,
@@ -110,23 +110,23 @@ struct AggregateKernels {
   void (*set_gaussians)(std::span<const Point> points, const QueryWord* words, const PacketCenters& centers,
                         RowWeights& weights);
 
-  /// The weights of a vertex by the lengths of paths to it, with each kernel but the box. An infinite radius makes the
-  /// weights 1; where there is no path within the radius they have no meaning.
+  /// Sets the weights of a vertex by the lengths of paths to it, for each kernel but the box. An infinite radius makes
+  /// the weights 1; where there is no path within the radius they have no meaning.
   void (*set_path_weights)(const PathLengths& lengths, const PathLengths& radii, SmoothingKernel kernel,
                            PerLane<double>& weights);
 
-  /// As `add_values`, each value multiplied by its weight for the row.
+  /// Adds as `add_values`, but multiplies each value by its weight for the row.
   void (*add_weighted)(std::span<const double> values, const QueryWord* words, const RowWeights& weights,
                        RowSums& sums);
 
   /// Adds to the rows of `word` the weighted sum over a node, `sum of s (1 - d^2/r^2)`, or with the square of the
-  /// parenthesis if `squared`. `offsets` are those of the point that the moments are about; those of the rows have the
-  /// unit of the moments.
+  /// parenthesis if `squared`. `offsets` are those of the point that the moments are about; in the rows of `word` they
+  /// have the unit of the moments.
   void (*add_moments)(const Moments& moments, const Offsets& offsets, const KernelRadii& radii, bool squared,
                       QueryWord word, RowSums& sums);
 };
 
-/// The kernels for `isa`, which the processor must have.
+/// Returns the kernels for `isa`, which the processor must have.
 [[nodiscard]] const AggregateKernels& aggregate_kernels(Isa isa);
 
 }  // namespace meshhood::inline v0_1

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `AggregateKernels`, compiled once for each target; see lanes-inl.h. The operations and their order are
-// the same for each target, and none is fused, so the results have the same bits.
+// `AggregateKernels` is compiled once for each target; see lanes-inl.h. The operations and their order are the same for
+// each target, and none is fused, so the results have the same bits.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace meshhood::inline v0_1::HWY_NAMESPACE {
 namespace {
 
-/// The rows from `first` on that are in the word.
+/// Returns the rows from `first` on that are in the word.
 HWY_INLINE hn::Mask<Doubles> rows_in(QueryWord word, std::size_t first) {
   return hn::RebindMask(Doubles(), hn::TestBit(splat(std::uint64_t{word}), lane_bits(Doubles(), first)));
 }
@@ -25,8 +25,8 @@ constexpr std::size_t kParts = 4;
 constexpr std::size_t kBlock = kParts * kLanes<Doubles>;
 using Block = Numbers[kParts];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
 
-/// The rounded sum, and what it lacks. Branch-free TwoSum: D. E. Knuth, The Art of Computer Programming, vol. 2, sec.
-/// 4.2.2, theorem B.
+/// Computes the rounded sum and its error by the branch-free TwoSum: D. E. Knuth, The Art of Computer Programming, vol.
+/// 2, sec. 4.2.2, theorem B.
 struct ExactSum {
   HWY_INLINE ExactSum(Numbers a, Numbers b) : sum(hn::Add(a, b)) {
     const auto rounded = hn::Sub(sum, a);
@@ -37,7 +37,7 @@ struct ExactSum {
   Numbers rest;
 };
 
-/// Adds to each row the sum of the terms whose word has it; `term(k, i)`: those of word k for the rows from i on.
+/// Adds to each row the sum of the terms whose word has it. `term(k, i)` gives those of word k for the rows from i on.
 template <class Term>
 HWY_INLINE void add_terms(std::span<const QueryWord> words, RowSums& sums, const Term& term) {
   const Doubles d;
@@ -130,7 +130,7 @@ void merge_spreads(const RowSpreads& added, RowSpreads& spreads) {
     const ExactSum moved(mean, hn::Mul(step, share));
     const auto between = hn::Mul(hn::Mul(hn::Mul(step, step), weight), share);
     const auto merged = hn::Add(squares, hn::Add(added_squares, between));
-    const auto is_first = hn::Eq(weight, hn::Zero(d));  // then the difference of means would round
+    const auto is_first = hn::Eq(weight, hn::Zero(d));  // the difference of means would then round
     const auto stays = hn::Eq(added_weight, hn::Zero(d));
     const auto chosen = [&](Numbers old, Numbers first, Numbers both)
                             HWY_ATTR { return either(d, stays, old, either(d, is_first, first, both)); };
@@ -160,18 +160,18 @@ HWY_INLINE void set_each(PerLane<double>& weights, bool squared, const Weight& w
   }
 }
 
-// Not 1 - d^2 / r^2 and 1 - t^2, whose rounding would give a vertex at the rim a weight.
+// The formulas are not 1 - d^2 / r^2 and 1 - t^2, whose rounding would give a vertex at the radius a weight.
 
 void set_weights(const Offsets& offsets, const KernelRadii& radii, bool squared, PerLane<double>& weights) {
   set_each(weights, squared, [&](std::size_t i) HWY_ATTR {
     const auto rest = hn::Add(hn::Sub(load(radii.square[i]), load(offsets.square[i])), load(radii.low[i]));
     const auto weight = hn::Mul(rest, load(radii.inverse[i]));
     const Doubles d;
-    return only(d, hn::Gt(weight, hn::Zero(d)), weight);  // the rim may be beyond it by rounding
+    return only(d, hn::Gt(weight, hn::Zero(d)), weight);  // at the radius, rounding may make it negative
   });
 }
 
-/// `gaussian` of each share; of 1 for larger ones and NaN.
+/// Returns `gaussian` of each share, and that of 1 for larger ones and NaN.
 HWY_INLINE Numbers gaussians(Numbers shares) {
   shares = either(Doubles(), hn::Lt(shares, splat(1.0)), shares, splat(1.0));
   auto result = splat(kGaussian.back());
@@ -204,7 +204,6 @@ void set_path_weights(const PathLengths& lengths, const PathLengths& radii, Smoo
   });
 }
 
-/// See `AggregateKernels::add_moments`.
 // With q the offset of a vertex from c, and t that of c from the query vertex, d^2 = |q + t|^2, so
 //   sum of s d^2 = sum s|q|^2 + 2 t . sum s q + |t|^2 sum s
 //   sum of s d^4 = sum s|q|^4 + 4 t . sum s|q|^2 q + 4 t^T (sum s q q^T) t + 2 |t|^2 sum s|q|^2

@@ -8,10 +8,10 @@
 /// rounding are in ball.cpp.
 namespace meshhood::inline v0_1 {
 
-/// The bounds on the squared distance of a vertex. They depend on the radius alone.
+/// Bounds on the squared distance of a vertex. They depend on the radius alone.
 struct LeafBounds {
   double squared_radius;  // of the predicate: inside if the squared distance is <= this
-  // For float positions: a squared distance computed in single precision is inside or outside if it is beyond one of
+  // With float positions, a vertex is inside or outside if its squared distance in single precision is beyond one of
   // these bounds. In between, the predicate decides.
   float surely_inside;   // <=
   float surely_outside;  // >
@@ -22,7 +22,7 @@ struct LeafBounds {
 /// A search ball to be compared with vertices.
 struct LeafBall : LeafBounds {
   Point center;
-  // The center in single precision; exact where the positions are floats.
+  // The center in single precision is exact where the positions are floats.
   float x;
   float y;
   float z;
@@ -54,7 +54,7 @@ struct TreeBall : TreeBounds {
       : TreeBall(frame.round(center), TreeBounds(frame, radius)) {}
 };
 
-/// One node against the ball, with the same result as `Kernels::classify`.
+/// Compares one node with the ball, with the same result as `Kernels::classify`.
 [[nodiscard]] inline Containment classify(const FrameSphere& sphere, const TreeBall& ball) {
   const float x = ball.x - sphere.x;
   const float y = ball.y - sphere.y;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `Kernels`, compiled once for each target; see lanes-inl.h.
+// `Kernels` is compiled once for each target; see lanes-inl.h.
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace meshhood::inline v0_1::HWY_NAMESPACE {
 namespace {
 
-/// The predicate. Calls `f(i, squares)` for the vertices from `i` on.
+/// Applies the predicate. Calls `f(i, squares)` for the vertices from `i` on.
 template <class Real, class F>
 HWY_INLINE LaneMask decide(const Real* xyz, std::size_t size, const LeafBall& ball, F&& f) {
   const Doubles d;
@@ -39,7 +39,7 @@ LaneMask squares(const Real* xyz, std::size_t size, const LeafBall& ball, PerLan
   return decide(xyz, size, ball, [&](std::size_t i, Numbers square) HWY_ATTR { store(square, out[i]); });
 }
 
-/// In single precision, if that decides all vertices.
+/// Decides in single precision, if that is possible for all vertices.
 LaneMask within_float(const float* xyz, std::size_t size, const LeafBall& ball) {
   const Floats d;
   LaneMask inside = 0;

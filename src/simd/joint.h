@@ -24,7 +24,7 @@ struct LeafWords {
   PerLane<QueryWord> pending;  // the queries that reach a neighbor in another leaf; not yet compared with `inside`
 };
 
-/// The queries that reach each vertex of a leaf by as many edges as the last step had, and by no fewer.
+/// The queries that reached each vertex of a leaf for the first time in the last step.
 using FreshWords = PerLane<QueryWord>;
 
 /// The vertices of a leaf in frame units, relative to the center of a group. Lanes without a vertex hold zeros.
@@ -40,12 +40,12 @@ struct FloatCenter {
   float scale;  // a power of two
 };
 
-/// The balls of a packet, relative to the same center. A vertex p is compared with the ball around q by
-/// `2 p.q - p.p`, which is at least `q.q - r^2` where p is inside. The points are twice the query vertices.
+/// The balls of a packet, relative to the same center. A vertex p is compared with the ball around q by `2 p.q - p.p`,
+/// which is at least `q.q - r^2` where p is inside. The points are twice the query vertices.
 struct PacketBalls : PointPerLane<float> {
   PerLane<float> surely_inside;  // >=; infinite for queries that do not exist
   PerLane<float> maybe_inside;   // >=; likewise
-  // The center of the leaf of the queries, and squared distances from it.
+  // The center of the leaf of the queries, and bounds on squared distances from it.
   FramePoint center;
   float inside_all;   // a vertex nearer than this is in all balls
   float outside_all;  // a vertex farther than this is in none
@@ -68,7 +68,7 @@ struct LeafOfWords {
   std::uint32_t first;
 };
 
-/// Consecutive leaves, without the last. Their vertices follow each other in index order.
+/// The leaves `begin .. end - 1`. Their vertices follow each other in index order.
 struct LeafRun {
   std::uint32_t begin;
   std::uint32_t end;
@@ -89,21 +89,21 @@ struct JointKernels {
   /// Converts `size` vertices, three coordinates each, to points relative to the center. Reads 32 vertices.
   void (*convert_points)(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points);
 
-  /// Sets `reached` and `pending` to 0. Compilers may do it by a call or a string instruction, which takes longer.
+  /// Sets `reached` and `pending` to 0. A compiler might do it by a call or a string instruction, which takes longer.
   void (*clear_words)(LeafWords& words);
 
   /// Fills `inside` with the queries that surely hold each vertex, and `doubts` of the lanes `in_doubt` with those that
-  /// only the exact predicate can decide. `lanes`: the vertices that exist; the others get empty words.
+  /// only the exact predicate can decide. `lanes` has the vertices that exist; the others get empty words.
   BallWords (*ball_words)(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls,
                           PerLane<QueryWord>& inside, PerLane<QueryWord>& doubts);
 
   /// Moves what is pending to `reached`, and on along the edges within the leaf, for each query through the vertices in
-  /// its ball. `whole`: queries that reach all vertices if they reach one. Reads all 32 rows of `adjacency`.
+  /// its ball. `whole` has the queries that reach all vertices if they reach one. Reads all 32 rows of `adjacency`.
   SpreadWords (*spread_words)(LeafWords& words, const LaneMask* adjacency, QueryWord whole);
 
-  /// One step along the edges, for the queries `alive`: what is pending, and what is fresh at a neighbor within the
-  /// leaf, is fresh now at the lanes `open` where it was not reached before, and is reached. Returns the lanes with
-  /// fresh words. `from`: the lanes whose words are fresh before, and so reached. Reads all 32 rows of `adjacency`, and
+  /// Takes one step along the edges, for the queries `alive`: what is pending, and what is fresh at a neighbor within
+  /// the leaf, becomes reached and fresh at the lanes `open` where it was not reached before. `from` has the lanes
+  /// whose words were fresh, and so reached. Returns the lanes with fresh words. Reads all 32 rows of `adjacency`, and
   /// no `inside`.
   LaneMask (*step_words)(LeafWords& words, FreshWords& fresh, const LaneMask* adjacency, LaneMask from, LaneMask open,
                          QueryWord alive);
@@ -111,25 +111,26 @@ struct JointKernels {
   /// Adds to `counts` how many vertices each query reaches in the leaves of `list`.
   void (*count_words)(const LeafWords* words, std::span<const LeafOfWords> list, PerLane<std::uint64_t>& counts);
 
-  /// Which vertices of a leaf the query reaches. `reached` has 32 words.
+  /// Returns the vertices of a leaf that the query reaches. `reached` has 32 words.
   LaneMask (*lanes_of)(const QueryWord* reached, unsigned query);
 
   /// Writes the vertices that the query has in `pieces`, as `permutation` names them, or by their numbers where it is
-  /// null. `leaf_begin`: the first vertex of each leaf. `out` has room for exactly these.
+  /// null. `leaf_begin` has the first vertex of each leaf. `out` has room for exactly these.
   void (*write_row)(std::span<const Piece> pieces, const VertexId* leaf_begin, unsigned query,
                     const VertexId* permutation, std::span<VertexId> out);
 };
 
-/// Pushes words over the edges between two leaves. Scalar on every processor: a link has six edges on average.
+/// Pushes words over the edges between two leaves. It is scalar on every processor, because a link has six edges on
+/// average.
 inline void push_words(std::span<const CrossEdge> edges, const PerLane<QueryWord>& reached,
                        PerLane<QueryWord>& pending) {
   for (const CrossEdge& edge : edges) pending[edge.to] |= reached[edge.from];
 }
 
-/// Those for `isa`, which the processor must have.
+/// Returns the kernels for `isa`, which the processor must have.
 [[nodiscard]] const JointKernels& joint_kernels(Isa isa);
 
-/// The lengths of the shortest paths to a vertex so far, one for each query of a packet. Infinite where there is none.
+/// The lengths of the shortest paths to a vertex so far, for each query of a packet; infinite if there is none.
 using PathLengths = PerLane<double>;
 
 /// An edge to a vertex, by the number that the search gives it.
@@ -142,14 +143,14 @@ struct PathEdge {
 struct PathKernels {
   /// Follows up to 32 edges from a vertex, for all queries: where the path over an edge is shorter, its length replaces
   /// that at the end of the edge. Returns the set of edges, by their place in `edges`, at whose ends some length became
-  /// shorter. `all`: the lengths by vertex; `from`: those of the vertex, which is the end of none of the edges.
+  /// shorter. `all` has the lengths by vertex, `from` those of the vertex, which is the end of none of the edges.
   std::uint32_t (*follow_edges)(const PathLengths& from, std::span<const PathEdge> edges, PathLengths* all);
 
-  /// The queries whose path to a vertex is at most as long as their limit.
+  /// Returns the queries whose path to a vertex is at most as long as their limit.
   QueryWord (*within_limits)(const PathLengths& lengths, const PathLengths& limits);
 };
 
-/// Those for `isa`, which the processor must have.
+/// Returns the kernels for `isa`, which the processor must have.
 [[nodiscard]] const PathKernels& path_kernels(Isa isa);
 
 }  // namespace meshhood::inline v0_1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `JointKernels`, compiled once for each target; see lanes-inl.h.
+// `JointKernels` is compiled once for each target; see lanes-inl.h.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -19,7 +19,7 @@ namespace {
 
 using WordsOfRow = Word[kVectors<Words>];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
 
-/// The lanes in which the words differ.
+/// Returns the lanes in which the words differ.
 HWY_INLINE LaneMask differing(const PerLane<QueryWord>& a, const PerLane<QueryWord>& b) {
   MasksOfRow<Words> same;
   for (std::size_t i = 0; i < kVectors<Words>; ++i) {
@@ -39,7 +39,7 @@ void convert_points(const float* xyz, unsigned size, const FloatCenter& center, 
   }
 }
 
-/// Which queries surely hold a vertex, and which may.
+/// The queries that surely hold a vertex, and those that may.
 struct Held {
   QueryWord surely;
   QueryWord maybe;
@@ -128,8 +128,8 @@ HWY_INLINE LaneMask take_pending(LeafWords& words, QueryWord whole) {
 /// The edges within a leaf. `pass` sets what arrives at each lane over the edges from the lanes `from`, or from more;
 /// it may leave out lanes that are not open.
 #if HWY_TARGET == HWY_AVX3
-/// As lists with one neighbor of each lane. A lane that has no more names itself. One instruction then takes 16 words
-/// from any of 32 lanes.
+/// Keeps them as lists with one neighbor of each lane. A lane that has no more names itself. One instruction then takes
+/// 16 words from any of 32 lanes.
 class Neighbors {
  public:
   explicit Neighbors(const LaneMask* adjacency) {
@@ -154,13 +154,13 @@ class Neighbors {
   }
 
  private:
-  /// Removes the first neighbor of each lane, and returns it. What is left does not wait for which it was.
+  /// Removes the first neighbor of each lane, and returns its number. The removal does not wait for that number.
   static Word take_first(Word& neighbors, Word lanes) {
     const Words d;
     const auto has = hn::Ne(neighbors, hn::Zero(d));
     const auto first = hn::And(neighbors, hn::Sub(hn::Zero(d), neighbors));
     neighbors = hn::AndNot(first, neighbors);
-    // The exponent of a power of two.
+    // The number of a bit is the exponent of its power of two as a float.
     const Word exponent{_mm512_srli_epi32(_mm512_castps_si512(_mm512_cvtepu32_ps(first.raw)), 23)};
     return hn::IfThenElse(has, hn::Sub(exponent, hn::Set(d, 127)), lanes);
   }
@@ -231,7 +231,7 @@ LaneMask step_words(LeafWords& words, FreshWords& fresh, const LaneMask* adjacen
   return ~bits_of_row(d, has_none);
 }
 
-/// Adds how many words of a vector have each bit, times a power of two, to the counts.
+/// Adds to the counts how many words of a vector have each bit, times a power of two.
 class BitSums {
  public:
   explicit BitSums(PerLane<std::uint64_t>& counts) : counts_(counts) {
@@ -259,10 +259,10 @@ class BitSums {
 
  private:
   PerLane<std::uint64_t>& counts_;
-  WordsOfRow sums_;  // less than 2^32, as many as there can be vertices
+  WordsOfRow sums_;  // less than 2^32, because no mesh has more vertices
 };
 
-/// Counts bits in each position of many words: a vector for each binary digit, with a number in each of its bits.
+/// Counts the set bits at each position of many words. The vector of a binary digit has that digit of each count.
 class BitCounters {
  public:
   BitCounters() {
@@ -270,7 +270,6 @@ class BitCounters {
     ones_ = twos_ = fours_ = eights_ = hn::Zero(d);
   }
 
-  /// Adds sixteen vectors.
   void add(const Word (&words)[16]) {
     Word fours[4];
     for (std::size_t i = 0; i < 4; ++i) {
@@ -293,7 +292,7 @@ class BitCounters {
   }
 
  private:
-  /// The sum of three bits each stays in the digit, the carry is returned.
+  /// Adds `a` and `b` to a digit, and returns the carry.
   static Word add_digit(Word& digit, Word a, Word b) {
     const auto old = digit;
     digit = hn::Xor(old, hn::Xor(a, b));
@@ -315,7 +314,7 @@ class BitCounters {
     }
   }
 
-  static constexpr std::size_t kPlanes = 32;  // enough for all leaves of an index
+  static constexpr std::size_t kPlanes = 32;  // as many as the leaves of any index need
   Word ones_;
   Word twos_;
   Word fours_;
@@ -350,7 +349,7 @@ LaneMask lanes_of(const QueryWord* reached, unsigned query) {
   return bits_of_row(Words(), has);
 }
 
-/// The ids of the vertices from `first` on.
+/// Returns the ids of the vertices from `first` on.
 HWY_INLINE VectorOf<Ids> load_ids(const VertexId* permutation, std::uint32_t first) {
   const Ids d;
   if (permutation != nullptr) return hn::LoadU(d, permutation + first);
@@ -361,8 +360,7 @@ void write_row(std::span<const Piece> pieces, const VertexId* leaf_begin, unsign
                std::span<VertexId> out) {
   const Ids d;
   VertexId* next = out.data();
-  // The vertices of a leaf are written as vectors, which may go beyond their end. So the last of a row are written
-  // elsewhere first.
+  // Vertices are written as vectors, which may end beyond them, so the last of a row are written elsewhere first.
   constexpr std::ptrdiff_t kRoom = kLeafCapacity + kLanes<Ids>;
   std::array<VertexId, 2 * kRoom> end_of_row;
   VertexId* begin_of_end = nullptr;

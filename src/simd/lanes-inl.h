@@ -9,7 +9,7 @@
 #include "simd/leaf.h"
 #include "simd/target_list.h"
 
-// clang-format off: in this order.
+// clang-format off: the order matters.
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -37,7 +37,7 @@ using Word = VectorOf<Words>;
 template <class D>
 constexpr std::size_t kLanes = hn::MaxLanes(D());
 
-/// The numbers from `first` on, which is aligned to a vector.
+/// Loads the numbers from `first` on, which is aligned to a vector.
 template <class T>
 HWY_INLINE VectorOf<Tag<T>> load(const T& first) {
   return hn::Load(Tag<T>(), &first);
@@ -51,29 +51,28 @@ HWY_INLINE void add_to(T& first, VectorOf<Tag<T>> numbers) {
   store(hn::Add(load(first), numbers), first);
 }
 
-/// The same number in each lane.
 template <class T>
 HWY_INLINE VectorOf<Tag<T>> splat(T number) {
   return hn::Set(Tag<T>(), number);
 }
 
-/// The vectors that hold a row of 32 lanes.
+/// The number of vectors that hold a row of 32 lanes.
 template <class D>
 constexpr std::size_t kVectors = kLeafCapacity / kLanes<D>;
 
 /// Whether vectors have at most 128 bits. Where few of the 32 lanes matter, a loop over these is then as fast.
 constexpr bool kNarrow = kLanes<Words> <= 4;
 
-/// The bits of the lanes of a row from `first` on.
+/// Returns the bits of the lanes of a row from `first` on.
 template <class D>
 HWY_INLINE VectorOf<hn::RebindToUnsigned<D>> lane_bits(D /*d*/, std::size_t first) {
   const hn::RebindToUnsigned<D> words;
   return hn::Load(words, &kLaneBits<hn::TFromD<decltype(words)>>[first]);
 }
 
-// Highway chooses between vectors of one lane by a branch, and the compiler finds no vectors in loops with branches.
+// For vectors of one lane, Highway chooses by a branch, and compilers do not vectorize loops with branches.
 
-/// `yes` in the lanes of the mask, and `no` in the others.
+/// Returns `yes` in the lanes of the mask, and `no` in the others.
 template <class D>
 HWY_INLINE VectorOf<D> either([[maybe_unused]] D d, hn::Mask<D> mask, VectorOf<D> yes, VectorOf<D> no) {
 #if HWY_TARGET == HWY_SCALAR
@@ -84,7 +83,7 @@ HWY_INLINE VectorOf<D> either([[maybe_unused]] D d, hn::Mask<D> mask, VectorOf<D
 #endif
 }
 
-/// `yes` in the lanes of the mask, and 0 in the others.
+/// Returns `yes` in the lanes of the mask, and 0 in the others.
 template <class D>
 HWY_INLINE VectorOf<D> only([[maybe_unused]] D d, hn::Mask<D> mask, VectorOf<D> yes) {
 #if HWY_TARGET == HWY_SCALAR
@@ -94,7 +93,7 @@ HWY_INLINE VectorOf<D> only([[maybe_unused]] D d, hn::Mask<D> mask, VectorOf<D> 
 #endif
 }
 
-/// The words of all lanes together.
+/// Returns the union of the words of all lanes.
 template <class D>
 HWY_INLINE QueryWord any_of([[maybe_unused]] D d, VectorOf<D> words) {
 #if HWY_TARGET == HWY_SCALAR
@@ -109,7 +108,7 @@ HWY_INLINE QueryWord any_of([[maybe_unused]] D d, VectorOf<D> words) {
 #endif
 }
 
-/// The lanes of the mask as bits.
+/// Returns the lanes of the mask as bits.
 template <class D>
 HWY_INLINE LaneMask bits_of([[maybe_unused]] D d, hn::Mask<D> mask) {
 #if HWY_TARGET == HWY_AVX3
@@ -135,7 +134,7 @@ HWY_INLINE LaneMask bits_of([[maybe_unused]] D d, hn::Mask<D> mask) {
 template <class D>
 using MasksOfRow = hn::Mask<D>[kVectors<D>];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
 
-/// The lanes of a row as bits.
+/// Returns the lanes of a row as bits.
 template <class D>
 HWY_INLINE LaneMask bits_of_row([[maybe_unused]] D d, const MasksOfRow<D>& masks) {
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
@@ -170,7 +169,7 @@ HWY_INLINE LaneMask bits_of_row([[maybe_unused]] D d, const MasksOfRow<D>& masks
 #endif
 }
 
-/// The lanes whose bits are set; bits beyond the lanes have no effect.
+/// Returns the lanes whose bits are set; bits beyond the lanes have no effect.
 template <class D>
 HWY_INLINE hn::Mask<D> mask_of(D d, LaneMask bits) {
 #if HWY_TARGET == HWY_AVX3
@@ -182,7 +181,6 @@ HWY_INLINE hn::Mask<D> mask_of(D d, LaneMask bits) {
 #endif
 }
 
-/// Three coordinates of each lane.
 template <class D>
 struct Points {
   VectorOf<D> x;
@@ -190,7 +188,7 @@ struct Points {
   VectorOf<D> z;
 };
 
-/// The vertices from `xyz` on, #V by 3.
+/// Loads the vertices from `xyz` on, #V by 3.
 template <class D>
 HWY_INLINE Points<D> load_points(D d, const hn::TFromD<D>* xyz) {
   Points<D> points;
@@ -198,13 +196,13 @@ HWY_INLINE Points<D> load_points(D d, const hn::TFromD<D>* xyz) {
   return points;
 }
 
-/// The same for floats as doubles.
+/// Loads vertices of floats as doubles.
 HWY_INLINE Points<Doubles> load_points(Doubles d, const float* xyz) {
   const auto [x, y, z] = load_points(hn::Rebind<float, Doubles>(), xyz);
   return {hn::PromoteTo(d, x), hn::PromoteTo(d, y), hn::PromoteTo(d, z)};
 }
 
-/// The points from `first` on of a structure that has a row for each coordinate.
+/// Loads the points from `first` on of a structure that has a row for each coordinate.
 template <class D, class Rows>
 HWY_INLINE Points<D> load_rows(D d, const Rows& rows, std::size_t first) {
   return {hn::Load(d, &rows.x[first]), hn::Load(d, &rows.y[first]), hn::Load(d, &rows.z[first])};
@@ -217,7 +215,6 @@ HWY_INLINE void store_rows(const Points<D>& points, Rows& rows, std::size_t firs
   store(points.z, rows.z[first]);
 }
 
-/// The same point in each lane.
 template <class D, class P>
 HWY_INLINE Points<D> splat_point(D d, const P& p) {
   return {hn::Set(d, p.x), hn::Set(d, p.y), hn::Set(d, p.z)};
@@ -238,14 +235,14 @@ HWY_INLINE VectorOf<D> scalar_product(const Points<D>& a, const Points<D>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
-/// With the roundings of `squared_distance` in shared/distance.h.
+/// Rounds as `squared_distance` in shared/distance.h.
 template <class D>
 HWY_INLINE VectorOf<D> squared_length(const Points<D>& points) {
   return scalar_product(points, points);
 }
 
 #if HWY_TARGET != HWY_SCALAR
-/// The words whose bits are set first, in order.
+/// Returns a vector that begins with the words whose bits are set, in order.
 template <class D>
 HWY_INLINE VectorOf<D> compressed([[maybe_unused]] D d, VectorOf<D> words, LaneMask bits) {
 #if HWY_TARGET == HWY_AVX3
@@ -259,7 +256,7 @@ HWY_INLINE VectorOf<D> compressed([[maybe_unused]] D d, VectorOf<D> words, LaneM
   const hn::Repartition<std::uint8_t, D> bytes;
   const auto places = hn::Load(bytes, kBytePlaces[bits].data());
 #if HWY_TARGET == HWY_WASM
-  return VectorOf<D>{wasm_i8x16_swizzle(words.raw, places.raw)};  // Highway looks up one byte after another
+  return VectorOf<D>{wasm_i8x16_swizzle(words.raw, places.raw)};  // Highway would look up one byte after another
 #else
   return hn::BitCast(d, hn::TableLookupBytes(words, places));
 #endif
@@ -272,7 +269,7 @@ template <class D>
 HWY_INLINE hn::TFromD<D>* write_chosen(D d, VectorOf<D> numbers, LaneMask bits, hn::TFromD<D>* out) {
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (sizeof(hn::TFromD<D>) == 4) {
-    // Compressed in a register, because compressing stores are slow on some processors.
+    // The numbers are compressed in a register, because compressing stores are slow on some processors.
     bits &= first_lanes(kLanes<D>);
     hn::StoreU(compressed(d, numbers, bits), d, out);
     return out + hwy::PopCount(bits);

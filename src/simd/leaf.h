@@ -17,10 +17,10 @@ inline constexpr unsigned kLeafCapacity = 32;
 /// A set of vertices of one leaf: bit `i` stands for the leaf's vertex number `i`, its *lane*.
 using LaneMask = std::uint32_t;
 
-/// The first `n` lanes; `n` <= 32.
+/// Returns the first `n` lanes; `n` <= 32.
 [[nodiscard]] constexpr LaneMask first_lanes(unsigned n) { return n == 0 ? 0 : ~LaneMask{0} >> (kLeafCapacity - n); }
 
-/// std::popcount, which is a call of a library function when compiling for the oldest processors.
+/// Replaces std::popcount, which is a call of a library function when compiling for the oldest processors.
 [[nodiscard]] inline std::size_t count_of(LaneMask lanes) {
   lanes -= lanes >> 1 & 0x55555555U;
   lanes = (lanes & 0x33333333U) + (lanes >> 2 & 0x33333333U);
@@ -36,7 +36,7 @@ void for_each_lane(LaneMask lanes, F&& f) {
 /// A set of rows of a packet (see exact/joint/packet_answer.h): bit `i` stands for row `i` of the packet.
 using QueryWord = std::uint32_t;
 
-/// The most rows of a packet.
+/// The largest number of rows of a packet.
 inline constexpr std::size_t kPacketCapacity = 32;
 
 /// Calls `f(i)` for each row of the set, in ascending order.
@@ -51,15 +51,14 @@ struct CrossEdge {
   std::uint8_t to;
 };
 
-/// In index order, #V by 3, followed by `kLeafCapacity` vertices of padding, so that a kernel may read 32 vertices from
-/// any vertex on.
+/// Positions in index order, #V by 3, followed by `kLeafCapacity` vertices of padding, so that a kernel may read 32
+/// vertices from any vertex on.
 using PositionsInOrder = std::variant<std::span<const float>, std::span<const double>>;
 
 /// A value for each lane of a leaf, or for each query of a packet, aligned to the vectors of the kernels.
 template <class T>
 struct alignas(64) PerLane : std::array<T, kLeafCapacity> {};
 
-/// The coordinates of a point for each.
 template <class T>
 struct PointPerLane {
   PerLane<T> x;
@@ -87,7 +86,7 @@ inline constexpr std::array<std::array<std::uint8_t, 8>, 256> kBitPositions = []
   return lists;
 }();
 
-/// Bit `i` for each lane `i`.
+/// Lane `i` has bit `i`.
 template <class T>
 inline constexpr PerLane<T> kLaneBits = [] {
   PerLane<T> bits{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `MomentKernels`, compiled once for each target; see lanes-inl.h. The loops run over queries or vertices
-// that do not depend on each other, so that vectors of any width give the same bits.
+// `MomentKernels` is compiled once for each target; see lanes-inl.h. The loops run over queries or vertices that do not
+// depend on each other, so that vectors of any width give the same bits.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -24,11 +24,12 @@ struct Factors {
   std::size_t second;
 };
 
-/// The powers of degree 2 and less, 1 x y z xx xy xz yy yz zz, as products of two of 1 x y z.
+/// The powers of degree 2 and less, 1 x y z xx xy xz yy yz zz, are products of two of 1 x y z.
 constexpr std::array<Factors, 10> kSmallPowers{
     {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {1, 1}, {1, 2}, {1, 3}, {2, 2}, {2, 3}, {3, 3}}};
 
-/// The moments, as products of two of these: the first two of the factors x..., y..., z... in this order, and the rest.
+/// The moments are products of two of these: that of the first two of the factors x..., y..., z... in this order, and
+/// that of the rest.
 constexpr std::array<Factors, PaddedMoments::kPadded> kFactors = [] {
   const auto small = [](std::size_t a, std::size_t b) {
     std::size_t place = 0;
@@ -75,7 +76,7 @@ struct SmallPowers {
   Vector weighted[kSmallPowers.size()];
 };
 
-/// Doubles of at most four lanes.
+/// A vector of at most four doubles.
 using Four = hn::CappedTag<double, 4>;
 
 /// Lane j of row i becomes lane i of row j.
@@ -100,7 +101,7 @@ HWY_INLINE void transpose([[maybe_unused]] VectorOf<Four> (&rows)[Size]) {
 #endif
 }
 
-/// The second half is added to the first, until one is left.
+/// Adds the second half to the first, until one is left.
 template <class Vector, std::size_t Size>
 HWY_INLINE Vector sum_by_halves(Vector (&parts)[Size]) {
   for (std::size_t half = Size / 2; half > 0; half /= 2) {
@@ -109,7 +110,7 @@ HWY_INLINE Vector sum_by_halves(Vector (&parts)[Size]) {
   return parts[0];
 }
 
-/// The same for the lanes, until at most four are left.
+/// Adds the second half of the lanes to the first, until at most four are left.
 HWY_INLINE VectorOf<Four> as_four(Numbers numbers) {
 #if HWY_TARGET == HWY_AVX3
   return hn::Add(hn::LowerHalf(Four(), numbers), hn::UpperHalf(Four(), numbers));
@@ -118,8 +119,8 @@ HWY_INLINE VectorOf<Four> as_four(Numbers numbers) {
 #endif
 }
 
-/// Vector by vector of points. A product has one moment of several points; they change places, and become several
-/// moments of each point.
+/// Takes the points vector by vector. A product has one moment of several points; transposed, several products become
+/// several moments of each point.
 HWY_INLINE void powers(const MomentPoints& points, LaneMask chosen, PaddedMoments* out) {
   const Four d;
   constexpr std::size_t kSize = kLanes<Four>;
@@ -136,14 +137,14 @@ HWY_INLINE void powers(const MomentPoints& points, LaneMask chosen, PaddedMoment
       PaddedMoments* to = out;
       for (std::size_t k = 0; k < kSize; ++k) {
         hn::Store(rows[k], d, &to->at[m]);
-        to += here >> k & 1U;  // what is not chosen is written over
+        to += here >> k & 1U;  // the next writes over one that is not chosen
       }
     }
     out += std::popcount(here);
   }
 }
 
-/// Eight partial sums, of points 8 k + i each, are added by halves.
+/// Adds eight partial sums by halves; sum i is that of the points 8 k + i.
 void sum(const MomentPoints& points, std::size_t size, PaddedMoments& out) {
   constexpr std::size_t kParts = 8 / kLanes<Doubles>;
   const Doubles d;
@@ -173,7 +174,7 @@ void sum(const MomentPoints& points, std::size_t size, PaddedMoments& out) {
   }
 }
 
-/// The words of up to 64 terms as a matrix of bits, transposed: bit `i` of number `q` is bit `q` of word `i`.
+/// Transposes the words of up to 64 terms as a matrix of bits: bit `i` of number `q` is bit `q` of word `i`.
 HWY_INLINE void terms_of_queries(std::span<const QueryWord> words, std::array<std::uint64_t, kPacketCapacity>& out) {
   const Words d;
   out = {};
@@ -204,7 +205,7 @@ void add_terms(const PaddedMoments* terms, std::span<const QueryWord> words, Mom
   terms_of_queries(words, terms_of);
   for (std::size_t q = 0; q < kPacketCapacity; ++q) {
     for (std::size_t m = 0; m < PaddedMoments::kPadded && terms_of[q] != 0; m += kAtOnce) {
-      Numbers some[kAtOnce / kLanes<Doubles>];  // stay in registers
+      Numbers some[kAtOnce / kLanes<Doubles>];  // these stay in registers
 #pragma GCC unroll 10
       for (std::size_t k = 0; k < std::size(some); ++k) some[k] = load(sums[q].at[m + k * kLanes<Doubles>]);
       for (std::uint64_t left = terms_of[q]; left != 0; left &= left - 1) {
@@ -220,7 +221,7 @@ void add_terms(const PaddedMoments* terms, std::span<const QueryWord> words, Mom
   }
 }
 
-/// Those of the queries `among` that vertex `i` faces.
+/// Returns those of the queries `among` that vertex `i` faces.
 HWY_INLINE QueryWord facing(const NormalColumns& normals, std::size_t i, const FacingTest& test, QueryWord among) {
   const Doubles d;
   const Points<Doubles> normal{splat(normals.x[i]), splat(normals.y[i]), splat(normals.z[i])};
@@ -232,7 +233,7 @@ HWY_INLINE QueryWord facing(const NormalColumns& normals, std::size_t i, const F
   return word & among;
 }
 
-/// The axis decides first, for all vertices together, without branches, which could not be predicted.
+/// First compares all vertices with the axis, without branches, which could not be predicted.
 void keep_facing(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words) {
   const Floats d;
   PointPerLane<float> rounded{};
@@ -259,13 +260,13 @@ void keep_facing(const NormalColumns& normals, const FacingTest& test, std::span
   }
 }
 
-/// The place of the moment with power p of the axis, and powers a and b of the next two.
+/// Returns the place of the moment with power p of the axis, and powers a and b of the next two.
 constexpr std::size_t rotated_index(std::size_t axis, std::size_t p, std::size_t a, std::size_t b) {
   if (axis == 0) return moment_index(p, a, b);
   return axis == 1 ? moment_index(b, p, a) : moment_index(a, b, p);
 }
 
-/// Each `start` replaces one factor x of the powers above it by x + t: Horner's scheme for a Taylor shift.
+/// This is Horner's scheme for a Taylor shift: each `start` replaces one factor x of the powers above it by x + t.
 void shift(QueryMoments& moments, const QueryVectors& by) {
   const std::array<const QueryRow*, 3> axes{&by.x, &by.y, &by.z};
   const auto step = [&](std::size_t axis, std::size_t p, std::size_t a, std::size_t b) HWY_ATTR {
@@ -288,14 +289,13 @@ void shift(QueryMoments& moments, const QueryVectors& by) {
 
 // NOLINTBEGIN(modernize-avoid-c-arrays): std::array drops the alignment
 
-/// The components of a symmetric tensor in space: those with m of the indices y or z, and k of these z, at
-/// m (m + 1) / 2 + k.
+/// The components of a symmetric tensor in space: that with m indices y or z, k of them z, is at m (m + 1) / 2 + k.
 template <std::size_t Degree>
 struct Tensor {
   Numbers at[(Degree + 1) * (Degree + 2) / 2];
 };
 
-/// The moments of one degree, of the queries from `q` on.
+/// Returns the moments of one degree, of the queries from `q` on.
 template <std::size_t Degree>
 HWY_INLINE Tensor<Degree> tensor(const QueryMoments& moments, std::size_t q) {
   Tensor<Degree> result;
@@ -309,7 +309,7 @@ HWY_INLINE Tensor<Degree> tensor(const QueryMoments& moments, std::size_t q) {
   return result;
 }
 
-/// One index of the tensor, summed with the components of a vector.
+/// Contracts one index of the tensor with a vector.
 template <std::size_t Degree>
 HWY_INLINE Tensor<Degree - 1> contract(const Tensor<Degree>& in, const Points<Doubles>& by) {
   Tensor<Degree - 1> result;
@@ -373,7 +373,7 @@ void rotate(const QueryMoments& moments, const QueryFrames& frames, FrameMoments
 template <std::size_t N>
 HWY_INLINE Numbers solve(Numbers (&b)[N][N], Numbers (&right)[N]) {
   const auto one = splat(1.0);
-  Numbers l[N][N];  // while `b` becomes L D
+  Numbers l[N][N];  // L, while `b` becomes L D
   Numbers inverse[N];
   auto product = one;
   auto determinant = one;
@@ -387,7 +387,7 @@ HWY_INLINE Numbers solve(Numbers (&b)[N][N], Numbers (&right)[N]) {
     }
     const auto is_positive = hn::Gt(diagonal, hn::Zero(Doubles()));
     product = hn::Mul(product, hn::IfThenElse(is_positive, hn::Div(b[j][j], diagonal), splat(-1.0)));
-    determinant = hn::IfThenElse(hn::Ge(product, determinant), determinant, product);  // NaN stays
+    determinant = hn::IfThenElse(hn::Ge(product, determinant), determinant, product);  // a NaN stays
     inverse[j] = hn::Div(one, b[j][j]);
 #pragma GCC unroll 6
     for (std::size_t i = j + 1; i < N; ++i) l[i][j] = hn::Mul(b[i][j], inverse[j]);
@@ -407,7 +407,7 @@ HWY_INLINE Numbers solve(Numbers (&b)[N][N], Numbers (&right)[N]) {
   return determinant;
 }
 
-/// With a constant term if N is 6.
+/// Fits with a constant term if N is 6.
 template <std::size_t N>
 void fit(const FrameMoments& s, QueryQuadrics& out) {
   for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
@@ -438,7 +438,7 @@ struct Matrices {
   Numbers p, o, q;
 };
 
-/// Their eigenvalues and unit eigenvectors: (x, y) belongs to `high`, and (-y, x) to `low`.
+/// Eigenvalues and unit eigenvectors: (x, y) belongs to `high`, and (-y, x) to `low`.
 struct EigenPairs {
   Numbers low, high;
   Numbers x, y;
@@ -449,11 +449,11 @@ HWY_INLINE EigenPairs eigen(const Matrices& m) {
   const auto middle = hn::Mul(splat(0.5), hn::Add(m.p, m.q));
   const auto half = hn::Mul(splat(0.5), hn::Sub(m.p, m.q));
   const auto radius = hn::Sqrt(hn::Add(hn::Mul(half, half), hn::Mul(m.o, m.o)));
-  // By the half-angle formula. The component that is at least as large comes first: there, nothing cancels.
+  // The half-angle formula gives first the component that is at least as large, in which nothing cancels.
   const auto cosine = hn::Div(hn::Abs(half), radius);
   const auto larger = hn::Sqrt(hn::Mul(splat(0.5), hn::Add(splat(1.0), cosine)));
   const auto smaller = hn::Div(m.o, hn::Mul(hn::Mul(splat(2.0), radius), larger));
-  const auto exist = hn::Gt(radius, hn::Zero(d));  // of a multiple of the unit matrix, the axes
+  const auto exist = hn::Gt(radius, hn::Zero(d));  // a multiple of the unit matrix gets the axes
   const auto first = either(d, exist, larger, splat(1.0));
   const auto second = only(d, exist, smaller);
   const auto swapped = hn::And(exist, hn::Lt(half, hn::Zero(d)));
@@ -461,7 +461,7 @@ HWY_INLINE EigenPairs eigen(const Matrices& m) {
           either(d, swapped, first, second)};
 }
 
-/// a x + b y + c z, where x, y and z are points.
+/// Returns a x + b y + c z, where a, b and c are vectors.
 HWY_INLINE Points<Doubles> combined(const Points<Doubles>& a, Numbers x, const Points<Doubles>& b, Numbers y,
                                     const Points<Doubles>& c, Numbers z) {
   const auto at = [&](Numbers of_a, Numbers of_b, Numbers of_c)
@@ -469,7 +469,7 @@ HWY_INLINE Points<Doubles> combined(const Points<Doubles>& a, Numbers x, const P
   return {at(a.x, b.x, c.x), at(a.y, b.y, c.y), at(a.z, b.z, c.z)};
 }
 
-/// Vectors of length 1, or 0.
+/// Scales vectors to length 1, except those of length 0.
 HWY_INLINE Points<Doubles> unit(const Points<Doubles>& v) {
   const Doubles d;
   const auto size = hn::Sqrt(squared_length(v));
@@ -495,8 +495,7 @@ void set_tangents(std::size_t queries, QueryFrames& frames) {
   }
 }
 
-/// The unit vector of the direction of `v`, or its negative: the one whose component of largest magnitude, the first of
-/// several, is positive.
+/// Returns the unit vector along `v` or `-v` whose component of largest magnitude, the first of several, is positive.
 HWY_INLINE Points<Doubles> direction(const Points<Doubles>& v) {
   const Doubles d;
   const auto at = unit(v);
@@ -515,7 +514,7 @@ void principal_curvatures(const QueryQuadrics& quadrics, const QueryFrames& fram
   for (std::size_t i = 0; i < queries; i += kLanes<Doubles>) {
     const auto d = load(quadrics.d[i]);
     const auto e = load(quadrics.e[i]);
-    // First fundamental form: E, F, G. Second: L, M, N.
+    // The first fundamental form is E, F, G, the second L, M, N.
     // NOLINTBEGIN(readability-identifier-naming): the names of the field
     const auto E = hn::Add(one, hn::Mul(d, d));
     const auto F = hn::Mul(d, e);

@@ -10,16 +10,16 @@
 #include "simd/joint.h"
 #include "simd/kernels.h"
 
-/// Sums of powers of coordinates over the neighborhoods of a packet: the inner loops of curvature. As in `Kernels`,
-/// each function gives the same result on every processor, bit for bit.
+/// The inner loops of curvature sum powers of coordinates over the neighborhoods of a packet. As in `Kernels`, each
+/// function gives the same result on every processor, bit for bit.
 namespace meshhood::inline v0_1 {
 
-/// The moments of a set of vertices about a center: M_ijk = sum of weight x^i y^j z^k for i + j + k <= 4, where x, y, z
-/// are the coordinates relative to the center. Ordered by i; then by n = j + k; then by k. So the moments with j + k <=
-/// 4 - i of each i are a prefix of those of i - 1.
+/// The moments of a set of vertices about a center are M_ijk = sum of weight x^i y^j z^k for i + j + k <= 4, where x,
+/// y, z are the coordinates relative to the center. They are ordered by i; then by j + k; then by k. So the moments
+/// with j + k <= 4 - i of each i are a prefix of those of i - 1.
 inline constexpr std::size_t kMomentCount = 35;
 
-/// The place of M_ijk.
+/// Returns the place of M_ijk.
 [[nodiscard]] constexpr std::size_t moment_index(std::size_t i, std::size_t j, std::size_t k) {
   constexpr std::array<std::size_t, 5> kFirst{0, 15, 25, 31, 34};
   return kFirst[i] + (j + k) * (j + k + 1) / 2 + k;
@@ -46,7 +46,7 @@ inline void add(PaddedMoments& sum, const PaddedMoments& term) {
   for (std::size_t m = 0; m < PaddedMoments::kPadded; ++m) sum.at[m] += term.at[m];
 }
 
-/// Those of each query.
+/// The moments of each query.
 using MomentsByQuery = std::array<PaddedMoments, kPacketCapacity>;
 
 /// The vertices of a leaf relative to the center of a packet, in a unit in which they are about 1.
@@ -59,8 +59,8 @@ struct MomentPoints : PointPerLane<double> {
   }
 };
 
-/// The moments of a neighborhood about its query vertex, in the frame (u, v, n) of its tangent plane. A fit of a
-/// quadratic height over that plane needs no others, and those of degree 1 and 0 only if it has a constant term.
+/// The moments of each neighborhood about its query vertex, in the frame (u, v, n) of its tangent plane. The fit of a
+/// quadratic height over that plane needs no others, and `u`, `v`, `n` and `one` only if it has a constant term.
 struct FrameMoments {
   QueryRow uu, uv, vv;
   QueryRow u4, u3v, u2v2, uv3, v4;
@@ -75,19 +75,17 @@ struct QueryFrames {
   QueryVectors u, v, n;
 };
 
-/// Columns of normals.
 struct NormalColumns {
   const double* x;
   const double* y;
   const double* z;
 };
 
-/// Which vertices face the queries of a packet: those whose normal makes an angle of less than 90 degrees with that of
-/// the query. The product of the two, in double, each operation rounded, is > 0.
+/// Tests which vertices face the queries of a packet: those whose normal makes an angle of less than 90 degrees with
+/// that of the query. The product of the two, in double, each operation rounded, is > 0.
 struct FacingTest {
   QueryVectors normals;  // of the queries: unit vectors, or NaN
-  // A vertex faces all queries if the product of its normal and the axis is > `all`, and none if it is <= `-all`, in
-  // single precision.
+  // A vertex faces all queries if, in float, the product of normal and axis is > `all`, and none if it is <= `-all`.
   Point axis{0, 0, 0};
   float all = 0;
 };
@@ -107,8 +105,8 @@ struct QueryCurvatures {
 
 struct MomentKernels {
   /// Sets the coordinates of points to those of the first `size` vertices of `xyz`, #V by 3, less the center, times the
-  /// scale; and, up to the next multiple of eight, to 0. Reads that many vertices, of which those beyond the size may
-  /// have any values.
+  /// scale; and, up to the next multiple of eight, to 0. Reads that many vertices; those beyond `size` may have any
+  /// values.
   void (*set_points_float)(const float* xyz, std::size_t size, const Point& center, double scale, MomentPoints& points);
   void (*set_points_double)(const double* xyz, std::size_t size, const Point& center, double scale,
                             MomentPoints& points);
@@ -117,7 +115,7 @@ struct MomentKernels {
   /// beyond these: `out` has room for 32.
   void (*powers)(const MomentPoints& points, LaneMask chosen, PaddedMoments* out);
 
-  /// The sum of the powers of `size` points, at least one, times their weights. Reads the points up to the next
+  /// Writes the sum of the powers of `size` points, at least one, times their weights. Reads the points up to the next
   /// multiple of eight: their coordinates must be finite, and their weights do not matter.
   void (*sum)(const MomentPoints& points, std::size_t size, PaddedMoments& out);
 
@@ -129,7 +127,7 @@ struct MomentKernels {
   /// none. At most `kLeafCapacity` words; the columns begin with the first vertex.
   void (*keep_facing)(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words);
 
-  /// Moves the centers by `-by`: the coordinates grow by `by`. By a Taylor shift along each axis, 105 multiply-adds.
+  /// Moves the centers by `-by`: the coordinates grow by `by`. The Taylor shifts along the axes take 105 multiply-adds.
   void (*shift)(QueryMoments& moments, const QueryVectors& by);
 
   /// Sets `u` and `v` of the frames of the first queries by their normals, which are unit vectors or NaN: `u` is the
@@ -144,20 +142,20 @@ struct MomentKernels {
   /// is no unique solution.
   void (*fit_quadrics)(const FrameMoments& moments, QueryQuadrics& out);
 
-  /// The same with a constant term, which `out` leaves out.
+  /// Does the same with a constant term, which `out` leaves out.
   void (*fit_jets)(const FrameMoments& moments, QueryQuadrics& out);
 
-  /// The principal curvatures of the quadrics of the first queries, by `ShapeOperator::Exact`. Also reads and writes
-  /// rows of others, which may have any values.
+  /// Computes the principal curvatures of the quadrics of the first queries, by `ShapeOperator::Exact`. Also reads and
+  /// writes rows of others, which may have any values.
   void (*principal_curvatures)(const QueryQuadrics& quadrics, const QueryFrames& frames, std::size_t queries,
                                QueryCurvatures& out);
 
-  /// The same by `ShapeOperator::Libigl`. The direction of a curvature of 0 is 0.
+  /// Does the same by `ShapeOperator::Libigl`. The direction of a curvature of 0 is 0.
   void (*principal_curvatures_of_libigl)(const QueryQuadrics& quadrics, const QueryFrames& frames, std::size_t queries,
                                          QueryCurvatures& out);
 };
 
-/// The kernels for `isa`, which the processor must have.
+/// Returns the kernels for `isa`, which the processor must have.
 [[nodiscard]] const MomentKernels& moment_kernels(Isa isa);
 
 }  // namespace meshhood::inline v0_1

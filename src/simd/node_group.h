@@ -34,8 +34,8 @@ struct alignas(64) BoxGroup {
 /// The exit of a ray from a box counts as this much later, which covers the rounding of entries and exits.
 inline constexpr float kExitSlack = 1 + 0x1p-20F;
 
-/// A ray as boxes see it, in the frame. Along each axis it comes to the walls of a box at `(low wall - low) * inverse`
-/// and `(high wall - high) * inverse`; the smaller one is the entry.
+/// A ray in the frame. Along each axis it comes to the walls of a box at `(low wall - low) * inverse` and
+/// `(high wall - high) * inverse`; the smaller one is the entry.
 struct BoxRay {
   struct Axis {
     float low;   // where the ray begins, plus the error of positions, so that the box grows by it
@@ -47,8 +47,7 @@ struct BoxRay {
   Axis z;
 };
 
-/// The relation of the nodes of a group to a ball, one bit a node. A node with neither of the first two bits is outside
-/// the ball.
+/// The relation of the nodes of a group to a ball, one bit a node. A node with neither bit is outside the ball.
 struct GroupContainment {
   std::uint8_t inside;
   std::uint8_t intersecting;

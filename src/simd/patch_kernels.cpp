@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `PatchKernels`, compiled once for each target; see lanes-inl.h. The formulas are those of `ClippedTriangle` and
+// `PatchKernels` is compiled once for each target; see lanes-inl.h. The formulas are those of `ClippedTriangle` and
 // `RimArcs` for the one arc of a triangle of which no corner is far.
 #include <cstddef>
 #include <cstdint>
@@ -50,7 +50,7 @@ HWY_INLINE Numbers squared_size(const Turns& a) {
   return hn::Add(hn::Mul(a.real, a.real), hn::Mul(a.imaginary, a.imaginary));
 }
 
-/// `argument` of numbers that are not 0, whose imaginary part is not negative.
+/// Computes `argument` of numbers that are not 0 and whose imaginary part is not negative.
 HWY_INLINE Numbers arguments(const Turns& numbers) {
   const auto zero = hn::Zero(Doubles());
   const auto half_pi = splat(std::numbers::pi / 2);
@@ -76,7 +76,7 @@ HWY_INLINE Numbers arguments(const Turns& numbers) {
   return chosen(hn::Lt(numbers.real, zero), hn::Sub(splat(std::numbers::pi), quarter), quarter);
 }
 
-/// `half_area` of src/patch/sums.cpp.
+/// Computes `half_area` of src/patch/sums.cpp.
 HWY_INLINE Turns half_areas(const Vectors& n, const Vectors& u, const Vectors& w) {
   const auto products =
       hn::Add(hn::Add(hn::Add(splat(1.0), scalar_product(n, u)), scalar_product(u, w)), scalar_product(w, n));
@@ -85,7 +85,7 @@ HWY_INLINE Turns half_areas(const Vectors& n, const Vectors& u, const Vectors& w
 
 /// A side with one end in the ball.
 struct Line {
-  /// `side`: a vector in the direction of the side, which is that from `inside` outward times `sign`, 1 or -1.
+  /// `side` is the vector from `inside` to the end outside, times `sign`, 1 or -1.
   HWY_INLINE Line(const Vectors& inside, const Vectors& side, Numbers sign) {
     square = squared_length(side);
     unit = hn::Div(sign, hn::Sqrt(square));
@@ -106,7 +106,7 @@ struct Line {
   Numbers chord;    // of the side
 };
 
-/// `ClippedTriangle::may_dip`.
+/// Computes `ClippedTriangle::may_dip`.
 HWY_INLINE Lanes may_dip(const Vectors& a, const Vectors& b) {
   const auto more = splat(1 + kTouchSlack);
   const auto side = difference(b, a);
@@ -119,7 +119,7 @@ HWY_INLINE Lanes may_dip(const Vectors& a, const Vectors& b) {
 }
 
 #if HWY_TARGET != HWY_SCALAR
-/// Two numbers of every second lane, from number `at` of a row on.
+/// Loads two numbers of every second lane, from number `at` of a row on.
 template <class D>
 HWY_INLINE VectorOf<D> pairs(D d, const LaneRow* const* lanes, std::size_t row, std::size_t at) {
   if constexpr (kLanes<D> == 2) {
@@ -131,7 +131,7 @@ HWY_INLINE VectorOf<D> pairs(D d, const LaneRow* const* lanes, std::size_t row, 
 }
 #endif
 
-/// A row of each lane, by the numbers in it.
+/// Loads a row of each lane, by the numbers in it.
 struct LaneRows {
   HWY_INLINE LaneRows(const LaneRow* const* lanes, std::size_t row) {
     const Doubles d;
@@ -154,7 +154,7 @@ struct LaneRows {
   Numbers fourth;
 };
 
-/// From the center, in units of the radius.
+/// The corners relative to the center, in units of the radius.
 struct Corners {
   HWY_INLINE Corners(const CutTriangles& cut, std::size_t i) {
     const auto [center, unit] = LaneRows(&cut.balls[i], 0);
@@ -173,7 +173,7 @@ struct Corners {
   Vectors c;
 };
 
-/// Of each triangle, the arc: a number whose argument is its angle, and where both sides at the first corner leave the
+/// The arc of each triangle: a number whose argument is its angle, and where both sides at the first corner leave the
 /// ball. If that corner is inside, the arc leads from the first to the last, else back.
 struct Arcs {
   PerLane<double> real;
@@ -182,7 +182,7 @@ struct Arcs {
   PointPerLane<double> last;
 };
 
-/// Measures the chords of those from `i` on. Returns which triangles these formulas suit.
+/// Measures the chords of the triangles from `i` on. Returns the triangles that these formulas suit.
 HWY_INLINE Lanes measure_chords(const Doubles d, const CutTriangles& cut, std::size_t i, ClippedTriangles& clipped,
                                 Arcs& arcs) {
   const auto one = splat(1.0);
@@ -204,13 +204,14 @@ HWY_INLINE Lanes measure_chords(const Doubles d, const CutTriangles& cut, std::s
   const auto normal = scaled(area, hn::Div(one, size));
   const auto distance = scalar_product(normal, chosen(hn::Gt(last.chord, first.chord), last.nearest, first.nearest));
   store(hn::Min(one, hn::Max(distance, splat(-1.0))), clipped.distance[i]);
-  // How far the lines are from the foot of the center on the plane: to the right of the first side, and of the last one
-  // from its other end. It is the same for all points of a line, so it follows from the corner in the ball.
+  // The offsets say how far the lines are from the foot of the center on the plane: to the right of the first side, and
+  // of the last one from its other end. An offset is the same for all points of a line, so it follows from the corner
+  // in the ball.
   const auto over_first = vector_product(normal, first_inside);
   const auto over_last = vector_product(normal, last_inside);
   const auto first_offset = hn::Mul(sign, scalar_product(over_first, first.along));
   const auto last_offset = negated(hn::Mul(sign, scalar_product(over_last, last.along)));
-  // Twice the areas between the foot and the chords; that at the third side is all of it or nothing.
+  // The sum is twice the area between the foot and the chords. The third side is in the ball as a whole, or not at all.
   const auto between = chosen(inside, zero, scalar_product(over_first, last_inside));
   store(hn::Add(hn::Add(hn::Mul(first_offset, first.chord), between), hn::Mul(last_offset, last.chord)),
         clipped.area[i]);
@@ -234,7 +235,7 @@ HWY_INLINE Lanes measure_chords(const Doubles d, const CutTriangles& cut, std::s
   return hn::And(does_not_dip, hn::AndNot(is_needle, has_area));
 }
 
-/// Adds what the arcs add. Returns which are short, clear and far from the opposite of the pole.
+/// Adds what the arcs add. Returns the arcs that are short, clear and far from the opposite of the pole.
 HWY_INLINE Lanes measure_arcs(const Doubles d, const CutTriangles& cut, const Arcs& arcs, std::size_t i,
                               ClippedTriangles& clipped) {
   const auto zero = hn::Zero(d);
@@ -260,14 +261,14 @@ HWY_INLINE Lanes measure_arcs(const Doubles d, const CutTriangles& cut, const Ar
   store(factor.real, clipped.real[i]);
   store(factor.imaginary, clipped.imaginary[i]);
 
-  // See `ClippedTriangle::angle_of_arc`.
+  // `ClippedTriangle::angle_of_arc` explains this bound.
   const auto least = chosen(hn::Gt(load(cut.insides[i]), zero), hn::Mul(splat(kClearTurn), arc.real), zero);
   const auto is_clear = hn::And(hn::Ge(arc.imaginary, zero), hn::Ge(arc.imaginary, least));
   const auto is_far_from_opposite = hn::Ge(squared_size(from_pole), splat(kClearPole));
   return hn::And(hn::And(is_clear, is_far_from_opposite), hn::Lt(angle, splat(kLongArc)));
 }
 
-/// In loops so short that the processor works on several turns of one at once.
+/// The loops are so short that the processor works on several iterations at once.
 LaneMask measure(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped) {
   constexpr std::size_t kStep = kLanes<Doubles>;
   const Doubles d;
@@ -314,8 +315,8 @@ LaneMask may_dip_of(const CutTriangles& cut, std::size_t count) {
   return result & first_lanes(static_cast<unsigned>(count));
 }
 
-/// No point of a triangle is nearer than its corners are along any direction. Of small triangles, that to a corner
-/// tells nearly the most.
+/// No point of a triangle is nearer than its corners are along any direction. For small triangles, the direction to a
+/// corner decides nearly as often as the best one.
 QueryWord may_reach(const std::array<Point, 3>& corners, QueryWord queries, const PointPerLane<double>& centers,
                     const PerLane<double>& squared_reaches) {
   const Doubles d;

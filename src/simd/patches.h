@@ -12,19 +12,19 @@
 #include "simd/kernels.h"
 #include "simd/leaf.h"
 
-/// Triangles in balls: the inner loops of areas, volumes and gaps. As in `Kernels`, each function gives the same
+/// The inner loops of areas, volumes and gaps measure triangles in balls. As in `Kernels`, each function gives the same
 /// result on every processor, bit for bit.
 namespace meshhood::inline v0_1 {
 
 using Complex = std::complex<double>;
 
-/// A product, without the functions of the standard library for infinite factors.
+/// Multiplies without the functions of the standard library for infinite factors.
 [[nodiscard]] inline Complex times(const Complex& a, const Complex& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
-/// Of the rational function of the library Cephes for the arctangent (S. L. Moshier), from the highest power on; the
-/// first coefficient of the one below is 1.
+/// These are the coefficients, from the highest power on, of the rational function of the library Cephes for the
+/// arctangent (S. L. Moshier); the first of the denominator, 1, is left out.
 inline constexpr std::array kArctangentAbove{-8.750608600031904122785e-1, -1.615753718753365076637e1,
                                              -7.500855792314704667340e1, -1.228866684490136173410e2,
                                              -6.485021904942025371773e1};
@@ -32,7 +32,7 @@ inline constexpr std::array kArctangentBelow{2.485846490142306297962e1, 1.650270
                                              4.328810604912902668951e2, 4.853903996359136964868e2,
                                              1.945506571482613964425e2};
 
-/// The arctangent of t, |t| < 0.67.
+/// Returns the arctangent of t, |t| < 0.67.
 [[nodiscard]] inline double small_arctangent(double t) {
   const double z = t * t;
   double above = 0;
@@ -42,7 +42,7 @@ inline constexpr std::array kArctangentBelow{2.485846490142306297962e1, 1.650270
   return t + t * (z * above / below);
 }
 
-/// The argument in [-pi, pi], 0 of 0. The function of the standard library rounds differently on some processors.
+/// Returns the argument in [-pi, pi], 0 for 0. `std::atan2` rounds differently on some processors.
 [[nodiscard]] inline double argument(const Complex& number) {
   constexpr double kPi = std::numbers::pi;
   const double x = std::abs(number.real());
@@ -61,8 +61,8 @@ inline constexpr std::array kArctangentBelow{2.485846490142306297962e1, 1.650270
 /// corners' distance: about 2^-47 of the radius or less, unless a corner is far.
 inline constexpr double kFar = 64;
 
-/// Whether a side that touches the ball dips into it is decided by its nearest point; of one that misses the ball by
-/// more than this share, none is computed.
+/// The nearest point of a side that touches the ball decides whether the side dips into it. This point is not computed
+/// for a side that misses the ball by more than this share.
 inline constexpr double kTouchSlack = 1e-9;
 
 /// The sign of the imaginary part of the turn of an arc is clear, unless that part is so small beside the real one.
@@ -91,7 +91,7 @@ struct CutTriangles {
   PerLane<double> insides;                              // 1 if the first corner is in the ball, else -1
 };
 
-/// What `ClippedTriangle::measure` finds of each, and adds to the rim: one arc.
+/// Holds what `ClippedTriangle::measure` finds of each triangle, and adds to the rim: one arc.
 struct ClippedTriangles {
   PerLane<double> area;
   PerLane<double> distance;
@@ -100,7 +100,7 @@ struct ClippedTriangles {
   PerLane<double> imaginary;
 };
 
-/// Triangles in the balls of some queries: sums of area, vector area, and area times distance of the plane from a
+/// Sums over triangles in the balls of some queries: of area, vector area, and area times distance of the plane from a
 /// point, along the normal.
 struct WholeTriangles {
   double area;
@@ -116,26 +116,26 @@ struct WholeSums {
 };
 
 struct PatchKernels {
-  /// Adds triangles to the sums of their queries: their area, and their moment from the center of the query, where
-  /// those that are given are from `point`.
+  /// Adds triangles to the sums of their queries: their area, and their moment from the center of the query. The
+  /// moments in `triangles` are from `point`.
   void (*add_whole)(std::span<const WholeTriangles> triangles, const Point& point, const PointPerLane<double>& centers,
                     double scale, WholeSums& sums);
 
   /// Measures the first `count` triangles; reads and writes whole vectors, so the lanes behind them need rows, too.
-  /// Returns those that it has measured: not one with a corner far away, without an area, a needle, with an arc that is
-  /// not short or near the opposite of the pole, or whose third side may dip into the ball.
+  /// Returns those that it has measured: not one that has no area, is a needle, has a corner far away, an arc that is
+  /// not short or near the opposite of the pole, or a third side that may dip into the ball.
   LaneMask (*measure)(const CutTriangles& cut, std::size_t count, ClippedTriangles& clipped);
 
-  /// Which of them have one corner in the ball, and a third side that may dip into it or a corner far away.
+  /// Returns which of them have one corner in the ball, and a third side that may dip into it or a corner far away.
   LaneMask (*may_dip)(const CutTriangles& cut, std::size_t count);
 
-  /// Those of `queries` that may have a point of a triangle within their reach. The others have none, but for rounding.
-  /// Fourth powers of a reach must not vanish.
+  /// Returns those of `queries` that may have a point of a triangle within their reach. The others have none, but for
+  /// rounding. The fourth power of a reach must not underflow.
   QueryWord (*may_reach)(const std::array<Point, 3>& corners, QueryWord queries, const PointPerLane<double>& centers,
                          const PerLane<double>& squared_reaches);
 };
 
-/// Those compiled for `isa`, which this processor must have.
+/// Returns the kernels for `isa`, which the processor must have.
 [[nodiscard]] const PatchKernels& patch_kernels(Isa isa);
 
 }  // namespace meshhood::inline v0_1

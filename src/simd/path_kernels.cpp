@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `PathKernels`, compiled once for each target; see lanes-inl.h. Sums are rounded one by one, as those of a search from
-// one vertex are, and lengths are neither NaN nor negative.
+// `PathKernels` is compiled once for each target; see lanes-inl.h. Sums are rounded one by one, as those of a search
+// from one vertex are, and lengths are neither NaN nor negative.
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -5,21 +5,19 @@
 #include <cstddef>
 #include <cstdint>
 
-// The targets of Highway for which the kernels are compiled, from slow to fast, each with the instructions of those
-// before it.
+// The kernels are compiled for these targets of Highway, from slow to fast; each has the instructions of those before.
 
 // Assertions of Highway would need its library.
 #define HWY_IS_DEBUG_BUILD 0
-// Without vector instructions, vectors of one lane, which leave loops that the compiler understands.
+// Without vector instructions, vectors have one lane, which leaves loops that the compiler understands.
 #define HWY_BROKEN_EMU128 1
-// On ARM, one target, without the instructions for cryptography that Highway would allow itself: not every processor
-// has them.
+// ARM has one target, without the instructions for cryptography that Highway would use: not every processor has them.
 #if defined(__arm__) || defined(__aarch64__)
 #define TOOLCHAIN_MISS_SYS_AUXV_H
 #endif
-// Vectors of a length that is known only at run time do not fit into the rows of 32 lanes; and the few processors that
-// end at SSSE3 take what has no vector instructions. What Highway numbers below AVX3 has more instructions than that,
-// which no kernel uses; a build for such a processor (-march=native) takes AVX3.
+// Vectors of a length that is known only at run time do not fit into the rows of 32 lanes. The few processors that end
+// at SSSE3 take the target without vector instructions. The targets that Highway numbers below AVX3 have instructions
+// that no kernel uses; a build for such a processor (-march=native) takes AVX3.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | (HWY_AVX3 - 1LL))
 
 #include <hwy/targets.h>
@@ -40,14 +38,14 @@
 #define MESHHOOD_AVX3(what)
 #endif
 
-/// Of the tables of this name, one for each target, that for `isa`.
+/// Selects the table for `isa` among the tables of this name, of which each target has one.
 #define MESHHOOD_TABLE(name, isa)                                                                   \
   *std::array{&HWY_STATIC_DISPATCH(name), MESHHOOD_SSE4(&N_SSE4::name) MESHHOOD_AVX2(&N_AVX2::name) \
                                               MESHHOOD_AVX3(&N_AVX3::name)}[static_cast<std::size_t>(isa)]
 
 namespace meshhood::inline v0_1 {
 
-/// As Highway numbers them.
+/// The numbers of the targets in Highway.
 inline constexpr auto kTargetIds = std::to_array<std::int64_t>(
     {HWY_STATIC_TARGET, MESHHOOD_SSE4(HWY_SSE4) MESHHOOD_AVX2(HWY_AVX2) MESHHOOD_AVX3(HWY_AVX3)});
 

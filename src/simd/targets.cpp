@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The choice between the targets for which the kernels are compiled.
+// Chooses between the targets for which the kernels are compiled.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace meshhood::inline v0_1 {
 namespace {
 
 #if defined(__x86_64__) || defined(__i386__)
-/// The registers whose contents the operating system saves: XCR0.
+/// Returns XCR0, which says which registers the operating system saves.
 std::uint32_t saved_registers() {
   std::uint32_t low = 0;   // NOLINT(misc-const-correctness): the instruction writes both
   std::uint32_t high = 0;  // NOLINT(misc-const-correctness)
@@ -26,8 +26,8 @@ std::uint32_t saved_registers() {
   return low;
 }
 
-/// Whether this processor has the instructions of a target beyond the first of the list, and its operating system
-/// allows them. `__builtin_cpu_supports` needs a library that not every compiler links; it then answers no.
+/// Returns whether this processor has the instructions of a target beyond the first of the list, and its operating
+/// system allows them. `__builtin_cpu_supports` needs a library that not every compiler links; it then answers no.
 // The bits: Intel 64 and IA-32 Architectures Software Developer's Manual, vol. 2A, CPUID; vol. 1, sec. 13.3, XCR0.
 bool has_target(std::int64_t target) {
   constexpr std::uint32_t kSavesYmm = 0x06;
@@ -50,7 +50,7 @@ bool has_target(std::int64_t target) {
 bool has_target(std::int64_t /*target*/) { return false; }
 #endif
 
-/// Each target has the instructions of those before it.
+/// Returns the last target that the processor has together with all before it.
 Isa isa_of_processor() {
   std::size_t best = 0;
   while (best + 1 < kTargetIds.size() && has_target(kTargetIds[best + 1])) ++best;

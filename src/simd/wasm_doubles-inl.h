@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Arithmetic of doubles in WebAssembly, which Highway 1.0.3 lacks. Later versions have it.
+// Adds the arithmetic of doubles in WebAssembly that Highway 1.0.3 lacks. Later versions have it.
 
 #if HWY_TARGET == HWY_WASM && !HWY_HAVE_FLOAT64
 HWY_BEFORE_NAMESPACE();

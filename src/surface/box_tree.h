@@ -20,15 +20,15 @@
 
 namespace meshhood::inline v0_1 {
 
-/// How many times `direction`, whose largest component is 1 or -1, a ray goes to the height of the frame along its main
-/// axis; 0 if it begins there or beyond. All are in the frame.
+/// Returns how many times `direction`, whose largest component is 1 or -1, a ray goes to the height of the frame along
+/// its main axis; 0 if it begins there or beyond. All are in the frame.
 [[nodiscard]] inline double way_to_frame(const Point& origin, const Point& direction) {
   const auto way = [](double from, double along) { return std::abs(along) == 1 ? -1 - from * along : 0; };
   return std::max({way(origin.x, direction.x), way(origin.y, direction.y), way(origin.z, direction.z), 0.0});
 }
 
 /// Boxes around items, eight together, boxes around these, and so on up to eight: a tree whose nodes are numbered by
-/// their places alone. Items that follow each other should be near each other. 27 bytes an item.
+/// their places alone. Items that follow each other should be near each other. It takes 27 bytes an item.
 ///
 /// Boxes are floats that contain what they are made of. `search` measures in single precision, from a point that is
 /// rounded, too. Such a distance is off by less than 2^-22 of itself and 2^-22 of the largest coordinate of the point,
@@ -40,11 +40,11 @@ class BoxTree {
   template <class BoxOf>
   void build(std::size_t count, BoxOf&& box_of);
 
-  /// After some items have moved.
+  /// Updates the tree after some items have moved.
   template <class BoxOf>
   void renew(std::vector<std::size_t> items, BoxOf&& box_of);
 
-  /// For `enters`: no group is left out.
+  /// For `enters`: leaves out no group.
   struct All {
     bool operator()(std::size_t /*level*/, std::size_t /*number*/) const { return true; }
   };
@@ -65,14 +65,13 @@ class BoxTree {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// That of all boxes of a group.
+  /// Returns the box around all boxes of a group.
   [[nodiscard]] BoundingBox box_around(std::size_t level, std::size_t number) const;
 
   [[nodiscard]] static Point at(const BoxGroup::Corners& corners, std::size_t i) {
     return {static_cast<double>(corners.x[i]), static_cast<double>(corners.y[i]), static_cast<double>(corners.z[i])};
   }
 
-  /// Stores a box at a place of a group.
   static void set(BoxGroup& group, std::size_t i, const BoundingBox& box) {
     group.low.x[i] = -next_above(-box.low.x);
     group.low.y[i] = -next_above(-box.low.y);
@@ -123,19 +122,19 @@ inline BoundingBox BoxTree::box_around(std::size_t level, std::size_t number) co
   return box;
 }
 
-/// A search on its way from the root, near boxes before far ones. A loop that advances many by turns gives memory the
-/// time to follow. `Shape` measures boxes, never below 0.
+/// Walks from the root, to near boxes before far ones. A loop that advances several by turns hides the latency of
+/// memory. `Shape` measures boxes, never below 0.
 template <class Shape>
 class BoxTree::Walk {
  public:
-  /// Both must outlive it.
+  /// Tree and shape must outlive it.
   Walk(const BoxTree& tree, Shape& shape) : tree_(&tree), shape_(&shape) {
     boxes_[0] = 0;
     heights_[0] = static_cast<std::uint8_t>(tree.levels_.size());
   }
 
   /// Calls `visit(item)` for the next items, then opens one group. If this group holds items, calls `fetch(item)` for
-  /// those that may be visited later. False at the end.
+  /// those that may be visited later. Returns false at the end.
   template <class Visit, class Fetch, class Enters = All>
   bool advance(Visit&& visit, Fetch&& fetch, Enters&& enters = {});
 
@@ -143,12 +142,12 @@ class BoxTree::Walk {
   template <class Fetch, class Enters>
   void open(std::size_t level, std::size_t number, Fetch& fetch, Enters& enters);
 
-  static constexpr std::size_t kMostBoxes = 11 * kFanOut;  // of 2^32 items
+  static constexpr std::size_t kMostBoxes = 11 * kFanOut;  // enough for 2^32 items
 
   const BoxTree* tree_;
   Shape* shape_;
-  // What is left, the next one last: the bits of what `Shape` measured, then the number of the box or the item. Such
-  // bits of floats, which are not negative, have the order of the floats.
+  // The boxes or items that are left, the next one last: the bits of what `Shape` measured, then the number. The bits
+  // of floats that are not negative have the order of the floats.
   std::array<std::uint64_t, kMostBoxes> boxes_;
   std::array<std::uint8_t, kMostBoxes> heights_;  // levels below the box; 0 for items
   std::size_t size_ = 1;
@@ -190,7 +189,7 @@ void BoxTree::Walk<Shape>::open(std::size_t level, std::size_t number, Fetch& fe
       fetch_lines(&tree_->levels_[level - 1][child], sizeof(BoxGroup) / kCacheLine);
     }
     std::uint64_t box = std::uint64_t{std::bit_cast<std::uint32_t>(values[place])} << 32U | child;
-    for (std::size_t at = size_; at < size; ++at) {  // without branches that depend on what is measured
+    for (std::size_t at = size_; at < size; ++at) {  // no branch depends on what is measured
       const std::uint64_t other = std::exchange(boxes_[at], std::max(box, boxes_[at]));
       box = std::min(box, other);
     }
@@ -217,7 +216,7 @@ class BoxTree::Ball {
     update();
   }
 
-  /// As the kernel, in double if the center is far.
+  /// Compares as the kernel, but in double if the center is far.
   unsigned compare(const BoxGroup& group, BoxGroup::Row& squares) const {
     if (!is_far_) return kernels_->box_squares(group, rounded_, limit_, squares);
     unsigned near = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The point of a surface nearest to a point in space.
+// Finds the point of a surface nearest to a point in space.
 
 #include <algorithm>
 #include <cmath>
@@ -63,10 +63,10 @@ class ClosestPoint {
 
   [[nodiscard]] bool is_far(double least) const { return least > reach_ * reach_; }
 
-  /// There is a triangle at this distance, in the frame.
+  /// Notes that there is a triangle at this distance, in the frame.
   void limit_to(double distance) { reach_ = std::min(reach_, reach_of(distance, scale_)); }
 
-  /// The candidates that are left, exactly.
+  /// Measures exactly the candidates that are left.
   void measure() {
     for (const Candidate& candidate : std::span(candidates_).first(std::exchange(size_, 0))) {
       if (is_far(candidate.least)) continue;

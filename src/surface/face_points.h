@@ -12,7 +12,7 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The rows of a call about points of faces, checked. A copy: nothing that the caller changes later has an effect.
+/// A checked copy of the rows of a call about points of faces: later changes by the caller have no effect.
 class FacePoints {
  public:
   /// mesh  all faces.
@@ -23,7 +23,7 @@ class FacePoints {
   [[nodiscard]] std::size_t face(std::size_t row) const { return faces_[row]; }
   [[nodiscard]] const SpacePoint& point(std::size_t row) const { return points_[row]; }
 
-  /// A corner of each face, so that rows can be in index order. 0 for a face without corners.
+  /// Returns a corner of each face, so that rows can be in index order; 0 for a face without corners.
   [[nodiscard]] const std::vector<VertexId>& corners() const { return corners_; }
 
  private:

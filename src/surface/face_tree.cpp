@@ -16,7 +16,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// The faces that have triangles, at the middles of their boxes.
+/// Returns the faces that have triangles, at the middles of their boxes.
 std::vector<KdPoint> centers_of(const IndexView& index, const StoredFaces& faces) {
   std::vector<KdPoint> centers;
   for (std::size_t face = 0; face < faces.size(); ++face) {
@@ -75,7 +75,7 @@ constexpr double kSlack = 0x1p-20;
 // The squares of a shorter vector vanish, and with them its direction.
 constexpr double kShortest = 0x1p-480;
 
-/// Normals at most `angle` away from a unit vector. As it stands: none.
+/// Normals at most `angle` away from a unit vector; by default none.
 struct Bundle {
   Point axis{0, 0, 0};
   double angle = -1;
@@ -88,7 +88,7 @@ Bundle bundle_of(const Point& area) {
   return {{0, 0, 0}, has_no_normal ? -1 : std::numbers::pi};
 }
 
-/// Where the axes cancel out, one of them is at least 90 degrees away from what is left.
+/// If the axes cancel out, one of them is at least 90 degrees away from what is left.
 Bundle around(std::span<const Bundle> parts) {
   Bundle all;
   for (const Bundle& part : parts) all.axis = all.axis + part.axis;
@@ -116,7 +116,7 @@ std::vector<Bundle> in_groups(std::size_t count, BundleOf&& bundle_of_part) {
 NormalCone cone_of(const Bundle& normals) {
   if (normals.angle < 0) return {};
   const double left = std::acos(kOpposite) - normals.angle;
-  if (left <= 0) return {0, 0, 0, 1};  // opposite to any
+  if (left <= 0) return {0, 0, 0, 1};  // may be opposite to any normal
   return {static_cast<float>(normals.axis.x), static_cast<float>(normals.axis.y), static_cast<float>(normals.axis.z),
           static_cast<float>(std::cos(left) + kSlack)};
 }
@@ -124,7 +124,7 @@ NormalCone cone_of(const Bundle& normals) {
 }  // namespace
 
 NormalCones::NormalCones(const IndexView& index, const FaceTree& tree) {
-  BoundingBox box;  // in double, as those of the tree are rounded by the unit of the frame
+  BoundingBox box;  // in double, because boxes of the tree are rounded to floats of the frame
   for (const Triangle& triangle : tree.triangles()) {
     for (const Point& corner : corners_in_frame(index, triangle.corners)) box.add(corner);
   }

@@ -18,7 +18,6 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// The least place of a corner.
 std::uint32_t first_place(const IndexView& index, std::span<const VertexId> corners) {
   std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
   for (const VertexId v : corners) first = std::min(first, index.place(v));
@@ -111,7 +110,7 @@ class Candidates {
   }
 
  private:
-  /// The nearest point of a side, seen from the same end by all triangles that have it.
+  /// Offers the nearest point of a side, seen from the same end by all triangles that have it.
   void offer_side(std::size_t i, std::size_t j) {
     if (is_before((*corners_)[j], (*corners_)[i])) std::swap(i, j);
     const double share = share_of_side(scaled_[i], scaled_[j]);
@@ -128,8 +127,8 @@ class Candidates {
     offer(weights, (*corners_)[i] + side, from_q_[i] + side);
   }
 
-  /// The foot of the perpendicular, if it lies in the triangle: its share of the height over the longest side, then its
-  /// share of this side.
+  /// Offers the foot of the perpendicular, if it lies in the triangle: its share of the height over the longest side,
+  /// then its share of this side.
   ///
   /// Let L be the longest side, w the height over it, h the distance of `q` from the plane, and e = 2^-53. `height` is
   /// a difference of vectors of length L: rounding tilts it out of the plane by eL/w. The second step makes it
@@ -175,11 +174,11 @@ class Candidates {
   bool has_one_ = false;
 };
 
-/// 0 where squares of lengths vanish.
+/// Returns 0 where squares of lengths underflow.
 double share_of(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
-/// The point of a triangle nearest to the origin, by the regions of Ericson, "Real-Time Collision Detection" (2005),
-/// sec. 5.1.5. For slivers it may be another point of the triangle, or not a number.
+/// Returns the point of a triangle nearest to the origin, by the regions of Ericson, "Real-Time Collision Detection"
+/// (2005), sec. 5.1.5. For slivers it may be another point of the triangle, or NaN.
 Point roughly_nearest(const std::array<Point, 3>& corners) {
   const auto& [a, b, c] = corners;
   const Point ab = b - a;
@@ -217,7 +216,7 @@ double share_of_side(const Point& a, const Point& b) {
   const double square = dot(side, side);
   if (square == 0) return 0;
   const double share = -dot(a, side) / square;
-  return share > 0 ? std::min(share, 1.0) : 0;  // 0 where it is not a number
+  return share > 0 ? std::min(share, 1.0) : 0;  // a NaN becomes 0
 }
 
 std::size_t longest(const std::array<Point, 3>& sides) {

@@ -29,23 +29,23 @@ struct TrianglePoint {
   double distance;
 };
 
-/// A fixed order of points, in which all triangles that have a side see its ends.
+/// Orders points, so that all triangles that have a side take its ends in the same order.
 [[nodiscard]] inline bool is_before(const Point& a, const Point& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
-/// Which share of the way from `a` to `b` leads to the point nearest to the origin. Ends have exactly 0 and 1.
+/// Returns the share of the way from `a` to `b` to the point nearest to the origin; exactly 0 or 1 at the ends.
 [[nodiscard]] double share_of_side(const Point& a, const Point& b);
 
-/// The number of the longest of three sides.
+/// Returns the number of the longest of three sides.
 [[nodiscard]] std::size_t longest(const std::array<Point, 3>& sides);
 
-/// The point of the triangle `a`, `b`, `c` nearest to `q`. `scale` makes lengths of the mesh about 1, so that products
-/// do not overflow; a power of two. For a corner, the distance is that of the predicate. Triangles that share a side or
-/// a corner have the same distance there, bit for bit, whatever the order of their corners.
+/// Returns the point of the triangle nearest to `q`. `scale`, a power of two, makes lengths of the mesh about 1, so
+/// that products do not overflow. For a corner, the distance is that of the predicate. Triangles that share a side or a
+/// corner have the same distance there, bit for bit, whatever the order of their corners.
 [[nodiscard]] TrianglePoint nearest_in_triangle(const Point& q, const std::array<Point, 3>& corners, double scale);
 
-/// What is quickly found of the distance between a point and a triangle.
+/// Bounds of the distance between a point and a triangle that are found quickly.
 struct RoughDistance {
   double square;  // of the distance of some point of the triangle, mostly the nearest
   double least;   // of the squares of all distances; may be not a number
@@ -54,9 +54,9 @@ struct RoughDistance {
 /// No point of a triangle is nearer than its corners are along any direction; that to its nearest point tells the most.
 [[nodiscard]] RoughDistance compare_roughly(const std::array<Point, 3>& corners, const Point& q);
 
-/// Boxes farther than this from a point have no triangle nearer than `distance`; both in the frame. The distance of a
-/// triangle is off by a few units in the last place of itself and of the sides, which are at most 4 there, and squares
-/// of distances may vanish.
+/// Boxes farther than this from a point have no triangle nearer than `distance`; both are in the frame. The distance of
+/// a triangle is off by a few units in the last place of itself and of the sides, which are at most 4 there, and
+/// squares of distances may underflow.
 [[nodiscard]] inline double reach_of(double distance, double scale) {
   constexpr double kSlack = 0x1p-43;
   constexpr double kUnderflow = 0x1p-535;
@@ -70,13 +70,13 @@ struct Triangle {
   std::uint32_t diagonals;  // a bit for each of its sides that lies inside the face
 };
 
-/// A triangle, and what a search found of it. As it stands: none.
+/// A triangle, and what a search found of it; by default none.
 struct TriangleHit {
   std::size_t triangle = 0;
   TrianglePoint at{{}, {}, kInfinity};
 };
 
-/// Whether `a` is nearer than `b`; at the same distance, of a face with a smaller number.
+/// Returns whether `a` is nearer than `b`, or at the same distance of a face with a smaller number.
 [[nodiscard]] inline bool precedes(const TriangleHit& a, const TriangleHit& b, std::span<const Triangle> triangles) {
   const auto rank = [&](const TriangleHit& hit) {
     return std::tuple(hit.at.distance, triangles[hit.triangle].face, hit.triangle);
@@ -84,7 +84,7 @@ struct TriangleHit {
   return rank(a) < rank(b);
 }
 
-/// How many triangles a face of so many corners has.
+/// Returns the number of triangles of a face that has `corners` corners.
 [[nodiscard]] constexpr std::size_t triangle_count(std::size_t corners) { return corners < 3 ? 0 : corners - 2; }
 
 /// Divides faces of an index into triangles.
@@ -101,7 +101,7 @@ class Triangulator {
   Triangulation triangles_;
 };
 
-/// Throws Error{InvalidOption}: `where`, then the face.
+/// Throws Error{InvalidOption}, with `where`, then the face.
 [[noreturn]] void raise_no_such_face(std::size_t face, std::size_t faces, const std::string& where = {});
 
 /// Throws Error{InvalidMesh} if no face has a triangle.
@@ -109,22 +109,22 @@ inline void check_triangle_count(std::size_t triangles) {
   if (triangles == 0) raise(ErrorCode::InvalidMesh, "the mesh has no face of three corners, expected faces");
 }
 
-/// By leaf: the triangles of the faces without a wall whose first corner in index order is there, in the order of these
-/// corners, then of the faces. Throws Error{InvalidMesh} if no face, with or without a wall, has a triangle, and
-/// Error{Cancelled}.
+/// Returns by leaf the triangles of the faces without a wall whose first corner in index order is there, in the order
+/// of these corners, then of the faces. Throws Error{InvalidMesh} if no face, with or without a wall, has a triangle,
+/// and Error{Cancelled}.
 [[nodiscard]] Lists<Triangle, std::size_t> triangles_of_leaves(const IndexView& index, const StoredFaces& faces,
                                                                TaskContext& task);
 
-/// The positions of the corners of a triangle.
+/// Returns the positions of the corners of a triangle.
 [[nodiscard]] std::array<Point, 3> corners_of(const IndexView& index, const std::array<std::uint32_t, 3>& places);
 
-/// The same in the frame.
+/// Returns these positions in the frame.
 [[nodiscard]] inline std::array<Point, 3> corners_in_frame(const IndexView& index,
                                                            const std::array<std::uint32_t, 3>& places) {
   return {index.in_frame(places[0]), index.in_frame(places[1]), index.in_frame(places[2])};
 }
 
-/// A point of a triangle of a face, with these corners, as callers see it.
+/// Returns a point of a triangle of a face, with these corners, as callers see it.
 [[nodiscard]] SurfacePoint surface_point(const IndexView& index, const StoredFaces& faces, std::size_t face,
                                          const std::array<std::uint32_t, 3>& places, const TrianglePoint& found);
 

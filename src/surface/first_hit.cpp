@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first point of a surface on a ray.
+// Finds the first point of a surface on a ray.
 #include "surface/first_hit.h"
 
 #include <algorithm>
@@ -30,13 +30,13 @@ namespace {
 constexpr std::size_t kRaysOfTask = 256;
 constexpr std::size_t kRaysAhead = 8;
 
-// Memory follows for one ray while others go on. A tree that a cache holds is searched faster by one after the other.
+// Memory is fetched for one ray while others go on. A tree that fits a cache is searched faster by one after the other.
 constexpr std::size_t kRaysTogether = 8;
 constexpr std::size_t kCachedBytes = 8 << 20;
 
 double largest_of(const Point& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-/// Twice the area of the triangle of the origin and two points of the plane, with its sign; exact where it is 0. The
+/// Returns twice the signed area of the triangle of the origin and two points of the plane; exact if it is 0. The
 /// rounding of the products keeps their order, unless they become equal.
 double doubled_area(const Point& a, const Point& b) {
   const double left = a.x * b.y;
@@ -46,8 +46,8 @@ double doubled_area(const Point& a, const Point& b) {
 
 Point flat(const Point& p) { return {p.x, p.y, 0}; }
 
-/// The weights of the origin in a triangle of the plane, of which it lies inside: its share of the height over the
-/// longest side, then its share of this side. So it is off by a few units of this side, however thin the triangle is.
+/// Returns the weights of the origin in a triangle of the plane, inside of which it lies: its share of the height over
+/// the longest side, then its share of this side. So it is off by a few units of this side, however thin the triangle.
 std::array<double, 3> weights_inside(const std::array<Point, 3>& seen, const std::array<double, 3>& areas) {
   const std::array sides{flat(seen[1] - seen[0]), flat(seen[2] - seen[1]), flat(seen[0] - seen[2])};
   const std::size_t i = longest(sides);
@@ -61,7 +61,7 @@ std::array<double, 3> weights_inside(const std::array<Point, 3>& seen, const std
   return weights;
 }
 
-/// The same, on the line of the side from corner `i` to `j`, seen from the same end by all triangles that have it.
+/// Returns the weights on the line of the side from corner `i` to `j`, seen from the same end by all its triangles.
 std::array<double, 3> weights_on_side(const std::array<Point, 3>& corners, const std::array<Point, 3>& seen,
                                       std::size_t i, std::size_t j) {
   if (is_before(corners[j], corners[i])) std::swap(i, j);
@@ -71,7 +71,7 @@ std::array<double, 3> weights_on_side(const std::array<Point, 3>& corners, const
   return weights;
 }
 
-/// Not of some that are as long as numbers can be.
+/// Returns whether `d` is surely a direction. It is false also for some that are as long as numbers can be.
 bool is_direction(const SpacePoint& d) {
   const double sum = std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]);
   return 0 < sum && sum < kInfinity;
@@ -154,7 +154,7 @@ std::optional<TrianglePoint> Ray::meet(const std::array<Point, 3>& corners) cons
                          doubled_area(seen[0], seen[1])};
   const double least = std::min(areas[0], std::min(areas[1], areas[2]));
   const double most = std::max(areas[0], std::max(areas[1], areas[2]));
-  if ((least < 0) == (most > 0)) return std::nullopt;  // beside the ray, or all 0: seen from its side
+  if ((least < 0) == (most > 0)) return std::nullopt;  // the triangle is beside the ray, or seen from its side
   TrianglePoint found{{}, {0, 0, 0}, 0};
   const auto zero = static_cast<std::size_t>(std::ranges::find(areas, 0.0) - areas.begin());
   found.barycentric = zero == areas.size() ? weights_inside(seen, areas)
@@ -205,7 +205,7 @@ void Surface::for_each_first_hit(std::span<const SpacePoint> origins, std::span<
     return ray.origin() + way_to_frame(ray.origin(), ray.direction()) * ray.direction();
   };
   const RawVector<std::size_t> in_order = rows_along_curve(origins.size(), entry_of, task);
-  const auto fetch_row = [&](std::size_t row) {  // rays that follow each other along the curve lie anywhere
+  const auto fetch_row = [&](std::size_t row) {  // rays that follow each other along the curve are far apart in memory
     prefetch(&origins[row]);
     prefetch(&directions[row]);
   };

@@ -15,33 +15,33 @@
 
 namespace meshhood::inline v0_1 {
 
-/// A ray as S. Woop, C. Benthin, I. Wald see it ("Watertight ray/triangle intersection", Journal of Computer Graphics
-/// Techniques 2, 2013): space is sheared along the main axis of the ray, so that the ray becomes this axis, and seen
-/// along it. A corner is seen at the same place whatever its triangle, and on which side of a line between two of them
-/// the ray passes is decided exactly. So it cannot slip through where triangles meet.
+/// A ray, by the method of S. Woop, C. Benthin, I. Wald ("Watertight ray/triangle intersection", Journal of Computer
+/// Graphics Techniques 2, 2013): space is sheared along the main axis of the ray, so that the ray becomes this axis,
+/// and seen along it. A corner is seen at the same place whatever its triangle, and on which side of a line between two
+/// of them the ray passes is decided exactly. So it cannot slip through where triangles meet.
 class Ray {
  public:
   /// `direction` is finite and not 0.
   Ray(const Point& origin, const Point& direction, const Frame& frame);
 
-  /// Where it meets a triangle: at a corner or on a side, the weights of the others are exactly 0, and the distance is
-  /// that of each triangle there, bit for bit. None for a triangle that is seen from its side, or without an area.
+  /// Returns where it meets a triangle: at a corner or on a side, the weights of the others are exactly 0, and the
+  /// distance is that of each triangle there, bit for bit. None for a triangle seen from its side or without an area.
   [[nodiscard]] std::optional<TrianglePoint> meet(const std::array<Point, 3>& corners) const;
 
-  /// In the frame; the largest component of `direction` is 1 or -1.
+  /// Return origin and direction in the frame; the largest component of `direction` is 1 or -1.
   [[nodiscard]] const Point& origin() const { return in_frame_; }
   [[nodiscard]] const Point& direction() const { return direction_; }
 
-  /// How many times `direction` leads to a distance, in the frame.
+  /// Returns how many times `direction` leads to a distance, in the frame.
   [[nodiscard]] double way_to(double distance) const { return distance * frame_scale_ / length_; }
 
  private:
   using Axes = std::array<double Point::*, 3>;
 
-  /// The coordinates to the right, up, and along the main axis of the direction.
+  /// Returns the coordinates to the right, up, and along the main axis of the direction.
   [[nodiscard]] Point turn(const Point& p) const { return {p.*axes_[0], p.*axes_[1], p.*axes_[2]}; }
 
-  /// A point from the origin of the ray; z is the way along it.
+  /// Returns a point relative to the origin of the ray; z is the way along it.
   [[nodiscard]] Point see(const Point& p) const;
 
   Point in_frame_;
@@ -54,7 +54,7 @@ class Ray {
   Point turned_direction_;
 };
 
-/// The first of the triangles that a ray meets and for which `counts(i, at)`.
+/// Finds the first of the triangles that a ray meets and for which `counts(i, at)`.
 template <class Counts>
 class FirstHitSearch {
  public:
@@ -70,12 +70,12 @@ class FirstHitSearch {
   FirstHitSearch(const FirstHitSearch&) = delete;
   FirstHitSearch& operator=(const FirstHitSearch&) = delete;
 
-  /// One step, at whose end memory is fetched for the next one. False at the end.
+  /// Takes one step, at whose end memory is fetched for the next one. Returns false at the end.
   bool advance() {
     return walk_.advance([&](std::size_t i) { meet(i); }, [&](std::size_t i) { prefetch(&tree_->triangles()[i]); });
   }
 
-  /// So far; at an infinite distance if none was met.
+  /// Returns the first one so far; at an infinite distance if none was met.
   [[nodiscard]] const TriangleHit& first() const { return first_; }
 
  private:
@@ -102,7 +102,7 @@ class FirstHitSearch {
   BoxTree::Walk<BoxTree::Line<Reach>> walk_;
 };
 
-/// The same in one call.
+/// Does the same in one call.
 template <class Counts>
 [[nodiscard]] TriangleHit find_first_hit(const IndexView& index, const FaceTree& tree, const Point& origin,
                                          const Point& direction, Counts&& counts) {

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kVerticesPerTask = 2048;
 
-/// The place of each of the caller's vertices in index order.
+/// Returns the place of each of the caller's vertices in index order.
 RawVector<std::uint32_t> places_of_vertices(const IndexView& index, TaskContext& task) {
   RawVector<std::uint32_t> places(index.vertex_count());
   task.parallel_for(places.size(), kVerticesPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
@@ -30,8 +30,8 @@ RawVector<std::uint32_t> places_of_vertices(const IndexView& index, TaskContext&
   return places;
 }
 
-/// The vector area of a face in the unit of the frame, where products do not overflow. `place_of(i)` is that of corner
-/// `i` in index order.
+/// Returns the vector area of a face in the unit of the frame, where products do not overflow. `place_of(i)` is the
+/// place of corner `i` in index order.
 template <class Real, class PlaceOf>
 Point vector_area(std::span<const Real> xyz, double scale, std::size_t corners, PlaceOf&& place_of) {
   const auto corner = [&](std::size_t i) { return scale * point(xyz, place_of(i)); };
@@ -64,7 +64,7 @@ void sum_areas(std::span<const Real> xyz, double scale, std::span<const std::uin
   }
 }
 
-/// The length of the vector area, in the unit of the frame.
+/// Returns the length of the vector area, in the unit of the frame.
 template <class Real>
 double frame_area(const StridedPositions<Real>& xyz, const Frame& frame, std::span<const VertexId> corners) {
   const auto corner = [&](std::size_t i) { return frame.to_frame(point(xyz, corners[i])); };
@@ -126,7 +126,7 @@ Normals read_normals(const IndexView& index, std::span<const double> given) {
       raise(ErrorCode::InvalidMesh,
             "the normal of vertex " + std::to_string(id) + " is infinite, expected numbers, or NaN for no normal");
     }
-    normals.set(i, {n.x / largest, n.y / largest, n.z / largest});  // its square may overflow
+    normals.set(i, {n.x / largest, n.y / largest, n.z / largest});  // a square of the given components might overflow
   }
   return normals;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The faces of a region, as a mesh; and its rim: each face at the border of the region gives a segment between two
-// edges that leave it, and the segments are joined into polylines.
+// Makes a mesh of the faces of a region, and finds its rim: each face at the border of the region gives a segment
+// between two edges that leave it, and the segments are joined into polylines.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,7 +56,7 @@ class FaceSelection {
 using RimEdge = std::array<VertexId, 2>;
 
 /// Calls `f(begin, count)` for each run of `count` corners inside the region, the first of which is corner `begin`;
-/// corners are numbered around the face. None if all are inside.
+/// corners are numbered around the face. There is no run if all are inside.
 template <class IsInside, class F>
 void for_each_run(std::span<const VertexId> corners, IsInside&& is_inside, F&& f) {
   const std::size_t size = corners.size();
@@ -74,7 +74,7 @@ struct Segment {
   std::uint32_t to;
 };
 
-/// A chain of points, each joined to the next; of a loop also the last to the first.
+/// A chain of points, each joined to the next; in a loop also the last to the first.
 struct Polyline {
   std::vector<std::uint32_t> points;
   bool is_closed;
@@ -98,7 +98,7 @@ class Joiner {
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       if (!is_used_[i] && is_end(segments_[i].from)) result.push_back(walk(i, segments_[i].from));
     }
-    // Segments that run against the others, where faces are not consistently oriented.
+    // Where faces are not consistently oriented, segments run against the others.
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       if (!is_used_[i] && is_end(segments_[i].to)) result.push_back(walk(i, segments_[i].to));
     }
@@ -111,7 +111,7 @@ class Joiner {
  private:
   [[nodiscard]] bool is_end(std::uint32_t point) const { return of_points_[point].size() != 2; }
 
-  /// From `start`, an end of segment `next`, to an end or back to `start`.
+  /// Walks from `start`, an end of segment `next`, to an end or back to `start`.
   Polyline walk(std::size_t next, std::uint32_t start) {
     Polyline line{{start}, false};
     std::uint32_t at = start;
@@ -168,7 +168,7 @@ std::vector<Segment> segments_of(std::span<const ExitPair> pairs, const std::vec
   return segments;
 }
 
-/// The point of the rim on each of `edges`.
+/// Returns the point of the rim on each of `edges`.
 std::vector<SpacePoint> rim_points(const IndexView& index, std::span<const RimEdge> edges, const SpacePoint& center,
                                    double radius) {
   const Point middle{center[0], center[1], center[2]};

@@ -18,7 +18,7 @@ namespace {
 
 bool same(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/// The index does not keep the faces: they must be those of the same vertices.
+/// Throws unless the mesh has the vertices of the index, which has no faces to compare.
 void check_positions(const IndexView& index, const MeshView& mesh) {
   if (mesh.positions.size() != index.vertex_count()) {
     raise(ErrorCode::InvalidMesh, "the mesh has " + std::to_string(mesh.positions.size()) +
@@ -121,7 +121,7 @@ Kept<PatchState>& Surface::State::kept_patches() const {
   return index->walls.empty() ? geometry->patches : walled_patches;
 }
 
-// Of the positions in index order, for the sums and the bits of `vertex_areas`.
+// Takes the positions in index order, but the faces in their order, so that sums have the bits of `vertex_areas`.
 const std::vector<double>& Surface::State::areas() const {
   return geometry->areas.get([&] {
     FaceArrays in_order = topology->arrays;
@@ -202,7 +202,7 @@ void Surface::refit_in_place(const Index& index, const IndicesView& changed) {
   refit_in_place(index);
   if (!is_in_frame) return;
   if (made.use_count() > 1) {
-    made = made->copy();  // for another surface, or a searcher that was made before
+    made = made->copy();  // another surface, or a searcher that was made before, keeps the original
   } else {
     // Another thread may have let go of it just now. `use_count` does not order what that thread has read before what
     // is written here; to let go of a copy does, since this changes the same counter.

@@ -24,7 +24,7 @@ namespace meshhood::inline v0_1 {
 
 class TaskContext;
 
-/// The faces that have each vertex as a corner, ascending; twice if it is two corners of one.
+/// The faces that have each vertex as a corner, ascending; a face twice if the vertex is two corners of it.
 using FaceLists = Lists<std::uint32_t, std::uint64_t>;
 
 /// The faces of a surface, whatever the positions.
@@ -36,7 +36,7 @@ struct SurfaceFaces {
   explicit SurfaceFaces(FaceArrays given) : arrays(std::move(given)), faces{arrays.corners, arrays.offsets} {}
 };
 
-/// Unit vectors in index order; NaN without one.
+/// Unit vectors in index order, NaN for a vertex without a normal.
 struct Normals {
   RawVector<double> x;
   RawVector<double> y;
@@ -44,7 +44,7 @@ struct Normals {
 
   explicit Normals(std::size_t vertices) : x(vertices), y(vertices), z(vertices) {}
 
-  /// A normal of length 0 becomes NaN.
+  /// Sets a normal; one of length 0 becomes NaN.
   void set(std::size_t place, const Point& n);
 };
 
@@ -56,7 +56,7 @@ struct SurfaceGeometry {
   Kept<std::vector<double>> areas;
   Kept<PatchState> patches;  // without walls
 
-  /// Of what a refit renews.
+  /// Copies what a refit renews.
   [[nodiscard]] std::shared_ptr<SurfaceGeometry> copy() const;
 };
 
@@ -100,11 +100,11 @@ struct OrientedIndex {
     return {normals->x[place], normals->y[place], normals->z[place]};
   }
 
-  /// The neighbor with the lowest id; the vertex itself if it has none.
+  /// Returns the neighbor with the lowest id; the vertex itself if it has none.
   [[nodiscard]] std::size_t first_neighbor(std::size_t place) const;
 };
 
-/// For the sources of surfaces and curvature, and for tests.
+/// Gives access to the state of a surface: to the sources of surfaces and curvature, and to tests.
 struct SurfaceAccess {
   using State = Surface::State;
 
@@ -130,17 +130,17 @@ struct SurfaceAccess {
 
 using SurfaceState = SurfaceAccess::State;
 
-/// Where the segment from `inside`, a point of the ball, to `outside` leaves the ball; `outside` if that is inside too.
+/// Returns where the segment from `inside`, in the ball, to `outside` leaves it; `outside` if that is inside, too.
 [[nodiscard]] Point exit_point(const Point& inside, const Point& outside, const Point& center, double radius);
 
-/// The normals of the vertices of faces.
+/// Returns the normals of the vertices of faces.
 [[nodiscard]] Normals make_normals(const IndexView& index, const FacesView& faces, TaskContext& task);
 
-/// The same for some vertices.
+/// Renews the normals of some vertices.
 void renew_normals(const IndexView& index, const StoredFaces& faces, const FaceLists& lists,
                    std::span<const VertexId> vertices, Normals& normals);
 
-/// Of lists of three for each of the caller's vertices. Throws as `Surface::of_normals`.
+/// Reads the normals of the caller's vertices, three numbers each. Throws as `Surface::of_normals`.
 [[nodiscard]] Normals read_normals(const IndexView& index, std::span<const double> normals);
 
 }  // namespace meshhood::inline v0_1

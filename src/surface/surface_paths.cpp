@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Paths over a surface: the edges, and the straight lines over two triangles that share a side. They are edges of a
-// graph in which the index then searches paths as along the edges of the mesh.
+// A path over a surface has edges, and straight lines over two triangles that share a side. Both are edges of a graph
+// in which the index then searches paths as along the edges of the mesh.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +27,7 @@ namespace {
 
 constexpr double kNoLine = kInfinity;
 
-/// The elements of each vertex, sorted. `for_each` as for `gather_rows`.
+/// Returns the elements of each vertex, sorted. `for_each` is that of `gather_rows`.
 template <class T, class ForEach>
 Lists<T, std::size_t> sorted_lists(std::size_t vertices, ForEach&& for_each) {
   auto lists = gather_lists<T, std::size_t>(vertices, for_each);
@@ -52,12 +52,12 @@ struct Line {
   friend auto operator<=>(const Line&, const Line&) = default;
 };
 
-/// The length of the straight line from `c` to `d` over the triangles abc and bad, unfolded into a plane. Infinite if
-/// it does not cross the side ab between its ends: then a shortest path over the two runs along edges.
+/// Returns the length of the straight line from `c` to `d` over the triangles abc and bad, unfolded into a plane. It is
+/// infinite if the line does not cross the side ab between its ends: then a shortest path over the two has edges only.
 double unfolded_length(const Point& a, const Point& b, const Point& c, const Point& d) {
   const double side = length(b - a);
   if (side == 0) return kNoLine;
-  // Along the side, and away from it.
+  // Returns coordinates along the side, and away from it.
   const auto in_plane = [&](const Point& p) {
     const double along = dot(p - a, b - a) / side;
     return std::pair(along, length(p - a - along / side * (b - a)));
@@ -72,7 +72,7 @@ double unfolded_length(const Point& a, const Point& b, const Point& c, const Poi
   return std::sqrt(along * along + away * away);
 }
 
-/// The edges of the index and the lines over the triangles of a surface.
+/// Makes the graph of the edges of the index and the lines over the triangles of a surface.
 class SurfaceGraph {
  public:
   SurfaceGraph(const SurfaceState& surface, TaskContext& task)
@@ -127,7 +127,7 @@ class SurfaceGraph {
     return std::ranges::binary_search(edges_->edges->view()[a], b);
   }
 
-  /// Whether lines may run over a face without a wall: none of its sides is cut.
+  /// Returns whether lines may run over a face without a wall: none of its sides is cut.
   [[nodiscard]] bool is_open(std::span<const VertexId> corners) const {
     auto previous = static_cast<VertexId>(index_.place(corners.back()));
     return std::ranges::all_of(corners, [&](VertexId corner) {
@@ -137,7 +137,7 @@ class SurfaceGraph {
     });
   }
 
-  /// The sides of the triangles of open faces, of three corners each.
+  /// Calls `f` with the sides of the triangles of open faces, of three corners each.
   template <class F>
   void for_each_side(F&& f) const {
     for (const auto& [corners, face, diagonals] : triangles_) {
@@ -151,7 +151,7 @@ class SurfaceGraph {
     }
   }
 
-  /// Lines across sides that have exactly two opposite corners, and the sides within a polygon.
+  /// Calls `f` with lines across sides that have exactly two opposite corners, and with the sides within a polygon.
   template <class F>
   void for_each_line(const Lists<SharedSide, std::size_t>& sides, F&& f) const {
     for (VertexId a = 0; a < sides.size(); ++a) {

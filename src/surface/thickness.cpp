@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The thickness of a wall: along a ray, and by a ball that shrinks until no opposite face lies in it.
+// Measures the thickness of a wall along a ray, and by a ball that shrinks until no opposite face lies in it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,10 +26,10 @@ namespace {
 
 constexpr std::size_t kRowsOfTask = 256;
 
-// Of the first ball, in the frame: more than the diagonal of any surface, beyond which no ball counts.
+// The radius of the first ball, in the frame: more than the diagonal of any surface, beyond which no ball counts.
 constexpr double kFirstRadius = 4;
 
-// Times the largest coordinate, or the extent of the mesh: what is not farther is at the same place, up to rounding.
+// What is not farther than this, times the largest coordinate or the extent of the mesh, is at the same place.
 constexpr double kSamePlace = 0x1p-46;
 
 /// A ball that touches a spot from inside, in the frame, and shrinks while a search goes through boxes. It stays inside
@@ -50,7 +50,7 @@ class TouchingBall {
     boxes_ = BoxTree::Ball<Reach>(center(), reach_);
   }
 
-  /// False if no point of the triangle is in the ball.
+  /// Returns false only if no point of the triangle is in the ball.
   [[nodiscard]] bool may_contain(const std::array<std::uint32_t, 3>& corners) const {
     return !(compare_roughly(corners_in_frame(*index_, corners), center()).least > reach_.distance * reach_.distance);
   }
@@ -82,7 +82,7 @@ class TouchingBall {
 
 constexpr std::uint32_t kAbsent = std::numeric_limits<std::uint32_t>::max();
 
-/// Where a wall is measured.
+/// A spot where a wall is measured.
 struct Spot {
   Point at;
   Point normal;                   // a unit vector; NaN without one
@@ -90,7 +90,7 @@ struct Spot {
   std::uint32_t face = kAbsent;   // whose point it is
 };
 
-/// What is opposite to a spot.
+/// Measures the distance to what is opposite to a spot.
 class OppositeSide {
  public:
   OppositeSide(const IndexView& index, const FaceTree& tree, const Spot& spot)
@@ -107,7 +107,7 @@ class OppositeSide {
     return has_normal() ? way_to_first([](std::size_t) { return true; }) : kNan;
   }
 
-  /// Infinite if the radius of the ball is above the diagonal of the faces.
+  /// Returns infinity if the radius of the ball is above the diagonal of the faces.
   [[nodiscard]] double by_sphere(const NormalCones& cones) const {
     if (!has_normal()) return kNan;
     const double scale = index_->frame.scale;
@@ -139,7 +139,7 @@ class OppositeSide {
     return is_opposite(doubled_area(*index_, tree_->triangles()[i]), spot_.normal);
   }
 
-  /// Along the ray, to the first of the faces for which `is_counted(i)`.
+  /// Returns the way along the ray to the first of the faces for which `is_counted(i)`.
   template <class IsCounted>
   [[nodiscard]] double way_to_first(IsCounted&& is_counted) const {
     const auto counts = [&](std::size_t i, const TrianglePoint& at) {
@@ -152,8 +152,8 @@ class OppositeSide {
     return tree_->triangles()[i].corners;
   }
 
-  /// The radius, in the frame, of the largest ball beside a triangle, which shrinks from `radius` until the nearest
-  /// point of the triangle is not in it. So it depends on no other triangle.
+  /// Returns the radius, in the frame, of the largest ball beside a triangle, which shrinks from `radius` until the
+  /// nearest point of the triangle is not in it. So it depends on no other triangle.
   [[nodiscard]] double largest_beside(std::size_t i, double radius) const {
     const auto [a, b, c] = corners_in_frame(*index_, corners(i));
     const std::array<Point, 3> from_spot{a - at_, b - at_, c - at_};
@@ -175,7 +175,7 @@ class OppositeSide {
   double same_;  // likewise
 };
 
-/// The point of a face nearest to `q`, and the normal of the face.
+/// Returns the point of a face nearest to `q`, and the normal of the face.
 Spot spot_on_face(const SurfaceState& state, const FaceTree& tree, std::size_t face, const Point& q) {
   const IndexView& index = *state.index;
   const double scale = index.frame.scale;

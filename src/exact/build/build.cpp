@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The steps that build the exact index.
+// Runs the steps that build the exact index.
 #include <algorithm>
 #include <cassert>
 #include <span>
@@ -21,10 +21,10 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-// Enough that passing them to a thread costs little.
+// A chunk of this size takes much longer than passing it to a thread.
 constexpr std::size_t kLeafGrain = 64;
 
-/// The leaves without their bounding spheres.
+/// Makes the leaves without their bounding spheres.
 std::vector<Leaf> make_leaf_records(const LeafPartition& partition, TaskContext& task) {
   const Links& links = partition.links;
   const std::size_t count = partition.leaf_begin.size() - 1;
@@ -45,7 +45,7 @@ std::vector<Leaf> make_leaf_records(const LeafPartition& partition, TaskContext&
   return leaves;
 }
 
-/// The records of the groups, complete, and the links between nodes.
+/// Completes the records of the groups, and adds the links between nodes.
 void add_forest(LeafPartition& partition, IndexData& arrays, TaskContext& task) {
   const Links& links = partition.links;
   arrays.levels = std::move(partition.forest.levels);

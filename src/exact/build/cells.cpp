@@ -13,7 +13,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-// Enough that passing them to a thread costs little.
+// Chunks of these sizes take much longer than passing them to a thread.
 constexpr std::size_t kPointGrain = 2048;
 constexpr std::size_t kCellGrain = 64;
 
@@ -44,7 +44,7 @@ void split_cell(const Cells& cells, const Links& links, std::uint32_t cell, std:
   }));
 }
 
-/// By component, if it is small: the components at the other ends of the edges that leave it, one for each edge.
+/// Lists for each small component the components at the other ends of the edges that leave it, one for each edge.
 Lists<std::uint32_t> neighbors_of_small(const CellComponents& components, const Links& links, TaskContext& task) {
   const auto append = [&](std::size_t c, std::vector<std::uint32_t>& out) {
     const CellComponent& component = components.elements[c];
@@ -64,7 +64,7 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// Merges small components, in the order of their numbers.
 class Merger {
  public:
-  /// `neighbors`: see `neighbors_of_small`.
+  /// `neighbors` is the result of `neighbors_of_small`.
   Merger(std::span<const CellComponent> components, const Lists<std::uint32_t>& neighbors)
       : neighbors_of_(neighbors), merged_into_(components.size()), edges_to_(components.size()) {
     std::iota(merged_into_.begin(), merged_into_.end(), 0);
@@ -74,7 +74,7 @@ class Merger {
     }
   }
 
-  /// For each component the one that it is merged into at last.
+  /// Returns for each component the one that it is merged into at last.
   std::vector<std::uint32_t> run() {
     for (std::uint32_t c = 0; c < merged_into_.size(); ++c) {
       if (size(c) < kSmallComponent) merge(c);
@@ -136,8 +136,8 @@ class Merger {
     }
   }
 
-  /// That of `neighbors_` with room for `component` that has the most edges to it, of equal ones the first in number;
-  /// `component` itself if there is none.
+  /// Returns, of `neighbors_` with room for `component`, the one with the most edges to it, and of several such ones
+  /// the first in number; `component` itself if there is none.
   std::uint32_t best_neighbor(std::uint32_t component) {
     std::uint32_t best = component;
     std::uint32_t most = 0;

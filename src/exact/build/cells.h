@@ -19,12 +19,12 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The number of vertices in a cell of the kd order. Below the capacity of a leaf, so that small components of
+/// The number of vertices in a cell of the kd order. It is below the capacity of a leaf, so that small components of
 /// neighboring cells fit in.
 inline constexpr std::size_t kCellSize = 30;
 
-/// The vertices in a kd order, of which every `kCellSize` consecutive ones are a cell. Within a cell they ascend.
-/// A vertex of a cell has a slot, as it has in a leaf: 32 times its cell, plus its place in the cell.
+/// The vertices in a kd order, of which every `kCellSize` consecutive ones are a cell. Within a cell they ascend. A
+/// vertex of a cell has a slot, as it has in a leaf: 32 times its cell, plus its place in the cell.
 struct Cells {
   RawVector<KdPoint> points;      // in kd order
   RawVector<std::uint32_t> slot;  // by vertex
@@ -51,7 +51,7 @@ struct CellComponent {
 
 /// The components of all cells, numbered from cell to cell; the first of a cell is its largest.
 struct CellComponents : Lists<CellComponent> {
-  /// The component that holds the vertex `lane` of a cell.
+  /// Returns the component that holds the vertex `lane` of a cell.
   [[nodiscard]] std::uint32_t at(std::size_t cell, unsigned lane) const {
     std::uint32_t component = offsets[cell];
     while ((elements[component].lanes >> lane & 1U) == 0) ++component;
@@ -60,7 +60,7 @@ struct CellComponents : Lists<CellComponent> {
   }
 };
 
-/// `links`: of the cells. O(#V + #E).
+/// Divides the cells into components. `links` are those of the cells. O(#V + #E).
 [[nodiscard]] CellComponents split_cells(const Cells& cells, const Links& links, TaskContext& task);
 
 /// The components that make a leaf together, by leaf.
@@ -68,9 +68,9 @@ struct MergedComponents : Lists<CellComponent> {
   std::vector<std::uint32_t> leaf_of;  // by component: its leaf
 };
 
-/// Merges small components into neighbors that have room, so that few leaves are small. What is merged is connected,
-/// or consists of *crumbs*: small components of the whole mesh, which share leaves so that a cloud of points does not
-/// take a leaf for each point. O(#V + edges of small components).
+/// Merges small components into neighbors that have room, so that few leaves are small. A merged component is
+/// connected, or consists of *crumbs*: small components of the whole mesh, which share leaves so that a cloud of points
+/// does not take a leaf for each point. O(#V + edges of small components).
 [[nodiscard]] MergedComponents merge_small(const CellComponents& components, const Links& links, TaskContext& task);
 
 }  // namespace meshhood::inline v0_1

@@ -12,14 +12,14 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The edges of a mesh, from its polygons or from its graph, which must be valid. Borrowed. A build reads them once, in
+/// Borrows the edges of a mesh, from its polygons or from its graph, which must be valid. A build reads them once, in
 /// any order, so it needs no graph of a mesh.
 class EdgeSource {
  public:
   explicit EdgeSource(const FacesView& faces) : source_(faces) {}
   explicit EdgeSource(const AdjacencyView& graph) : source_(graph) {}
 
-  /// The number of polygons, or of rows.
+  /// Returns the number of polygons, or of rows.
   [[nodiscard]] std::size_t size() const {
     return std::visit([](const auto& source) { return source.size(); }, source_);
   }

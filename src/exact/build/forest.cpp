@@ -18,7 +18,7 @@ struct LevelGroups {
   [[nodiscard]] std::size_t size() const { return covered.size() + roots.size(); }
 };
 
-/// The nodes with links, or those without, in a kd order of eight; ascending within each eight.
+/// Returns the nodes with links, or those without, in a kd order of eight; they ascend within each eight.
 std::vector<KdPoint> order_nodes(const NodeGraph& graph, bool with_links, TaskContext& task) {
   std::vector<KdPoint> points;
   for (std::uint32_t node = 0; node < graph.size(); ++node) {
@@ -58,7 +58,7 @@ class LevelGrouping {
 
  private:
   NodeGroups cover(const NodeGraph& graph, std::span<const KdPoint> linked) {
-    // Chosen: leaves are grouped to 0.87 to 0.97 on scans and bodies, to 0.78 on closely folded surfaces.
+    // Chosen: groups of leaves are filled to 0.87 to 0.97 on scans and bodies, and to 0.78 on closely folded surfaces.
     constexpr double kWellFilled = 0.85;
     NodeParts parts = connected_parts(graph, linked);
     if (!dissolves_) dissolves_ = parts.fill() < kWellFilled;
@@ -179,7 +179,7 @@ Forest make_forest(NodeGraph leaves, TaskContext& task) {
 std::vector<NodeLink> make_node_links(std::span<const std::uint32_t> first_link, std::span<const Link> links,
                                       std::span<const std::uint32_t> levels, std::span<const NodeId> parents,
                                       std::vector<GroupRecord>& records, TaskContext& task) {
-  constexpr std::size_t kGrain = 32;  // enough that passing them to a thread costs little
+  constexpr std::size_t kGrain = 32;  // a chunk of this size takes much longer than passing it to a thread
   std::vector<NodeLink> result;
   const auto add_links = [&](std::size_t level, std::uint32_t group, GroupLinks& collected) {
     for (unsigned i = 0; i < records[group].nodes; ++i) {

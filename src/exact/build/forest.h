@@ -11,8 +11,8 @@
 
 namespace meshhood::inline v0_1 {
 
-/// How the leaves are grouped: a forest, because nodes that are not linked are never grouped together. So every node
-/// above the leaves is connected by links between its children.
+/// The leaves are grouped into a forest, not a tree, because nodes that are not linked are never grouped together. So
+/// every node above the leaves is connected by links between its children.
 ///
 /// A node without links has no parent. Such nodes of one level share *root groups*. Where grouping no longer makes a
 /// level much smaller, as around a hub, all nodes of the level are in root groups, and keep their links.

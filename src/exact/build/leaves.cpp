@@ -22,10 +22,10 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-// Enough that passing them to a thread costs little.
+// A chunk of this size takes much longer than passing it to a thread.
 constexpr std::size_t kLeavesPerTask = 64;
 
-/// What the leaves are made of.
+/// The data from which the leaves are made.
 struct Material {
   Cells cells;
   Links links;  // of the cells
@@ -49,7 +49,7 @@ Point position_of(const KdPoint& p) {
   return {static_cast<double>(p.at[0]), static_cast<double>(p.at[1]), static_cast<double>(p.at[2])};
 }
 
-/// The mean of the vertices of a leaf, and the distance of the farthest from it.
+/// Returns the mean of the vertices of a leaf, and the distance of the farthest from it.
 NodeBall measure_leaf(const Material& mesh, std::size_t leaf) {
   NodeBall ball{{0, 0, 0}, 0};
   std::size_t size = 0;
@@ -86,14 +86,14 @@ void append_neighbors(const Material& mesh, std::size_t leaf, std::vector<std::u
   }
 }
 
-/// The leaves and the links between them, by which they are grouped.
+/// Returns the leaves and the links between them, by which they are grouped.
 NodeGraph graph_of_leaves(const Material& mesh, TaskContext& task) {
   return make_graph(
       mesh.leaves.size(), [&](std::size_t leaf) { return measure_leaf(mesh, leaf); },
       [&](std::size_t leaf, std::vector<std::uint32_t>& out) { append_neighbors(mesh, leaf, out); }, task);
 }
 
-/// The vertices of each leaf in their order, and for each vertex in kd order its slot.
+/// Finds the order of the vertices of each leaf, and for each vertex in kd order its slot.
 class Placing {
  public:
   Placing(const Material& mesh, LeafPartition& result) : mesh_(mesh), result_(result), slot_(mesh.cells.points.size()) {
@@ -148,7 +148,7 @@ class Placing {
 /// Turns the links of cells into those of leaves.
 class LeafLinker {
  public:
-  /// `slot`: of the vertices in kd order.
+  /// `slot` has the slots of the vertices in kd order.
   LeafLinker(const Material& mesh, std::span<const std::uint32_t> slot, const LeafPartition& leaves)
       : mesh_(mesh), slot_(slot), leaves_(leaves) {}
 
@@ -202,7 +202,7 @@ class LeafLinker {
     const std::span<const CellComponent> parts = mesh_.leaves[leaf];
     const std::uint32_t first = parts.front().cell;
     if (parts.size() == 1 && mesh_.cells.size_of(first) == adjacency.size()) {
-      // A whole cell: its vertices have their lanes already, as both are in the order of the caller's vertices.
+      // The vertices of a whole cell have their lanes already, as both are in the order of the caller's vertices.
       std::copy_n(mesh_.links.adjacency.begin() + mesh_.cells.begin[first], adjacency.size(), adjacency.begin());
       return;
     }

@@ -10,16 +10,16 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-// Enough that passing them to a thread costs little.
+// A chunk of this size takes much longer than passing it to a thread.
 constexpr std::size_t kPolygonsPerTask = 4096;
 
-/// Ranges of leaves, of equal size.
+/// Divides the leaves into ranges of equal size.
 class Buckets {
  public:
   explicit Buckets(std::size_t leaves) : leaves_(leaves) {
     constexpr std::size_t kLeaves = 256;  // their masks and edges fit into the second cache
-    constexpr std::size_t kFewest = 10;   // so that several threads have some of a small mesh
-    constexpr std::size_t kMost = 1024;   // a thread that writes to very many finds each far away
+    constexpr std::size_t kFewest = 10;   // with so many, several threads have some of a small mesh
+    constexpr std::size_t kMost = 1024;   // with more, a thread would write to memory that is seldom in its cache
     leaves_each_ = std::max(std::min(kLeaves, std::bit_floor(leaves / kFewest)), std::bit_ceil(leaves / kMost));
     shift_ = static_cast<unsigned>(std::countr_zero(leaves_each_ * kLeafCapacity));
   }

@@ -20,7 +20,7 @@
 
 namespace meshhood::inline v0_1 {
 
-/// An edge as two slots.
+/// An edge, by the slots of its ends.
 struct SlotEdge {
   std::uint32_t from;
   std::uint32_t to;
@@ -33,7 +33,7 @@ class EdgeBuckets {
     for (std::vector<List>& of_thread : lists_) of_thread.resize(buckets);
   }
 
-  /// Called by `thread` alone.
+  /// Only `thread` may call this.
   void add(unsigned thread, std::size_t bucket, const SlotEdge& edge) {
     List& list = lists_[thread][bucket];
     if (list.next == list.end) list.start_block();
@@ -72,7 +72,7 @@ class EdgeBuckets {
   std::vector<std::vector<List>> lists_;  // by thread, then by bucket
 };
 
-/// The edges of the mesh, by leaf; or by cell, which then takes the place of a leaf.
+/// The edges of the mesh by leaf, or by cell, which then takes the place of a leaf.
 struct Links {
   RawVector<LaneMask> adjacency;        // in the order of the leaves: the neighbors in the same leaf
   std::vector<std::uint32_t> link_end;  // by leaf: the end of its links
@@ -93,7 +93,7 @@ struct Links {
   }
 };
 
-/// Every edge of the mesh in both directions.
+/// Gathers every edge of the mesh in both directions.
 ///
 /// slot   by vertex: 32 times its leaf, plus its lane
 /// begin  by leaf, and one more: its first vertex in the order of the leaves
@@ -101,14 +101,14 @@ struct Links {
 [[nodiscard]] Links make_links(const EdgeSource& edges, std::span<const std::uint32_t> slot,
                                std::span<const VertexId> begin, TaskContext& task);
 
-/// Links of consecutive runs of leaves, each numbered from 0, as one. Without `adjacency`.
+/// Joins the links of consecutive runs of leaves, each numbered from 0. The result has no `adjacency`.
 [[nodiscard]] Links join_runs(std::span<const Links> runs);
 
-/// Whether the `size` vertices of a leaf are connected by the edges between them; true for one and for none.
+/// Returns whether the `size` vertices of a leaf are connected by the edges between them; true for one and for none.
 [[nodiscard]] bool is_connected(const LaneMask* adjacency, unsigned size);
 
-/// The lanes of a leaf that can be reached from `from` by the edges within the leaf, `from` included. `adjacency[i]`
-/// are the neighbors of lane `i`.
+/// Returns the lanes of a leaf that can be reached from `from` by the edges within the leaf, `from` included.
+/// `adjacency[i]` has the neighbors of lane `i`.
 [[nodiscard]] inline LaneMask reachable_lanes(const LaneMask* adjacency, LaneMask from) {
   LaneMask reached = from;
   for (LaneMask todo = from; todo != 0;) {
@@ -131,7 +131,7 @@ class LinkCollector {
     linked_.clear();
   }
 
-  /// An edge from `lane` of the leaf to the vertex at `slot`, in another leaf.
+  /// Adds an edge from `lane` of the leaf to the vertex at `slot`, in another leaf.
   void add(unsigned lane, std::uint32_t slot) {
     const LeafId leaf = leaf_of(slot);
     if (!number_.is_known(leaf)) start(leaf);

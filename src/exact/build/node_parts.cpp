@@ -161,7 +161,7 @@ class CellSplitter {
 
 /// Joins small parts with linked ones that have room, the smallest first: a single node has the fewest parts to join.
 void join_small_parts(NodeParts& parts) {
-  // The largest radius of a joined part, divided by that of a full one. Chosen: joining a part of one or two nodes
+  // The largest radius of a joined part, divided by the mean of full ones. Chosen: joining a part of one or two nodes
   // gains more.
   constexpr double kSmallStretch = 2.5;
   constexpr double kLargeStretch = 1.5;
@@ -204,7 +204,7 @@ NodeParts connected_parts(const NodeGraph& graph, std::span<const KdPoint> order
 }
 
 void dissolve_small_parts(NodeParts& parts) {
-  // Chosen. Seven nodes hardly ever all find room; wider parts would slow down queries.
+  // Chosen: seven nodes hardly ever all find room, and wider parts would slow down queries.
   constexpr std::size_t kMostNodes = 6;
   constexpr double kStretch = 1.5;  // the largest radius of a part that a node moves to, divided by that of a full one
   const double limit = kStretch * parts.mean_full_radius();

@@ -33,8 +33,8 @@ struct NodeGraph {
   [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t node) const { return neighbors[node]; }
 };
 
-/// A graph of `size` nodes. `ball_at(node)` is the ball of a node; `append(node, out)` appends its neighbors, in any
-/// order and any number of times.
+/// Makes a graph of `size` nodes. `ball_at(node)` is the ball of a node; `append(node, out)` appends its neighbors, in
+/// any order and any number of times.
 template <class BallAt, class Append>
 NodeGraph make_graph(std::size_t size, BallAt&& ball_at, Append&& append, TaskContext& task) {
   NodeGraph graph;
@@ -52,14 +52,14 @@ NodeGraph make_graph(std::size_t size, BallAt&& ball_at, Append&& append, TaskCo
 /// Sets of up to eight nodes.
 using NodeGroups = Lists<std::uint32_t>;
 
-/// The sphere around the mean of the centers of `a` and `b` that holds the spheres of all these nodes.
+/// Returns the sphere around the mean of the centers of `a` and `b` that holds the spheres of all these nodes.
 [[nodiscard]] NodeBall ball_of(const NodeGraph& graph, std::span<const std::uint32_t> a,
                                std::span<const std::uint32_t> b = {});
 
-/// The level above: each group becomes a node. Nodes that are in no group have no links.
+/// Returns the level above: each group becomes a node. Nodes that are in no group have no links.
 [[nodiscard]] NodeGraph contract(const NodeGraph& graph, const NodeGroups& groups, TaskContext& task);
 
-/// The nodes of one level that have links, divided into connected parts of up to eight, while groups are made of them.
+/// Divides the nodes of one level that have links into connected parts of up to eight, while groups are made of them.
 class NodeParts {
  public:
   static constexpr std::uint32_t kNoPart = std::numeric_limits<std::uint32_t>::max();
@@ -72,22 +72,22 @@ class NodeParts {
   /// Makes `node` the last node of `part`, which has room for it.
   void move(std::uint32_t node, std::uint32_t part);
 
-  /// The number of parts, with those that have lost all their nodes.
+  /// Returns the number of parts, with those that have lost all their nodes.
   [[nodiscard]] std::size_t size() const { return parts_.size(); }
   [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t part) const { return parts_[part].nodes(); }
   [[nodiscard]] std::uint32_t part_of(std::uint32_t node) const { return part_of_[node]; }
 
-  /// The part, other than their own, that is linked with one of `nodes`, has room for all of them, and then has the
-  /// smallest sphere; the first of those that tie. `kNoPart` if none has a sphere of at most the radius `limit`.
+  /// Returns the part, other than their own, that is linked with one of `nodes`, has room for all of them, and then has
+  /// the smallest sphere; the first of several; `kNoPart` if none has a sphere of at most the radius `limit`.
   [[nodiscard]] std::uint32_t best_part_for(std::span<const std::uint32_t> nodes, double limit) const;
 
-  /// The mean radius of the parts of eight nodes; infinite if there is none.
+  /// Returns the mean radius of the parts of eight nodes; infinite if there is none.
   [[nodiscard]] double mean_full_radius() const;
 
-  /// The share of the places for nodes that are taken.
+  /// Returns the share of the places for nodes that are taken.
   [[nodiscard]] double fill() const;
 
-  /// The parts that have nodes.
+  /// Returns the parts that have nodes.
   [[nodiscard]] NodeGroups groups() const;
 
  private:

@@ -17,12 +17,12 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-// The margin that single precision needs: a vertex, the query vertex and a center are each rounded by up to 2^-24.2 in
-// the frame, and the comparison of a distance with a radius by about 2^-22 of the radius.
+// Single precision needs this margin: a vertex, the query vertex and a center are each rounded by up to 2^-24.2 in the
+// frame, and the comparison of a distance with a radius by about 2^-22 of the radius.
 constexpr double kRelativeRoom = 0x1p-20;
 constexpr double kAbsoluteRoom = 0x1p-22;
 
-// Farther than any vertex; its square is still a float.
+// This is farther than any vertex, and its square is still a float.
 constexpr float kFarAway = 1e18F;
 
 void set_node(Group& group, std::size_t i, const FrameSphere& sphere) {
@@ -34,15 +34,15 @@ void set_node(Group& group, std::size_t i, const FrameSphere& sphere) {
 
 void set_absent(Group& group, std::size_t i) { set_node(group, i, {kFarAway, kFarAway, kFarAway, 0}); }
 
-/// The nodes of a group.
+/// Returns the spheres of the nodes of a group.
 Spheres spheres_of(const Group& group, std::size_t count) {
   Spheres result;
   for (std::size_t i = 0; i < count; ++i) result.push_back(sphere_of(group, i));
   return result;
 }
 
-/// A sphere of radius 0. The coordinates are rounded through memory: where they are converted back at once, g++ 12
-/// would measure the radius from those that are not rounded (docs/decisions.md, "A compiler trap").
+/// Returns a sphere of radius 0. The coordinates are rounded through memory: where they are converted back at once, g++
+/// 12 would measure the radius from those that are not rounded (docs/decisions.md, "A compiler trap").
 FrameSphere rounded(const Point& center) {
   const volatile auto x = static_cast<float>(center.x);
   const volatile auto y = static_cast<float>(center.y);
@@ -64,10 +64,9 @@ class GrowingTree {
   [[nodiscard]] std::size_t first_group(std::size_t level) const { return index_.levels[level]; }
   [[nodiscard]] std::size_t end_group(std::size_t level) const { return index_.levels[level + 1]; }
 
-  /// The number of nodes of a group.
   [[nodiscard]] std::size_t node_count(std::size_t group) const { return index_.records[group].nodes; }
 
-  /// The group that a node above the leaves covers.
+  /// Returns the group that a node above the leaves covers.
   [[nodiscard]] std::size_t child_group(NodeId node) const {
     return std::size_t{index_.records[node / kFanOut].first_child} + node % kFanOut;
   }
@@ -76,7 +75,7 @@ class GrowingTree {
 
   void set(NodeId node, const FrameSphere& sphere) const { set_node(groups_[node / kFanOut], node % kFanOut, sphere); }
 
-  /// After the nodes of the level are set.
+  /// Completes a level, after its nodes are set.
   void finish(std::size_t level) const {
     const std::size_t first = first_group(level);
     const std::size_t count = end_group(level) - first;
@@ -86,7 +85,7 @@ class GrowingTree {
     mean_radii_[level] = mean_radius(groups_.subspan(first, count), index_.records.subspan(first, count));
   }
 
-  /// The sphere of `node` above the nodes of one group, whose spheres are given.
+  /// Returns the sphere of `node` above the nodes of one group, whose spheres are given.
   [[nodiscard]] FrameSphere measure_parent(NodeId node, std::span<const FrameSphere> spheres) const {
     std::vector<Point> centers;
     for (const FrameSphere& sphere : spheres) centers.push_back(center_of(sphere));
@@ -110,7 +109,7 @@ class GrowingTree {
     const std::size_t child = child_group(node);
     const Group& children = group(child);
     std::array<std::pair<double, std::size_t>, kFanOut> reach;
-    // At most eight, which the compiler cannot know.
+    // There are at most eight, which the compiler cannot know.
     const std::size_t count = std::min<std::size_t>(node_count(child), kFanOut);
     for (std::size_t i = 0; i < count; ++i) {
       const FrameSphere sphere = sphere_of(children, i);
@@ -129,7 +128,7 @@ class GrowingTree {
   std::span<double> mean_radii_;
 };
 
-/// The spheres of all nodes of a level, by place, from those of the level below.
+/// Returns the spheres of all nodes of a level, by place, from those of the level below.
 Spheres make_parents(const GrowingTree& tree, std::size_t level, std::span<const FrameSphere> below,
                      TaskContext& task) {
   const std::size_t first = tree.first_group(level);
@@ -153,10 +152,10 @@ void climb(std::vector<NodeId>& nodes, std::span<const NodeId> parents) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
-// Enough that passing them to a thread costs little.
+// A chunk of this size takes much longer than passing it to a thread.
 constexpr std::size_t kVertexGrain = 2048;
 
-/// The positions in index order, padded with zeros.
+/// Returns the positions in index order, padded with zeros.
 template <class Real>
 RawVector<Real> permute_positions(const StridedPositions<Real>& xyz, const IndexView& index, TaskContext& task) {
   RawVector<Real> permuted(3 * (xyz.size() + kLeafCapacity));
@@ -169,10 +168,10 @@ RawVector<Real> permute_positions(const StridedPositions<Real>& xyz, const Index
   return permuted;
 }
 
-/// The spheres of `count` leaves; `leaf_at(i)` is the i-th.
+/// Returns the spheres of `count` leaves; `leaf_at(i)` is the i-th.
 template <class LeafAt>
 Spheres measure(std::size_t count, LeafAt&& leaf_at, const IndexView& index, TaskContext& task) {
-  constexpr std::size_t kGrain = 64;  // enough that passing them to a thread costs little
+  constexpr std::size_t kGrain = 64;  // a chunk of this size takes much longer than passing it to a thread
   Spheres result(count);
   task.parallel_for(count, kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
     std::visit(

@@ -26,14 +26,14 @@ struct TreeArrays {
 void set_vertices(std::span<const VertexId> leaf_begin, std::span<const std::uint32_t> levels,
                   std::vector<GroupRecord>& records);
 
-/// The mean radius of the nodes of some groups. The order of summation is fixed, so that a loaded index can be verified
-/// bit for bit.
+/// Returns the mean radius of the nodes of some groups. The order of summation is fixed, so that a loaded index can be
+/// verified bit for bit.
 [[nodiscard]] double mean_radius(std::span<const Group> groups, std::span<const GroupRecord> records);
 
-/// Whether the group has no `i`-th node.
+/// Returns whether the group has no `i`-th node.
 [[nodiscard]] bool is_absent(const Group& group, std::size_t i);
 
-/// The tree over the leaves. O(#V), hardly more than #V / 4 distances.
+/// Makes the tree over the leaves. Takes O(#V), hardly more than #V / 4 distances.
 ///
 /// leaves  the spheres of all leaves
 /// index   the frame, the positions, `leaf_begin`, `levels`, `records` and `parents`
@@ -48,20 +48,21 @@ void set_vertices(std::span<const VertexId> leaf_begin, std::span<const std::uin
 void update_tree(std::span<const LeafId> leaves, Spheres spheres, const IndexView& index, std::span<Group> groups,
                  std::span<double> mean_radii);
 
-/// The groups that `update_tree` changes, as their places in the array of all groups.
+/// Returns the places, in the array of all groups, of those that `update_tree` changes.
 [[nodiscard]] std::vector<std::size_t> groups_above(std::span<const LeafId> leaves, const IndexView& index);
 
-/// A sphere around `points` with this center, rounded to floats. Its radius includes the margin that a comparison with
-/// a ball in single precision needs (see simd/kernels.h).
+/// Returns a sphere around `points` with this center, rounded to floats. Its radius includes the margin that a
+/// comparison with a ball in single precision needs (see simd/kernels.h).
 [[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points, const Point& center);
 
-/// The same around nearly the best center.
+/// Returns such a sphere around nearly the best center.
 [[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points);
 
-/// The steps that `make_geometry` reports: positions, leaves, tree.
+/// The number of steps that `make_geometry` reports: positions, leaves, tree.
 inline constexpr std::size_t kGeometrySteps = 3;
 
-/// The last part of a build, and all of a `refit`: the positions in index order, the bounds of the leaves and the tree.
+/// Makes the positions in index order, the bounds of the leaves and the tree: the last part of a build, and all of a
+/// `refit`.
 ///
 /// positions     valid, in the caller's order
 /// connectivity  a view of all that does not depend on the positions
@@ -70,11 +71,11 @@ inline constexpr std::size_t kGeometrySteps = 3;
 void make_geometry(const PositionsView& positions, const IndexView& connectivity, GeometryData& geometry,
                    TaskContext& task);
 
-/// The same from the positions in `geometry`, in index order.
+/// Does the same from the positions in `geometry`, in index order.
 void measure_geometry(const IndexView& connectivity, GeometryData& geometry, TaskContext& task);
 
-/// The bounding spheres of some leaves, or of all places for leaves. A leaf without vertices has an empty sphere.
-/// `index` has the frame, the positions and the leaves. O(#V) of the leaves.
+/// Return the bounding spheres of some leaves, or of all places for leaves. A leaf without vertices has a sphere of
+/// zeros. `index` has the frame, the positions and the leaves. O(#V) of the leaves.
 [[nodiscard]] Spheres measure_leaves(std::span<const LeafId> leaves, const IndexView& index, TaskContext& task);
 [[nodiscard]] Spheres measure_leaves(const IndexView& index, TaskContext& task);
 

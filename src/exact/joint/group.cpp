@@ -12,19 +12,20 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// Contains every vertex: the frame is the cube [-1, 1]^3.
+/// This sphere contains every vertex, because the frame is the cube [-1, 1]^3.
 constexpr FrameSphere kWholeFrame{0, 0, 0, 2};
 
-/// The positions, or null if they are doubles.
+/// Returns the positions, or null if they are doubles.
 const float* float_positions(const IndexView& index) {
   const auto* xyz = std::get_if<std::span<const float>>(&index.positions);
   return xyz == nullptr ? nullptr : xyz->data();
 }
 
-/// The nearest float. Not inlined, because g++ 12 omits both conversions where it converts two numbers at once.
+/// Returns the nearest float. It is not inlined, because g++ 12 omits both conversions where it converts two numbers at
+/// once.
 [[gnu::noinline]] double rounded(double value) { return static_cast<double>(static_cast<float>(value)); }
 
-/// Some vertices of the index relative to `center`, in frame units.
+/// Converts the vertices of a leaf to points relative to `center`, in frame units.
 template <class Real>
 void convert(std::span<const Real> xyz, const Leaf& leaf, const Point& center, double scale, LeafPoints& out) {
   out = {};
@@ -55,7 +56,7 @@ void JointGroup::begin(std::span<const LeafId> leaves, const TreeBounds& low, co
   ball_.outer = next_above(static_cast<double>(high.outer) + radius_);
   ball_.inner = -next_above(radius_ - static_cast<double>(low.inner));
   for (const LeafId leaf : leaves) {
-    if (discover(leaf) == kNoEntry) entry_of_[leaf] = add_entry(leaf);  // if the spheres of the index are wrong
+    if (discover(leaf) == kNoEntry) entry_of_[leaf] = add_entry(leaf);  // then the spheres of the index are wrong
   }
   for (GroupEntry entry = 0; entry < leaves_.size(); ++entry) {
     if (is_core(entry)) continue;
@@ -116,8 +117,8 @@ GroupEntry JointGroup::discover(LeafId leaf) {
   return entry_of_[leaf] = add_entry(leaf);
 }
 
-/// Whether a ball around a vertex of the group may meet the sphere. The sphere of the group alone would admit many more
-/// leaves where the radius is small.
+/// Returns whether a ball around a vertex of the group may meet the sphere. The sphere of the group alone would admit
+/// many more leaves where the radius is small.
 bool JointGroup::meets_a_leaf(const FrameSphere& sphere) const {
   TreeBall ball = ball_;
   ball.x = sphere.x;
@@ -161,7 +162,7 @@ void JointGroup::add_to_eights(LeafId leaf, const FrameSphere& sphere, bool conn
   eights_.back().connected |= static_cast<std::uint8_t>(connected) << i;
 }
 
-/// Whether a leaf that lies in every ball may be a part of a core, of which a query has all vertices or none.
+/// Returns whether a leaf that lies in every ball may be a part of a core, of which a query has all vertices or none.
 bool JointGroup::fits_into_core(LeafId leaf) const {
   return index_->leaves[leaf].connected && index_->ignored_lanes(leaf) == 0;
 }
@@ -195,7 +196,7 @@ GroupEntry JointGroup::add_core(LeafId leaf) {
   return entry;
 }
 
-/// Several leaves of a core may be linked with the same entry.
+/// Adds a link, or extends that to the same entry: several leaves of a core may be linked with it.
 void JointGroup::add_core_link(const Core& core, GroupEntry linked, LaneMask far_boundary) {
   last_core_link_.resize(leaves_.size(), kUnknown);
   std::uint32_t& last = last_core_link_[linked];

@@ -12,10 +12,10 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Numbers the leaves that the balls of a group may meet, and its cores.
+/// The number of a leaf that the balls of a group may meet, or of a core.
 using GroupEntry = std::uint32_t;
 
-/// The leaves that the balls around the vertices of a group may hold. A *group* is eight neighboring leaves whose
+/// Finds the leaves that the balls around the vertices of a group may hold. A *group* is eight neighboring leaves whose
 /// queries are answered one leaf after the other; what their balls have in common is found once, by a breadth-first
 /// search over the links from the group's own leaves. So it visits only leaves to which a path from them leads.
 ///
@@ -50,47 +50,48 @@ class JointGroup {
     return leaves_[entry];
   }
 
-  /// The spheres of the entries, eight to a node group; that of a core is not used.
+  /// Returns the spheres of the entries, eight to a node group; that of a core is not used.
   [[nodiscard]] std::span<const Group> spheres() const { return spheres_; }
 
-  /// Which of eight entries are connected leaves, and which are cores.
+  /// The entries, of eight, that are connected leaves, and those that are cores.
   struct Eight {
     std::uint8_t connected;
     std::uint8_t cores;
   };
   [[nodiscard]] std::span<const Eight> eights() const { return eights_; }
 
-  /// The entry of a leaf, or `kNoEntry` where no ball meets it. Any leaf that is linked with an entry, or one of the
-  /// group.
+  /// Returns the entry of a leaf, or `kNoEntry` where no ball meets it. The leaf must be linked with an entry, or be
+  /// one of the group.
   [[nodiscard]] GroupEntry entry_of(LeafId leaf) const { return entry_of_[leaf]; }
   static constexpr GroupEntry kNoEntry = 0xFFFFFFFE;
 
-  /// The links of an entry that is a leaf. Looked up at the first call; valid until those of another are.
+  /// Returns the links of an entry that is a leaf. They are looked up at the first call, and valid until those of
+  /// another are.
   [[nodiscard]] std::span<const EntryLink> links(GroupEntry entry);
 
-  // Of a core.
+  // These take the entry of a core.
   [[nodiscard]] std::span<const CoreLink> core_links(GroupEntry core) const;
   [[nodiscard]] std::size_t core_number(GroupEntry core) const {
     assert(is_core(core));
     return leaves_[core] - kCore;
   }
   [[nodiscard]] std::size_t core_vertices(GroupEntry core) const { return cores_[core_number(core)].vertices; }
-  /// Its leaves, ascending. Sorted at the first call.
+  /// Returns the leaves of a core, ascending. They are sorted at the first call.
   [[nodiscard]] std::span<const LeafRun> core_runs(GroupEntry core);
 
-  /// The center of the group: exactly, and in the frame.
+  /// Return the center of the group: exactly, and in the frame.
   [[nodiscard]] const Point& center() const { return center_; }
   [[nodiscard]] const Point& center_in_frame() const { return center_in_frame_; }
   /// No vertex of the group is farther than this from its center, in the frame.
   [[nodiscard]] double radius() const { return radius_; }
 
-  /// The vertices of an entry that is a leaf, relative to the center. Converted at the first call.
+  /// Returns the vertices of an entry that is a leaf, relative to the center. They are converted at the first call.
   [[nodiscard]] const LeafPoints& points(GroupEntry entry);
-  /// Those of any leaf.
+  /// Reads the vertices of any leaf, relative to the center.
   void read_points(LeafId leaf, LeafPoints& points) const;
 
  private:
-  static constexpr LeafId kCore = 0xF0000000;  // more than any leaf: there are at most 2^27
+  static constexpr LeafId kCore = 0xF0000000;  // no leaf has this number: there are at most 2^27
   static constexpr GroupEntry kUnknown = 0xFFFFFFFF;
 
   struct LinkRange {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
-// Longer than any distance in the frame, so that larger radii may be replaced by it.
+// This is longer than any distance in the frame, so that it may replace larger radii.
 constexpr double kLargestRadius = 8;
 
 // Let every vertex that is compared, and every query, lie within `a` of the center of the group, and u = 2^-24. The
@@ -96,7 +96,7 @@ void JointSpread::run(JointGroup& group, const Packet& packet) {
   if (!index_->ignored.empty()) leave_out_ignored(group);
 }
 
-/// Takes the ignored vertices out of what was reached. A leaf that has some gets words; a core has none.
+/// Takes the ignored vertices out of what was reached. A leaf that has some gets words; a core has no ignored vertices.
 void JointSpread::leave_out_ignored(const JointGroup& group) {
   for (const LeafOfWords& found : partial_) {
     for_each_lane(index_->ignored[group.leaf(found.words)],
@@ -198,7 +198,7 @@ void JointSpread::take_partial(JointGroup& group, const Packet& packet, GroupEnt
   push_leaf(group, packet, entry, spread.gained);
 }
 
-/// Which queries hold which vertices of the leaf.
+/// Finds which queries hold which vertices of the leaf.
 void JointSpread::find_inside(JointGroup& group, const Packet& packet, GroupEntry entry) {
   states_[entry].has_inside = true;
   const LeafId leaf = group.leaf(entry);

@@ -42,16 +42,16 @@ class Packet {
   Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std::span<const JointQuery> queries);
 
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// Those whose vertex is not a wall. The others have no ball.
+  /// Returns the queries whose vertex is not a wall. The others have no ball.
   [[nodiscard]] QueryWord queries() const { return balls_.queries; }
   [[nodiscard]] const PacketBalls& balls() const { return balls_; }
   [[nodiscard]] LeafId leaf() const { return leaf_; }
   [[nodiscard]] unsigned lane(std::size_t query) const { return lanes_[query]; }
 
-  /// Around the leaf: `outer` around all balls, `inner` within each.
+  /// Returns a ball around the leaf, with `outer` around all balls, and `inner` within each.
   [[nodiscard]] const TreeBall& ball() const { return ball_; }
 
-  /// The exact predicate.
+  /// Applies the exact predicate.
   [[nodiscard]] bool holds(std::size_t query, const Point& vertex) const {
     return squared_distance(vertex, index_->position(leaf_, lanes_[query])) <= squared_radii_[query];
   }
@@ -72,7 +72,7 @@ class Packet {
 /// discovered early, near the group, come first, and one that gains several times in one sweep is taken once.
 class Worklist {
  public:
-  /// Empty, for entries below `size`.
+  /// Empties the list, for entries below `size`.
   void reset(std::size_t size) { words_.assign((size + 63) / 64, 0); }
 
   void add(std::uint32_t entry) {
@@ -114,12 +114,12 @@ class JointSpread {
   /// Finds what the queries of `packet` reach.
   void run(JointGroup& group, const Packet& packet);
 
-  /// The entries that lie in all balls, and were reached.
+  /// Returns the entries that lie in all balls, and were reached.
   [[nodiscard]] std::span<const GroupEntry> whole() const { return whole_; }
-  /// The queries that reach such an entry, and so all of its vertices.
+  /// Returns the queries that reach such an entry, and so all of its vertices.
   [[nodiscard]] QueryWord whole_word(GroupEntry entry) const { return states_[entry].word; }
 
-  /// The other leaves that were reached: their words are those of `words()` at the entry.
+  /// Returns the other leaves that were reached: their words are those of `words()` at the entry.
   [[nodiscard]] std::span<const LeafOfWords> partial() const { return partial_; }
   [[nodiscard]] const LeafWords* words() const { return words_.data(); }
 
@@ -162,8 +162,8 @@ class JointSpread {
 };
 
 /// Answers up to 32 queries of one leaf at once: the exact neighborhoods, as `Searcher` finds them one by one. See
-/// docs/joint.md. Owns the scratch memory: 4 bytes a leaf of the mesh, and 1 kB for each leaf that the balls of a group
-/// may meet. One object a thread. What is found does not depend on earlier calls.
+/// docs/joint.md. Each thread needs its own, which owns 4 bytes a leaf of the mesh, and 1 kB for each leaf that the
+/// balls of a group may meet. What is found does not depend on earlier calls.
 class JointSearch {
  public:
   JointSearch(const IndexView& index, Isa isa);
@@ -177,15 +177,15 @@ class JointSearch {
   /// Finds the neighborhoods of 1 to 32 vertices of `leaf`, which is one of the group.
   void run(LeafId leaf, std::span<const JointQuery> queries);
 
-  // Of the queries of the last `run`:
+  // These results are those of the queries of the last `run`.
 
-  /// How many vertices their neighborhoods have.
+  /// Returns the number of vertices in each neighborhood.
   [[nodiscard]] const PerLane<std::uint64_t>& counts();
 
-  /// Those whose vertex is not a wall.
+  /// Returns the queries whose vertex is not a wall.
   [[nodiscard]] QueryWord queries() const { return packet_->queries(); }
 
-  /// The neighborhoods. In index order, adjacent runs of the same queries are one. Valid until the next `run`.
+  /// Returns the neighborhoods, valid until the next `run`. In index order, adjacent runs of the same queries are one.
   [[nodiscard]] std::span<const Piece> pieces(bool in_order);
 
  private:

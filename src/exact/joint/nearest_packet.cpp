@@ -53,7 +53,7 @@ void NearestPacket::list_edges() {
   }
 }
 
-/// Those but the center, by distance, with its square.
+/// Returns the vertices in the ball but the center, by distance, with its square.
 std::span<const Path> NearestPacket::vertices_in_ball(unsigned lane, double radius) {
   const Point center = index_->position(entries_.front().leaf, lane);
   const LeafBall ball(center, LeafBounds(radius));
@@ -72,7 +72,7 @@ std::span<const Path> NearestPacket::vertices_in_ball(unsigned lane, double radi
   return order_.sorted(std::span(in_ball_).first(count));
 }
 
-/// Whether a vertex has a reached neighbor in another leaf.
+/// Returns whether a vertex has a reached neighbor in another leaf.
 bool NearestPacket::has_reached_neighbor_beyond(std::uint32_t at) const {
   for (std::uint32_t i = last_edge_[at]; i != kNone; i = edges_[i].before) {
     const std::uint32_t to = edges_[i].to;
@@ -102,8 +102,8 @@ void NearestPacket::reach_waiting() {
   }
 }
 
-/// The vertices reached since the last call that are not ignored, with their squared distances, by distance, then by
-/// id.
+/// Returns the vertices reached since the last call that are not ignored, with their squared distances, by distance,
+/// then by id.
 std::span<const Path> NearestPacket::take_ring() {
   ring_.clear();
   for (const std::uint32_t at : reached_) {
@@ -112,7 +112,7 @@ std::span<const Path> NearestPacket::take_ring() {
     ring_.push_back({squares_[leaf_of(at)][lane_of(at)], index_->id(entry.first + lane_of(at))});
   }
   reached_.clear();
-  // Different squares may have one root.
+  // Different squares may have the same root.
   std::ranges::sort(ring_, {}, [](const Path& path) { return std::pair(std::sqrt(path.length), path.end); });
   return ring_;
 }

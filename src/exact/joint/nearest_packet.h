@@ -20,8 +20,8 @@ namespace meshhood::inline v0_1 {
 /// radius is the distance of the vertex that was taken then. The leaves that the balls meet, and the edges between
 /// them, are gathered once for all vertices of the leaf.
 ///
-/// One object a thread. Owns 8 bytes a leaf of the mesh, and 0.5 kB for each leaf that it gathers. What is found does
-/// not depend on earlier calls.
+/// Each thread needs its own. It owns 8 bytes a leaf of the mesh, and 0.5 kB for each leaf that it gathers. What is
+/// found does not depend on earlier calls.
 class NearestPacket {
  public:
   NearestPacket(const IndexView& index, Isa isa)
@@ -31,7 +31,7 @@ class NearestPacket {
   /// that is more than `most` leaves.
   [[nodiscard]] bool gather(LeafId leaf, double radius, std::size_t most);
 
-  /// Whether all that is connected with the leaf was gathered.
+  /// Returns whether all that is connected with the leaf was gathered.
   [[nodiscard]] bool is_whole() const { return is_whole_; }
 
   /// Calls `f(vertex, radius)` for the vertices connected with that in `lane` of the leaf that are not ignored, by
@@ -51,7 +51,7 @@ class NearestPacket {
     LaneMask ignored;  // in no answer
   };
 
-  /// The vertices of an entry in one search.
+  /// The state of the vertices of an entry in one search.
   struct State {
     LaneMask reached = 0;
     LaneMask waiting = 0;  // taken, but without a reached neighbor
@@ -79,10 +79,10 @@ class NearestPacket {
   bool is_whole_ = false;
   EpochArray<std::uint32_t> numbers_;  // by leaf: its place in `entries_`; kNone if it was left out
   std::vector<Entry> entries_;         // the first is that of the queries
-  // By vertex of these leaves, 32 times the number of its leaf plus its lane:
+  // `last_edge_` is by vertex of these leaves: 32 times the number of its leaf plus its lane.
   std::vector<std::uint32_t> last_edge_;  // to another leaf, in `edges_`; or kNone
   std::vector<Edge> edges_;
-  // Of one search:
+  // These belong to one search.
   std::vector<PerLane<double>> squares_;  // of distances, by leaf, where the ball meets it
   std::vector<Path> in_ball_;             // the vertices in the ball, with these
   PathOrder order_;
@@ -114,7 +114,7 @@ bool NearestPacket::for_each_near(unsigned lane, double most, F&& f) {
     return true;
   };
   for (const auto& [square, at] : vertices_in_ball(lane, most)) {
-    const double distance = std::sqrt(square);  // different squares may have one root
+    const double distance = std::sqrt(square);  // different squares may have the same root
     if (distance > radius && !reached_.empty() && !pass_on()) return false;
     if (!has_reached_neighbor(at)) {
       states_[leaf_of(at)].waiting |= LaneMask{1} << lane_of(at);

@@ -9,14 +9,14 @@
 #include "exact/layout.h"
 #include "simd/joint.h"
 
-/// The neighborhoods of many vertices without a list of ids for each.
+/// A `PacketAnswer` holds the neighborhoods of many vertices without a list of ids for each.
 ///
 /// The rows of a batch whose query vertices lie in one leaf form *packets* of up to 32 rows, and their neighborhoods
 /// are found together (docs/joint.md). They have most of their vertices in common. The answer of a packet names each
 /// vertex once, with the set of rows that have it, so that a sum reads each value once for up to 32 rows.
 namespace meshhood::inline v0_1 {
 
-/// How far the vertices of an answer are along the edges. One object a thread.
+/// Lengths along the edges to the vertices of an answer. Each thread needs its own.
 class PacketLengths {
  public:
   PacketLengths() = default;
@@ -27,13 +27,13 @@ class PacketLengths {
   /// Goes on to a leaf of which a query has vertices.
   virtual void select(LeafId leaf) = 0;
 
-  /// The lengths at a vertex of that leaf, by query; only those of queries that have it are meant. Valid until the next
-  /// call.
+  /// Returns the lengths at a vertex of that leaf, by query, valid until the next call. Only those of queries that have
+  /// the vertex have a meaning.
   [[nodiscard]] virtual const PathLengths& at(unsigned lane) = 0;
 };
 
-/// The neighborhoods of the queries of a packet. Depends on these alone, not on threads or the processor. Valid during
-/// the call of the visitor.
+/// The neighborhoods of the queries of a packet, valid during the call of the visitor. They depend on these queries
+/// alone, not on threads or the processor.
 struct PacketAnswer {
   std::span<const std::size_t> rows;   ///< 1 to 32 rows by their numbers in the query; row i is query i of the packet
   std::span<const VertexId> vertices;  ///< of each row, an id of the caller

@@ -12,10 +12,10 @@ constexpr PathLengths kReachedByNone = [] {
   return lengths;
 }();
 
-// So that no vertex is within a radius that is infinite, unless there is a path to it.
+// This replaces an infinite radius, so that no vertex without a path is within it.
 constexpr double kLongest = std::numeric_limits<double>::max();
 
-/// Along the coordinate in which they differ most.
+/// Sorts the vertices along the coordinate in which they differ most.
 void sort_along_longest_axis(std::span<std::uint32_t> vertices, const PositionsInOrder& positions) {
   std::visit(
       [&](const auto& xyz) {
@@ -80,7 +80,7 @@ void PathPacket::begin(std::span<const PathQuery> queries) {
   steps_ = 0;
 }
 
-/// No length is within that of a query that does not exist.
+/// Returns the limits of the queries; no length is within that of a query that does not exist.
 PathLengths PathPacket::limits() const {
   PathLengths limits{};
   limits.fill(-1);
@@ -120,7 +120,7 @@ bool PathPacket::pass_on_lengths() {
   lengths_.assign(found.size(), kReachedByNone);
   waiting_.reset(found.size());
   for (std::size_t i = 0; i < queries_.size(); ++i) {
-    if (starts_[i] == kNoNumber) continue;  // a wall
+    if (starts_[i] == kNoNumber) continue;  // it is a wall
     lengths_[starts_[i]][i] = 0;
     waiting_.add(starts_[i]);
   }

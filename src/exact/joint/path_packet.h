@@ -29,7 +29,7 @@ namespace meshhood::inline v0_1 {
 /// halves the sweeps that the algorithm of Bellman and Ford needs (Yen 1970).
 class PathFront {
  public:
-  /// Empty, for numbers below `size`.
+  /// Empties the set, for numbers below `size`.
   void reset(std::size_t size) {
     blocks_.assign((size + kBlock - 1) / kBlock, 0);
     next_ = blocks_.size();
@@ -78,14 +78,14 @@ struct PathQuery {
   double radius;
 };
 
-/// What a search for several queries may take, before each is answered alone.
+/// Limits what a search for several queries may take, before each is answered alone.
 struct PathLimits {
   std::size_t vertices = std::size_t{1} << 15;  ///< of more, the lengths would leave the cache
   std::size_t steps = 16;                       ///< how many times it takes each vertex, in the mean
 };
 
-/// The shortest paths along the edges from up to 32 vertices at once, with a length for each of them at each vertex.
-/// See docs/joint.md. Best for vertices of one leaf, whose paths have most vertices in common.
+/// Finds the shortest paths along the edges from up to 32 vertices at once, with a length for each of them at each
+/// vertex. See docs/joint.md. It is best for vertices of one leaf, whose paths have most vertices in common.
 ///
 /// A search from all of them together, `PathSearch`, finds the vertices that any of them reaches, and numbers these in
 /// the order of the shortest path. Then lengths are passed on over the edges, in the order of the numbers, until no
@@ -99,8 +99,8 @@ struct PathLimits {
 /// This holds for both searches. Both leave out vertices that no path within the radius leads to; a path that passes
 /// one is not within the radius either, because it is not shorter than its beginning.
 ///
-/// One object a thread. Owns, besides its `PathSearch`, 4 bytes for each vertex and 8 for each leaf of the mesh, and
-/// 0.4 kB for each vertex that it reaches, up to its limit. What is found does not depend on earlier calls.
+/// Each thread needs its own. It owns, besides its `PathSearch`, 4 bytes for each vertex and 8 for each leaf of the
+/// mesh, and 0.4 kB for each vertex that it reaches, up to its limit. What is found does not depend on earlier calls.
 class PathPacket final : public PacketLengths {
  public:
   PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const PathLimits& limits = {});
@@ -109,25 +109,25 @@ class PathPacket final : public PacketLengths {
   /// limits; then `run_single` is to be called for each.
   [[nodiscard]] bool run(std::span<const PathQuery> queries);
 
-  /// The same for one query, in a search of its own.
+  /// Does the same for one query, in a search of its own.
   void run_single(const PathQuery& query);
 
-  // Of the queries of the last run that succeeded, without ignored vertices:
+  // These results are those of the queries of the last run that succeeded, without ignored vertices.
 
-  /// How many vertices each reaches.
+  /// Returns the number of vertices that each reaches.
   [[nodiscard]] PerLane<std::uint64_t> counts();
 
-  /// The paths of a query, that to its vertex first, the others ascending by length, then by vertex in index order.
-  /// Valid until the next call.
+  /// Returns the paths of a query, that to its vertex first, the others ascending by length, then by vertex in index
+  /// order. They are valid until the next call.
   [[nodiscard]] std::span<const Path> paths_in_order(std::size_t query);
 
-  /// The leaves of which a query reaches vertices, ascending. Valid until the next run.
+  /// Returns the leaves of which a query reaches vertices, ascending. They are valid until the next run.
   [[nodiscard]] std::span<const Piece> pieces();
 
   void select(LeafId leaf) override;
   [[nodiscard]] const PathLengths& at(unsigned lane) override;
 
-  /// How many times the last `run` took a vertex.
+  /// Returns how many times the last `run` took a vertex.
   [[nodiscard]] std::size_t steps() const { return steps_; }
 
  private:
@@ -154,7 +154,7 @@ class PathPacket final : public PacketLengths {
   PathLimits limits_;
   PathSearch search_;                   // its paths number the vertices that were found
   std::vector<std::uint32_t> numbers_;  // by vertex; kNoNumber outside `list_edges`
-  // By number:
+  // These are by number.
   std::vector<std::size_t> first_edge_;  // in `edges_`; and the end of the last
   std::vector<PathLengths> lengths_;
   std::vector<PathEdge> edges_;  // to vertices that were found
@@ -163,7 +163,7 @@ class PathPacket final : public PacketLengths {
   std::vector<PathQuery> queries_;
   PerLane<std::uint32_t> starts_{};  // the numbers of their vertices; kNoNumber for a wall
   bool is_single_ = false;           // there is one query, and its paths are those of `search_`
-  // Made when they are asked for:
+  // These are made when they are asked for.
   std::vector<LeafWords> words_;  // by number, 32 of them in each
   std::vector<LeafOfWords> list_of_words_;
   std::vector<Path> paths_;  // of a query, and room for more

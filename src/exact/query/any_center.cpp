@@ -14,7 +14,7 @@ namespace {
 // the predicate are each rounded a few times by 2^-53 of the distance plus 4. This covers a thousand such errors.
 constexpr double kRangeSlack = 0x1p-43;
 
-// Where squares underflow, as in the predicate.
+// This covers the underflow of squares, here and in the predicate.
 constexpr double kSmallestSquare = 0x1p-1000;
 
 }  // namespace

@@ -23,11 +23,11 @@ struct Center {
   Center(const Frame& frame, const Point& p) : exact(p), in_frame(frame.to_frame(p)), unit(1 / frame.scale) {}
 };
 
-/// Bounds on the squared distances, as the predicate computes them, from `center` to the vertices in `sphere`.
+/// Returns bounds on the squared distances, as the predicate computes them, from `center` to the vertices in `sphere`.
 [[nodiscard]] SquareRange squared_distances(const FrameSphere& sphere, const Center& center);
 
-/// A ball to be compared with vertices, whose center need not be a vertex: `LeafBall` by itself assumes that the center
-/// is exact in single precision where the positions are floats.
+/// Returns a ball to be compared with vertices, whose center need not be a vertex: `LeafBall` by itself assumes that
+/// the center is exact in single precision where the positions are floats.
 [[nodiscard]] LeafBall any_ball(const Point& center, double radius);
 
 }  // namespace meshhood::inline v0_1

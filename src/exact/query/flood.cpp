@@ -27,7 +27,7 @@ void Flood::start(const Point& center) {
   states_.forget();
 }
 
-/// The state of a leaf, which is initialized when a flood first needs it.
+/// Returns the state of a leaf, which is initialized when a flood first needs it.
 Flood::State& Flood::state_of(LeafId leaf) {
   if (states_.is_known(leaf)) return states_[leaf];
   const Leaf& record = index_->leaves[leaf];
@@ -45,7 +45,7 @@ void Flood::add_seed(std::uint32_t slot) {
   if (state.pending != 0) rest(leaf_of(slot), state, state.squares.low, false);
 }
 
-/// The leaf has gained pending vertices.
+/// Wakes a leaf that has gained pending vertices, or lets it rest if all of it is outside the ball.
 void Flood::wake_or_rest(LeafId leaf, State& state) {
   if (state.squares.low > ball_.squared_radius) {
     rest(leaf, state, state.squares.low, false);
@@ -56,7 +56,7 @@ void Flood::wake_or_rest(LeafId leaf, State& state) {
 
 /// Puts the leaf into the work list, unless it is there.
 void Flood::wake(LeafId leaf, State& state) {
-  assert(&state == &states_[leaf]);  // which must be known
+  assert(&state == &states_[leaf]);  // the state must be known
   if (state.is_awake) return;
   state.is_awake = true;
   awake_.push_back(leaf);
@@ -107,7 +107,7 @@ void Flood::visit(LeafId leaf) {
     reached_.push_back({leaf, added});
     expand(leaf, added);
   }
-  // The bound is that of the ball: whatever is left is farther away.
+  // The bound is that of the ball, because all that is left is farther away.
   if (state.reached != state.open) rest(leaf, state, ball_.squared_radius, false);
 }
 
@@ -126,7 +126,7 @@ LaneMask Flood::enter(State& state, const Leaf& leaf) {
   return added;
 }
 
-/// The vertices of the leaf that are in the ball and no walls.
+/// Returns the vertices of the leaf that are in the ball and no walls.
 LaneMask Flood::find_inside(State& state, const Leaf& leaf) {
   if (state.inside_of != ball_.squared_radius) {
     state.inside = kernels_->within(index_->positions, leaf.first, leaf.size, ball_) & state.open;
@@ -150,7 +150,7 @@ void Flood::expand(LeafId leaf, LaneMask added) {
   }
 }
 
-/// The vertices not yet reached that have a reached neighbor or are seeds.
+/// Returns the vertices not yet reached that have a reached neighbor or are seeds.
 LaneMask Flood::border(const State& state, const Leaf& leaf) const {
   LaneMask lanes = state.pending;
   for_each_lane(state.reached, [&](unsigned lane) { lanes |= index_->adjacency[leaf.first + lane]; });

@@ -17,8 +17,8 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Leaves that a flood has met and cannot enter yet, each with a bound: the flood can enter a leaf when its ball has
-/// reached that bound.
+/// Holds leaves that a flood has met and cannot enter yet, each with a bound: the flood can enter a leaf when its ball
+/// has reached that bound.
 ///
 /// They are a list, because a flood that grows in few steps wakes them in bulk. The first call of `first` makes the
 /// list a heap.
@@ -41,7 +41,7 @@ class Sleepers {
     LeafId leaf;
   };
 
-  /// An entry with the smallest bound. There must be one.
+  /// Returns an entry with the smallest bound. There must be one.
   [[nodiscard]] Entry first() {
     assert(!empty());
     if (!is_heap_) std::make_heap(entries_.begin(), entries_.end(), later);
@@ -77,8 +77,8 @@ class Sleepers {
   bool is_heap_ = false;
 };
 
-/// The search of all regions: it spreads along the edges from seeds through a ball that grows, a leaf at a time, and
-/// never searches again what it has reached. A leaf that is connected and lies inside the ball is reached as a whole.
+/// Searches all regions: it spreads along the edges from seeds through a ball that grows, a leaf at a time, and never
+/// searches again what it has reached. A leaf that is connected and lies inside the ball is reached as a whole.
 ///
 /// A leaf that the search has met, and that has vertices outside the ball, sleeps until the ball has grown.
 class Flood {
@@ -96,10 +96,10 @@ class Flood {
   void grow(double radius, std::uint32_t target = kNoTarget);
   static constexpr std::uint32_t kNoTarget = 0xFFFFFFFF;
 
-  /// The smallest radius at which `grow` would reach more; infinite if it never will.
+  /// Returns the smallest radius at which `grow` would reach more; infinite if it never will.
   [[nodiscard]] double next_radius();
 
-  /// The vertices reached, in the order of time. A leaf may occur several times, with different vertices.
+  /// Returns the vertices reached, in the order of time. A leaf may occur several times, with different vertices.
   [[nodiscard]] std::span<const LeafSubset> reached() const { return reached_; }
 
   [[nodiscard]] bool has_reached(std::uint32_t slot) const;
@@ -119,7 +119,7 @@ class Flood {
     SquareRange squares{};  // of the distances of its vertices
   };
 
-  /// Whether the ball holds all vertices of the leaf, and they are connected.
+  /// Returns whether the ball holds all vertices of the leaf, and they are connected.
   [[nodiscard]] bool is_whole(const State& state) const;
 
   State& state_of(LeafId leaf);

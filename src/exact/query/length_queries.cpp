@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The answers of the metrics that sum lengths along edges. A neighborhood has the vertices whose length is at most the
-// radius, so all calls are cuts of one list.
+// Answers queries by the metrics that sum lengths along edges. A neighborhood has the vertices whose length is at most
+// the radius, so all calls are cuts of one list.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -119,7 +119,7 @@ struct LengthQueries final : SingleQueries {
     return *search_;
   }
 
-  /// Of the straight line with which a path begins.
+  /// Returns the length of the straight line with which a path begins.
   double length_to_seed(const Start& start, VertexId seed) {
     return start.center() ? std::sqrt(squared_distance(center_of(start), index->position_of(seed))) : 0;
   }
@@ -130,7 +130,7 @@ struct LengthQueries final : SingleQueries {
     return run(start, radius);
   }
 
-  /// Those of paths ascend by length, those of rings are in index order.
+  /// Returns the answer in the order of its ids: by length for paths, in index order for rings.
   std::span<const Path> in_order_of_ids(LengthSearch& search) {
     if (metric == Metric::Path) return search.in_order();
     const std::span<const Path> found = search.found();
@@ -139,7 +139,7 @@ struct LengthQueries final : SingleQueries {
     return sorted_;
   }
 
-  /// Infinite if it is more than `radius`.
+  /// Returns infinity if the length is more than `radius`.
   double length_to(VertexId w, const Start& start, double radius) {
     const std::uint32_t place = index->place(w);
     double length = kNoRadius;

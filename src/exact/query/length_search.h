@@ -17,9 +17,9 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The vertices around a start by path distance or by number of edges: for each the length, and its place in index
-/// order. A length is the least radius whose neighborhood has the vertex. Walls are not passed, ignored vertices are
-/// passed and left out. One object a thread.
+/// Finds the vertices around a start by path distance or by number of edges: for each the length, and its place in
+/// index order. A length is the least radius whose neighborhood has the vertex. Walls are not passed, ignored vertices
+/// are passed and left out. Each thread needs its own.
 class LengthSearch {
  public:
   /// Receives the vertices that were found since its last call, and returns true to end the search. All that are nearer
@@ -35,27 +35,27 @@ class LengthSearch {
   /// ends the search. By the number of edges there is one start, of length 0.
   virtual void run(std::span<const Path> starts, double radius, const OnFound& on_found) = 0;
 
-  // Of the last run, valid until the next:
+  // These results are those of the last run, and valid until the next.
 
-  /// In no stated order.
+  /// Returns what was found, in no stated order.
   [[nodiscard]] virtual std::span<const Path> found() = 0;
 
-  /// Ascending by length, then by place.
+  /// Returns what was found, ascending by length, then by place.
   [[nodiscard]] virtual std::span<const Path> in_order() = 0;
 
-  /// Adds them to `subsets`, in no stated order.
+  /// Adds what was found to `subsets`, in no stated order.
   virtual void collect(std::vector<LeafSubset>& subsets);
 
  protected:
   const IndexView* index_;
 };
 
-/// `metric` is along edges. For paths, O(#V) here, and O(#V + #E) for the first search of an index. What it is made
-/// from must outlive it.
+/// Makes a search by `metric`, which must be along edges. For paths this takes O(#V), and O(#V + #E) for the first
+/// search of an index. The arguments must outlive the search.
 [[nodiscard]] std::unique_ptr<LengthSearch> make_length_search(const IndexView& index, KeptGraph& graph, Metric metric,
                                                                const Kernels& kernels);
 
-/// The same by the number of edges.
+/// Makes the search by the number of edges.
 [[nodiscard]] std::unique_ptr<LengthSearch> make_ring_search(const IndexView& index, KeptGraph& graph,
                                                              const Kernels& kernels);
 

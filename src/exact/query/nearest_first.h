@@ -13,9 +13,9 @@
 
 namespace meshhood::inline v0_1 {
 
-/// A reach from a center that covers everything within `distance` of a point, if `distance` already includes that from
-/// the point to the center: the three distances are each rounded a few times by 2^-53 of their size, or of 2^-537 where
-/// squares underflow.
+/// Returns a reach from a center that covers everything within `distance` of a point, if `distance` already includes
+/// that from the point to the center: the three distances are each rounded a few times by 2^-53 of their size, or of
+/// 2^-537 where squares underflow.
 [[nodiscard]] inline double reach_of(double distance) { return distance * (1 + 1e-14) + 0x1p-500; }
 
 /// Visits the leaves of an index around a center, connected or not: depth first through the tree, the nearest node of a

@@ -12,12 +12,12 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-// So that the number of buckets in a unit of length is finite.
+// With this, the number of buckets in a unit of length is finite.
 constexpr double kNarrowestBucket = 0x1p-1000;
 
 bool is_shorter(const Path& a, const Path& b) { return a.length < b.length; }
 
-// So narrow that few paths become shorter in their bucket, and so wide that most buckets have paths.
+// Buckets are so narrow that few paths become shorter in their bucket, and so wide that most buckets have paths.
 constexpr double kBucketsPerEdge = 8;
 
 constexpr double kUnreached = kInfinity;
@@ -27,13 +27,13 @@ constexpr double kWall = -1;
 
 bool is_longer(const Path& a, const Path& b) { return a.length > b.length; }
 
-// So that the number of intervals in a unit of length is finite.
+// With this, the number of intervals in a unit of length is finite.
 constexpr double kShortestRange = 0x1p-900;
 
 // Intervals with more paths are sorted one by one.
 constexpr std::uint32_t kFewPaths = 16;
 
-/// By insertion: for paths that are nearly in order.
+/// Sorts paths that are nearly in order.
 void sort_by_insertion(std::span<Path> paths) {
   for (std::size_t i = 1; i < paths.size(); ++i) {
     const Path path = paths[i];
@@ -95,7 +95,7 @@ void PathSearch::begin(std::span<const Path> starts, double radius) {
   }
 }
 
-/// Empties the queue.
+/// Empties the queue, and notes the vertices whose lengths `forget` must clear.
 void PathSearch::abandon() {
   while (queue_.open()) {
     queue_.take([this](const Path& path) { left_.push_back(path.end); });
@@ -116,7 +116,7 @@ void PathSearch::forget() {
   steps_ = 0;
 }
 
-/// The mean of the lengths of some edges near a vertex; 0 if there are none.
+/// Returns the mean of the lengths of some edges near a vertex; 0 if there are none.
 double PathSearch::mean_length_near(std::uint32_t vertex) const {
   constexpr std::size_t kMost = 128;
   const std::span<const double> after = std::span(graph_->lengths).subspan(edges_->offsets[vertex]);
@@ -166,7 +166,7 @@ void PathSearch::follow_round() {
   push_shorter();
 }
 
-/// Follows the rest of the open bucket, the shortest path first: the algorithm of Dijkstra.
+/// Follows the rest of the open bucket, the shortest path first, as in the algorithm of Dijkstra.
 void PathSearch::follow_in_order() {
   round_.resize(round_count_);
   std::make_heap(round_.begin(), round_.end(), is_longer);
@@ -228,7 +228,7 @@ std::span<const Path> PathSearch::found_in_order() {
 }
 
 std::span<const Path> PathOrder::sorted(std::span<const Path> paths) {
-  sorted_.resize(paths.size() + 1);  // the first is for the function below
+  sorted_.resize(paths.size() + 1);  // the function below uses the first
   const std::span<Path> result = std::span(sorted_).subspan(1);
   if (paths.size() <= kernels_->few_numbers) {
     sort_by_comparison(paths, result);

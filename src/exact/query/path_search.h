@@ -16,7 +16,6 @@
 
 namespace meshhood::inline v0_1 {
 
-/// A path of edges.
 struct Path {
   double length;
   std::uint32_t end;  // a vertex, in index order
@@ -49,7 +48,7 @@ class PathBuckets {
     word |= bit;
   }
 
-  /// The first bucket from `bucket` on that has paths, or `kCount`.
+  /// Returns the first bucket from `bucket` on that has paths, or `kCount`.
   [[nodiscard]] std::size_t find_from(std::size_t bucket) const {
     assert(bucket < kCount);
     std::uint64_t word = occupied_[bucket / 64] >> bucket % 64 << bucket % 64;
@@ -117,7 +116,7 @@ class PathQueue {
   }
 
  private:
-  /// The bucket of a length, with a fraction. Never decreases if the length grows.
+  /// Returns the bucket of a length, with a fraction. It never decreases if the length grows.
   [[nodiscard]] double position(double length) const { return (length - base_) * scale_; }
   void begin_window();
 
@@ -125,7 +124,7 @@ class PathQueue {
   double base_ = 0;   // where the window begins
   double scale_ = 0;  // buckets in a unit of length
   PathBuckets buckets_;
-  std::vector<Path> beyond_;  // the window
+  std::vector<Path> beyond_;  // those beyond the window
   std::size_t open_ = 0;      // the number of the open bucket
 };
 
@@ -138,10 +137,10 @@ class PathQueue {
 /// as those of shortest paths are, and O(n log n) otherwise.
 class PathOrder {
  public:
-  /// The paths in order. Their lengths are finite, and not negative. Valid until the next call.
+  /// Returns the paths in order, valid until the next call. Their lengths are finite, and not negative.
   [[nodiscard]] std::span<const Path> sorted(std::span<const Path> paths);
 
-  /// The same with one more path, by a step for each path that comes before it.
+  /// Adds one more path, by a step for each path that comes before it.
   [[nodiscard]] std::span<const Path> sorted(const Path& one, std::span<const Path> paths);
 
  private:
@@ -153,7 +152,7 @@ class PathOrder {
   std::vector<std::uint32_t> ends_;  // by interval
 };
 
-/// The shortest paths along the edges from one or more vertices, up to a radius, by label correction in buckets
+/// Finds the shortest paths along the edges from one or more vertices, up to a radius, by label correction in buckets
 /// (delta-stepping: Meyer and Sanders 2003).
 ///
 /// The paths of a bucket are followed in any order. A vertex whose path becomes shorter in the bucket is followed again
@@ -168,7 +167,7 @@ class PathSearch {
  public:
   static constexpr int kRounds = 4;
 
-  /// O(#V), and for the first search of an index O(#V + #E): its weighted graph is made.
+  /// Takes O(#V), and for the first search of an index O(#V + #E), because its weighted graph is made.
   PathSearch(const IndexView& index, KeptGraph& graph);
 
   /// Finds the vertices whose path distance from the vertex `start`, in index order, is at most `radius`, without
@@ -178,9 +177,9 @@ class PathSearch {
     run(std::span(&path, 1), radius, [](std::span<const Path>) { return false; });
   }
 
-  /// The same from the ends of some paths, of which one may be named more than once: the path to a vertex is then the
-  /// shortest of those that continue one of them. Ends as soon as `on_found(paths)` returns true: it is called for the
-  /// paths that were found since the last call. All paths that are shorter than one of these have then been found.
+  /// Does the same from the ends of some paths, of which one may be named more than once: the path to a vertex is then
+  /// the shortest of those that continue one of them. Ends as soon as `on_found(paths)` returns true: it is called for
+  /// the paths that were found since the last call. All paths that are shorter than one of these have then been found.
   template <class OnFound>
   void run(std::span<const Path> starts, double radius, OnFound&& on_found) {
     begin(starts, radius);
@@ -194,14 +193,14 @@ class PathSearch {
     is_complete_ = true;
   }
 
-  /// The paths found by the last run: from one vertex, that to itself first, the others in no stated order, but hardly
-  /// one after another that is longer by an eighth of an edge.
+  /// Returns the paths found by the last run: from one vertex, that to itself first, the others in no stated order, but
+  /// hardly one after another that is longer by an eighth of an edge.
   [[nodiscard]] std::span<const Path> found() const { return found_; }
 
-  /// The same, ascending by length, then by vertex in index order.
+  /// Returns them ascending by length, then by vertex in index order.
   [[nodiscard]] std::span<const Path> found_in_order();
 
-  /// How many times the last run followed the edges of a vertex.
+  /// Returns how many times the last run followed the edges of a vertex.
   [[nodiscard]] std::size_t steps() const { return steps_; }
 
  private:

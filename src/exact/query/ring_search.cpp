@@ -40,7 +40,7 @@ class LeafRings {
     ring_.push_back({leaf_of(slot), lane});
   }
 
-  /// The last ring; each leaf once.
+  /// Returns the last ring, each leaf once.
   [[nodiscard]] std::span<const LeafSubset> ring() const { return ring_; }
 
   /// Goes on to the next ring, which is empty if there is none.
@@ -116,12 +116,12 @@ class RingSearch final : public LengthSearch {
   }
 
  private:
-  /// With twice as many rings each time, so that all searches take at most about twice as long as the last; at once if
-  /// all are wanted.
+  /// Searches twice as many rings each time, so that all searches take at most about twice as long as the last; it
+  /// begins with all if all are wanted.
   void run_by_vertex(std::uint32_t slot, double radius, const OnFound& on_found) {
     constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
     const auto most = static_cast<std::uint32_t>(std::min(radius, kMost));
-    std::uint32_t known = 0;  // rings
+    std::uint32_t known = 0;  // the number of rings found
     for (std::uint32_t count = on_found ? std::min(most, 1U) : most;; count = count > most / 2 ? most : 2 * count) {
       by_vertex_->run(slot, count);
       const auto edges_to = [this](std::uint32_t place) { return by_vertex_->edges_to(place); };

@@ -14,9 +14,9 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The rings of one vertex, vertex by vertex, for graphs unlike a surface: their leaves have so few vertices in common
-/// with a ring that words for each leaf take longer. O(edges of the answer). One object a thread; owns 8 bytes a
-/// vertex.
+/// Finds the rings of one vertex, vertex by vertex, for graphs unlike a surface: their leaves have so few vertices in
+/// common with a ring that words for each leaf take longer. Takes O(edges of the answer). Each thread needs its own,
+/// which owns 8 bytes a vertex.
 class VertexRings final : public PacketLengths {
  public:
   VertexRings(const IndexView& index, KeptGraph& graph)
@@ -26,20 +26,20 @@ class VertexRings final : public PacketLengths {
   /// there are, without the ignored ones.
   std::size_t run(std::uint32_t slot, std::uint32_t rings);
 
-  /// These vertices and the ignored ones by their places, ring by ring, in no order within a ring. Valid until the next
-  /// `run`.
+  /// Returns these vertices and the ignored ones by their places, ring by ring, in no order within a ring. They are
+  /// valid until the next `run`.
   [[nodiscard]] std::span<const std::uint32_t> reached() const { return queue_; }
 
-  /// These vertices, by their places in index order, ascending. Valid until the next `run`.
+  /// Returns these vertices, by their places in index order, ascending. They are valid until the next `run`.
   [[nodiscard]] std::span<const std::uint32_t> places();
 
-  /// The number of edges to one of them.
+  /// Returns the number of edges to one of them.
   [[nodiscard]] std::uint32_t edges_to(std::uint32_t place) const { return edges_to_[place]; }
 
-  /// The same leaf by leaf. Takes much longer on a star, whose leaves have a vertex each.
+  /// Returns them leaf by leaf. It takes much longer on a star, whose leaves have a vertex each.
   [[nodiscard]] std::span<const Piece> pieces();
 
-  /// Numbers of edges as lengths.
+  /// Gives numbers of edges as lengths.
   void select(LeafId leaf) override { first_ = index_->leaf_begin[leaf]; }
   [[nodiscard]] const PathLengths& at(unsigned lane) override {
     length_[0] = edges_to_[first_ + lane];

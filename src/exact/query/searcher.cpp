@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A searcher: the arguments of its calls, and their results. What answers them is made by `make_queries`.
+// A searcher checks the arguments of its calls, and sets their results. `make_queries` makes what answers them.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -118,7 +118,7 @@ bool Searcher::has_seed(const Start& start, Radius radius) const {
                              [&](VertexId seed) { return ball.contains(queries_->index->position_of(seed)); });
 }
 
-// Results may be the seeds, or what is borrowed by them: they change last.
+// The results may be memory that the starts borrow, so they change last.
 
 void Searcher::stroke(std::span<const Dab> dabs, std::vector<VertexId>& out) {
   SingleQueries& queries = *queries_;

@@ -23,7 +23,7 @@ namespace meshhood::inline v0_1 {
 /// The connecting radius of a vertex that no radius connects.
 inline constexpr double kNoRadius = kInfinity;
 
-/// The answers to single queries by one metric. Arguments are valid, unless a function says that it checks them.
+/// Answers single queries by one metric. Arguments are valid, unless a function says that it checks them.
 struct SingleQueries {
   BoundIndex index;
   std::shared_ptr<KeptGraph> graph;
@@ -49,13 +49,13 @@ struct SingleQueries {
   /// Goes on with the present state of the same index.
   virtual void rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept);
 
-  /// The neighborhood, valid until the next call. Checks its arguments.
+  /// Returns the neighborhood, valid until the next call. Checks its arguments.
   [[nodiscard]] virtual VertexSet& search(const Start& start, double radius) = 0;
 
-  /// The center of the ball of a start.
+  /// Returns the center of the ball of a start.
   [[nodiscard]] Point center_of(const Start& start) const;
 
-  /// The size of the neighborhood. Checks its arguments.
+  /// Returns the size of the neighborhood. Checks its arguments.
   [[nodiscard]] virtual std::size_t count(const Start& start, double radius) { return search(start, radius).count(); }
 
   /// Refills `out` with its ids, and `distances` unless that is null. Checks its arguments, and changes nothing if it
@@ -91,11 +91,11 @@ void prepare_searches(const Index& index, Metric metric);
 [[nodiscard]] std::unique_ptr<SingleQueries> make_length_queries(BoundIndex index, std::shared_ptr<KeptGraph> graph,
                                                                  Metric metric, Isa isa);
 
-/// Access to the parts of a searcher, for tests.
+/// Gives tests access to the parts of a searcher.
 struct SearcherAccess {
   using State = StraightSearch;
 
-  /// Of the neighborhoods of vertices by the straight metric.
+  /// Returns the search of the neighborhoods of vertices by the straight metric.
   static StraightSearch& state(Searcher& searcher);
 
   static void set_isa(Searcher& searcher, Isa isa);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The answers in space, connected or not, by the tree of the index: a node inside the ball is taken as a whole, one
+// Answers queries in space, connected or not, by the tree of the index: a node inside the ball is taken as a whole, one
 // outside is skipped.
 #include <algorithm>
 #include <cmath>

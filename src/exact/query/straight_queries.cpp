@@ -24,7 +24,7 @@ void StraightQueries::add_reached(std::size_t skip, std::vector<LeafSubset>& fou
 
 VertexSet& StraightQueries::search(const Start& start, double radius) {
   if (!start.center()) {
-    straight_search().search(start.vertex(), radius);  // which checks the arguments
+    straight_search().search(start.vertex(), radius);  // it checks the arguments
     return straight_search_->answer;
   }
   check(start);

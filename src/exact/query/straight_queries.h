@@ -23,8 +23,8 @@ struct NextVertex {
   friend auto operator<=>(const NextVertex&, const NextVertex&) = default;
 };
 
-/// The answers of the straight metric: one ball around a vertex by `StraightSearch`, all else by a flood. Each is made
-/// when it is first needed.
+/// Answers queries by the straight metric: one ball around a vertex by `StraightSearch`, all else by a flood. Each is
+/// made when it is first needed.
 struct StraightQueries final : SingleQueries {
   StraightQueries(BoundIndex bound, std::shared_ptr<KeptGraph> kept, Isa chosen)
       : SingleQueries(std::move(bound), std::move(kept), Metric::Straight, chosen) {}

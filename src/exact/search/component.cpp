@@ -22,7 +22,7 @@ void Component::add_group(std::uint32_t group, const Reach& reach, std::size_t& 
   for_each_node(static_cast<NodeSet>(state.marked | state.intersecting), [&](unsigned i) {
     const unsigned is_marked = state.marked >> i & 1U;
     if (index_->is_of_leaves(group)) {
-      // Without branches, which could not be predicted.
+      // There are no branches, because they could not be predicted.
       const LaneMask lanes = marks_.lanes(place) & (is_marked - 1U);
       answer.add_if(is_marked != 0 || lanes != 0, run_of(record, i), lanes);
       place += 1U - is_marked;

@@ -15,7 +15,7 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The component of the query vertex among all that the outward search has reached.
+/// Finds the component of the query vertex among all that the outward search has reached.
 ///
 /// An edge of the mesh between two vertices reached lies within a whole node, or within a piece of a surface leaf, or
 /// is part of a link between two of these. So the component is what links join with the query vertex. Home marks find
@@ -25,13 +25,13 @@ class Component {
   Component(const IndexView& index, const Kernels& kernels)
       : index_(&index), marks_(index, kernels), open_(index, kernels) {}
 
-  /// The first step: marks what is surely connected with the query vertex.
+  /// Marks what is surely connected with the query vertex. This is the first step.
   void mark(const Query& query, Reach& reach) { marks_.spread(query, reach); }
 
-  /// How many surface leaves have vertices in the ball without a mark.
+  /// Returns how many surface leaves have vertices in the ball without a mark.
   [[nodiscard]] std::size_t open_leaves() const { return marks_.open_places().size(); }
 
-  /// The second step: completes the marks. Adds the component to `answer`, which is empty.
+  /// Completes the marks, and adds the component to `answer`, which is empty. This is the second step.
   void complete(Reach& reach, VertexSet& answer);
 
  private:

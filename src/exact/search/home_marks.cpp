@@ -55,7 +55,7 @@ void HomeMarks::mark_nodes(std::uint32_t group) {
   leaves_.add(group, state.marked);
 }
 
-/// Whether a node above the leaves, or a larger one that covers it, has a mark: 1 or 0.
+/// Returns 1 if a node above the leaves, or a larger one that covers it, has a mark, else 0.
 unsigned HomeMarks::covers(NodeId node) const {
   // A node of a known group may have marks below it that are not its own.
   if (states_->is_known(node / kFanOut)) return (*states_)[node / kFanOut].marked >> node % kFanOut & 1U;

@@ -39,10 +39,10 @@ class LeafBits {
     }
   }
 
-  /// 1 if it has the leaf, else 0: for masks without branches, which could not be predicted.
+  /// Returns 1 if it has the leaf, else 0: for masks without branches, which could not be predicted.
   [[nodiscard]] unsigned has(LeafId leaf) const { return groups_[leaf / kFanOut] >> leaf % kFanOut & 1U; }
 
-  /// The same for the first leaf below a node above the leaves.
+  /// Does the same for the first leaf below a node above the leaves.
   [[nodiscard]] unsigned has_below(NodeId node) const { return groups_[index_->leaf_groups_of(node).begin] & 1U; }
 
  private:
@@ -55,7 +55,7 @@ class LeafBits {
   std::vector<LeafGroupRange> added_;
 };
 
-/// Marks what is known to be connected with the query vertex within the ball: whole nodes, in `GroupState::home`, and
+/// Marks what is known to be connected with the query vertex within the ball: whole nodes, in `GroupState::marked`, and
 /// vertices of surface leaves. The marks spread over the links in a few passes. They are never wrong, but may be
 /// incomplete: what has no mark then is *open*.
 class HomeMarks {
@@ -68,14 +68,14 @@ class HomeMarks {
   void add_nodes(std::uint32_t group, NodeSet nodes) { (*states_)[group].marked |= nodes; }
   void add_lanes(std::size_t place, LaneMask lanes) { lanes_[place] |= lanes; }
 
-  /// The marked lanes of a surface leaf, by its place. `lanes(surface_leaves().size())` may be read, too.
+  /// Returns the marked lanes of a surface leaf, by its place. `lanes(surface_leaves().size())` may be read, too.
   [[nodiscard]] LaneMask lanes(std::size_t place) const { return lanes_[place]; }
 
-  /// Whether a whole node that `spread` has marked is, or covers, the leaf: 1 or 0.
+  /// Returns 1 if a whole node that `spread` has marked is, or covers, the leaf, else 0.
   [[nodiscard]] unsigned has(LeafId leaf) const { return leaves_.has(leaf); }
 
-  /// The groups with open nodes, in the order of `Reach::groups`; the places of surface leaves with open lanes,
-  /// ascending.
+  /// Return the groups with open nodes, in the order of `Reach::groups`, and the places of surface leaves with open
+  /// lanes, ascending.
   [[nodiscard]] std::span<const std::uint32_t> open_groups() const { return open_groups_; }
   [[nodiscard]] std::span<const std::size_t> open_places() const { return open_places_; }
 

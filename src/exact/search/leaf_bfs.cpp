@@ -10,7 +10,7 @@ namespace meshhood::inline v0_1 {
 bool LeafBfs::run_within(std::size_t visits, const Query& query, VertexSet& answer) {
   query_ = &query;
   states_.forget();
-  reached_.clear();  // a search that did not end has left some
+  reached_.clear();  // a search that did not end has left some leaves
   queue_.clear();
   prefetched_ = 0;
   state_of(query.leaf()).pending = query.lane();
@@ -59,7 +59,7 @@ void LeafBfs::expand(LeafId leaf, LaneMask added) {
   }
 }
 
-/// The state of a leaf, which is made when a query first needs it.
+/// Returns the state of a leaf, which is made when a query first needs it.
 LeafBfs::State& LeafBfs::state_of(LeafId leaf) {
   if (states_.is_known(leaf)) return states_[leaf];
   const Leaf& record = index_->leaves[leaf];
@@ -72,7 +72,7 @@ LeafBfs::State& LeafBfs::state_of(LeafId leaf) {
 /// Prefetches what the next visits read of the neighbors of their leaves, and their first cross edges.
 void LeafBfs::prefetch_ahead() {
   constexpr std::size_t kLeavesAhead = 12;    // the present one included
-  constexpr std::size_t kCrossEdgeLines = 3;  // of 32 edges each
+  constexpr std::size_t kCrossEdgeLines = 3;  // each has 32 edges
   const std::size_t soon = std::min(head_ + kLeavesAhead, queue_.size());
   for (; prefetched_ < soon; ++prefetched_) {
     const std::span<const Link> links = index_->links_of(queue_[prefetched_]);

@@ -26,7 +26,7 @@ class LeafBfs {
     static_cast<void>(run_within(std::numeric_limits<std::size_t>::max(), query, answer));
   }
 
-  /// The same in at most so many visits of leaves. If these do not suffice, it returns false and adds nothing.
+  /// Does the same in at most so many visits of leaves. If these do not suffice, it returns false and adds nothing.
   [[nodiscard]] bool run_within(std::size_t visits, const Query& query, VertexSet& answer);
 
   /// Prefetches what a visit of the leaf reads, and then the output; without positions and edges if the leaf is known

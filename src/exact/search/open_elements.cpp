@@ -8,7 +8,7 @@ namespace {
 
 NodeSet without(NodeSet nodes, NodeSet others) { return static_cast<NodeSet>(nodes & ~unsigned{others}); }
 
-/// The whole nodes that have no mark.
+/// Returns the whole nodes that have no mark.
 NodeSet open_nodes(const GroupState& state) { return without(state.whole, state.marked); }
 
 }  // namespace

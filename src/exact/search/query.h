@@ -8,7 +8,7 @@
 
 namespace meshhood::inline v0_1 {
 
-/// What depends on the radius alone. A searcher keeps it from one query to the next, because most have equal radii.
+/// What depends on the radius alone. A searcher keeps it for the next query, because most have equal radii.
 struct RadiusBounds {
   double radius;
   double radius_in_frame;

@@ -10,12 +10,11 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// The most nodes of a level that may intersect the surface of the ball: more than one sheet of mesh has.
+/// Returns how many nodes of a level may intersect the surface of the ball: more than one sheet of mesh has.
 ///
-/// On a plane, nodes that are squares with a half diagonal of m have an area of 2 m^2. The nodes that intersect have
-/// their centers within m of a circle of radius r, so there are about 4 pi r m / 2 m^2 = 6.3 r / m of them; on a
-/// smooth scan, 5.6 were measured. 14 is chosen: a little more than two such sheets. So is 12, for balls no larger
-/// than a node: a group and a half.
+/// On a plane, square nodes with a half diagonal of m have an area of 2 m^2. The nodes that intersect have their
+/// centers within m of a circle of radius r: about 4 pi r m / 2 m^2 = 6.3 r / m; on a smooth scan, 5.6 were measured.
+/// 14 is chosen: a little more than two such sheets. So is 12, for balls no larger than a node: a group and a half.
 std::size_t most_intersecting(double radius_in_frame, double mean_radius) {
   return 12 + static_cast<std::size_t>(std::min(14 * radius_in_frame / mean_radius, 1e9));
 }
@@ -105,7 +104,7 @@ bool Descent::run(std::size_t level, std::span<const std::uint32_t> groups, cons
 }
 
 void Descent::append(std::uint32_t group, NodeSet intersecting) {
-  // Writes eight nodes, and keeps those in the set: faster than branching for each.
+  // This writes eight nodes and keeps those in the set, which is faster than a branch for each.
   const std::size_t size = intersecting_.size();
   intersecting_.resize(size + kFanOut);
   for (std::size_t i = 0; i < kFanOut; ++i) intersecting_[size + i] = group * kFanOut + kBitPositions[intersecting][i];
@@ -138,7 +137,7 @@ void Descent::place(std::size_t first, const TreeBall& ball, GroupStates& states
 /// Begins with large nodes, which are few. Where they reach more than a single sheet, begins again with small ones,
 /// which leave out what is not connected at that scale. Leaves save nothing over a search along their links.
 bool Reach::run(const Query& query) {
-  // How many mean radii of nodes the radius of the ball has at most.
+  // The radius of the ball is at most this many mean radii of nodes.
   constexpr double kSmallNodes = 10;   // the paper's f
   constexpr double kLargeNodes = 2.5;  // chosen: larger ones hide which parts are connected within the ball
   const Home small = home_of(query, kSmallNodes);
@@ -152,8 +151,7 @@ bool Reach::run(const Query& query) {
   return true;
 }
 
-/// The node over the query vertex on the lowest level whose nodes have a mean radius of a `ratio`-th of the radius or
-/// more.
+/// Returns the node over the query vertex on the lowest level whose mean radius is at least the radius over `ratio`.
 Reach::Home Reach::home_of(const Query& query, double ratio) const {
   Home home{0, query.leaf()};
   for (; index_->tree[home.level].mean_radius * ratio < query.radius_in_frame; ++home.level) {
@@ -164,8 +162,7 @@ Reach::Home Reach::home_of(const Query& query, double ratio) const {
   return home;
 }
 
-/// Returns false if more nodes intersect the surface of the ball, on a level above `limited_above`, than a single sheet
-/// has.
+/// Returns false if on a level above `limited_above` more nodes intersect the surface of the ball than one sheet has.
 bool Reach::reach_from(const Home& home, const Query& query, std::size_t limited_above) {
   states_.start(index_->tree[home.level].first_group + index_->tree[home.level].groups);
   waves_.run(home.node, query.tree_ball, states_);
@@ -175,7 +172,7 @@ bool Reach::reach_from(const Home& home, const Query& query, std::size_t limited
 void Reach::find_surface_leaves(const Query& query) {
   constexpr std::size_t kLeavesAhead = 10;
   const std::span<const LeafId> leaves = descent_.surface_leaves();
-  // The runs are from records of groups, which the descent has just read.
+  // The runs are in records of groups, which the descent has just read.
   const auto prefetch_vertices = [&](LeafId leaf) {
     const VertexId first = run_of(*index_, leaf).begin;
     prefetch_positions(*index_, first, kLeafCapacity);
@@ -202,7 +199,7 @@ void Reach::find_surface_leaves(const Query& query) {
   }
 }
 
-/// For a leaf that intersects the ball by its sphere, but whose vertices are all in the ball, or all outside.
+/// Settles a leaf whose sphere intersects the surface of the ball, but whose vertices are all inside or all outside.
 void Reach::settle(LeafId leaf, bool is_whole) {
   GroupState& state = states_[leaf / kFanOut];
   const NodeSet bit = node_at(leaf % kFanOut);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which nodes a ball reaches from the query vertex, outward along links in waves and down from these nodes; and what a
-// query knows of each group.
+// Finds the nodes that a ball reaches from the query vertex, outward along links in waves and down from these nodes.
 #pragma once
 
 #include <cstddef>
@@ -46,7 +45,7 @@ class GroupStates : public EpochArray<GroupState> {
     forget();
   }
 
-  /// The whole node that is `node` or covers it, or `kNoNode`.
+  /// Returns the whole node that is `node` or covers it, or `kNoNode`.
   [[nodiscard]] NodeId whole_node(NodeId node) const {
     while (node != kNoNode && node / kFanOut < end_group_) {
       const std::size_t group = node / kFanOut;
@@ -62,7 +61,7 @@ class GroupStates : public EpochArray<GroupState> {
 };
 
 /// The outward search: finds, on one level of the tree, the nodes that links between nodes in or across the ball
-/// connect with the query vertex's own. A breadth-first search whose steps are groups.
+/// connect with that of the query vertex, by a breadth-first search whose steps are groups.
 ///
 /// A component of the ball is met by nodes that are not outside and are linked with each other, so the search reaches
 /// all of them or none. What it reaches is thus a union of whole components of the ball, and holds the component of the
@@ -74,7 +73,7 @@ class Waves {
   /// Begins with `home`, and leaves the states of the groups it meets in `states`.
   void run(NodeId home, const TreeBall& ball, GroupStates& states);
 
-  /// The groups it has met, in the order of meeting.
+  /// Returns the groups it has met, in the order of meeting.
   [[nodiscard]] std::span<const std::uint32_t> groups() const { return groups_; }
 
  private:
@@ -100,10 +99,10 @@ class Descent {
   [[nodiscard]] bool run(std::size_t level, std::span<const std::uint32_t> groups, const Query& query,
                          std::size_t limited_above, GroupStates& states);
 
-  /// All groups of known state, level by level downwards from those it began with; those of a level ascend.
+  /// Returns all groups of known state, level by level downwards from those it began with; those of a level ascend.
   [[nodiscard]] std::span<const std::uint32_t> groups() const { return groups_; }
 
-  /// The leaves that intersect the surface of the ball.
+  /// Returns the leaves that intersect the surface of the ball.
   [[nodiscard]] std::span<const LeafId> surface_leaves() const { return intersecting_; }
 
  private:
@@ -118,9 +117,9 @@ class Descent {
   std::vector<NodeId> intersecting_;
 };
 
-/// The outward search, from the query vertex over linked, connected nodes to the surface of the ball. What it reaches
-/// is a union of whole components of the ball, and holds the component of the query vertex (see `Waves`): *whole*
-/// nodes, which lie in the ball, and *surface leaves*, of which only some vertices do.
+/// Searches outward, from the query vertex over linked, connected nodes to the surface of the ball. What it reaches is
+/// a union of whole components of the ball, and holds the component of the query vertex (see `Waves`): *whole* nodes,
+/// which lie in the ball, and *surface leaves*, of which only some vertices do.
 class Reach {
  public:
   Reach(const IndexView& index, const Kernels& kernels)
@@ -134,21 +133,20 @@ class Reach {
   /// Returns false, and reaches nothing, if leaves are what the search would begin with.
   [[nodiscard]] bool run(const Query& query);
 
-  /// The groups of known state: those of the level where the search began, then level by level downwards; those of a
-  /// level ascend.
+  /// Returns the groups of known state, from the level where the search began downwards, ascending on each level.
   [[nodiscard]] std::span<const std::uint32_t> groups() const { return descent_.groups(); }
 
-  /// Those of the first level in the order in which the search met them, and those of the levels below.
+  /// Return those of the first level in the order in which the search met them, and those of the levels below.
   [[nodiscard]] std::span<const std::uint32_t> top_groups() const { return waves_.groups(); }
   [[nodiscard]] std::span<const std::uint32_t> lower_groups() const { return groups().subspan(top_groups().size()); }
 
   [[nodiscard]] GroupStates& states() { return states_; }
   [[nodiscard]] const GroupStates& states() const { return states_; }
 
-  /// Ascending, with their vertices in the ball.
+  /// Returns the surface leaves, ascending, with their vertices in the ball.
   [[nodiscard]] std::span<const LeafSubset> surface_leaves() const { return surface_leaves_; }
 
-  /// The place of a leaf among the surface leaves, or `kNoPlace`.
+  /// Returns the place of a leaf among the surface leaves, or `kNoPlace`.
   [[nodiscard]] std::size_t place_of(LeafId leaf) const;
   static constexpr std::size_t kNoPlace = ~std::size_t{0};
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Exact queries. The outward search of the paper finds all that may be connected with the query vertex in the ball:
-// whole nodes, and leaves at the surface of the ball (`Reach`). The step that the paper leaves out takes the component
-// of the query vertex from that (`Component`). docs/design.md says why the result is exact.
+// The outward search of the paper finds all that may be connected with the query vertex in the ball: whole nodes, and
+// leaves at the surface of the ball (`Reach`). The step that the paper leaves out takes the component of the query
+// vertex from that (`Component`). docs/design.md says why the result is exact.
 //
 // Small balls are searched leaf by leaf along the edges of the mesh, and odd graphs vertex by vertex: both are plain
 // breadth-first searches.
@@ -73,26 +73,26 @@ void StraightSearch::find(VertexId v, std::uint32_t slot) {
   component.complete(reach, answer);
 }
 
-/// Whether the answer may well be the query vertex alone.
+/// Returns whether the answer may well be the query vertex alone.
 bool StraightSearch::is_tiny() const {
   constexpr double kMeanLeafRadii = 0.4;  // chosen
   return bounds.radius_in_frame < kMeanLeafRadii * index->tree[0].mean_radius;
 }
 
-/// Whether few leaves lie inside the ball, so that a search over leaves takes no longer than `Reach`.
+/// Returns whether few leaves lie inside the ball, so that a search over leaves takes no longer than `Reach`.
 bool StraightSearch::is_small(const Leaf& leaf) const {
   constexpr double kLeafRadii = 4.5;  // chosen
-  // Where the mesh is finer than elsewhere, its leaves are smaller. A leaf much larger than others says nothing.
+  // Where the mesh is finer, its leaves are smaller. A leaf that is much larger than others says nothing.
   const double radius = std::min(static_cast<double>(leaf.bounds.radius), index->tree[0].mean_radius);
   return bounds.radius_in_frame < kLeafRadii * radius;
 }
 
-/// Whether the marks have left most of the surface open. Then most of what was reached is likely not connected with the
-/// query vertex, and a search over as many leaves as are open takes less time than to unite what is open.
+/// Returns whether the marks have left most of the surface open. Then most of what was reached is likely not connected
+/// with the query vertex, and a search over as many leaves as are open takes less time than to unite what is open.
 bool StraightSearch::is_mostly_open() const { return 2 * component.open_leaves() > reach.surface_leaves().size(); }
 
-/// Whether no neighbor of the vertex at a slot, the center of the ball, is in the ball. With walls the answer may be
-/// false although it is so.
+/// Returns whether no neighbor of the vertex at a slot, the center of the ball, is in the ball. Walls count as
+/// neighbors, so that the answer may be false although the vertex is alone.
 bool StraightSearch::is_alone(std::uint32_t slot) const {
   const Point center = index->position_at(slot);
   return std::visit(

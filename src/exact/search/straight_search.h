@@ -16,7 +16,7 @@
 
 namespace meshhood::inline v0_1 {
 
-/// The exact neighborhood of a vertex: the outline of the query, and its scratch memory.
+/// Finds the exact neighborhood of a vertex: the outline of the query, and its scratch memory.
 struct StraightSearch {
   BoundIndex index;
   std::shared_ptr<KeptGraph> graph;  // of odd graphs

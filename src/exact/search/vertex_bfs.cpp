@@ -9,7 +9,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// Whether no vertex has a neighbor, as in a set of points.
+/// Returns whether no vertex has a neighbor, as in a set of points.
 bool has_no_edges(const IndexView& index) {
   const auto is_zero = [](LaneMask neighbors) { return neighbors == 0; };
   return index.links.size() == 1 && std::ranges::all_of(index.adjacency, is_zero);
@@ -18,9 +18,9 @@ bool has_no_edges(const IndexView& index) {
 }  // namespace
 
 bool is_unlike_a_surface(const IndexView& index) {
-  // On a surface, a leaf of 30 vertices has six links of eight edges: a link for every five vertices. Chosen: between
-  // those and the graphs of bench/odd_graphs, which have a link for every four vertices or fewer, of hardly more than
-  // one edge.
+  // On a surface, a leaf of 30 vertices has six links of eight edges: a link for every five vertices. Chosen: the
+  // bounds are between those and the graphs of bench/odd_graphs, which have a link for every four vertices or fewer, of
+  // hardly more than one edge.
   constexpr double kMostLinks = 0.255;  // for each vertex
   constexpr double kFewestEdges = 2;    // of each link
   const auto links = static_cast<double>(index.links.size() - 1);
@@ -48,7 +48,7 @@ void VertexBfs::make_searcher() {
 void VertexBfs::run(VertexId v, double squared_radius, VertexSet& answer) {
   if (!searcher_) make_searcher();
   const auto vertex = static_cast<VertexId>(index_->place(v));
-  found_->clear();  // a search that ran out of memory has left some
+  found_->clear();  // a search that ran out of memory has left some vertices
   for (const VertexId w : ReferenceAccess::search(*searcher_, vertex, squared_radius)) found_->insert(w);
   found_->take_words([&](std::size_t first, std::uint64_t bits) {
     for (std::size_t begin = first; bits != 0; begin += kLeafCapacity, bits >>= kLeafCapacity) {

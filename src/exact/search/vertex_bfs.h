@@ -13,11 +13,11 @@
 
 namespace meshhood::inline v0_1 {
 
-/// Whether leaves have many links of few edges, as around hubs and in random graphs. A step from leaf to leaf then
-/// reaches few vertices, and breadth-first search over vertices is faster at every radius.
+/// Returns whether leaves have many links of few edges, as around hubs and in random graphs. A step from leaf to leaf
+/// then reaches few vertices, and breadth-first search over vertices is faster at every radius.
 [[nodiscard]] bool is_unlike_a_surface(const IndexView& index);
 
-/// Whether every query is answered by `VertexBfs`: the graph is unlike a surface, has no edges, or squared distances
+/// Returns whether `VertexBfs` answers every query: the graph is unlike a surface, has no edges, or squared distances
 /// can underflow.
 [[nodiscard]] bool is_odd(const IndexView& index);
 
