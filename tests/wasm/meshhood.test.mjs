@@ -224,9 +224,24 @@ test('too little memory is an error and not a crash', () => {
   const header = 'ply\nformat binary_little_endian 1.0\nelement vertex 100\nproperty float x\nproperty float y\n' +
     'property float z\nend_header\n';
   assert.throws(() => readMesh(new TextEncoder().encode(header), 'short.ply'), { code: 'MalformedFile' });
+});
+
+test('a result that is too large is refused by its size, and the index lives', () => {
   const index = build(grid(300, 300, (row, column) => [row, column, 0]));
-  assert.throws(() => index.neighborhoods(Infinity, { method: 'bfs' }), { code: 'TooLarge', message: /^not enough memory/ });
-  assert.throws(() => index.neighborhood(0, 1), /has been disposed/);
+  const expected = index.counts(2);
+  const vertices = Uint32Array.from({ length: 16_000 }, (_, row) => row);
+  const refused = (most) => ({
+    code: 'TooLarge', message: new RegExp(`^the result of \\d+ rows, .*\\d{10,} bytes, exceeds max_bytes, ${most}\\d{9}$`),
+  });
+  for (const options of [{}, { vertices }, { distances: true, vertices }, { metric: 'space' }, { method: 'paper', vertices }]) {
+    assert.throws(() => index.neighborhoods(Infinity, options), refused(4));
+    assert.throws(() => index.neighborhoods(Infinity, { ...options, method: 'bfs', metric: 'straight' }), refused(1));
+  }
+  const weights = new Float64Array(index.vertexCount).fill(1);
+  assert.throws(() => index.discs(80_000, { weights }), refused(4));
+  assert.deepEqual(index.counts(2), expected);
+  console.log(`${index.memoryBytes} bytes after results that were too large`);
+  assert.ok(index.memoryBytes < 100 * 2 ** 20);
 });
 
 test('a mesh of a million vertices takes less than 400 MB, with all methods in use', () => {

@@ -27,7 +27,8 @@ namespace meshhood::wasm {
                                       .missing = missing,
                                       .nesting = nesting,
                                       .ddof = ddof,
-                                      .quantile = quantile});
+                                      .quantile = quantile},
+                                     workspace.run());
 }
 
 [[clang::export_name("smoothing_radius")]] double smoothing_radius(double fwhm) {

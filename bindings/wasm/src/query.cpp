@@ -3,7 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "meshhood/meshhood.h"
@@ -35,6 +37,19 @@ void sort_rows(RowOrder&& order, std::span<const std::uint32_t> offsets) {
   }
 }
 
+/// Refuses a result of breadth-first search that is too large before a row is found: the rows found so far would be
+/// lost to the instance (see raise.cpp). Its neighborhoods are those of the index, which counts them fast.
+void check_size_of_rows(bool with_distances) {
+  constexpr std::uint64_t kCopies = 3;  // of the result: it grows by doubling, and is copied
+  const auto sizes = counts(workspace.searched(), rows);
+  const std::uint64_t bytes = std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0}) *
+                              (sizeof(VertexId) + (with_distances ? sizeof(double) : 0));
+  const std::uint64_t most = workspace.run().max_bytes / kCopies;
+  if (bytes <= most) return;
+  raise(ErrorCode::TooLarge, "the result of " + std::to_string(sizes.size()) + " rows, " + std::to_string(bytes) +
+                                 " bytes, exceeds max_bytes, " + std::to_string(most));
+}
+
 /// The rows have one radius.
 NearestOptions nearest_options() { return {.metric = rows.metric, .radius = rows.radius.common()}; }
 
@@ -55,7 +70,8 @@ NearestOptions nearest_options() { return {.metric = rows.metric, .radius = rows
     answer.counts.assign(sizes.begin(), sizes.end());
     return;
   }
-  Neighborhoods found = neighborhoods(search, rows, {.distances = with_distances, .sorted = by_id});
+  if (method == MethodName::Bfs) check_size_of_rows(with_distances);
+  Neighborhoods found = neighborhoods(search, rows, {.distances = with_distances, .sorted = by_id}, workspace.run());
   answer.counts.assign(found.offsets.begin(), found.offsets.end());
   answer.ids = std::move(found.ids);
   answer.reals = std::move(found.distances);
@@ -70,15 +86,15 @@ NearestOptions nearest_options() { return {.metric = rows.metric, .radius = rows
 
 /// The ids and reals of the answer have `k` places for each row.
 [[clang::export_name("k_nearest")]] void k_nearest(std::size_t k) {
-  KNearest found = meshhood::k_nearest(workspace.searched(), rows.vertices, k, nearest_options());
+  KNearest found = meshhood::k_nearest(workspace.searched(), rows.vertices, k, nearest_options(), workspace.run());
   answer.ids = std::move(found.ids);
   answer.reals = std::move(found.distances);
 }
 
 /// The same rows up to an area. The counts of the answer are their offsets.
 [[clang::export_name("discs")]] void discs(double area, const double* areas, std::size_t area_count) {
-  Neighborhoods found =
-      meshhood::discs(workspace.searched(), rows.vertices, area, {areas, area_count}, nearest_options());
+  Neighborhoods found = meshhood::discs(workspace.searched(), rows.vertices, area, {areas, area_count},
+                                        nearest_options(), workspace.run());
   answer.counts.assign(found.offsets.begin(), found.offsets.end());
   answer.ids = std::move(found.ids);
   answer.reals = std::move(found.distances);

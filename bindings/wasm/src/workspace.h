@@ -21,6 +21,9 @@ inline constexpr std::size_t kMetricCount = static_cast<std::size_t>(Metric::Spa
 /// Of calls; the first are those of `Metric`. Along the surface: by the paths of another index (see `surface_paths`).
 enum class MetricName : std::uint8_t { Straight, Path, Rings, Space, Surface };
 
+/// What 32 bits address, but for the last page.
+inline constexpr std::uint64_t kMostBytes = (std::uint64_t{1} << 32) - (1 << 16);
+
 /// A method, and a searcher for single queries, made when it is first used; those of the exact method are `by_metric`.
 struct Method {
   SearchMethod search;
@@ -62,6 +65,10 @@ class Workspace {
 
   /// In the unit of the positions.
   [[nodiscard]] double mean_edge();
+
+  /// How long calls run: with the most bytes that a result can have beside the index. Larger results are refused before
+  /// memory is out, which would end the instance.
+  [[nodiscard]] Run run() const { return {.max_bytes = kMostBytes - index().bytes().total()}; }
 
   // Of the index that is searched:
 
