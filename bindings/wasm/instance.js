@@ -258,14 +258,10 @@ export function makeInstance(fill, instance = new Instance()) {
   return instance;
 }
 
-/** Disposes the instances of owners that are garbage-collected without `dispose`. */
-const forgotten = new FinalizationRegistry((instance) => instance.dispose());
-
-/** An object of the package that owns an instance, and with it all its memory. */
+/** An object of the package that owns an instance, and with it all its memory, which is collected with it. */
 export class Owner {
   constructor(instance) {
     Object.defineProperty(this, 'instance', { value: instance }); // for the classes of the package only
-    forgotten.register(this, instance, this);
   }
 
   get memoryBytes() {
@@ -273,7 +269,6 @@ export class Owner {
   }
 
   dispose() {
-    forgotten.unregister(this);
     this.instance.dispose();
   }
 }

@@ -273,6 +273,36 @@ test('memory stays flat over many queries, refused ones included', () => {
   assert.ok(grown <= 2 ** 20);
 });
 
+test('a refused refit takes no memory, and leaves what queries have needed', () => {
+  const mesh = grid(150, 150, (row, column) => [row, column, 0]);
+  const index = build(mesh);
+  const wrong = { nan: mesh.positions.slice().fill(NaN, 0, 1), short: mesh.positions.slice(3) };
+  const ask = () => index.closestPoint([3, 4, 5], { faces: mesh }).distance;
+  assert.equal(ask(), 5);
+  const before = index.memoryBytes;
+  for (let i = 0; i < 20; ++i) {
+    for (const positions of Object.values(wrong)) {
+      assert.throws(() => index.refitInPlace(positions), { code: 'InvalidMesh' });
+      assert.throws(() => index.refitInPlace(positions, { changed: Uint32Array.of(0) }), { code: 'InvalidMesh' });
+      assert.equal(ask(), 5);
+    }
+  }
+  console.log(`${index.memoryBytes - before} bytes more after refused refits`);
+  assert.ok(index.memoryBytes - before <= 2 ** 20);
+});
+
+test('forgotten indexes are collected, also while nothing else can run', () => {
+  const mesh = roll(10, 10);
+  const before = process.memoryUsage().external;
+  let most = 0;
+  for (let i = 0; i < 1000; ++i) {
+    build(mesh);
+    most = Math.max(most, process.memoryUsage().external - before);
+  }
+  console.log(`${most} bytes at most of 1000 forgotten indexes, each of ${build(mesh).memoryBytes}`);
+  assert.ok(most < 500 * build(mesh).memoryBytes);
+});
+
 test('a disposed index gives its memory back and refuses calls', () => {
   const index = build(families.roll);
   assert.ok(index.memoryBytes > 0);

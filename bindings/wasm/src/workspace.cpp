@@ -10,15 +10,19 @@
 namespace meshhood::wasm {
 
 void Workspace::refit(const PositionsView& positions, const std::optional<IndicesView>& changed) {
+  if (changed) {
+    index_->refit_in_place(positions, *changed);
+  } else {
+    index_->refit_in_place(positions);
+  }
+  // Only now: where arguments are refused, a call ends without destructors, and what it had taken would be lost.
   std::optional<Surface> surface = faces_ ? std::exchange(surface_, {}) : std::nullopt;
   const std::optional<Fingerprint> faces = faces_;
   forget_derived();
-  if (changed) {
-    index_->refit_in_place(positions, *changed);
-    if (surface) surface->refit_in_place(*index_, *changed);
-  } else {
-    index_->refit_in_place(positions);
-    if (surface) surface->refit_in_place(*index_);
+  if (surface && changed) {
+    surface->refit_in_place(*index_, *changed);
+  } else if (surface) {
+    surface->refit_in_place(*index_);
   }
   surface_ = std::move(surface);
   faces_ = faces;
