@@ -2,6 +2,8 @@
 // One instance of the WebAssembly module: its memory, its calls and its errors. Each mesh has an instance of its own,
 // because the memory of an instance never shrinks: it is given back as a whole.
 
+import { version } from './version.js';
+
 /** Names of the error codes, in the order of the enumeration `ErrorCode` in C++. */
 const CODES = [
   'VertexOutOfRange', 'InvalidRadius', 'InvalidOption', 'InvalidMesh', 'MalformedFile', 'UnsupportedFormat',
@@ -34,26 +36,54 @@ const NODE_FILES = 'node:fs/promises';
 /** The compiled module; a promise while it is being compiled. */
 let compiled = null;
 
-async function bytesOf(response) {
-  if (!response.ok) throw new Error(`${response.url}: ${response.status} ${response.statusText}`);
+/** The module has an export with this name and its version. */
+const MARK = 'meshhood ';
+
+/** `name` of a source is its address, for messages. */
+function checkModule(module, name) {
+  const marks = WebAssembly.Module.exports(module).map((part) => part.name).filter((part) => part.startsWith(MARK));
+  if (marks.includes(MARK + version)) return module;
+  throw new Error(`${name}: ${marks[0] ?? 'another module'}, expected the module of ${MARK}${version}`);
+}
+
+async function compileBytes(bytes, name) {
+  try {
+    return checkModule(await WebAssembly.compile(bytes), name);
+  } catch (error) {
+    if (!(error instanceof WebAssembly.CompileError)) throw error;
+    throw new WebAssembly.CompileError(`${name}: ${error.message}`, { cause: error });
+  }
+}
+
+async function bytesOf(response, name) {
+  if (!response.ok) throw new Error(`${name}: ${response.status} ${response.statusText}`);
   return response.arrayBuffer();
 }
 
 /** `address` is absolute, or relative to the page. Node reads files, which its `fetch` does not. */
 async function download(address) {
-  if (String(address).startsWith('file:') && typeof process !== 'undefined') {
+  if (address.startsWith('file:') && typeof process !== 'undefined') {
     const files = await import(/* @vite-ignore */ /* webpackIgnore: true */ NODE_FILES);
     return files.readFile(new URL(address));
   }
-  return bytesOf(await fetch(address));
+  const response = await fetch(address).catch((error) => {
+    throw new TypeError(`${address}: ${error.message}`, { cause: error });
+  });
+  return bytesOf(response, address);
 }
 
 async function compile(source) {
   const given = await source;
-  if (given instanceof WebAssembly.Module) return given;
-  if (given instanceof ArrayBuffer || ArrayBuffer.isView(given)) return WebAssembly.compile(given);
-  if (typeof Response !== 'undefined' && given instanceof Response) return WebAssembly.compile(await bytesOf(given));
-  if (typeof given === 'string' || given instanceof URL) return WebAssembly.compile(await download(given));
+  if (given instanceof WebAssembly.Module) return checkModule(given, 'source');
+  if (given instanceof ArrayBuffer || ArrayBuffer.isView(given)) return compileBytes(given, 'source');
+  if (typeof Response !== 'undefined' && given instanceof Response) {
+    const name = given.url || 'source';
+    return compileBytes(await bytesOf(given, name), name);
+  }
+  if (typeof given === 'string' || given instanceof URL) {
+    const address = String(given);
+    return compileBytes(await download(address), address);
+  }
   throw new TypeError(`source: ${String(given)}, expected an address, a Response, bytes or a WebAssembly.Module`);
 }
 
@@ -273,4 +303,5 @@ export class Owner {
   }
 }
 
-if (Symbol.dispose !== undefined) Owner.prototype[Symbol.dispose] = Owner.prototype.dispose;
+// Compilers of `using` take this symbol where there is no other.
+Owner.prototype[Symbol.dispose ?? Symbol.for('Symbol.dispose')] = Owner.prototype.dispose;

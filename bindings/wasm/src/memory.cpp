@@ -20,6 +20,9 @@ namespace {
 /// To be called once, before all others.
 [[clang::export_name("start")]] void start() { std::set_new_handler(refuse_memory); }
 
+/// Its name tells JavaScript, before an instance is made, that this is the module of the same version.
+[[clang::export_name("meshhood " MESHHOOD_VERSION_TEXT)]] void bear_version() {}
+
 [[clang::export_name("allocate")]] void* allocate(std::size_t bytes) {
   void* const memory = std::aligned_alloc(kIndexAlignment, (bytes / kIndexAlignment + 1) * kIndexAlignment);
   if (memory == nullptr) refuse_memory();
