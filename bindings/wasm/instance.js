@@ -119,6 +119,17 @@ function wasi(memory) {
   };
 }
 
+const outOfMemory = (cause) => new MeshhoodError('TooLarge', 'not enough memory', { cause });
+
+/** The result of `allocate`, which throws a RangeError where memory is out. */
+function withMemory(allocate) {
+  try {
+    return allocate();
+  } catch (error) {
+    throw error instanceof RangeError ? outOfMemory(error) : error;
+  }
+}
+
 /** Whether `error` is the end of an instance, and not the exception of a callback. */
 function isTrap(error) {
   return error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
@@ -140,7 +151,7 @@ export class Instance {
       imports[module] ??= {};
       imports[module][name] ??= handlers[name] ?? (() => NO_ENTRY);
     }
-    this.#exports = new WebAssembly.Instance(compiled, imports).exports;
+    this.#exports = withMemory(() => new WebAssembly.Instance(compiled, imports)).exports;
     this.#exports._initialize();
     this.#exports.start();
   }
@@ -167,11 +178,7 @@ export class Instance {
     if (this.#exports === null) throw new Error('meshhood: this object has been disposed');
     const copy = new Instance();
     const [from, to] = [this.#exports.memory, copy.#exports.memory];
-    try {
-      to.grow((from.buffer.byteLength - to.buffer.byteLength) / PAGE_BYTES);
-    } catch (error) {
-      throw new MeshhoodError('TooLarge', 'not enough memory', { cause: error });
-    }
+    withMemory(() => to.grow((from.buffer.byteLength - to.buffer.byteLength) / PAGE_BYTES));
     new Uint8Array(to.buffer).set(new Uint8Array(from.buffer));
     return copy;
   }
@@ -205,7 +212,7 @@ export class Instance {
     if (error === null && !isTrap(trap)) return trap; // of a value that is no number, before the module was entered
     if (!ARGUMENT_ERRORS.has(error?.code)) this.dispose();
     if (exception !== null) return exception.thrown;
-    return error ?? new MeshhoodError('TooLarge', 'not enough memory', { cause: trap });
+    return error ?? outOfMemory(trap);
   }
 
   /** As `call`; `progress` is called during it. */
@@ -249,7 +256,7 @@ export class Instance {
 
   /** A copy. */
   take(Type, address, count) {
-    return this.view(Type, address, count).slice();
+    return withMemory(() => this.view(Type, address, count).slice());
   }
 
   /** A copy of the array `name`, whose functions in the module return its address and its size. */

@@ -171,6 +171,21 @@ function testAll(calls, make) {
 testAll(MAKING, () => undefined);
 testAll(OF_INDEX, () => MeshIndex.load(file));
 
+test('an instance for which there are no addresses left is an error, too', () => {
+  const { Instance: limitedInstance } = WebAssembly;
+  const cause = new RangeError('WebAssembly.Instance(): Out of memory: Cannot allocate Wasm memory for new instance');
+  WebAssembly.Instance = function FullInstance() {
+    throw cause;
+  };
+  try {
+    for (const call of Object.values(MAKING)) {
+      assert.throws(call, { name: 'MeshhoodError', code: 'TooLarge', message: 'not enough memory', cause });
+    }
+  } finally {
+    WebAssembly.Instance = limitedInstance;
+  }
+});
+
 test('no call is left out', () => {
   const methods = (type) => Object.getOwnPropertyNames(type.prototype).filter((name) => name !== 'constructor');
   assert.deepEqual(Object.keys(OF_INDEX), methods(MeshIndex).filter((name) => name !== 'vertexCount'));
