@@ -10,14 +10,20 @@ function refuseOption(name, known) {
   throw new TypeError(`unknown option '${name}', ${hint}`);
 }
 
+const TYPED_ARRAY = Object.getPrototypeOf(Uint8Array);
+
+/** Whether `value` passes for a typed array, of which it has no memory. */
+const isImitation = (value) => value instanceof TYPED_ARRAY && !ArrayBuffer.isView(value);
+
 /** In a message: an object by its type, for an array may have millions of numbers. */
 function shown(value) {
   if (typeof value === 'string') return `'${value}'`;
   if (typeof value === 'bigint') return `${value}n`;
-  return typeof value === 'object' && value !== null ? value.constructor?.name ?? 'object' : String(value);
+  if (typeof value !== 'object' || value === null) return String(value);
+  return isImitation(value) ? 'Proxy' : value.constructor?.name ?? 'object';
 }
 
-function refuseType(value, name, expected) {
+export function refuseType(value, name, expected) {
   throw new TypeError(`${name}: ${shown(value)}, expected ${expected}`);
 }
 
@@ -56,14 +62,62 @@ export function chooseSome(choices, values, name) {
   return Uint8Array.from(list, (value) => choose(choices, value, name));
 }
 
-export function expectType(value, types, name) {
-  if (types.some((type) => value instanceof type)) return;
-  refuseType(value, name, types.map((type) => type.name).join(' or '));
+/** The getter of a property, as no object can replace it. */
+const getter = (prototype, property) => Object.getOwnPropertyDescriptor(prototype, property).get;
+
+const [typeOf, bufferOf, offsetOf, lengthOf] = [Symbol.toStringTag, 'buffer', 'byteOffset', 'length'].map(
+  (property) => getter(TYPED_ARRAY.prototype, property));
+const bytesOfBuffer = getter(ArrayBuffer.prototype, 'byteLength'); // throws if it is called for anything else
+
+/** A typed array on this memory. */
+function viewOf(Type, buffer, offset, length, name) {
+  try {
+    return new Type(buffer, offset, length);
+  } catch (error) {
+    throw new TypeError(`${name}: a detached ${Type.name}, expected one with its memory`, { cause: error });
+  }
 }
 
+/**
+ * The numbers of a typed array, without a copy, as one whose type and length are true: those that a subclass or a Proxy
+ * tells may not be. It may be of another realm, as of an iframe, which has types of its own with the same names.
+ */
+function plainArray(value, name, expected, isExpected) {
+  const type = typeOf.call(value);
+  if (type === undefined || !isExpected(type)) refuseType(value, name, expected);
+  return viewOf(globalThis[type], bufferOf.call(value), offsetOf.call(value), lengthOf.call(value), name);
+}
+
+export function expectType(value, types, name) {
+  const names = types.map((type) => type.name);
+  return plainArray(value, name, names.join(' or '), (type) => names.includes(type));
+}
+
+function isBuffer(value) {
+  try {
+    bytesOfBuffer.call(value);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+/** The bytes of a buffer or of a view of one. */
 export function expectBytes(value, name) {
-  if (value instanceof ArrayBuffer || ArrayBuffer.isView(value)) return;
-  refuseType(value, name, 'an ArrayBuffer or a typed array');
+  if (ArrayBuffer.isView(value)) return viewOf(Uint8Array, value.buffer, value.byteOffset, value.byteLength, name);
+  if (isBuffer(value)) return viewOf(Uint8Array, value, 0, undefined, name);
+  return refuseType(value, name, 'an ArrayBuffer or a typed array');
+}
+
+/** One number for each vertex. The module would take an array of length 0 as none. */
+export function expectForVertices(values, name, count) {
+  if (values.length === count) return values;
+  throw new MeshhoodError('InvalidOption',
+    `${name}: ${values.length} values, expected one for each of ${count} vertices`);
+}
+
+export function expectString(value, name) {
+  if (typeof value !== 'string') refuseType(value, name, 'a string');
 }
 
 /** `count` is that of the mesh. */
@@ -74,7 +128,7 @@ export function expectVertex(v, count) {
 }
 
 export function expectVertices(vertices, name) {
-  if (vertices !== null) expectType(vertices, [Uint32Array], name);
+  return vertices === null ? null : expectType(vertices, [Uint32Array], name);
 }
 
 export function expectNumber(value, name) {
@@ -89,18 +143,15 @@ export function expectSize(value, name, most = 2 ** 32 - 1) {
 
 /** Three numbers. A typed array of integers would be a list of vertices. */
 export function expectPoint(point, name) {
-  const isList = Array.isArray(point) || point instanceof Float64Array || point instanceof Float32Array;
+  const isList = Array.isArray(point) || ['Float64Array', 'Float32Array'].includes(typeOf.call(point));
   if (!isList || point.length !== 3) throw new TypeError(`${name}: expected a vertex or three numbers`);
   for (const coordinate of point) expectNumber(coordinate, `${name}: coordinate`);
 }
 
 /** Any typed array of numbers, as one of 64 bits. */
-export function toReals(values, name) {
-  if (values instanceof Float64Array) return values;
-  if (ArrayBuffer.isView(values) && typeof (values[0] ?? 0) === 'number' && !(values instanceof DataView)) {
-    return Float64Array.from(values);
-  }
-  throw new TypeError(`${name}: expected a typed array of numbers`);
+export function toReals(values, name, expected = 'a typed array of numbers') {
+  const numbers = plainArray(values, name, expected, (type) => !type.startsWith('Big'));
+  return numbers instanceof Float64Array ? numbers : Float64Array.from(numbers);
 }
 
 const INDICES = [Uint32Array, Int32Array, Uint16Array];
@@ -110,15 +161,22 @@ function widened(indices) {
   return indices instanceof Uint16Array ? Uint32Array.from(indices) : indices;
 }
 
+/** Null for triangles. The module would take an array of length 0 as null. */
+function readOffsets(given) {
+  if (given === null) return null;
+  const offsets = expectType(given, INDICES, 'offsets');
+  if (offsets.length > 0) return offsets;
+  throw new MeshhoodError('InvalidMesh', 'offsets: no values, expected one for each face and one more');
+}
+
 /** Calls `use` while these faces are those of a call; null are those that the index holds. */
 export function withFaces(instance, faces, use) {
   if (faces === null) {
     if (instance.call('take_held_faces')) return use();
     throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which this index does not have');
   }
-  const { corners, offsets = null } = faces;
-  expectType(corners, INDICES, 'corners');
-  if (offsets !== null) expectType(offsets, INDICES, 'offsets');
+  const corners = expectType(faces.corners, INDICES, 'corners');
+  const offsets = readOffsets(faces.offsets ?? null);
   return instance.with([widened(corners), widened(offsets)], (ids, begins) => {
     instance.call('take_faces', ids, corners.length, corners instanceof Int32Array, begins, offsets?.length ?? 0,
       offsets instanceof Int32Array);
@@ -127,8 +185,8 @@ export function withFaces(instance, faces, use) {
 }
 
 /** The same for positions. */
-export function withPositions(instance, positions, use) {
-  expectType(positions, [Float32Array, Float64Array], 'positions');
+export function withPositions(instance, given, use) {
+  const positions = expectType(given, [Float32Array, Float64Array], 'positions');
   return instance.with([positions], (xyz) => {
     instance.call('take_positions', xyz, positions.length, positions instanceof Float64Array);
     return use();

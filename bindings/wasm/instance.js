@@ -236,11 +236,9 @@ export class Instance {
     }
   }
 
-  /** Copies a typed array or an ArrayBuffer. Returns the address. */
+  /** Copies a typed array. Returns the address. */
   #place(array) {
-    const bytes = ArrayBuffer.isView(array)
-      ? new Uint8Array(array.buffer, array.byteOffset, array.byteLength)
-      : new Uint8Array(array);
+    const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
     if (bytes.byteLength > MOST_BYTES) {
       throw new MeshhoodError('TooLarge', `${bytes.byteLength} bytes, but WebAssembly addresses 4 GiB`);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import {
-  PROGRESS, choose, chooseSome, expectBytes, expectNumber, expectPoint, expectSize, expectType, expectVertex,
-  expectVertices, toReals, withDefaults, withFaces, withMesh, withPositions,
+  PROGRESS, choose, chooseSome, expectBytes, expectForVertices, expectNumber, expectPoint, expectSize, expectType,
+  expectVertex, expectVertices, toReals, withDefaults, withFaces, withMesh, withPositions,
 } from './arguments.js';
 import { Curvature } from './curvature.js';
 import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
@@ -54,16 +54,16 @@ function chooseMethod({ method, metric }) {
   return place;
 }
 
-/** The coordinates of points of faces; null if vertices are asked for. */
-function readPoints({ vertices, points, face }) {
-  expectVertices(vertices, 'vertices');
-  expectVertices(face, 'face');
-  if ((points === null) !== (face === null) || (points !== null && vertices !== null)) {
+/** Points of faces: their coordinates and faces; or vertices. What is not asked for is null. */
+function readPoints(given) {
+  const vertices = expectVertices(given.vertices, 'vertices');
+  const face = expectVertices(given.face, 'face');
+  if ((given.points === null) !== (face === null) || (given.points !== null && vertices !== null)) {
     throw new MeshhoodError('InvalidOption', 'points: expected points and the face of each, or vertices');
   }
-  if (points === null) return null;
-  const coordinates = toReals(points, 'points');
-  if (coordinates.length === 3 * face.length) return coordinates;
+  if (face === null) return { coordinates: null, face, vertices };
+  const coordinates = toReals(given.points, 'points');
+  if (coordinates.length === 3 * face.length) return { coordinates, face, vertices };
   throw new MeshhoodError('InvalidOption',
     `points: ${coordinates.length} coordinates, expected three for each of ${face.length} faces`);
 }
@@ -84,16 +84,15 @@ function chooseMethodFrom(start, given) {
 
 function build(positions, corners, options = {}) {
   const { offsets, cut, progress } = withDefaults(options, BUILDING);
-  expectVertices(cut, 'cut');
+  const edges = expectVertices(cut, 'cut');
   return makeInstance((instance) =>
-    withMesh(instance, positions, { corners, offsets }, () => instance.with([cut], (ends) =>
-      instance.callWithProgress(progress, 'build', ends, cut?.length ?? 0))));
+    withMesh(instance, positions, { corners, offsets }, () => instance.with([edges], (ends) =>
+      instance.callWithProgress(progress, 'build', ends, edges?.length ?? 0))));
 }
 
 /** Moves the vertices of the index in `instance`. */
 function move(instance, positions, options = {}) {
-  const { changed } = withDefaults(options, { changed: null });
-  expectVertices(changed, 'changed');
+  const changed = expectVertices(withDefaults(options, { changed: null }).changed, 'changed');
   withPositions(instance, positions, () => instance.with([changed], (list) =>
     instance.call('refit', list, changed?.length ?? 0)));
 }
@@ -110,9 +109,9 @@ export class MeshIndex extends Owner {
 
   static load(bytes, options = {}) {
     const { progress } = withDefaults(options, PROGRESS);
-    expectBytes(bytes, 'bytes');
+    const content = expectBytes(bytes, 'bytes');
     return new MeshIndex(makeInstance((instance) =>
-      instance.with([bytes], (file) => instance.callWithProgress(progress, 'load', file, bytes.byteLength))));
+      instance.with([content], (file) => instance.callWithProgress(progress, 'load', file, content.length))));
   }
 
   save() {
@@ -295,13 +294,12 @@ export class MeshIndex extends Owner {
 
   /** Calls `use` while the start and the masks are in the memory of the module, and returns its result. */
   #search(start, given, use) {
-    const { seeds } = given;
+    const seeds = expectVertices(given.seeds, 'seeds');
     if (isVertex(start)) expectVertex(start, this.#vertexCount);
     else expectPoint(start, 'start');
     if (seeds !== null && isVertex(start)) {
       throw new MeshhoodError('InvalidOption', 'seeds: expected null, for the start is a vertex');
     }
-    expectVertices(seeds, 'seeds');
     return withMasks(this.instance, given, () => this.instance.with([seeds], (seedList) => {
       if (isVertex(start)) this.instance.call('start_at_vertex', start);
       else this.instance.call('start_at_point', ...start, seedList, seeds?.length ?? 0);
@@ -378,12 +376,12 @@ export class MeshIndex extends Owner {
   #askSurface(name, r, given) {
     const points = readPoints(given);
     useFaces(this.instance, given.faces);
-    return this.#askRows(r, given, () => this.#callOnPoints(name, given.face, points));
+    return this.#askRows(r, given, () => this.#callOnPoints(name, points));
   }
 
   /** Calls the function of this name for points of faces, or with null for vertices. */
-  #callOnPoints(name, face, points, ...more) {
-    return this.instance.with([face, points], (faces, list) =>
+  #callOnPoints(name, { coordinates, face }, ...more) {
+    return this.instance.with([face, coordinates], (faces, list) =>
       this.instance.call(name, faces, face?.length ?? 0, list, ...more));
   }
 
@@ -475,9 +473,9 @@ export class MeshIndex extends Owner {
   }
 
   #callOnRegion(name, ids, faces, ...values) {
-    expectType(ids, [Uint32Array], 'ids');
+    const region = expectType(ids, [Uint32Array], 'ids');
     useFaces(this.instance, faces);
-    return this.instance.with([ids], (list) => this.instance.call(name, list, ids.length, ...values));
+    return this.instance.with([region], (list) => this.instance.call(name, list, region.length, ...values));
   }
 
   // Values and shape.
@@ -486,7 +484,7 @@ export class MeshIndex extends Owner {
     const given = withDefaults(options, AGGREGATION);
     const { reduce, weights, kernel, nan, nesting, ddof, q, faces } = given;
     const signal = toReals(values, 'values');
-    const channels = Math.max(1, Math.floor(signal.length / this.vertexCount) || 0);
+    const channels = this.vertexCount === 0 ? 1 : Math.max(1, Math.floor(signal.length / this.vertexCount));
     const reductions = chooseSome(REDUCTIONS, reduce, 'reduce');
     const choices = [
       choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'), choose(NESTINGS, nesting, 'nesting'),
@@ -509,7 +507,9 @@ export class MeshIndex extends Owner {
 
   #weights(weights, faces) {
     if (weights === null) return null;
-    if (typeof weights !== 'string') return toReals(weights, 'weights');
+    if (typeof weights !== 'string') {
+      return expectForVertices(toReals(weights, 'weights'), 'weights', this.#vertexCount);
+    }
     choose(['area'], weights, 'weights');
     withFaces(this.instance, faces, () => this.instance.call('areas'));
     return this.instance.takeReals();
@@ -538,12 +538,11 @@ export class MeshIndex extends Owner {
 
   thickness(options = {}) {
     const given = withDefaults(options, THICKNESS);
-    const { vertices, face, method, faces } = given;
-    const place = choose(THICKNESSES, method, 'method');
+    const place = choose(THICKNESSES, given.method, 'method');
     const points = readPoints(given);
-    useFaces(this.instance, faces);
-    this.instance.with([vertices], (ids) =>
-      this.#callOnPoints('thickness', face, points, ids, vertices?.length ?? 0, place));
+    useFaces(this.instance, given.faces);
+    this.instance.with([points.vertices], (ids) =>
+      this.#callOnPoints('thickness', points, ids, points.vertices?.length ?? 0, place));
     return this.instance.takeAnswer().reals;
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The words of every call on many vertices: which rows, their radii, and what the searches may pass.
-import { choose, expectType, expectVertices, toReals, withFaces } from './arguments.js';
+import { choose, expectForVertices, expectType, expectVertices, refuseType, toReals, withFaces } from './arguments.js';
 import { MeshhoodError } from './instance.js';
 
 // Options with their defaults.
@@ -17,26 +17,37 @@ export function useFaces(instance, faces) {
   withFaces(instance, faces, () => instance.call('use_faces'));
 }
 
-/** `r` is a radius, or one for each row; or null, with `scales` for all rows. `unit` is a factor. */
+const isMissing = (value) => value === null || value === undefined;
+
+/**
+ * `r` is a radius, or one for each row; or null, with `scales` for all rows. A call that takes no scales has undefined.
+ * `unit` is a factor.
+ */
 function readRadius(r, scales, unit) {
-  if ((r === null || r === undefined) === (scales === null)) {
-    throw new TypeError('r: expected a radius, or one for each row; or null, and several radii for all rows as scales');
+  const areScales = !isMissing(scales);
+  if (areScales && !isMissing(r)) refuseType(r, 'r', 'null with scales');
+  if (scales === null && isMissing(r)) {
+    refuseType(r, 'r', 'a radius, or one for each row; or null, and several radii for all rows as scales');
   }
-  if (typeof r === 'number') return { common: unit * r, list: null };
-  const list = scales === null ? toReals(r, 'r') : toReals(scales, 'scales');
-  return { common: 0, list: list.map((radius) => unit * radius) };
+  if (typeof r === 'number') return { common: unit * r, list: null, areScales };
+  const list = areScales ? toReals(scales, 'scales') : toReals(r, 'r', 'a number or a typed array of numbers');
+  return { common: 0, list: list.map((radius) => unit * radius), areScales };
+}
+
+function readMask(instance, mask, name) {
+  if (isMissing(mask)) return null;
+  return expectForVertices(expectType(mask, [Uint8Array], name), name, instance.call('vertex_count') >>> 0);
 }
 
 /** Calls `use` when the module searches by the metric and with the masks. */
 export function withMasks(instance, given, use) {
-  const { walls = null, ignored = null, metric = 'straight', faces = null, unit = 'mesh' } = given;
+  const { metric = 'straight', faces = null, unit = 'mesh' } = given;
   const place = choose(METRICS, metric, 'metric');
   if (metric === 'rings' && unit === 'edge') {
     throw new MeshhoodError('InvalidOption', "unit: 'edge', but with metric 'rings' the radius is a number of edges");
   }
-  for (const [mask, name] of [[walls, 'walls'], [ignored, 'ignored']]) {
-    if (mask !== null) expectType(mask, [Uint8Array], name);
-  }
+  const walls = readMask(instance, given.walls, 'walls');
+  const ignored = readMask(instance, given.ignored, 'ignored');
   if (metric === 'surface') useFaces(instance, faces);
   return instance.with([walls, ignored], (wallMask, ignoredMask) => {
     instance.call('search_by', place, wallMask, walls?.length ?? 0, ignoredMask, ignored?.length ?? 0);
@@ -46,11 +57,10 @@ export function withMasks(instance, given, use) {
 
 /** The same for rows, which are then those of the call. `scale` is that of the unit. */
 export function withRows(instance, r, given, scale, use) {
-  const { vertices, scales = null } = given;
-  expectVertices(vertices, 'vertices');
-  const { common, list } = readRadius(r, scales, scale);
+  const vertices = expectVertices(given.vertices, 'vertices');
+  const { common, list, areScales } = readRadius(r, given.scales, scale);
   return withMasks(instance, given, () => instance.with([vertices, list], (ids, radii) => {
-    instance.call('use_rows', ids, vertices?.length ?? 0, common, radii, list?.length ?? 0, scales !== null);
+    instance.call('use_rows', ids, vertices?.length ?? 0, common, radii, list?.length ?? 0, areScales);
     return use();
   }));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { expectNumber, withDefaults, withMesh } from './arguments.js';
 import { Instance } from './instance.js';
+import { takePositions } from './mesh_file.js';
 
 export function weld(positions, corners, options = {}) {
   const { offsets, eps } = withDefaults(options, { offsets: null, eps: 0 });
@@ -9,7 +10,7 @@ export function weld(positions, corners, options = {}) {
   try {
     withMesh(instance, positions, { corners, offsets }, () => instance.call('weld', eps));
     return {
-      positions: instance.takeArray(positions.constructor, 'mesh_positions'),
+      positions: takePositions(instance),
       corners: instance.takeCounts(),
       offsets: offsets === null ? null : Uint32Array.from(offsets),
       ids: instance.takeIds(),

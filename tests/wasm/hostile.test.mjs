@@ -3,6 +3,7 @@
 // count that is small modulo 2^32 is the one that a size of 32 bits would let through.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { runInNewContext } from 'node:vm';
 
 import { plates } from './meshes.mjs';
 import { build, library, wordsOfCommandLine } from './setup.mjs';
@@ -94,6 +95,59 @@ test('an array of more bytes than the module can address is refused as too large
   }
 });
 
+test('arrays are what they are, and not what they say', () => {
+  const mesh = plates(6);
+  const index = build(mesh);
+  const vertices = Uint32Array.of(0, 30, 5);
+  const right = index.counts(2, { vertices });
+  class Longer extends Uint32Array {
+    get length() {
+      return 1000;
+    }
+  }
+  class Renamed extends Uint32Array {
+    get [Symbol.toStringTag]() {
+      return 'Float64Array';
+    }
+  }
+  for (const Type of [Longer, Renamed]) assert.deepEqual(index.counts(2, { vertices: Type.from(vertices) }), right);
+  const imitations = [
+    new Proxy(vertices, {}), new Proxy(vertices, { get: (array, name) => array[name] }), Object.create(vertices)];
+  for (const imitation of imitations) {
+    const refused = (name, expected) => ({ name: 'TypeError', message: `${name}: Proxy, expected ${expected}` });
+    assert.throws(() => index.counts(2, { vertices: imitation }), refused('vertices', 'Uint32Array'));
+    assert.throws(() => index.counts(imitation), refused('r', 'a number or a typed array of numbers'));
+    assert.throws(() => readMesh(imitation, 'a.ply'), refused('bytes', 'an ArrayBuffer or a typed array'));
+  }
+});
+
+test('arrays of another realm, as of an iframe, are arrays', () => {
+  const mesh = plates(6);
+  const there = (array) => runInNewContext(`${array.constructor.name}.from(numbers)`, { numbers: [...array] });
+  const positions = there(mesh.positions);
+  assert.ok(!(positions instanceof Float64Array));
+  const index = new MeshIndex(positions, there(mesh.corners));
+  assert.deepEqual(index.save(), build(mesh).save());
+  assert.deepEqual(MeshIndex.load(there(index.save()).buffer).save(), index.save());
+  const point = Float64Array.of(1, 2, 0);
+  assert.deepEqual(index.neighborhood(there(point), 2), index.neighborhood(point, 2));
+  const [vertices, walls] = [Uint32Array.of(1, 8), new Uint8Array(72).fill(1, 40)];
+  assert.deepEqual(index.counts(2, { vertices: there(vertices), walls: there(walls) }), index.counts(2, { vertices, walls }));
+});
+
+test('arrays whose memory has been sent elsewhere are refused by name', () => {
+  const mesh = plates(6);
+  const index = build(mesh);
+  const sent = (array) => (structuredClone(array, { transfer: [array.buffer] }), array);
+  const refused = (name, type) => ({ name: 'TypeError', message: `${name}: a detached ${type}, expected one with its memory` });
+  assert.throws(() => new MeshIndex(sent(mesh.positions.slice()), mesh.corners), refused('positions', 'Float64Array'));
+  assert.throws(() => index.counts(1, { walls: sent(new Uint8Array(72)) }), refused('walls', 'Uint8Array'));
+  assert.throws(() => index.aggregate(sent(new Float32Array(72)), 1), refused('values', 'Float32Array'));
+  for (const bytes of [sent(new Uint8Array(9)), sent(new Uint8Array(9)).buffer]) {
+    assert.throws(() => readMesh(bytes, 'a.ply'), refused('bytes', 'Uint8Array'));
+  }
+});
+
 test('numbers beyond 32 bits are not taken modulo 2^32', () => {
   const mesh = plates(6);
   const index = build(mesh);
@@ -150,7 +204,9 @@ test('the mesh without vertices answers nothing, and refuses the rest', () => {
   assert.equal(index.vertexCount, 0);
   assert.deepEqual(index.counts(1), new Uint32Array());
   assert.deepEqual(index.aggregate(new Float64Array(), 1), new Float64Array());
-  assert.throws(() => index.aggregate(new Float64Array(5), 1), { code: 'InvalidOption' });
+  assert.throws(() => index.aggregate(new Float64Array(5), 1), { code: 'InvalidOption', message: '5 values, expected 1 for each of 0 vertices' });
+  const masks = { walls: new Uint8Array(), ignored: new Uint8Array() };
+  assert.deepEqual(index.aggregate(new Float64Array(), 1, { weights: new Float64Array(), ...masks }), new Float64Array());
   assert.throws(() => index.neighborhood(0, 1), { code: 'VertexOutOfRange' });
   assert.throws(() => index.nearest([0, 0, 0]), { code: 'VertexOutOfRange' });
   assert.equal(index.counts(1).length, 0);

@@ -138,6 +138,13 @@ test('polygons, precision and warnings of a file', () => {
   assert.throws(() => readMesh(more, 'p.ply', { strict: true }), { code: 'MalformedFile' });
 });
 
+test('a mesh is read only with a name', () => {
+  const bytes = toPly(polygons(50, 20));
+  for (const [name, found] of [[undefined, 'undefined'], [{ precision: 'float' }, 'Object'], [42, '42'], [null, 'null']]) {
+    assert.throws(() => readMesh(bytes, name), { name: 'TypeError', message: `name: ${found}, expected a string` });
+  }
+});
+
 test('every damaged index file is refused, with the place of the damage', () => {
   const bytes = golden('float.mhi');
   const next = random(3);

@@ -420,12 +420,28 @@ test('the thickness of a folded sheet is that between its halves', () => {
 
 test('words that contradict each other are refused', () => {
   const scales = Float64Array.of(1, 2);
-  assert.throws(() => index.counts(1, { scales }), { name: 'TypeError', message: /^r: expected a radius/ });
-  assert.throws(() => index.counts(null), { name: 'TypeError', message: /^r: expected a radius/ });
+  const refuse = (call, message) => assert.throws(call, { name: 'TypeError', message });
+  refuse(() => index.counts(1, { scales }), 'r: 1, expected null with scales');
+  refuse(() => index.counts(null), 'r: null, expected a radius, or one for each row; or null, and several radii for all rows as scales');
+  for (const [r, found] of [['1.5', "'1.5'"], [1n, '1n'], [[1, 2], 'Array'], [undefined, 'undefined'], [null, 'null']]) {
+    refuse(() => index.neighborhoods(r), `r: ${found}, expected a number or a typed array of numbers`);
+  }
+  refuse(() => index.aggregate([1], 1), 'values: Array, expected a typed array of numbers');
+  refuse(() => index.aggregate(new BigInt64Array(), 1), 'values: BigInt64Array, expected a typed array of numbers');
   assert.throws(() => index.neighborhoods(null, { scales }), { name: 'TypeError', message: /^unknown option 'scales'/ });
   assert.throws(() => index.counts(Float64Array.of(1, 2)), { code: 'InvalidRadius' });
   assert.throws(() => index.counts(1, { walls: new Uint8Array(3) }), { code: 'InvalidOption' });
   assert.throws(() => index.counts(1, { walls: [1] }), TypeError);
+  const none = `0 values, expected one for each of ${count} vertices`; // and not all vertices
+  const heights = new Float64Array(count);
+  for (const name of ['walls', 'ignored']) {
+    for (const call of [(o) => index.counts(1, o), (o) => index.count(5, 1, o), (o) => index.aggregate(heights, 1, o)]) {
+      assert.throws(() => call({ [name]: new Uint8Array() }), { code: 'InvalidOption', message: `${name}: ${none}` });
+    }
+  }
+  for (const call of [(o) => index.aggregate(heights, 1, o), (o) => index.smooth(heights, 1, o), (o) => index.discs(1, o)]) {
+    assert.throws(() => call({ weights: new Float64Array() }), { code: 'InvalidOption', message: `weights: ${none}` });
+  }
   assert.throws(() => index.counts(1, { walls, method: 'bfs' }), { code: 'InvalidOption' });
   assert.throws(() => index.counts(1, { metric: 'rings', unit: 'edge' }), { code: 'InvalidOption', message: /^unit/ });
   assert.throws(() => index.neighborhood(5, 1, { sort: true }), { code: 'InvalidOption', message: /^sort: true/ });

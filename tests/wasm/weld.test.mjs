@@ -42,6 +42,18 @@ test('polygons keep their offsets', () => {
   assert.deepEqual(weld(positions, Uint16Array.of(0, 2, 0, 1, 2, 3), { offsets, eps: 1 }).ids, new Uint32Array(4));
 });
 
+test('positions of a subclass give positions of its type', () => {
+  class Points extends Float32Array {
+    constructor(count) {
+      super(typeof count === 'number' ? 3 * count : count);
+    }
+  }
+  const positions = new Points(3);
+  positions.set([1, 0, 0, 0, 1, 0], 3);
+  const welded = weld(positions, Uint32Array.of(0, 1, 2));
+  assert.deepEqual(welded.positions, Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0));
+});
+
 test('wrong arguments are refused', () => {
   const positions = Float64Array.of(0, 0, 0);
   for (const eps of [-1, NaN, Infinity]) {
@@ -51,6 +63,10 @@ test('wrong arguments are refused', () => {
   assert.throws(() => weld(positions, Uint32Array.of(0, 1, 2)),
     (error) => error instanceof MeshhoodError && error.code === 'InvalidMesh' && /face 0/.test(error.message));
   assert.throws(() => weld(positions, new Uint32Array(), { epsilon: 1 }), /did you mean 'eps'|expected one of/);
+  for (const corners of [new Uint32Array(), Uint32Array.of(0, 0, 0)]) {
+    assert.throws(() => weld(positions, corners, { offsets: new Uint32Array() }),
+      { code: 'InvalidMesh', message: 'offsets: no values, expected one for each face and one more' });
+  }
   assert.throws(() => weld([0, 0, 0], new Uint32Array()), TypeError);
   assert.throws(() => weld(positions, new Uint32Array(), { eps: '1' }), TypeError);
 });
