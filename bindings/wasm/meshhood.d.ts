@@ -36,6 +36,7 @@ export type ErrorCode =
  * TypeError instead.
  */
 export class MeshhoodError extends Error {
+  constructor(code: ErrorCode, message?: string, options?: { cause?: unknown });
   readonly code: ErrorCode;
 }
 
@@ -44,7 +45,7 @@ export class MeshhoodError extends Error {
  *
  * @param source `meshhood.wasm`: its address, as bundlers give it, the response to a request for it, or its bytes; or the
  * compiled module; or a promise of one of these. An address may be relative to the page. By default the file beside this
- * module is read.
+ * module is read. It must be of the version of the package. If it is refused, `initialize` may be called again.
  */
 export function initialize(source?: WasmSource | Promise<WasmSource>): Promise<void>;
 
@@ -61,8 +62,29 @@ declare global {
   }
 }
 
-/** Called during long calls, at most twenty times a second. Return false to end the call with the error `Cancelled`. */
+/**
+ * Called during long calls: with 0 at the beginning, with `total` at the end, and when some of the work is done. Return
+ * false to end the call with the error `Cancelled`.
+ */
 export type Progress = (done: number, total: number) => boolean | void;
+
+/**
+ * This type of array, of memory that is not shared, as all results are. TypeScript has told the two apart since version
+ * 5.7; a `Blob` takes no shared memory.
+ */
+export type Unshared<Type extends { slice(): unknown }> = ReturnType<Type['slice']>;
+
+/** Numbers of other types than double are copied into double. */
+export type Numbers =
+  | Float64Array
+  | Float32Array
+  | Uint32Array
+  | Int32Array
+  | Uint16Array
+  | Int16Array
+  | Uint8Array
+  | Uint8ClampedArray
+  | Int8Array;
 
 /** Indices of 16 bits are copied into 32. */
 export type Indices = Uint32Array | Int32Array | Uint16Array;
@@ -79,10 +101,10 @@ export interface Faces {
 export interface SurfacePoint {
   face: number;
   /** Of its triangle, in the order of `barycentric`. */
-  vertices: Uint32Array;
+  vertices: Unshared<Uint32Array>;
   /** Its coordinates there: >= 0, with the sum 1. */
-  barycentric: Float64Array;
-  point: Float64Array;
+  barycentric: Unshared<Float64Array>;
+  point: Unshared<Float64Array>;
   /** From the point that was asked for, or the origin of the ray. */
   distance: number;
 }
@@ -91,15 +113,15 @@ export interface SurfacePoint {
 export interface Mesh {
   format: 'ply' | 'obj' | 'off' | 'stl' | 'vtk' | 'freesurfer';
   /** #V by 3, row by row. */
-  positions: Float32Array | Float64Array;
+  positions: Unshared<Float32Array | Float64Array>;
   /** See `Faces`. */
-  corners: Uint32Array;
-  offsets: Uint32Array | null;
+  corners: Unshared<Uint32Array>;
+  offsets: Unshared<Uint32Array> | null;
   /**
    * #V, or null: 1 for each vertex that is NaN in the file and in no face, as scanners mark holes, to be passed as
    * `walls`. `positions` has it where another vertex is.
    */
-  walls: Uint8Array | null;
+  walls: Unshared<Uint8Array> | null;
   /** Deviations from the format that were accepted, and whether float is coarse for the mesh; one sentence each. */
   warnings: string[];
 }
@@ -137,12 +159,12 @@ export interface WeldOptions {
 /** A welded mesh, and what has become of each vertex. */
 export interface WeldedMesh {
   /** Of the kept vertices, in their order; of the type given. */
-  positions: Float32Array | Float64Array;
+  positions: Unshared<Float32Array | Float64Array>;
   /** Of all faces, in their order; a face whose corners were welded with each other repeats a vertex. */
-  corners: Uint32Array;
-  offsets: Uint32Array | null;
+  corners: Unshared<Uint32Array>;
+  offsets: Unshared<Uint32Array> | null;
   /** For each vertex of the mesh given, its id in this one: #V. */
-  ids: Uint32Array;
+  ids: Unshared<Uint32Array>;
 }
 
 /**
@@ -203,7 +225,7 @@ export interface Masks {
 
 /** Several radii, each for all rows, in any order. The argument `r` is then null, and the result has an axis for them. */
 export interface Scales {
-  scales?: Float64Array | Float32Array | null;
+  scales?: Numbers | null;
 }
 
 /**
@@ -220,8 +242,19 @@ export interface AnswerOptions extends QueryOptions {
 
 /** Many neighborhoods: row i is `ids[offsets[i]]` to `ids[offsets[i + 1] - 1]`, and the distances likewise. */
 export interface Rows {
-  offsets: Uint32Array;
-  ids: Uint32Array;
+  offsets: Unshared<Uint32Array>;
+  ids: Unshared<Uint32Array>;
+}
+
+/** The same for calls that return distances. */
+export interface RowsWithDistances extends Rows {
+  distances: Unshared<Float64Array>;
+}
+
+/** Vertices, and the distance of each. */
+export interface IdsWithDistances {
+  ids: Unshared<Uint32Array>;
+  distances: Unshared<Float64Array>;
 }
 
 /** A vertex, or a point in space, which is then the center of the ball. */
@@ -249,12 +282,12 @@ export interface RowOptions extends Masks, MetricOptions {
 }
 
 /** A radius, or one for each row. */
-export type Radii = number | Float64Array | Float32Array;
+export type Radii = number | Numbers;
 
 /** The neighborhoods of several radii, each vertex once: that of radius i is `ids[0]` to `ids[counts[i] - 1]`. */
 export interface Nested {
-  counts: Uint32Array;
-  ids: Uint32Array;
+  counts: Unshared<Uint32Array>;
+  ids: Unshared<Uint32Array>;
 }
 
 export type Reduction = 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count' | 'median' | 'quantile';
@@ -266,7 +299,7 @@ export interface AggregateOptions extends RowOptions, Scales {
    * #V numbers >= 0, for `sum`, `mean`, `var` and `std`; `area` is the area that each vertex represents, which needs
    * `faces`. A vertex of weight 0 is left out.
    */
-  weights?: Float64Array | Float32Array | 'area' | null;
+  weights?: Numbers | 'area' | null;
   /**
    * For `sum` and `mean`, how the weight falls with the distance d: not at all, as 1 - (d/r)^2, as (1 - (d/r)^2)^2, or
    * as 1000^-(d/r)^2, a Gaussian of the full width at half maximum r / 1.57843.
@@ -296,7 +329,7 @@ export interface NearestOptions extends RowOptions {
 
 export interface DiscOptions extends NearestOptions {
   /** #V numbers >= 0, whose sum is compared with the area; `area`, the default, needs `faces`. */
-  weights?: Float64Array | Float32Array | 'area';
+  weights?: Numbers | 'area';
 }
 
 /** Principal curvatures, one entry for each row; #scales by #rows if there are scales, here meant by #rows. */
@@ -322,16 +355,16 @@ export class Curvature {
   readonly state: Uint8Array;
 
   /** H = (k1 + k2) / 2. A new array, as of the others. */
-  readonly mean: Float64Array;
+  readonly mean: Unshared<Float64Array>;
   /** K = k1 k2. */
-  readonly gaussian: Float64Array;
+  readonly gaussian: Unshared<Float64Array>;
   /**
    * Koenderink's shape index: 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a valley, -1 in a bowl. NaN where
    * both curvatures are 0.
    */
-  readonly shapeIndex: Float64Array;
+  readonly shapeIndex: Unshared<Float64Array>;
   /** Koenderink's curvedness, the square root of (k1^2 + k2^2) / 2. */
-  readonly curvedness: Float64Array;
+  readonly curvedness: Unshared<Float64Array>;
 }
 
 export interface CurvatureOptions extends RowOptions, Scales {
@@ -341,7 +374,7 @@ export interface CurvatureOptions extends RowOptions, Scales {
    */
   faces?: Faces | null;
   /** #V by 3, of any length. NaN where a vertex has none. */
-  normals?: Float64Array | Float32Array | null;
+  normals?: Numbers | null;
   /**
    * The values of `igl::principal_curvature`, whose shape operator is wrong where the fitted quadric is tilted against
    * the normal, for a neighborhood of the vertices nearer than r.
@@ -372,21 +405,21 @@ export type SurfaceOptions = FaceOptions & Omit<RowOptions, 'metric' | 'faces'>;
 
 /** In place of vertices, `points`, #rows by 3, and `face`, the face of each. */
 export interface PointOptions {
-  points?: Float64Array | null;
+  points?: Numbers | null;
   face?: Uint32Array | null;
 }
 
 /** The nearest points of the surface that are not of the patch, one for each row; with scales, for each at each. */
 export interface Gaps {
   /** 2^32 - 1 where there is none. */
-  face: Uint32Array;
+  face: Unshared<Uint32Array>;
   /** #rows by 3: of the triangle of the face that has the point, and its barycentric coordinates there. */
-  vertices: Uint32Array;
-  barycentric: Float64Array;
+  vertices: Unshared<Uint32Array>;
+  barycentric: Unshared<Float64Array>;
   /** #rows by 3; NaN where there is none. */
-  point: Float64Array;
+  point: Unshared<Float64Array>;
   /** Infinity where there is none. */
-  distance: Float64Array;
+  distance: Unshared<Float64Array>;
 }
 
 export interface PatchOptions extends FaceOptions {
@@ -402,36 +435,36 @@ export interface PatchOptions extends FaceOptions {
  */
 export interface ClippedMesh {
   /** #points by 3. */
-  positions: Float64Array;
+  positions: Unshared<Float64Array>;
   /** #triangles by 3, as rows of `positions`. */
-  corners: Uint32Array;
+  corners: Unshared<Uint32Array>;
   /** The face of which each triangle is a part, ascending. */
-  faces: Uint32Array;
+  faces: Unshared<Uint32Array>;
   /** #points by 3: three vertices of the mesh, thrice the same for one in the ball; and barycentric weights in them. */
-  vertices: Uint32Array;
-  weights: Float64Array;
+  vertices: Unshared<Uint32Array>;
+  weights: Unshared<Float64Array>;
   /** Of the patch; that of the triangles is a little less. */
   area: number;
 }
 
 /** Some faces of a mesh, as a mesh of their own. */
 export interface Submesh {
-  positions: Float32Array | Float64Array;
-  corners: Uint32Array;
+  positions: Unshared<Float32Array | Float64Array>;
+  corners: Unshared<Uint32Array>;
   /** Null: all faces of the whole mesh are triangles. */
-  offsets: Uint32Array | null;
+  offsets: Unshared<Uint32Array> | null;
   /** Its vertices by their ids in the whole mesh, ascending. */
-  vertices: Uint32Array;
+  vertices: Unshared<Uint32Array>;
   /** Its faces by their numbers in the whole mesh, ascending. */
-  faces: Uint32Array;
+  faces: Unshared<Uint32Array>;
 }
 
 /** A polyline along which a surface leaves a ball. */
 export interface RimLine {
   /** #points by 3. */
-  points: Float64Array;
+  points: Unshared<Float64Array>;
   /** #points by 2: of each point, the end of its edge inside the region, and the other. */
-  edges: Uint32Array;
+  edges: Unshared<Uint32Array>;
   /** A loop, whose last point is joined to its first. */
   isClosed: boolean;
 }
@@ -479,7 +512,7 @@ export class MeshIndex {
   static load(bytes: Bytes, options?: { progress?: Progress | null }): MeshIndex;
 
   /** The bytes of an index file. The same mesh gives the same bytes on every machine. */
-  save(): Uint8Array;
+  save(): Unshared<Uint8Array>;
 
   /** #V. */
   readonly vertexCount: number;
@@ -494,16 +527,16 @@ export class MeshIndex {
   readonly meanEdgeLength: number;
 
   /** A copy of the faces that the index holds: those that its file was saved with; else null. */
-  readonly faces: { corners: Uint32Array; offsets: Uint32Array | null } | null;
+  readonly faces: { corners: Unshared<Uint32Array>; offsets: Unshared<Uint32Array> | null } | null;
 
   /** A copy of the positions, #V by 3, in the numbering and precision of the mesh. */
-  readonly positions: Float32Array | Float64Array;
+  readonly positions: Unshared<Float32Array | Float64Array>;
 
   /**
    * The vertices in index order: vertices that are near each other in the mesh are near each other here. Exact
    * answers list them in this order, and batches of vertices in this order are faster. A copy.
    */
-  readonly permutation: Uint32Array;
+  readonly permutation: Unshared<Uint32Array>;
 
   /**
    * A new index of the mesh after its vertices have moved; the edges stay. This index stays as it is. Answers are exact
@@ -541,18 +574,27 @@ export class MeshIndex {
    * places of `permutation`. Another method than `exact` and the metric `rings` need a vertex as start.
    *
    * @param r the radius, >= 0 or Infinity
-   * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption; TooLarge, which disposes the index if
-   * memory is out. The calls below throw the same.
+   * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption; TooLarge: if the result exceeds what the
+   * module addresses, or if memory is out, which disposes the index. The calls below throw the same.
    */
-  neighborhood(start: Start, r: number, options?: StartOptions & AnswerOptions & { distances?: false }): Uint32Array;
+  neighborhood(
+    start: Start,
+    r: number,
+    options?: StartOptions & AnswerOptions & { distances?: false },
+  ): Unshared<Uint32Array>;
   neighborhood(
     start: Start,
     r: number,
     options: StartOptions & AnswerOptions & { distances: true },
-  ): { ids: Uint32Array; distances: Float64Array };
+  ): IdsWithDistances;
+  neighborhood(
+    start: Start,
+    r: number,
+    options?: StartOptions & AnswerOptions & { distances?: boolean },
+  ): Unshared<Uint32Array> | IdsWithDistances;
 
   /** As `neighborhood`, without a copy: a view into the memory of the index, valid until its next call. */
-  viewNeighborhood(start: Start, r: number, options?: StartOptions & QueryOptions): Uint32Array;
+  viewNeighborhood(start: Start, r: number, options?: StartOptions & QueryOptions): Unshared<Uint32Array>;
 
   /** The number of vertices of the neighborhood of a start. */
   count(start: Start, r: number, options?: StartOptions & QueryOptions): number;
@@ -561,11 +603,7 @@ export class MeshIndex {
    * The neighborhoods of strictly ascending radii, each vertex once, each ring in index order. With metric `straight`,
    * a near vertex may belong to a late ring.
    */
-  nested(
-    start: Start,
-    radii: Float64Array | Float32Array,
-    options?: StartOptions & { unit?: Unit },
-  ): Nested;
+  nested(start: Start, radii: Numbers, options?: StartOptions & { unit?: Unit }): Nested;
 
   /** Whether the neighborhood of a start has vertex w. */
   contains(start: Start, w: number, r: number, options?: StartOptions & { unit?: Unit }): boolean;
@@ -581,7 +619,11 @@ export class MeshIndex {
    * The k >= 1 nearest connected vertices and their connecting radii, which ascend; of equal radius, in the order of
    * their distances from the start, then of their ids; by path or rings, in index order. Fewer if no more are connected.
    */
-  nearestConnected(start: Start, k: number, options?: StartOptions): { ids: Uint32Array; radii: Float64Array };
+  nearestConnected(
+    start: Start,
+    k: number,
+    options?: StartOptions,
+  ): { ids: Unshared<Uint32Array>; radii: Unshared<Float64Array> };
 
   /** The vertex nearest to a point in space that is no wall, connected or not; of several, that with the smallest id. */
   nearest(point: Exclude<Start, number>, options?: Pick<Masks, 'walls'>): { vertex: number; distance: number };
@@ -609,16 +651,17 @@ export class MeshIndex {
   neighborhoods(
     r: Radii,
     options: RowOptions & AnswerOptions & { distances: true },
-  ): Rows & { distances: Float64Array };
+  ): RowsWithDistances;
+  neighborhoods(r: Radii, options?: RowOptions & AnswerOptions & { distances?: boolean }): Rows | RowsWithDistances;
 
   /** The number of vertices of each neighborhood: #rows; with scales, r is null, and the result is #scales by #rows. */
-  counts(r: Radii | null, options?: RowOptions & QueryOptions & Scales): Uint32Array;
+  counts(r: Radii | null, options?: RowOptions & QueryOptions & Scales): Unshared<Uint32Array>;
 
   /**
    * The k >= 1 nearest connected vertices of each vertex, itself included: #rows by k. Where a row has fewer, the
    * distance is Infinity and the id 2^32 - 1. Distances are connecting radii, path lengths or numbers of edges.
    */
-  kNearest(k: number, options?: NearestOptions): { ids: Uint32Array; distances: Float64Array };
+  kNearest(k: number, options?: NearestOptions): IdsWithDistances;
 
   /**
    * A disc of fixed area around each vertex: the first vertices in the order of `kNearest` whose weights add up to at
@@ -626,14 +669,17 @@ export class MeshIndex {
    *
    * @param area > 0, in the square of the unit of the positions
    */
-  discs(area: number, options?: DiscOptions): Rows & { distances: Float64Array };
+  discs(area: number, options?: DiscOptions): RowsWithDistances;
 
   /**
    * For each vertex the nearest of those in its ball that do not belong to its neighborhood: another sheet, the other
    * side of a wall. Of several at the same distance, the one with the smallest id. Walls and ignored vertices are never
    * the nearest. Where there is none, as for a wall, the distance is Infinity and the vertex 2^32 - 1.
    */
-  nearestUnconnected(r: Radii, options?: RowOptions): { vertex: Uint32Array; distance: Float64Array };
+  nearestUnconnected(
+    r: Radii,
+    options?: RowOptions,
+  ): { vertex: Unshared<Uint32Array>; distance: Unshared<Float64Array> };
 
   /**
    * The area of the patch of each vertex or point, the connected surface in the ball, and the volume of the part of the
@@ -644,8 +690,8 @@ export class MeshIndex {
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh
    */
   invariants(r: Radii | null, options?: SurfaceOptions & PointOptions & Scales): {
-    area: Float64Array;
-    volume: Float64Array;
+    area: Unshared<Float64Array>;
+    volume: Unshared<Float64Array>;
   };
 
   /** The gap of each vertex or point: the nearest of the surface within r that is not of its patch. Throws likewise. */
@@ -656,7 +702,7 @@ export class MeshIndex {
    *
    * @param start a vertex; or a point on the face `face`, as `closestPoint` returns them
    */
-  patch(start: Start, r: number, options?: PatchOptions): Uint32Array;
+  patch(start: Start, r: number, options?: PatchOptions): Unshared<Uint32Array>;
 
   /** A patch as a mesh of triangles that end at the sphere. Throws likewise. */
   clip(start: Start, r: number, options?: PatchOptions & { tolerance?: number }): ClippedMesh;
@@ -697,24 +743,20 @@ export class MeshIndex {
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh; TooLarge, which disposes the
    * index if memory is out
    */
-  aggregate(
-    values: Float64Array | Float32Array | Uint32Array | Int32Array | Uint16Array | Int16Array | Uint8Array | Int8Array,
-    r: Radii | null,
-    options?: AggregateOptions,
-  ): Float64Array;
+  aggregate(values: Numbers, r: Radii | null, options?: AggregateOptions): Unshared<Float64Array>;
 
   /**
    * The values smoothed by a Gaussian of this full width at half maximum, cut where its weight is below 1/1000. Values
    * beyond 1.57843 fwhm, or not connected within it, have no influence.
    */
   smooth(
-    values: Float64Array | Float32Array,
+    values: Numbers,
     fwhm: number,
     options?: Pick<
       AggregateOptions,
       'weights' | 'faces' | 'vertices' | 'metric' | 'walls' | 'ignored' | 'nan' | 'unit'
     >,
-  ): Float64Array;
+  ): Unshared<Float64Array>;
 
   /**
    * Principal curvatures by a quadric that is fitted to the neighborhoods of radius r: one for all rows, one for each, or
@@ -731,7 +773,7 @@ export class MeshIndex {
    * @returns #rows by #kinds, with scales #scales by #rows by #kinds
    * @throws as `curvature`
    */
-  features(r: Radii | null, options?: FeatureOptions): Float64Array;
+  features(r: Radii | null, options?: FeatureOptions): Unshared<Float64Array>;
 
   /**
    * The thickness of the wall at each vertex, or at points of faces: the way against the normal to the surface, or, with
@@ -747,7 +789,7 @@ export class MeshIndex {
   thickness(options?: FaceOptions & PointOptions & {
     vertices?: Uint32Array | null;
     method?: 'ray' | 'sphere';
-  }): Float64Array;
+  }): Unshared<Float64Array>;
 
   /** Gives the memory back. All later calls throw an Error. */
   dispose(): void;

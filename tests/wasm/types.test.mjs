@@ -53,10 +53,32 @@ const USE = `
   const lists: Uint32Array[] = [index.viewNeighborhood(42, 2), index.nested(42, scales, { metric: 'rings' }).counts];
   index.smooth(index.aggregate(between, scales, { metric: 'surface', faces, reduce: ['mean'] }), 3, { metric: 'path', walls });
   index.refitInPlace(mesh.positions, { changed: near });
+  const distances: boolean = near.length > 9;
+  const either = [index.neighborhood(42, 2, { distances }), index.neighborhoods(2, { distances })];
+  const points = Float32Array.of(0, 0, 1);
+  const gaps = index.gaps(Uint8Array.of(2), { faces, points, face: vertices });
+  const blurred: Float64Array = index.smooth(walls, 3, { weights: near });
   const part = index.submesh(near, { faces, corners: 'any' });
-  const codes: string[] = [new MeshhoodError().code];
-  export const used = [besides, hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, other.vertex, rows.offsets, curvature.mean, part.vertices, index.rim(near, 42, 2), codes, volume, between, patch, clipped, measured];
+  const codes: string[] = [new MeshhoodError('InvalidOption', 'no such unit', { cause: near }).code];
+  export const used = [besides, hit?.face, across, around, lists, lengths, discs, creases, counts, far.distances, other.vertex, rows.offsets, curvature.mean, part.vertices, index.rim(near, 42, 2), codes, either, gaps, blurred, volume, between, patch, clipped, measured];
 `;
+
+const FILES = `
+  import { MeshIndex, readMesh } from 'meshhood';
+
+  const mesh = readMesh(new ArrayBuffer(9), 'hand.ply');
+  const index = new MeshIndex(mesh.positions, mesh.corners);
+  export async function keep(file: FileSystemFileHandle) {
+    const stream = await file.createWritable();
+    await stream.write(index.save());
+    await stream.write(index.neighborhoods(2).ids);
+    return new Blob([index.save(), mesh.positions, index.neighborhood(42, 2), index.viewNeighborhood(42, 2)]);
+  }
+`;
+
+test('a browser takes results for a file', () => {
+  assert.deepEqual(compile(FILES, '--target', 'es2022'), { status: 0, stdout: '' });
+});
 
 for (const [name, options] of Object.entries({
   'es2022 with the DOM': ['--target', 'es2022'],
@@ -65,6 +87,10 @@ for (const [name, options] of Object.entries({
 })) {
   test(`the declarations pass for ${name}`, () => assert.deepEqual(compile(USE, ...options), { status: 0, stdout: '' }));
 }
+
+test('an error without a code is one of the compiler', () => {
+  assert.match(compile("import { MeshhoodError } from 'meshhood';\nthrow new MeshhoodError();").stdout, /^use\.ts\(2,/);
+});
 
 test('unknown options and wrong types are errors of the compiler', () => {
   for (const wrong of ["{ units: 'edge' }", "{ unit: 'foot' }", "{ sort: 1 }", "{ metric: 'edges' }", "{ walls: [1] }"]) {

@@ -14,7 +14,7 @@ export interface Handlers {
   times(times: Map<Method, number>): void;
   neighbors(vertex: number, ids: Uint32Array): void;
   computed(quantity: QuantityName, radius: number, values: Uint32Array | Float64Array): void;
-  index(bytes: Uint8Array): void;
+  index(bytes: Uint8Array<ArrayBuffer>): void;
 }
 
 /** Milliseconds without a new query after which times are measured. */

@@ -69,4 +69,4 @@ export type Reply =
   | { kind: 'times'; id: number; times: Map<Method, number> }
   | { kind: 'neighbors'; vertex: number; ids: Uint32Array }
   | { kind: 'computed'; quantity: QuantityName; radius: number; values: Uint32Array | Float64Array }
-  | { kind: 'index'; bytes: Uint8Array };
+  | { kind: 'index'; bytes: Uint8Array<ArrayBuffer> };

@@ -26,6 +26,6 @@ export function saveIds(ids: Uint32Array, vertex: number, mesh: string): void {
   download(new Blob(lines, { type: 'text/plain' }), `${stem(mesh)}-${vertex}.txt`);
 }
 
-export function saveIndex(bytes: Uint8Array, mesh: string): void {
-  download(new Blob([bytes as Uint8Array<ArrayBuffer>]), `${stem(mesh)}.mhi`);
+export function saveIndex(bytes: Uint8Array<ArrayBuffer>, mesh: string): void {
+  download(new Blob([bytes]), `${stem(mesh)}.mhi`);
 }
