@@ -5,6 +5,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { gzipSync } from 'node:zlib';
 
 import { makeProject } from './project.mjs';
 
@@ -25,4 +26,13 @@ test('the packed package works in an empty project', () => {
   `);
   const { version } = JSON.parse(readFileSync(join(project, 'node_modules', 'meshhood', 'package.json'), 'utf8'));
   assert.equal(execFileSync('node', ['use.js'], { cwd: project, encoding: 'utf8' }), `${version}\n0,1,2\n`);
+});
+
+test('docs/web.md has the sizes of the module', () => {
+  const page = readFileSync(new URL('../../docs/web.md', import.meta.url), 'utf8');
+  const stated = page.match(/module has ([\d.]+) MB,\s+compressed ([\d.]+) MB/).slice(1).map(Number);
+  const module = readFileSync(join(process.env.MESHHOOD_PACKAGE, 'meshhood.wasm'));
+  const sizes = [module, gzipSync(module, { level: 9 })].map((bytes) => bytes.length / 1e6);
+  console.log(`${sizes.join(' MB, compressed ')} MB`);
+  sizes.forEach((size, i) => assert.ok(Math.abs(size - stated[i]) < 0.1, `${size} MB, but the page says ${stated[i]}`));
 });
