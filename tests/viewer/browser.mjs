@@ -73,6 +73,20 @@ export async function show(page, name, content) {
   await waitForMesh(page, name);
 }
 
+/** Opens an example, and calls `act` in the page while the worker builds the index of it. */
+export const openExample = (page, name, act) => page.evaluate(({ name, act }) => new Promise((resolve) => {
+  const stage = document.querySelector('#status span');
+  const observer = new MutationObserver(() => {
+    if (stage.textContent !== 'Building the index') return;
+    observer.disconnect();
+    resolve(new Function(`(${act})()`)());
+  });
+  observer.observe(stage, { childList: true });
+  const select = document.getElementById('example');
+  select.value = name;
+  select.dispatchEvent(new Event('change'));
+}), { name, act: act.toString() });
+
 /** The last answer of a method on the page, ascending. */
 export async function idsOf(page, method) {
   return page.evaluate((method) => [...window.meshhoodPage.ids(method)], method);

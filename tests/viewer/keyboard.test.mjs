@@ -59,6 +59,23 @@ test('Shift and an arrow walk from vertex to neighbor, in the direction of the a
   assert.ok(visited.size > 6);
 });
 
+test('a step that fails says so, and does not end the walk', async () => {
+  const page = await open();
+  const before = await vertexOf(page);
+  await page.evaluate(() => {
+    const { postMessage } = Worker.prototype;
+    Worker.prototype.postMessage = function (message) {
+      if (message.request.kind !== 'neighbors') return postMessage.call(this, message);
+      Worker.prototype.postMessage = postMessage;
+      return this.postMessage({ ...message, request: { kind: 'neighbors', vertex: 1e9 } });
+    };
+  });
+  await page.keyboard.press('Shift+ArrowLeft');
+  await page.waitForSelector('#error:not([hidden])');
+  await page.keyboard.press('Shift+ArrowLeft');
+  await page.waitForFunction((v) => Number(document.getElementById('vertex').value) !== v, before);
+});
+
 test('shortcuts work after a checkbox, a button or a slider was used', async () => {
   const page = await open();
   await page.click('#display summary');

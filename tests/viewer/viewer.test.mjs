@@ -9,7 +9,8 @@ import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 
 import {
-  drop, idsOf, memoryOfPages, openPage, placeOf, setRadius, setVertex, show, waitForAnswers, waitForPixels,
+  drop, idsOf, memoryOfPages, openExample, openPage, placeOf, setRadius, setVertex, show, waitForAnswers, waitForMesh,
+  waitForPixels,
 } from './browser.mjs';
 import { commandLine, launchWithFolder } from './fixture.mjs';
 import { arraysOf } from '../wasm/npz.mjs';
@@ -362,6 +363,38 @@ test('a file that cannot be opened leaves the example and its link', async () =>
   assert.equal(await page.inputValue('#example'), 'terrain');
   await setVertex(page, 45100);
   assert.match(await page.evaluate(() => location.hash), /example=terrain&vertex=45100/);
+});
+
+test('a query that comes while another mesh is prepared is not answered on that one', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=scroll&vertex=5&radius=3' });
+  await openExample(page, 'terrain', () => { // it has fewer vertices
+    const vertex = document.getElementById('vertex');
+    vertex.value = '99000';
+    vertex.dispatchEvent(new Event('change'));
+  });
+  await waitForMesh(page, 'terrain');
+  assert.ok(await page.isHidden('#error'), await page.textContent('#error p'));
+});
+
+test('a broken file that comes while a mesh is prepared leaves that mesh, as what it is', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
+  await openExample(page, 'folds', () => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File(['no mesh'], 'broken.ply'));
+    window.dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }));
+  });
+  await page.waitForSelector('#error:not([hidden])');
+  assert.equal(await page.textContent('#name'), 'Folds');
+  assert.equal(await page.inputValue('#example'), 'folds');
+  await setVertex(page, 123);
+  assert.match(await page.evaluate(() => location.hash), /example=folds&vertex=123/);
+});
+
+test('a link that comes while a mesh is prepared is followed, also to the mesh that is shown', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=folds&vertex=5&radius=3' });
+  await openExample(page, 'terrain', () => { location.hash = '#example=folds&vertex=7&radius=3'; });
+  await waitForMesh(page, 'folds');
+  assert.equal(await page.inputValue('#vertex'), '7');
 });
 
 test('in the frame of a notebook the page answers, and offers no link', async () => {

@@ -69,8 +69,8 @@ export class Coloring {
     if (!isQuantity(choice) || choice !== this.#choice) this.#setScalar(this.#own.get(choice) ?? null);
     this.#choice = choice;
     this.#panel.color = choice;
-    this.#engine.cancel();
-    if (isQuantity(choice)) this.#engine.compute(choice, this.#radius);
+    this.#engine.request({ kind: 'cancel' });
+    if (isQuantity(choice)) this.#engine.request({ kind: 'compute', quantity: choice, radius: this.#radius });
     this.#paint();
     this.#changed();
   }

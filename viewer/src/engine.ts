@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The worker as the page sees it: opens meshes, and answers the latest query.
-import type { Method, Opened, Query, Reply, Request, Source } from './messages';
+import type { Message, Method, Opened, Query, Reply, Request, Source } from './messages';
 import type { QuantityName } from './quantities';
 import EngineWorker from './worker?worker&inline';
 
@@ -23,7 +23,9 @@ const QUIET = 180;
 export class Engine {
   readonly #worker = new EngineWorker();
   readonly #handlers: Handlers;
-  #id = 0;
+  #openings = 0; // requested so far
+  #opening = 0; // that of the mesh which is shown
+  #id = 0; // of the last query
   #busy = false; // the first method of the last query has no answer yet
   #waiting: Query | null = null;
   #timer = 0;
@@ -35,16 +37,15 @@ export class Engine {
     this.#worker.onerror = (event) => handlers.failed('open', event.message || 'The worker of this page failed.');
   }
 
-  #send(request: Request): void {
-    this.#worker.postMessage(request);
+  /** About the mesh that is shown. */
+  request(request: Request, opening = this.#opening): void {
+    this.#worker.postMessage({ opening, request } satisfies Message);
   }
 
-  open(source: Source): void {
-    this.#waiting = null;
-    this.#busy = false;
-    clearTimeout(this.#timer);
-    ++this.#id;
-    this.#send({ kind: 'open', source });
+  /** Returns the number of this opening. Queries are about the mesh before until this one is open. */
+  open(source: Source): number {
+    this.request({ kind: 'open', source }, ++this.#openings);
+    return this.#openings;
   }
 
   /** Answers by each method in turn, and then measures them. A query that comes before the answer replaces this one. */
@@ -53,48 +54,23 @@ export class Engine {
     this.#unanswered = methods.length;
     clearTimeout(this.#timer);
     this.#timer = window.setTimeout(() => {
-      this.#send({ kind: 'time', query: { ...query, methods: timed } });
+      this.request({ kind: 'time', query: { ...query, methods: timed } });
     }, QUIET);
-    if (this.#busy) {
-      this.#waiting = query;
-    } else {
-      this.#start(query);
-    }
+    if (this.#busy) this.#waiting = query;
+    else this.#start(query);
   }
 
   #start(query: Query): void {
     this.#busy = query.methods.length > 0;
     this.#waiting = null;
-    this.#send({ kind: 'query', query });
-  }
-
-  /** The vertices that an edge joins with `vertex`. */
-  requestNeighbors(vertex: number): void {
-    this.#send({ kind: 'neighbors', vertex });
-  }
-
-  /** For all vertices. */
-  compute(quantity: QuantityName, radius: number): void {
-    this.#send({ kind: 'compute', quantity, radius });
-  }
-
-  cancel(): void {
-    this.#send({ kind: 'cancel' });
-  }
-
-  saveIndex(): void {
-    this.#send({ kind: 'save-index' });
+    this.request({ kind: 'query', query });
   }
 
   #receive(reply: Reply): void {
     switch (reply.kind) {
       case 'progress': return this.#handlers.progress(reply.stage, reply.fraction);
-      case 'opened': return this.#handlers.opened(reply.opened);
-      case 'failed':
-        this.#busy = false;
-        this.#handlers.failed(reply.during, reply.message);
-        if (this.#waiting !== null) this.#start(this.#waiting);
-        return;
+      case 'opened': return this.#receiveOpened(reply.opened);
+      case 'failed': return this.#receiveFailure(reply.failed, reply.reason);
       case 'answer': return this.#receiveAnswer(reply.id, reply.method, reply.ids);
       case 'times':
         if (reply.id === this.#id) this.#handlers.times(reply.times);
@@ -108,6 +84,25 @@ export class Engine {
   /** Whether all methods of the last query have answered. */
   get isAnswered(): boolean {
     return this.#unanswered === 0;
+  }
+
+  /** The worker answers nothing more about the mesh before. */
+  #receiveOpened(opened: Opened): void {
+    this.#opening = opened.opening;
+    this.#waiting = null;
+    this.#busy = false;
+    this.#unanswered = 0;
+    clearTimeout(this.#timer);
+    this.#handlers.opened(opened);
+  }
+
+  #receiveFailure({ opening, request }: Message, reason: string): void {
+    this.#busy = false;
+    const isOpening = request.kind === 'open';
+    // Nobody waits any more for a mesh or an answer that was requested before the last one.
+    const isLate = isOpening ? opening < this.#openings : 'query' in request && request.query.id < this.#id;
+    if (!isLate) this.#handlers.failed(isOpening ? 'open' : 'query', reason);
+    if (this.#waiting !== null) this.#start(this.#waiting);
   }
 
   #receiveAnswer(id: number, method: Method, ids: Uint32Array): void {

@@ -74,7 +74,7 @@ class Page {
       focus: () => this.view.showQuery(this.#querying.radius),
       savePicture: () => void savePicture(this.view, this.#opening.name),
       saveIds: () => saveIds(this.ids('exact'), this.#querying.vertex, this.#opening.name),
-      saveIndex: () => this.#engine.saveIndex(),
+      saveIndex: () => this.#engine.request({ kind: 'save-index' }),
       copyLink: () => void this.#copyLink(),
     });
   }
@@ -86,6 +86,7 @@ class Page {
       failed: (during, message) => {
         showProgress(null);
         showError(message);
+        this.#walking = null; // the neighbors may be what failed
         if (during === 'open') this.#opening.fail();
       },
       answer: (method, ids) => this.#querying.receive(method, ids),
@@ -126,7 +127,7 @@ class Page {
   #walk(direction: Direction): void {
     if (this.#querying.vertex < 0 || this.#walking !== null) return;
     this.#walking = direction;
-    this.#engine.requestNeighbors(this.#querying.vertex);
+    this.#engine.request({ kind: 'neighbors', vertex: this.#querying.vertex });
   }
 
   #walkTo(vertex: number, neighbors: Uint32Array): void {
@@ -186,7 +187,8 @@ class Page {
   // The link to what is shown.
 
   #follow(link: State): void {
-    if (link.example !== null && link.example !== this.#opening.example?.name) {
+    const isShown = !this.#opening.isBusy && link.example === this.#opening.example?.name;
+    if (link.example !== null && !isShown) {
       this.#opening.openExample(link.example, link);
     } else if (this.#opening.shown !== null) {
       const { opened, asked } = this.#opening.shown;

@@ -13,7 +13,7 @@ export const METHODS: readonly Method[] = ['exact', 'ball', 'paper', 'bfs'];
 export type Source =
   /** With `weld`, vertices at most this far apart are joined: faces name the first of them. */
   | { kind: 'file'; name: string; content: Blob; weld?: number; precision?: 'float' | 'double' }
-  | { kind: 'example'; name: string; vertices?: number };
+  | { kind: 'example'; name: string };
 
 export interface Query {
   /** Grows with each query; a newer query ends an older one. */
@@ -28,17 +28,24 @@ export type Request =
   | { kind: 'open'; source: Source }
   | { kind: 'query'; query: Query }
   | { kind: 'time'; query: Query }
+  /** The vertices that an edge joins with `vertex`. */
   | { kind: 'neighbors'; vertex: number }
+  /** For all vertices. */
   | { kind: 'compute'; quantity: QuantityName; radius: number }
   | { kind: 'cancel' }
   | { kind: 'save-index' };
 
-/** A mesh for drawing: in float, relative to `center` and divided by `unit`, so that float represents it well. */
+/** About the mesh of an opening. Those about another mesh than that of the worker are dropped. */
+export interface Message {
+  opening: number;
+  request: Request;
+}
+
+/** A mesh for drawing: in float, relative to its middle and divided by `unit`, so that float represents it well. */
 export interface Surface {
   positions: Float32Array;
   normals: Float32Array;
   triangles: Uint32Array;
-  center: [number, number, number];
   /** A power of two, in the unit of the mesh, so that meshes of any size are drawn with the same extent. */
   unit: number;
   /** Half the diagonal of the bounding box, in `unit`: in [1, 2). */
@@ -46,6 +53,8 @@ export interface Surface {
 }
 
 export interface Opened {
+  /** The number that `Engine.open` returned. */
+  opening: number;
   name: string;
   surface: Surface;
   /** The tree of three-mesh-bvh over the triangles, serialized; null without triangles. */
@@ -54,8 +63,7 @@ export interface Opened {
   faces: number;
   meanEdge: number;
   indexBytes: number;
-  /** For reading, building the index, and preparing the picture. */
-  seconds: { read: number; build: number; draw: number };
+  buildSeconds: number;
   warnings: string[];
   /** Further numbers of the vertices of a PLY file. */
   scalars: PlyScalar[];
@@ -64,7 +72,7 @@ export interface Opened {
 export type Reply =
   | { kind: 'progress'; stage: string | null; fraction: number | null }
   | { kind: 'opened'; opened: Opened }
-  | { kind: 'failed'; during: 'open' | 'query'; message: string }
+  | { kind: 'failed'; failed: Message; reason: string }
   | { kind: 'answer'; id: number; method: Method; ids: Uint32Array }
   | { kind: 'times'; id: number; times: Map<Method, number> }
   | { kind: 'neighbors'; vertex: number; ids: Uint32Array }

@@ -12,19 +12,15 @@ export function showProgress(stage: string | null, fraction: number | null = nul
   (bar.firstElementChild as HTMLElement).style.width = fraction === null ? '' : `${100 * fraction}%`;
 }
 
-/** Until it is closed, or null is shown. */
-export function showError(message: string | null): void {
-  const error = document.getElementById('error')!;
-  error.hidden = message === null;
-  error.querySelector('p')!.textContent = message;
-}
-
-/** What the page accepted, but may not be as it was meant. Until it is closed, or null is shown. */
-export function showWarning(message: string | null): void {
-  const warning = document.getElementById('warning')!;
-  warning.hidden = message === null;
-  warning.querySelector('p')!.textContent = message;
-}
+/** Shows a message until it is closed, or null is shown. */
+const showIn = (id: 'error' | 'warning') => (message: string | null): void => {
+  const notice = document.getElementById(id)!;
+  notice.hidden = message === null;
+  notice.querySelector('p')!.textContent = message;
+};
+export const showError = showIn('error');
+/** What the page accepted, but may not be as it was meant. */
+export const showWarning = showIn('warning');
 
 const hint = () => document.getElementById('hint')!;
 let timer = 0;

@@ -27,7 +27,7 @@ export class Opening {
   readonly #engine: Engine;
   readonly #panel: Panel;
   readonly #show: (opened: Opened, asked: Asked) => void;
-  #asked: Asked | null = null; // for the worker's next answer
+  readonly #asked = new Map<number, Asked>(); // what is being opened, by the numbers of the engine
   #shown: { opened: Opened; asked: Asked } | null = null;
 
   /** Calls `show` once a mesh is open. */
@@ -58,18 +58,18 @@ export class Opening {
   }
 
   #open(asked: Asked): void {
-    this.#asked = asked;
     this.#panel.setExample(exampleOf(asked)?.name ?? null);
     delete document.body.dataset.mesh;
     showError(null);
     showWarning(null);
     showProgress('Reading');
-    this.#engine.open(asked.source);
+    this.#asked.set(this.#engine.open(asked.source), asked);
   }
 
-  /** The worker has opened a mesh. */
+  /** The worker has opened a mesh, perhaps not the one that was requested last. */
   receive(opened: Opened): void {
-    const asked = this.#asked!;
+    const asked = this.#asked.get(opened.opening)!;
+    for (const opening of this.#asked.keys()) if (opening <= opened.opening) this.#asked.delete(opening);
     this.#shown = { opened, asked };
     const title = this.example?.title ?? opened.name;
     this.#panel.setMesh(title, facts(opened), opened.vertices, opened.faces, opened.meanEdge, mostEdges(opened));
@@ -79,11 +79,17 @@ export class Opening {
     document.body.dataset.mesh = opened.name; // for tests: the mesh is open
   }
 
-  /** The mesh could not be opened. The one before stays. */
+  /** The mesh that was requested last could not be opened. The one before stays. */
   fail(): void {
+    this.#asked.clear();
     if (this.#shown === null) return;
     this.#panel.setExample(this.example?.name ?? null);
     document.body.dataset.mesh = this.name;
+  }
+
+  /** Whether a mesh is being opened. */
+  get isBusy(): boolean {
+    return this.#asked.size > 0;
   }
 
   /** The mesh that is shown, with what was asked for it; null before the first. */
@@ -108,7 +114,7 @@ function exampleOf({ source }: Asked): Example | null {
 function facts(opened: Opened): string {
   const faces = opened.faces > 0 ? `${format(opened.faces)} faces, ` : '';
   const megabytes = shortNumber(Number((opened.indexBytes / 2 ** 20).toPrecision(2)));
-  const seconds = shortNumber(Number(opened.seconds.build.toPrecision(2)));
+  const seconds = shortNumber(Number(opened.buildSeconds.toPrecision(2)));
   return `${format(opened.vertices)} vertices, ${faces}index ${megabytes} MB in ${seconds} s`;
 }
 

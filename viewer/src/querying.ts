@@ -113,13 +113,9 @@ export class Querying {
       if (answer === undefined) continue;
       this.#table.setCount(each, answer.length, exact === undefined ? null : answer.length - exact.length);
     }
-    if (this.#engine.isAnswered) this.#table.setSizes(this.#sizes());
+    const sizes = new Map([...this.#answers].map(([each, answer]) => [each, answer.length]));
+    if (this.#engine.isAnswered) this.#table.setSizes(sizes);
     this.#listeners.answered();
-  }
-
-  #sizes(): Map<Method, number> {
-    const shown = [...this.#answers].filter(([method]) => method === 'exact' || this.#shown.has(method));
-    return new Map(shown.map(([method, ids]) => [method, ids.length]));
   }
 
   /** -1 before the first query. */

@@ -61,18 +61,11 @@ function smoothNormals(p: Float32Array, triangles: Uint32Array): Float32Array {
 export function makeSurface(positions: Reals, corners: Uint32Array, offsets: Uint32Array | null): Surface {
   const { low, high } = boundingBox(positions);
   const isEmpty = positions.length === 0;
-  const center = low.map((x, axis) => (isEmpty ? 0 : x / 2 + high[axis] / 2)) as Surface['center'];
+  const center = low.map((x, axis) => (isEmpty ? 0 : x / 2 + high[axis] / 2));
   const extent = isEmpty ? 1 : Math.hypot(...high.map((x, axis) => x - low[axis])) / 2 || 1;
   const unit = 2 ** Math.floor(Math.log2(extent));
   const relative = new Float32Array(positions.length);
   for (let i = 0; i < positions.length; ++i) relative[i] = (positions[i] - center[i % 3]) / unit;
   const triangles = triangulate(corners, offsets);
-  return {
-    positions: relative,
-    normals: smoothNormals(relative, triangles),
-    triangles,
-    center,
-    unit,
-    extent: extent / unit,
-  };
+  return { positions: relative, normals: smoothNormals(relative, triangles), triangles, unit, extent: extent / unit };
 }

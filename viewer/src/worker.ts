@@ -6,7 +6,7 @@ import { BufferAttribute, BufferGeometry } from 'three';
 import { MeshBVH } from 'three-mesh-bvh';
 
 import { EXAMPLES, findExample } from './examples';
-import type { Method, Query, Reply, Request, Source } from './messages';
+import type { Message, Method, Query, Reply, Request, Source } from './messages';
 import { readPlyScalars } from './ply_scalars';
 import type { PlyScalar } from './ply_scalars';
 import type { CurvatureName, QuantityName } from './quantities';
@@ -18,11 +18,13 @@ interface Arrays {
   offsets: Uint32Array | null;
   warnings: string[];
   scalars: PlyScalar[];
+  index?: MeshIndex; // that of an index file
 }
 
 let index: MeshIndex | null = null;
 let faces: Faces | null = null;
 let curvature: { radius: number; values: Curvature } | null = null; // the last one
+let current = -1; // the opening of the index; the page asks nothing before the first
 let latestOpening = 0;
 let latestQuery = 0;
 let latestComputation = 0;
@@ -44,17 +46,19 @@ function reportProgress(stage: string): (done: number, total: number) => void {
 /** Lets messages in that arrived meanwhile. */
 const nextTask = () => new Promise<void>((resolve) => setTimeout(resolve));
 
-async function timed<T>(work: () => T | Promise<T>): Promise<{ result: T; seconds: number }> {
+function timed<T>(work: () => T): { result: T; seconds: number } {
   const begin = performance.now();
-  const result = await work();
+  const result = work();
   return { result, seconds: (performance.now() - begin) / 1000 };
 }
 
 const INDEX_MARK = [0x8b, 0x4d, 0x48, 0x49]; // "\x8bMHI", the first bytes of an index file
 
-function makeExample(name: string, vertices?: number): Arrays {
+const NO_MORE = { offsets: null, warnings: [], scalars: [] };
+
+function makeExample(name: string): Arrays {
   const example = findExample(name) ?? EXAMPLES[0];
-  return { ...example.make(vertices ?? example.vertices), offsets: null, warnings: [], scalars: [] };
+  return { ...NO_MORE, ...example.make(example.vertices) };
 }
 
 /** As `meshhood --weld`: the faces name the first of the vertices that are joined. */
@@ -67,9 +71,10 @@ function joinVertices(mesh: Arrays, eps: number): void {
   mesh.corners = mesh.corners.map((v) => first[ids[v]]);
 }
 
-function read(bytes: Uint8Array<ArrayBuffer>, { name, weld: eps, precision }: Extract<Source, { kind: 'file' }>): Arrays | MeshIndex {
+function read(bytes: Uint8Array<ArrayBuffer>, { name, weld: eps, precision }: Extract<Source, { kind: 'file' }>): Arrays {
   if (INDEX_MARK.every((byte, i) => bytes[i] === byte)) {
-    return MeshIndex.load(bytes, { progress: reportProgress('Verifying the index') });
+    const index = MeshIndex.load(bytes, { progress: reportProgress('Verifying the index') });
+    return { ...NO_MORE, positions: index.positions, ...(index.faces ?? { corners: new Uint32Array() }), index };
   }
   const mesh = readMesh(bytes, name, { precision, progress: reportProgress('Reading') });
   const arrays = { ...mesh, scalars: mesh.format === 'ply' ? readPlyScalars(bytes) : [] };
@@ -77,13 +82,7 @@ function read(bytes: Uint8Array<ArrayBuffer>, { name, weld: eps, precision }: Ex
   return arrays;
 }
 
-function facesOf(held: MeshIndex): { corners: Uint32Array; offsets: Uint32Array | null } {
-  return held.faces ?? { corners: new Uint32Array(), offsets: null };
-}
-
-function build(arrays: Arrays | MeshIndex): MeshIndex {
-  if (arrays instanceof MeshIndex) return arrays;
-  const { positions, corners, offsets } = arrays;
+function build({ positions, corners, offsets }: Arrays): MeshIndex {
   return new MeshIndex(positions, corners, { offsets, progress: reportProgress('Building the index') });
 }
 
@@ -98,28 +97,20 @@ function makeTree(positions: Float32Array, triangles: Uint32Array): unknown {
 }
 
 /** Opens the mesh, unless another one has been requested meanwhile. */
-async function open(source: Source): Promise<void> {
-  const opening = ++latestOpening;
+async function open(source: Source, opening: number): Promise<void> {
+  latestOpening = opening;
   await initialize();
   reply({ kind: 'progress', stage: 'Reading', fraction: null });
   const bytes = source.kind === 'file' ? new Uint8Array(await source.content.arrayBuffer()) : null;
   if (opening !== latestOpening) return;
-  const reading = await timed(() => {
-    return source.kind === 'file' ? read(bytes!, source) : makeExample(source.name, source.vertices);
-  });
-  const building = await timed(() => build(reading.result));
-  const arrays = reading.result;
-  const opened = building.result;
+  const mesh = source.kind === 'file' ? read(bytes!, source) : makeExample(source.name);
+  const { result: opened, seconds: buildSeconds } = timed(() => mesh.index ?? build(mesh));
   reply({ kind: 'progress', stage: 'Preparing the picture', fraction: null });
-  const drawing = await timed(() => {
-    const mesh = arrays instanceof MeshIndex ? { positions: arrays.positions, ...facesOf(arrays) } : arrays;
-    const surface = makeSurface(mesh.positions, mesh.corners, mesh.offsets);
-    return { surface, tree: makeTree(surface.positions, surface.triangles), mesh };
-  });
-  const { surface, tree, mesh } = drawing.result;
-  const vertices = opened.vertexCount;
+  const surface = makeSurface(mesh.positions, mesh.corners, mesh.offsets);
+  const tree = makeTree(surface.positions, surface.triangles);
   index?.dispose();
   index = opened;
+  current = opening;
   // The triangles go to the page.
   faces = mesh.offsets === null ? { corners: mesh.corners.slice() } : { corners: mesh.corners, offsets: mesh.offsets };
   curvature = null;
@@ -127,16 +118,12 @@ async function open(source: Source): Promise<void> {
   reply({
     kind: 'opened',
     opened: {
-      name: source.name,
-      surface,
-      tree,
-      vertices,
+      opening, name: source.name, surface, tree,
+      vertices: opened.vertexCount,
       faces: mesh.offsets === null ? mesh.corners.length / 3 : Math.max(mesh.offsets.length - 1, 0),
       meanEdge: opened.meanEdgeLength,
       indexBytes: opened.byteLength,
-      seconds: { read: reading.seconds, build: building.seconds, draw: drawing.seconds },
-      warnings: arrays instanceof MeshIndex ? [] : arrays.warnings,
-      scalars: arrays instanceof MeshIndex ? [] : arrays.scalars,
+      buildSeconds, warnings: mesh.warnings, scalars: mesh.scalars,
     },
   }, [surface.positions.buffer, surface.normals.buffer, surface.triangles.buffer]);
 }
@@ -148,11 +135,11 @@ async function open(source: Source): Promise<void> {
 async function forEachMethod(
   query: Query, work: (index: MeshIndex, method: Method) => void, rounds = 1,
 ): Promise<boolean> {
-  const asked = index;
+  const asked = index!;
   latestQuery = Math.max(latestQuery, query.id);
   for (const method of Array<Method[]>(rounds).fill(query.methods).flat()) {
     await nextTask();
-    if (query.id < latestQuery || asked === null || index !== asked) return false;
+    if (query.id < latestQuery || index !== asked) return false;
     work(asked, method);
   }
   return true;
@@ -211,15 +198,15 @@ const PART = 80;
  */
 async function forEachPart(stage: string, work: (index: MeshIndex, vertices: Uint32Array) => void): Promise<boolean> {
   const computation = ++latestComputation;
-  const order = index?.permutation ?? new Uint32Array();
+  const order = index!.permutation;
   for (let begin = 0, rows = 256; begin < order.length; ) {
     await nextTask();
-    if (computation !== latestComputation || index === null) {
+    if (computation !== latestComputation) {
       reply({ kind: 'progress', stage: null, fraction: null });
       return false;
     }
     const vertices = order.subarray(begin, begin + rows);
-    const { seconds } = await timed(() => work(index!, vertices));
+    const { seconds } = timed(() => work(index!, vertices));
     begin += vertices.length;
     rows = Math.max(64, Math.round(rows * Math.min(2, Math.max(0.5, PART / (1000 * seconds)))));
     reply({ kind: 'progress', stage, fraction: begin / order.length });
@@ -255,29 +242,26 @@ async function computeCurvature(radius: number): Promise<Curvature | null> {
 }
 
 async function compute(quantity: QuantityName, radius: number): Promise<void> {
-  if (index === null) return;
   const values = quantity === 'count'
     ? await computeCounts(radius)
     : (await computeCurvature(radius))?.[quantity as CurvatureName];
   if (values) reply({ kind: 'computed', quantity, radius, values });
 }
 
-/** Always replies: the page waits for it. */
 function findNeighbors(vertex: number): void {
-  const known = index !== null && vertex < index.vertexCount ? index : null;
-  const ids = known?.neighborhood(vertex, 1, { metric: 'rings' }).filter((v) => v !== vertex) ?? new Uint32Array();
+  const ids = index!.neighborhood(vertex, 1, { metric: 'rings' }).filter((v) => v !== vertex);
   reply({ kind: 'neighbors', vertex, ids }, [ids.buffer]);
 }
 
 function saveIndex(): void {
-  if (index === null) return;
-  const bytes = index.save();
+  const bytes = index!.save();
   reply({ kind: 'index', bytes }, [bytes.buffer]);
 }
 
-async function handle(request: Request): Promise<void> {
+async function handle(request: Request, opening: number): Promise<void> {
+  if (request.kind === 'open') return open(request.source, opening);
+  if (opening !== current) return; // the page did not know yet that another mesh is open
   switch (request.kind) {
-    case 'open': return open(request.source);
     case 'query': return answer(request.query);
     case 'time': return time(request.query);
     case 'neighbors': return findNeighbors(request.vertex);
@@ -287,9 +271,9 @@ async function handle(request: Request): Promise<void> {
   }
 }
 
-self.onmessage = ({ data: request }: MessageEvent<Request>) => {
-  handle(request).catch((error: unknown) => {
-    const message = error instanceof Error ? error.message : String(error);
-    reply({ kind: 'failed', during: request.kind === 'open' ? 'open' : 'query', message });
+self.onmessage = ({ data: message }: MessageEvent<Message>) => {
+  handle(message.request, message.opening).catch((error: unknown) => {
+    const reason = error instanceof Error ? error.message : String(error);
+    reply({ kind: 'failed', failed: message, reason });
   });
 };
