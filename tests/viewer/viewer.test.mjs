@@ -397,6 +397,48 @@ test('a link that comes while a mesh is prepared is followed, also to the mesh t
   assert.equal(await page.inputValue('#vertex'), '7');
 });
 
+test('vertices without a position are walls, as for the command line', async () => {
+  const rows = Array.from({ length: 49 }, (_, v) => (v === 0 || v === 25 ? 'nan nan nan' : `${v % 7} ${Math.floor(v / 7)} ${v % 3}`));
+  const faces = rows.flatMap((_, v) => {
+    const corners = [v, v + 1, v + 8, v + 7];
+    return v % 7 < 6 && v < 42 && !corners.some((c) => c === 0 || c === 25) ? [`4 ${corners.join(' ')}`] : [];
+  });
+  writeFileSync(file('hole.ply'), ['ply', 'format ascii 1.0', 'element vertex 49', ...['x', 'y', 'z'].map((p) => `property double ${p}`),
+    `element face ${faces.length}`, 'property list uchar int vertex_indices', 'end_header', ...rows, ...faces, ''].join('\n'));
+  meshhood('view', 'hole.ply', '-v', '24', '-r', '2.5', '-o', 'hole.html');
+  const page = await openPage(browser, file('hole.html'));
+  for (const vertex of [24, 1, 0, 25]) {
+    await setVertex(page, vertex);
+    for (const method of ['exact', 'ball']) {
+      assert.deepEqual(await idsOf(page, method), expected('hole.ply', vertex, 2.5, method), `${method} of ${vertex}`);
+    }
+  }
+  for (const method of ['paper', 'bfs']) {
+    assert.throws(() => expected('hole.ply', 24, 2.5, method));
+    assert.ok(await page.isDisabled(`tr[data-method=${method}] input`));
+    assert.equal(await page.isChecked(`tr[data-method=${method}] input`), false);
+  }
+  assert.match(await page.textContent('#warning p'), /vertices without a position .* are walls .*; paper and bfs give no answers/);
+  await page.click('#display summary');
+  await chooseColor(page, 'count');
+  const sizes = JSON.parse(meshhood('query', 'hole.ply', ...rows.flatMap((_, v) => ['-v', String(v)]), '-r', '2.5', '--json'));
+  assert.deepEqual(await valuesOf(page), sizes.answers.map(({ vertices }) => vertices.length));
+  await chooseColor(page, 'k1');
+  meshhood('curvature', 'hole.ply', '-r', '2.5', '-o', 'hole.npz');
+  const { k1, state } = arraysOf(readFileSync(file('hole.npz')));
+  assert.deepEqual(await valuesOf(page), Array.from(k1, (x, v) => ([2, 3].includes(state[v]) ? NaN : x)));
+  await page.click('#save-index');
+  await page.waitForFunction(() => /vertex 0 has no position/.test(document.querySelector('#error p').textContent));
+  assert.throws(() => meshhood('build', 'hole.ply', '-o', 'hole.mhi'), /vertex 0 has no position/);
+
+  meshhood('view', 'hole.ply', '-v', '1', '-r', '2.5', '--weld=1.2', '-o', 'joined.html');
+  const joined = await openPage(browser, file('joined.html'));
+  const answer = meshhood('query', 'hole.ply', '-v', '1', '-r', '2.5', '--weld=1.2', '--json');
+  assert.deepEqual(await idsOf(joined, 'exact'), JSON.parse(answer).answers[0].vertices);
+  await show(joined, 'scroll.ply', readFileSync(file('scroll.ply')));
+  assert.ok(await joined.isEnabled('tr[data-method=paper] input'));
+});
+
 test('in the frame of a notebook the page answers, and offers no link', async () => {
   const html = readFileSync(file('page.html'), 'utf8').replaceAll('&', '&amp;').replaceAll('"', '&quot;');
   writeFileSync(file('notebook.html'), `<!doctype html><iframe srcdoc="${html}" style="width: 900px; height: 700px">`);

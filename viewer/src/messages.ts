@@ -64,6 +64,8 @@ export interface Opened {
   meanEdge: number;
   indexBytes: number;
   buildSeconds: number;
+  /** Those that can answer: not all can where the mesh has walls. */
+  methods: readonly Method[];
   warnings: string[];
   /** Further numbers of the vertices of a PLY file. */
   scalars: PlyScalar[];

@@ -33,6 +33,13 @@ export class MethodTable {
     for (const method of ROWS) this.#rows.set(method, makeRow(body, method, show));
   }
 
+  /** A method that cannot answer on this mesh cannot be chosen; its row says why. */
+  setPossible(method: Method, isPossible: boolean): void {
+    const { element, box } = this.#rows.get(method)!;
+    box.disabled = !isPossible;
+    element.title = isPossible ? MEANINGS[method] : 'Gives no answer: knows no walls, which vertices without a position are';
+  }
+
   setShown(method: Method, isShown: boolean): void {
     const { element, box, count, extra, time } = this.#rows.get(method)!;
     box.checked = isShown;
@@ -80,7 +87,6 @@ function write(id: 'result' | 'verdict', sentence: Sentence): void {
 function makeRow(body: HTMLTableSectionElement, method: Method, show: (method: Method, isShown: boolean) => void): Row {
   const element = body.insertRow();
   element.dataset.method = method;
-  element.title = MEANINGS[method];
   const box = document.createElement('input');
   box.type = 'checkbox';
   box.checked = true;

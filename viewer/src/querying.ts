@@ -39,11 +39,14 @@ export class Querying {
     this.#vertex = -1;
     this.#given = null;
     this.#answers.clear();
+    for (const method of METHODS) this.#table.setPossible(method, opened.methods.includes(method));
   }
 
   /** `given` is shown instead of the answers, until the next query. */
   start(vertex: number, radius: number, hidden: string[], given: Uint32Array | null): void {
-    for (const method of METHODS) this.#setShown(method, !hidden.includes(method));
+    for (const method of METHODS) {
+      this.#setShown(method, this.#opened!.methods.includes(method) && !hidden.includes(method));
+    }
     this.#radius = radius;
     this.#setVertex(vertex);
     this.#ask(true);

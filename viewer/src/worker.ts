@@ -6,6 +6,7 @@ import { BufferAttribute, BufferGeometry } from 'three';
 import { MeshBVH } from 'three-mesh-bvh';
 
 import { EXAMPLES, findExample } from './examples';
+import { METHODS } from './messages';
 import type { Message, Method, Query, Reply, Request, Source } from './messages';
 import { readPlyScalars } from './ply_scalars';
 import type { PlyScalar } from './ply_scalars';
@@ -16,6 +17,7 @@ interface Arrays {
   positions: Float32Array | Float64Array;
   corners: Uint32Array;
   offsets: Uint32Array | null;
+  walls: Uint8Array | null;
   warnings: string[];
   scalars: PlyScalar[];
   index?: MeshIndex; // that of an index file
@@ -23,6 +25,7 @@ interface Arrays {
 
 let index: MeshIndex | null = null;
 let faces: Faces | null = null;
+let walls: Uint8Array | null = null;
 let curvature: { radius: number; values: Curvature } | null = null; // the last one
 let current = -1; // the opening of the index; the page asks nothing before the first
 let latestOpening = 0;
@@ -54,19 +57,19 @@ function timed<T>(work: () => T): { result: T; seconds: number } {
 
 const INDEX_MARK = [0x8b, 0x4d, 0x48, 0x49]; // "\x8bMHI", the first bytes of an index file
 
-const NO_MORE = { offsets: null, warnings: [], scalars: [] };
+const NO_MORE = { offsets: null, walls: null, warnings: [], scalars: [] };
 
 function makeExample(name: string): Arrays {
   const example = findExample(name) ?? EXAMPLES[0];
   return { ...NO_MORE, ...example.make(example.vertices) };
 }
 
-/** As `meshhood --weld`: the faces name the first of the vertices that are joined. */
+/** As `meshhood --weld`: the faces name the first of the vertices that are joined, but no wall. */
 function joinVertices(mesh: Arrays, eps: number): void {
   const { ids } = weld(mesh.positions, mesh.corners, { offsets: mesh.offsets, eps });
   const first: number[] = [];
   ids.forEach((id, v) => {
-    if (id === first.length) first.push(v);
+    if (id === first.length || mesh.walls?.[first[id]]) first[id] = v;
   });
   mesh.corners = mesh.corners.map((v) => first[ids[v]]);
 }
@@ -78,6 +81,7 @@ function read(bytes: Uint8Array<ArrayBuffer>, { name, weld: eps, precision }: Ex
   }
   const mesh = readMesh(bytes, name, { precision, progress: reportProgress('Reading') });
   const arrays = { ...mesh, scalars: mesh.format === 'ply' ? readPlyScalars(bytes) : [] };
+  if (mesh.walls !== null) arrays.warnings.push('paper and bfs give no answers, because they know no walls');
   if (eps !== undefined) joinVertices(arrays, eps);
   return arrays;
 }
@@ -113,6 +117,7 @@ async function open(source: Source, opening: number): Promise<void> {
   current = opening;
   // The triangles go to the page.
   faces = mesh.offsets === null ? { corners: mesh.corners.slice() } : { corners: mesh.corners, offsets: mesh.offsets };
+  walls = mesh.walls;
   curvature = null;
   ++latestComputation;
   reply({
@@ -124,6 +129,7 @@ async function open(source: Source, opening: number): Promise<void> {
       meanEdge: opened.meanEdgeLength,
       indexBytes: opened.byteLength,
       buildSeconds, warnings: mesh.warnings, scalars: mesh.scalars,
+      methods: walls === null ? METHODS : ['exact', 'ball'],
     },
   }, [surface.positions.buffer, surface.normals.buffer, surface.triangles.buffer]);
 }
@@ -147,7 +153,7 @@ async function forEachMethod(
 
 async function answer(query: Query): Promise<void> {
   await forEachMethod(query, (index, method) => {
-    const ids = index.neighborhood(query.vertex, query.radius, { method });
+    const ids = index.neighborhood(query.vertex, query.radius, { method, walls });
     reply({ kind: 'answer', id: query.id, method, ids }, [ids.buffer]);
   });
 }
@@ -161,7 +167,7 @@ const BATCH = 2; // milliseconds, as the clock of a browser is coarse
 /** Milliseconds for `runs` queries. */
 function duration(index: MeshIndex, query: Query, method: Method, runs: number): number {
   const begin = performance.now();
-  for (let run = 0; run < runs; ++run) index.viewNeighborhood(query.vertex, query.radius, { method });
+  for (let run = 0; run < runs; ++run) index.viewNeighborhood(query.vertex, query.radius, { method, walls });
   return performance.now() - begin;
 }
 
@@ -217,7 +223,7 @@ async function forEachPart(stage: string, work: (index: MeshIndex, vertices: Uin
 async function computeCounts(radius: number): Promise<Uint32Array | null> {
   const all = new Uint32Array(index!.vertexCount);
   const isDone = await forEachPart('Counting all neighborhoods', (index, vertices) => {
-    const counts = index.counts(radius, { vertices });
+    const counts = index.counts(radius, { vertices, walls });
     vertices.forEach((v, row) => (all[v] = counts[row]));
   });
   return isDone ? all : null;
@@ -228,7 +234,7 @@ async function computeCurvature(radius: number): Promise<Curvature | null> {
   if (curvature?.radius === radius) return curvature.values;
   const [k1, k2] = [0, 1].map(() => new Float64Array(index!.vertexCount));
   const isDone = await forEachPart('Fitting all neighborhoods', (index, vertices) => {
-    const found = index.curvature(radius, { faces, vertices });
+    const found = index.curvature(radius, { faces, vertices, walls });
     vertices.forEach((v, row) => {
       const isFitted = found.state[row] !== 2 && found.state[row] !== 3;
       k1[v] = isFitted ? found.k1[row] : NaN;
@@ -254,6 +260,7 @@ function findNeighbors(vertex: number): void {
 }
 
 function saveIndex(): void {
+  if (walls !== null) throw new Error(`vertex ${walls.indexOf(1)} has no position (NaN), which an index file cannot say`);
   const bytes = index!.save();
   reply({ kind: 'index', bytes }, [bytes.buffer]);
 }
