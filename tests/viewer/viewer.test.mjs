@@ -128,7 +128,7 @@ test('keys do what their list says', async () => {
   const [picture] = await Promise.all([page.waitForEvent('download'), press('s')]);
   assert.equal(picture.suggestedFilename(), 'terrain.png');
   await press('?');
-  await page.waitForSelector('#keys[open]');
+  await page.getByRole('dialog', { name: 'Keys and gestures' }).waitFor();
   await page.keyboard.press('Escape');
   await page.waitForSelector('#keys', { state: 'hidden' });
 });
@@ -153,6 +153,11 @@ test('a finger chooses a vertex, and takes the marker along', async () => {
   await touch('touchEnd', []);
   await waitForAnswers(page);
   assert.equal(await page.inputValue('#vertex'), String(target));
+  // A second finger ends this, and the next drag turns the mesh.
+  await touch('touchStart', [to]);
+  await touch('touchStart', [to, at]);
+  await touch('touchEnd', []);
+  assert.ok(await page.evaluate(() => window.meshhoodPage.view.controls.enabled));
 });
 
 test('files that are dropped are shown; broken ones get the words of the command line', async () => {
@@ -298,6 +303,19 @@ test('a computation that is given up leaves neither colors nor a bar', async () 
   await setVertex(page, 7000);
   assert.equal(await page.evaluate(() => window.meshhoodPage.values), null);
   assert.ok(await page.isHidden('#legend'));
+  // Given up when it has just ended.
+  await page.evaluate(() => {
+    const [bar, color] = [document.querySelector('#status .bar div'), document.getElementById('color')];
+    new MutationObserver(() => {
+      if (bar.style.width !== '100%') return;
+      color.value = 'answers';
+      color.dispatchEvent(new Event('change'));
+    }).observe(bar, { attributes: true });
+  });
+  await setRadius(page, 1);
+  await page.selectOption('#color', 'count');
+  await page.waitForFunction(() => document.getElementById('color').value === 'answers');
+  await page.waitForSelector('#status', { state: 'hidden' });
 });
 
 test('an index file that holds faces opens as a surface', async () => {
@@ -395,6 +413,25 @@ test('a link that comes while a mesh is prepared is followed, also to the mesh t
   await openExample(page, 'terrain', () => { location.hash = '#example=folds&vertex=7&radius=3'; });
   await waitForMesh(page, 'folds');
   assert.equal(await page.inputValue('#vertex'), '7');
+});
+
+test('ids are saved only as those of the vertex that they answer, and a picture that fails says so', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
+  const saved = [];
+  page.on('download', (download) => saved.push(download.suggestedFilename()));
+  await page.evaluate(() => {
+    const vertex = document.getElementById('vertex');
+    vertex.value = '45000';
+    vertex.dispatchEvent(new Event('change'));
+    document.getElementById('save-ids').click();
+    HTMLCanvasElement.prototype.toBlob = (take) => take(null);
+    document.getElementById('save-picture').click();
+  });
+  await page.waitForFunction(() => /could not make the picture/.test(document.querySelector('#error p').textContent));
+  await waitForAnswers(page);
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save-ids')]);
+  assert.deepEqual(saved, ['terrain-45000.txt']);
+  assert.match(readFileSync(await download.path(), 'utf8'), /^45000$/m);
 });
 
 test('vertices without a position are walls, as for the command line', async () => {

@@ -93,8 +93,8 @@ export class Coloring {
   }
 
   receive(quantity: QuantityName, radius: number, values: Uint32Array | Float64Array): void {
-    if (this.#choice !== quantity || radius !== this.#radius) return;
     showProgress(null);
+    if (this.#choice !== quantity || radius !== this.#radius) return;
     this.#setScalar(toScalar(quantity, values));
     this.#paint();
   }

@@ -73,7 +73,8 @@ class Page {
       random: () => this.#querying.selectRandom(),
       focus: () => this.view.showQuery(this.#querying.radius),
       savePicture: () => void savePicture(this.view, this.#opening.name),
-      saveIds: () => saveIds(this.ids('exact'), this.#querying.vertex, this.#opening.name),
+      saveIds: () => this.isAnswered
+        ? saveIds(this.ids('exact'), this.#querying.vertex, this.#opening.name) : say('There is no answer yet.'),
       saveIndex: () => this.#engine.request({ kind: 'save-index' }),
       copyLink: () => void this.#copyLink(),
     });

@@ -51,17 +51,15 @@ export function connectPointer(canvas: HTMLCanvasElement, view: View, choose: (v
     if (takesMarker && moved) chooseAt(event, false);
   });
 
+  const end = () => {
+    begin = null;
+    view.controls.enabled = true;
+    canvas.classList.remove('dragging');
+  };
   canvas.addEventListener('pointerup', (event) => {
-    if (!event.isPrimary || begin === null) return;
-    if (takesMarker || !moved) chooseAt(event, true);
-    begin = null;
-    view.controls.enabled = true;
-    canvas.classList.remove('dragging');
+    if (!event.isPrimary) return;
+    if (begin !== null && (takesMarker || !moved)) chooseAt(event, true);
+    end();
   });
-
-  canvas.addEventListener('pointercancel', () => {
-    begin = null;
-    view.controls.enabled = true;
-    canvas.classList.remove('dragging');
-  });
+  canvas.addEventListener('pointercancel', end);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the page gives to the browser as files. Their names are made from that of the mesh.
+import { showError } from './notices';
 import type { View } from './view';
 
 function download(content: Blob, name: string): void {
@@ -17,7 +18,9 @@ function stem(name: string): string {
 
 export async function savePicture(view: View, mesh: string): Promise<void> {
   const background = getComputedStyle(document.body).getPropertyValue('--background').trim();
-  download(await view.picture(background), `${stem(mesh)}.png`);
+  const picture = await view.picture(background);
+  if (picture === null) showError('The browser could not make the picture.');
+  else download(picture, `${stem(mesh)}.png`);
 }
 
 /** The ids of the answer for `vertex`, as `meshhood query` prints them. */

@@ -384,14 +384,13 @@ export class View {
     this.draw();
   }
 
-  /** A PNG of what is seen, over `background`. */
-  async picture(background: string): Promise<Blob> {
+  /** A PNG of what is seen, over `background`; null if the browser cannot make it. */
+  async picture(background: string): Promise<Blob | null> {
     this.#scene.background = new THREE.Color(background);
     this.#render();
     const blob = await new Promise<Blob | null>((resolve) => this.#renderer.domElement.toBlob(resolve));
     this.#scene.background = null;
     this.draw();
-    if (blob === null) throw new Error('The browser could not make the picture.');
     return blob;
   }
 }
