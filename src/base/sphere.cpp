@@ -119,8 +119,10 @@ Support select(const Support& support, unsigned chosen, const Point& p) {
 }
 
 bool encloses(const Ball& ball, const Support& support) {
+  // Far from the origin, the rounding of the center counts: half a unit in the last place of each coordinate.
+  const double rounding = 0x1p-50 * largest_component(ball.center) * std::sqrt(ball.squared_radius);
   for (std::size_t i = 0; i < support.size(); ++i) {
-    if (!(squared_distance(ball.center, support[i]) <= ball.squared_radius * (1 + 1e-10))) return false;
+    if (!(squared_distance(ball.center, support[i]) <= ball.squared_radius * (1 + 1e-10) + rounding)) return false;
   }
   return true;
 }
@@ -187,9 +189,7 @@ template <class Real>
 Sphere<Real> bounding_sphere(std::span<const Real> xyz) {
   const std::size_t count = xyz.size() / 3;
   const auto at = [&](std::size_t i) { return point(xyz, i); };
-  // Far from the origin, a center that is rounded as the positions are is too inaccurate for `encloses`.
-  const Point origin = at(0);
-  const Point center = origin + smallest_ball_center(count, [&](std::size_t i) { return at(i) - origin; });
+  const Point center = smallest_ball_center(count, at);
   Sphere<Real> sphere{static_cast<Real>(center.x), static_cast<Real>(center.y), static_cast<Real>(center.z), 0};
   sphere.radius = round_up<Real>(std::sqrt(farthest(count, at, center_of(sphere)).second));
   return sphere;

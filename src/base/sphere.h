@@ -14,7 +14,7 @@ namespace meshhood::inline v0_1 {
 template <class Real>
 [[nodiscard]] Sphere<Real> bounding_sphere(std::span<const Real> xyz);
 
-/// Returns the center of such a sphere around at least one point near the origin, not rounded.
+/// Returns the center of such a sphere around at least one point, not rounded.
 [[nodiscard]] Point bounding_center(std::span<const Point> points);
 
 }  // namespace meshhood::inline v0_1
