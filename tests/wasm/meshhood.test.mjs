@@ -251,6 +251,19 @@ test('a result that is too large is refused by its size, and the index lives', (
   assert.ok(index.memoryBytes < 100 * 2 ** 20);
 });
 
+test('rows by radii that no array can have are refused, and the index lives', () => {
+  const mesh = grid(256, 256, (row, column) => [row, column, 0]);
+  const index = build(mesh);
+  const expected = index.counts(2);
+  const options = { scales: new Float64Array(2 ** 16 + 1).fill(0.001), faces: mesh };
+  const refused = { code: 'TooLarge', message: /^the result of 65537 radii by 65536 rows by \d+ columns, expected at most/ };
+  assert.throws(() => index.counts(null, { scales: options.scales }), refused);
+  for (const call of ['curvature', 'features', 'invariants', 'gaps']) {
+    assert.throws(() => index[call](null, options), refused);
+  }
+  assert.deepEqual(index.counts(2), expected);
+});
+
 test('a mesh of a million vertices takes less than 400 MB, with all methods in use', () => {
   const index = build(grid(1000, 1000, (row, column) => [row, column, 0]));
   const counts = ['exact', 'bfs', 'paper', 'ball'].map((method) => index.count(500_500, 10, { method }));

@@ -93,7 +93,7 @@ const paper::Index& Workspace::paper_index() {
 
 SearchMethod Workspace::make_method(MethodName name) {
   if (has_masks_ && (name == MethodName::Paper || name == MethodName::Bfs)) {
-    raise(ErrorCode::InvalidOption, "method: expected 'exact' with walls or ignored vertices");
+    raise(ErrorCode::InvalidOption, "method: expected 'exact' or 'ball' with walls or ignored vertices");
   }
   switch (name) {
     case MethodName::Exact: return searched();
