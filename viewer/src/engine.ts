@@ -99,7 +99,7 @@ export class Engine {
   #receiveFailure({ opening, request }: Message, reason: string): void {
     this.#busy = false;
     const isOpening = request.kind === 'open';
-    // Nobody waits any more for a mesh or an answer that was requested before the last one.
+    // Of meshes, and of answers, only the last that was requested is awaited.
     const isLate = isOpening ? opening < this.#openings : 'query' in request && request.query.id < this.#id;
     if (!isLate) this.#handlers.failed(isOpening ? 'open' : 'query', reason);
     if (this.#waiting !== null) this.#start(this.#waiting);
