@@ -69,12 +69,12 @@ const [typeOf, bufferOf, offsetOf, lengthOf] = [Symbol.toStringTag, 'buffer', 'b
   (property) => getter(TYPED_ARRAY.prototype, property));
 const bytesOfBuffer = getter(ArrayBuffer.prototype, 'byteLength'); // throws if it is called for anything else
 
-/** A typed array on this memory. */
-function viewOf(Type, buffer, offset, length, name) {
+/** A typed array on the memory of `value`: `place` returns its buffer, offset and length. */
+function viewOf(Type, value, name, place) {
   try {
-    return new Type(buffer, offset, length);
+    return new Type(...place());
   } catch (error) {
-    throw new TypeError(`${name}: a detached ${Type.name}, expected one with its memory`, { cause: error });
+    throw new TypeError(`${name}: a detached ${shown(value)}, expected one with its memory`, { cause: error });
   }
 }
 
@@ -85,7 +85,8 @@ function viewOf(Type, buffer, offset, length, name) {
 function plainArray(value, name, expected, isExpected) {
   const type = typeOf.call(value);
   if (type === undefined || !isExpected(type)) refuseType(value, name, expected);
-  return viewOf(globalThis[type], bufferOf.call(value), offsetOf.call(value), lengthOf.call(value), name);
+  const place = () => [bufferOf.call(value), offsetOf.call(value), lengthOf.call(value)];
+  return viewOf(globalThis[type], value, name, place);
 }
 
 export function expectType(value, types, name) {
@@ -102,11 +103,14 @@ function isBuffer(value) {
   }
 }
 
+const PLACE = ['buffer', 'byteOffset', 'byteLength'];
+
 /** The bytes of a buffer or of a view of one. */
 export function expectBytes(value, name) {
-  if (ArrayBuffer.isView(value)) return viewOf(Uint8Array, value.buffer, value.byteOffset, value.byteLength, name);
-  if (isBuffer(value)) return viewOf(Uint8Array, value, 0, undefined, name);
-  return refuseType(value, name, 'an ArrayBuffer or a typed array');
+  if (isBuffer(value)) return viewOf(Uint8Array, value, name, () => [value]);
+  if (!ArrayBuffer.isView(value)) refuseType(value, name, 'an ArrayBuffer or a typed array');
+  const { prototype } = typeOf.call(value) === undefined ? DataView : TYPED_ARRAY;
+  return viewOf(Uint8Array, value, name, () => PLACE.map((property) => getter(prototype, property).call(value)));
 }
 
 /** One number for each vertex. The module would take an array of length 0 as none. */
@@ -141,11 +145,15 @@ export function expectSize(value, name, most = 2 ** 32 - 1) {
   if (value > most) throw new MeshhoodError('InvalidOption', `${name}: ${value}, expected at most ${most}`);
 }
 
-/** Three numbers. A typed array of integers would be a list of vertices. */
-export function expectPoint(point, name) {
-  const isList = Array.isArray(point) || ['Float64Array', 'Float32Array'].includes(typeOf.call(point));
-  if (!isList || point.length !== 3) throw new TypeError(`${name}: expected a vertex or three numbers`);
-  for (const coordinate of point) expectNumber(coordinate, `${name}: coordinate`);
+/** The three numbers of a point. A typed array of integers would be a list of vertices. */
+export function expectPoint(point, name, expected = 'three numbers') {
+  if (!Array.isArray(point) && !['Float64Array', 'Float32Array'].includes(typeOf.call(point))) {
+    refuseType(point, name, expected);
+  }
+  if (point.length !== 3) throw new TypeError(`${name}: ${point.length} values, expected ${expected}`);
+  const coordinates = [point[0], point[1], point[2]]; // an iterator may give others
+  for (const coordinate of coordinates) expectNumber(coordinate, `${name}: coordinate`);
+  return coordinates;
 }
 
 /** Any typed array of numbers, as one of 64 bits. */

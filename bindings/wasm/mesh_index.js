@@ -17,6 +17,7 @@ const CORNERS = ['all', 'any'];
 const NESTINGS = ['own', 'patch'];
 const FITS = ['quadric', 'jet'];
 const THICKNESSES = ['ray', 'sphere'];
+const EXPECTED_WEIGHTS = "'area' or a typed array of numbers";
 const KINDS = [
   'crease', 'mean', 'gaussian', 'k1', 'k2', 'curvedness', 'shape_index', 'area', 'volume', 'gap', 'height',
   'variation',
@@ -139,7 +140,8 @@ export class MeshIndex extends Owner {
   }
 
   get positions() {
-    return this.#viewPositions().slice();
+    const { constructor: Reals, byteOffset, length } = this.#viewPositions();
+    return this.instance.take(Reals, byteOffset, length);
   }
 
   #viewPositions() {
@@ -249,25 +251,24 @@ export class MeshIndex extends Owner {
 
   nearest(point, options = {}) {
     const masks = withDefaults(options, { walls: null });
-    expectPoint(point, 'point');
-    const vertex = withMasks(this.instance, masks, () => this.instance.call('nearest', ...point) >>> 0);
+    const xyz = expectPoint(point, 'point');
+    const vertex = withMasks(this.instance, masks, () => this.instance.call('nearest', ...xyz) >>> 0);
     return { vertex, distance: this.instance.takeReals()[0] };
   }
 
   closestPoint(point, options = {}) {
     const { faces } = withDefaults(options, ON_FACES);
-    expectPoint(point, 'point');
+    const xyz = expectPoint(point, 'point');
     useFaces(this.instance, faces);
-    this.instance.call('closest_point', ...point);
+    this.instance.call('closest_point', ...xyz);
     return this.#takeSurfacePoint();
   }
 
   firstHit(origin, direction, options = {}) {
     const { faces } = withDefaults(options, ON_FACES);
-    expectPoint(origin, 'origin');
-    expectPoint(direction, 'direction');
+    const ray = [...expectPoint(origin, 'origin'), ...expectPoint(direction, 'direction')];
     useFaces(this.instance, faces);
-    this.instance.call('first_hit', ...origin, ...direction);
+    this.instance.call('first_hit', ...ray);
     return this.#takeSurfacePointOrNull();
   }
 
@@ -292,17 +293,23 @@ export class MeshIndex extends Owner {
       'neighborhood is empty; nearest() returns the nearest vertex and its distance');
   }
 
+  /** The coordinates of a point; or a vertex of the mesh, alone. */
+  #readStart(start) {
+    if (!isVertex(start)) return expectPoint(start, 'start', 'a vertex or three numbers');
+    expectVertex(start, this.#vertexCount);
+    return [start];
+  }
+
   /** Calls `use` while the start and the masks are in the memory of the module, and returns its result. */
   #search(start, given, use) {
     const seeds = expectVertices(given.seeds, 'seeds');
-    if (isVertex(start)) expectVertex(start, this.#vertexCount);
-    else expectPoint(start, 'start');
+    const place = this.#readStart(start);
     if (seeds !== null && isVertex(start)) {
       throw new MeshhoodError('InvalidOption', 'seeds: expected null, for the start is a vertex');
     }
     return withMasks(this.instance, given, () => this.instance.with([seeds], (seedList) => {
       if (isVertex(start)) this.instance.call('start_at_vertex', start);
-      else this.instance.call('start_at_point', ...start, seedList, seeds?.length ?? 0);
+      else this.instance.call('start_at_point', ...place, seedList, seeds?.length ?? 0);
       return use();
     }));
   }
@@ -345,7 +352,7 @@ export class MeshIndex extends Owner {
     const given = withDefaults(options, DISCS);
     expectNumber(area, 'area');
     const areas = this.#weights(given.weights, given.faces);
-    if (areas === null) throw new TypeError("weights: null, expected 'area' or a typed array of numbers");
+    if (areas === null) throw new TypeError(`weights: null, expected ${EXPECTED_WEIGHTS}`);
     expectNumber(given.r, 'radius');
     const { ids, reals, counts } = this.#askRows(given.r, given, () => this.instance.with([areas], (list) =>
       this.instance.call('discs', area, list, areas.length)));
@@ -416,18 +423,14 @@ export class MeshIndex extends Owner {
   #callOnPatch(name, start, r, given, ...values) {
     const { face, faces, walls, unit } = given;
     expectNumber(r, 'radius');
-    if (isVertex(start)) {
-      expectVertex(start, this.#vertexCount);
-      if (face !== null) throw new MeshhoodError('InvalidOption', 'face: expected a point as start');
-    } else {
-      expectPoint(start, 'start');
-      expectSize(face, 'face');
-    }
+    const place = this.#readStart(start);
+    if (!isVertex(start)) expectSize(face, 'face');
+    else if (face !== null) throw new MeshhoodError('InvalidOption', 'face: expected a point as start');
     useFaces(this.instance, faces);
     const radius = this.#scale(unit) * r;
     withMasks(this.instance, { walls }, () => {
       if (isVertex(start)) this.instance.call('patch_at_vertex', start);
-      else this.instance.call('patch_at_point', face, ...start);
+      else this.instance.call('patch_at_point', face, ...place);
       this.instance.call(name, radius, ...values);
     });
   }
@@ -457,9 +460,8 @@ export class MeshIndex extends Owner {
   rim(ids, start, r, options = {}) {
     const { faces } = withDefaults(options, ON_FACES);
     expectNumber(r, 'radius');
-    if (isVertex(start)) expectVertex(start, this.#vertexCount);
-    else expectPoint(start, 'start');
-    this.#callOnRegion('rim', ids, faces, ...(isVertex(start) ? this.#positionsOf([start]) : start), r);
+    const place = this.#readStart(start);
+    this.#callOnRegion('rim', ids, faces, ...(isVertex(start) ? this.#positionsOf(place) : place), r);
     const { ids: edges, reals: points, counts } = this.instance.takeAnswer();
     const lines = (counts.length - 1) / 2; // their offsets, and whether each is closed
     return Array.from({ length: lines }, (_, line) => {
@@ -508,7 +510,7 @@ export class MeshIndex extends Owner {
   #weights(weights, faces) {
     if (weights === null) return null;
     if (typeof weights !== 'string') {
-      return expectForVertices(toReals(weights, 'weights'), 'weights', this.#vertexCount);
+      return expectForVertices(toReals(weights, 'weights', EXPECTED_WEIGHTS), 'weights', this.#vertexCount);
     }
     choose(['area'], weights, 'weights');
     withFaces(this.instance, faces, () => this.instance.call('areas'));

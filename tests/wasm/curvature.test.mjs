@@ -91,7 +91,7 @@ test('smoothing is the mean by a Gaussian', () => {
   for (const [call, message] of [
     [() => index.smooth(signal, signal), 'fwhm Float64Array, expected a number'],
     [() => index.smooth(signal, 5n), 'fwhm 5n, expected a number'],
-    [() => index.count(signal, 1, { unit: 'mesh' }), 'start: expected a vertex or three numbers'],
+    [() => index.count(signal, 1, { unit: 'mesh' }), `start: ${signal.length} values, expected a vertex or three numbers`],
     [() => index.contains(1, [...signal], 1), 'vertex Array, expected a whole number'],
     [() => index.smooth(signal, 4, { unit: signal }), "unit: Float64Array, expected one of 'mesh', 'edge'"],
   ]) {

@@ -111,6 +111,19 @@ test('arrays are what they are, and not what they say', () => {
     }
   }
   for (const Type of [Longer, Renamed]) assert.deepEqual(index.counts(2, { vertices: Type.from(vertices) }), right);
+  class Elsewhere extends Uint8Array {
+    get byteOffset() {
+      return 1;
+    }
+  }
+  assert.deepEqual(MeshIndex.load(Elsewhere.from(index.save())).save(), index.save());
+  class Going extends Float64Array {
+    * [Symbol.iterator]() { // an address, too, and a size
+      yield* [9, 9, 9, 64, 5];
+    }
+  }
+  assert.deepEqual(index.neighborhood(Going.of(1, 2, 0), 2), index.neighborhood([1, 2, 0], 2));
+  assert.deepEqual(index.nearest(Going.of(1, 2, 0)), index.nearest([1, 2, 0]));
   const imitations = [
     new Proxy(vertices, {}), new Proxy(vertices, { get: (array, name) => array[name] }), Object.create(vertices)];
   for (const imitation of imitations) {
@@ -143,8 +156,8 @@ test('arrays whose memory has been sent elsewhere are refused by name', () => {
   assert.throws(() => new MeshIndex(sent(mesh.positions.slice()), mesh.corners), refused('positions', 'Float64Array'));
   assert.throws(() => index.counts(1, { walls: sent(new Uint8Array(72)) }), refused('walls', 'Uint8Array'));
   assert.throws(() => index.aggregate(sent(new Float32Array(72)), 1), refused('values', 'Float32Array'));
-  for (const bytes of [sent(new Uint8Array(9)), sent(new Uint8Array(9)).buffer]) {
-    assert.throws(() => readMesh(bytes, 'a.ply'), refused('bytes', 'Uint8Array'));
+  for (const bytes of [sent(new Uint8Array(9)), sent(new Uint8Array(9)).buffer, sent(new DataView(new ArrayBuffer(9)))]) {
+    assert.throws(() => readMesh(bytes, 'a.ply'), refused('bytes', bytes.constructor.name));
   }
 });
 

@@ -186,6 +186,25 @@ test('an instance for which there are no addresses left is an error, too', () =>
   }
 });
 
+test('a result for which the engine has no memory is an error, too, and the index lives', () => {
+  const index = MeshIndex.load(file);
+  const { prototype } = Object.getPrototypeOf(Uint8Array);
+  const { slice } = prototype;
+  const cause = new RangeError('Array buffer allocation failed');
+  const copies = ['save', 'faces', 'positions', 'permutation', 'neighborhood', 'neighborhoods', 'counts'];
+  prototype.slice = () => {
+    throw cause;
+  };
+  try {
+    for (const name of copies) {
+      assert.throws(() => OF_INDEX[name](index), { code: 'TooLarge', message: 'not enough memory', cause }, name);
+    }
+  } finally {
+    prototype.slice = slice;
+  }
+  for (const name of copies) assert.deepEqual(OF_INDEX[name](index), OF_INDEX[name](MeshIndex.load(file)));
+});
+
 test('no call is left out', () => {
   const methods = (type) => Object.getOwnPropertyNames(type.prototype).filter((name) => name !== 'constructor');
   assert.deepEqual(Object.keys(OF_INDEX), methods(MeshIndex).filter((name) => name !== 'vertexCount'));

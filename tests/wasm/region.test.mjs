@@ -254,8 +254,10 @@ test('wrong arguments of searches from starts give the errors of C++ and leave t
   refuse(() => index.neighborhood(1, -1), { code: 'InvalidRadius' });
   refuse(() => index.neighborhood(1, 1, { walls: new Uint8Array(3) }), { message: /^walls: 3 values/ });
   refuse(() => index.neighborhood(1, 1, { walls: [1] }), TypeError);
-  for (const start of [[1, 2], Uint32Array.of(1, 2, 3), null]) {
-    refuse(() => index.neighborhood(start, 1), { name: 'TypeError', message: 'start: expected a vertex or three numbers' });
+  for (const [point, found] of [[[1, 2], '2 values'], [Uint32Array.of(1, 2, 3), 'Uint32Array'], [null, 'null']]) {
+    const refusal = (name, expected) => ({ name: 'TypeError', message: `${name}: ${found}, expected ${expected}` });
+    refuse(() => index.neighborhood(point, 1), refusal('start', 'a vertex or three numbers'));
+    refuse(() => index.nearest(point), refusal('point', 'three numbers'));
   }
   refuse(() => index.neighborhood([0, 0, 0], 1, { method: 'bfs' }), { code: 'InvalidOption', message: /^start: / });
   refuse(() => index.count([0, 0, 0], 1, { metric: 'rings' }), { code: 'InvalidOption', message: /^start: / });

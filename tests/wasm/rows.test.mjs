@@ -420,6 +420,7 @@ test('the thickness of a folded sheet is that between its halves', () => {
 
 test('words that contradict each other are refused', () => {
   const scales = Float64Array.of(1, 2);
+  const heights = new Float64Array(count);
   const refuse = (call, message) => assert.throws(call, { name: 'TypeError', message });
   refuse(() => index.counts(1, { scales }), 'r: 1, expected null with scales');
   refuse(() => index.counts(null), 'r: null, expected a radius, or one for each row; or null, and several radii for all rows as scales');
@@ -427,13 +428,15 @@ test('words that contradict each other are refused', () => {
     refuse(() => index.neighborhoods(r), `r: ${found}, expected a number or a typed array of numbers`);
   }
   refuse(() => index.aggregate([1], 1), 'values: Array, expected a typed array of numbers');
+  for (const call of [(o) => index.aggregate(heights, 1, o), (o) => index.discs(1, o)]) {
+    refuse(() => call({ weights: 5 }), "weights: 5, expected 'area' or a typed array of numbers");
+  }
   refuse(() => index.aggregate(new BigInt64Array(), 1), 'values: BigInt64Array, expected a typed array of numbers');
   assert.throws(() => index.neighborhoods(null, { scales }), { name: 'TypeError', message: /^unknown option 'scales'/ });
   assert.throws(() => index.counts(Float64Array.of(1, 2)), { code: 'InvalidRadius' });
   assert.throws(() => index.counts(1, { walls: new Uint8Array(3) }), { code: 'InvalidOption' });
   assert.throws(() => index.counts(1, { walls: [1] }), TypeError);
   const none = `0 values, expected one for each of ${count} vertices`; // and not all vertices
-  const heights = new Float64Array(count);
   for (const name of ['walls', 'ignored']) {
     for (const call of [(o) => index.counts(1, o), (o) => index.count(5, 1, o), (o) => index.aggregate(heights, 1, o)]) {
       assert.throws(() => call({ [name]: new Uint8Array() }), { code: 'InvalidOption', message: `${name}: ${none}` });
