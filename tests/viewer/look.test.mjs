@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 
-import { colorsAt, countPixels, idsOf, openPage, placeOf, setVertex, show } from './browser.mjs';
+import { colorsAt, countPixels, drop, idsOf, openPage, placeOf, setVertex, show } from './browser.mjs';
 import { commandLine, launchWithFolder } from './fixture.mjs';
 
 const { browser, folder } = await launchWithFolder();
@@ -253,6 +253,13 @@ test('a warning is not shown as an error', async () => {
   const color = (id) => page.evaluate((id) => getComputedStyle(document.querySelector(`#${id}`)).color, id);
   assert.notEqual(await color('warning'), await color('error'));
   await page.click('#warning button');
+  assert.ok(await page.isHidden('#warning'));
+  // It is that of the mesh which is shown.
+  await show(page, 'more.ply', Buffer.from(ply));
+  await drop(page, 'broken.ply', Buffer.from('no mesh'));
+  await page.waitForSelector('#error:not([hidden])');
+  assert.ok(await page.isVisible('#warning'));
+  await show(page, 'less.ply', Buffer.from(ply.replace('7 7 7\n', '')));
   assert.ok(await page.isHidden('#warning'));
 });
 

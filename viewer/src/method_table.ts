@@ -37,7 +37,7 @@ export class MethodTable {
   setPossible(method: Method, isPossible: boolean): void {
     const { element, box } = this.#rows.get(method)!;
     box.disabled = !isPossible;
-    element.title = isPossible ? MEANINGS[method] : 'Gives no answer: knows no walls, which vertices without a position are';
+    element.title = isPossible ? MEANINGS[method] : 'Gives no answer: knows no walls, and vertices without a position are walls';
   }
 
   setShown(method: Method, isShown: boolean): void {

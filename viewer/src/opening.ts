@@ -61,7 +61,6 @@ export class Opening {
     this.#panel.setExample(exampleOf(asked)?.name ?? null);
     delete document.body.dataset.mesh;
     showError(null);
-    showWarning(null);
     showProgress('Reading');
     this.#asked.set(this.#engine.open(asked.source), asked);
   }
@@ -74,7 +73,8 @@ export class Opening {
     const title = this.example?.title ?? opened.name;
     this.#panel.setMesh(title, facts(opened), opened.vertices, opened.faces, opened.meanEdge, mostEdges(opened));
     showProgress(null);
-    if (opened.warnings.length > 0) showWarning(`${opened.name}: accepted with a warning: ${opened.warnings.join('; ')}`);
+    const warning = `${opened.name}: accepted with a warning: ${opened.warnings.join('; ')}`;
+    showWarning(opened.warnings.length > 0 ? warning : null);
     this.#show(opened, asked);
     document.body.dataset.mesh = opened.name; // for tests: the mesh is open
   }
