@@ -29,7 +29,8 @@ class Paper:
         radius / radius_ratio. A larger ratio means smaller clusters, more of them, and fewer vertices that do not
         belong to the neighborhood. Finite, > 0.
 
-    The defaults are those of the paper, but for `fusion_growth`: it states no threshold. Raises ValueError or TypeError, naming the parameter.
+    The defaults are those of the paper, which states no `fusion_growth`. Raises ValueError or TypeError, naming the
+    parameter.
 
     >>> near = meshhood.MeshIndex(V, F).neighborhood(42, 0.3, method=meshhood.Paper(radius_ratio=20))
     """
