@@ -45,7 +45,7 @@ export class MeshhoodError extends Error {
  *
  * @param source `meshhood.wasm`: its address, as bundlers give it, the response to a request for it, or its bytes; or the
  * compiled module; or a promise of one of these. An address may be relative to the page. By default the file beside this
- * module is read. It must be of the version of the package. If it is refused, `initialize` may be called again.
+ * module is read. `meshhood.wasm` must have the version of the package. If it is refused, call `initialize` again.
  */
 export function initialize(source?: WasmSource | Promise<WasmSource>): Promise<void>;
 
@@ -335,24 +335,30 @@ export interface DiscOptions extends NearestOptions {
 /** Principal curvatures, one entry for each row; #scales by #rows if there are scales, here meant by #rows. */
 export class Curvature {
   /** Of arrays that were computed in parts. They are not copied. */
-  constructor(k1: Float64Array, k2: Float64Array, d1: Float64Array, d2: Float64Array, state: Uint8Array);
+  constructor(
+    k1: Unshared<Float64Array>,
+    k2: Unshared<Float64Array>,
+    d1: Unshared<Float64Array>,
+    d2: Unshared<Float64Array>,
+    state: Unshared<Uint8Array>,
+  );
 
   /**
    * k1 >= k2, in 1 / unit of the positions. Positive where the surface is convex, seen from the side of the normals:
    * 1 / R on a sphere with normals outward.
    */
-  readonly k1: Float64Array;
-  readonly k2: Float64Array;
+  readonly k1: Unshared<Float64Array>;
+  readonly k2: Unshared<Float64Array>;
   /** #rows by 3: unit vectors, with the sign that makes the component of largest magnitude positive. */
-  readonly d1: Float64Array;
-  readonly d2: Float64Array;
+  readonly d1: Unshared<Float64Array>;
+  readonly d2: Unshared<Float64Array>;
   /**
    * 0: fitted. 1: the points determine no unique quadric; the values are those of the one with the smallest
    * coefficients. 2: fewer than six vertices are in the ball or joined to these by edges, not across ignored vertices;
    * all values are 0. 3: the vertex has no normal, as it belongs to no face with an area; all values are 0. 4: fewer
    * than six vertices are in the ball; the fit is to these and to the nearest joined ones.
    */
-  readonly state: Uint8Array;
+  readonly state: Unshared<Uint8Array>;
 
   /** H = (k1 + k2) / 2. A new array, as of the others. */
   readonly mean: Unshared<Float64Array>;

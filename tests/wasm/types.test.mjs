@@ -72,6 +72,7 @@ const FILES = `
     const stream = await file.createWritable();
     await stream.write(index.save());
     await stream.write(index.neighborhoods(2).ids);
+    await stream.write(index.curvature(2).k1);
     return new Blob([index.save(), mesh.positions, index.neighborhood(42, 2), index.viewNeighborhood(42, 2)]);
   }
 `;
