@@ -167,7 +167,7 @@ test('masks whose content changes are other masks, and calls without have none',
     assert.equal(index.count(v, 3, { walls: barrier }), index.count(v, 3));
   }
   for (const method of ['paper', 'bfs']) {
-    assert.throws(() => index.count(400, 3, { method, walls: barrier }), { message: /^method: expected 'exact'/ });
+    assert.throws(() => index.count(400, 3, { method, walls: barrier }), { message: /^method: '\w+', expected 'exact'/ });
     assert.ok(index.count(400, 3, { method }) >= whole);
   }
   barrier[401] = 1;
@@ -445,7 +445,10 @@ test('words that contradict each other are refused', () => {
   for (const call of [(o) => index.aggregate(heights, 1, o), (o) => index.smooth(heights, 1, o), (o) => index.discs(1, o)]) {
     assert.throws(() => call({ weights: new Float64Array() }), { code: 'InvalidOption', message: `weights: ${none}` });
   }
-  assert.throws(() => index.counts(1, { walls, method: 'bfs' }), { code: 'InvalidOption' });
+  for (const method of ['paper', 'bfs']) {
+    const message = `method: '${method}', expected 'exact' or 'ball' with walls or ignored vertices`;
+    assert.throws(() => index.counts(1, { walls, method }), { code: 'InvalidOption', message });
+  }
   assert.throws(() => index.counts(1, { metric: 'rings', unit: 'edge' }), { code: 'InvalidOption', message: /^unit/ });
   assert.throws(() => index.neighborhood(5, 1, { sort: true }), { code: 'InvalidOption', message: /^sort: true/ });
   assert.equal(index.count(400, 0), 1);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <utility>
 
 #include "meshhood/error.h"
@@ -93,7 +94,8 @@ const paper::Index& Workspace::paper_index() {
 
 SearchMethod Workspace::make_method(MethodName name) {
   if (has_masks_ && (name == MethodName::Paper || name == MethodName::Bfs)) {
-    raise(ErrorCode::InvalidOption, "method: expected 'exact' or 'ball' with walls or ignored vertices");
+    raise(ErrorCode::InvalidOption, std::string(name == MethodName::Paper ? "method: 'paper'" : "method: 'bfs'") +
+                                        ", expected 'exact' or 'ball' with walls or ignored vertices");
   }
   switch (name) {
     case MethodName::Exact: return searched();
