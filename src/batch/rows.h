@@ -68,10 +68,10 @@ class Rows {
 /// Refuses lists of more bytes than the caller allows.
 class SizeLimit {
  public:
-  /// `item_bytes` is the size of an id with what stands beside it. No limit is beyond what can be addressed.
+  /// `item_bytes` is the size of an id, or of one with a distance. No limit is beyond what an array of either can have.
   SizeLimit(std::uint64_t max_bytes, std::size_t item_bytes, std::size_t rows)
       : rows_(rows),
-        max_bytes_(std::min<std::uint64_t>(max_bytes, std::numeric_limits<std::size_t>::max())),
+        max_bytes_(std::min(max_bytes, kMostOfArray / std::min(item_bytes, sizeof(double)) * item_bytes)),
         item_bytes_(item_bytes),
         max_items_(max_bytes_ / item_bytes) {}
 
@@ -116,6 +116,8 @@ class SizeLimit {
   }
 
  private:
+  static constexpr std::uint64_t kMostOfArray = std::numeric_limits<std::ptrdiff_t>::max();
+
   std::size_t rows_;
   std::uint64_t max_bytes_;
   std::uint64_t item_bytes_;
