@@ -168,7 +168,7 @@ PacketVisitor curvature_visitor(const OrientedIndex& surface, Metric metric, con
 
 Curvatures curvatures(const Surface& surface, const BatchQuery& query, const CurvatureOptions& options,
                       const Run& run) {
-  Curvatures result = make_curvatures(query.result_rows(surface.vertex_count()));
+  Curvatures result = make_curvatures(query.result_rows(surface.vertex_count(), 3));  // of a direction
   curvatures(surface, query, memory_of(result), options, run);
   return result;
 }

@@ -179,7 +179,7 @@ PrincipalComponents make_components(std::size_t rows) {
 PrincipalComponents principal_components(const Index& index, const BatchQuery& query, const MomentOptions& options,
                                          const Run& run) {
   const MomentWeights weights(IndexAccess::view(index), options.weights);
-  PrincipalComponents result = make_components(query.result_rows(index.vertex_count()));
+  PrincipalComponents result = make_components(query.result_rows(index.vertex_count(), 9));  // of the axes
   for_each_packet(
       index, query, [&](unsigned /*thread*/) { return component_visitor(index, query.metric, weights, result); }, run);
   return result;

@@ -29,6 +29,8 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
+constexpr std::size_t kGapColumns = sizeof(SurfacePoint) / sizeof(double);
+
 const PatchState& patches_alone(const SurfaceState& surface) {
   TaskContext alone;
   return surface.patches(alone);
@@ -220,14 +222,14 @@ Invariants invariants(const Surface& surface, const IndicesView& faces, std::spa
 }
 
 std::vector<SurfacePoint> gaps(const Surface& surface, const BatchQuery& query, const Run& run) {
-  std::vector<SurfacePoint> result(query.result_rows(surface.vertex_count()));
+  std::vector<SurfacePoint> result(query.result_rows(surface.vertex_count(), kGapColumns));
   for_each_gap(surface, query, [&](std::size_t row, const SurfacePoint& gap) { result[row] = gap; }, run);
   return result;
 }
 
 std::vector<SurfacePoint> gaps(const Surface& surface, const IndicesView& faces, std::span<const SpacePoint> points,
                                const BatchRadius& radius, const Run& run) {
-  std::vector<SurfacePoint> result(BatchQuery{.radius = radius}.result_rows(points.size()));
+  std::vector<SurfacePoint> result(BatchQuery{.radius = radius}.result_rows(points.size(), kGapColumns));
   for_each_point(surface, faces, points, radius, run,
                  [&](PatchSearcher& searcher, const PatchStart& start, double r, std::size_t row) {
                    result[row] = searcher.gap(start, r);

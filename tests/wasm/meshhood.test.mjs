@@ -256,11 +256,16 @@ test('rows by radii that no array can have are refused, and the index lives', ()
   const mesh = grid(256, 256, (row, column) => [row, column, 0]);
   const index = build(mesh);
   const expected = index.counts(2);
-  const options = { scales: new Float64Array(2 ** 16 + 1).fill(0.001), faces: mesh };
+  const scales = (count) => new Float64Array(count).fill(0.001);
+  const options = { scales: scales(2 ** 16 + 1), faces: mesh };
   const refused = { code: 'TooLarge', message: /^the result of 65537 radii by 65536 rows by \d+ columns, expected at most/ };
   assert.throws(() => index.counts(null, { scales: options.scales }), refused);
   for (const call of ['curvature', 'features', 'invariants', 'gaps']) {
     assert.throws(() => index[call](null, options), refused);
+  }
+  for (const [call, radii] of [['curvature', 2 ** 12 / 2], ['gaps', 2 ** 12 / 8]]) { // whose rows have several numbers
+    const message = new RegExp(`^the result of ${radii} radii by 65536 rows by \\d+ columns, expected at most`);
+    assert.throws(() => index[call](null, { scales: scales(radii), faces: mesh }), { code: 'TooLarge', message });
   }
   assert.deepEqual(index.counts(2), expected);
 });
