@@ -110,6 +110,10 @@ def outcome(kilobytes):
         return DONE
     except MemoryError:
         return OUT_OF_MEMORY
+    except SystemError as error:  # where NumPy has no memory left to say so
+        if "numpy" in str(error) and "without setting an exception" in str(error):
+            return OUT_OF_MEMORY
+        raise
     except OSError as error:  # where a file is mapped
         if error.errno == errno.ENOMEM and error.filename:
             return OUT_OF_MEMORY
