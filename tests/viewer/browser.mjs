@@ -52,9 +52,11 @@ export async function memoryOfPages(browser) {
   return Math.max(...peaks);
 }
 
-/** Until the methods of the table have answered the query that is shown. */
+/** Until the methods of the table have answered the query that is shown, and the view has followed the panel. */
 export async function waitForAnswers(page) {
   await page.waitForFunction(() => window.meshhoodPage.isAnswered);
+  // The panel may grow by an answer. The page observes its size after the layout, before the second frame from now.
+  await page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); }));
 }
 
 /** Drops a file onto the page, as from a folder. */

@@ -155,10 +155,13 @@ test('a finger chooses a vertex, and takes the marker along', async () => {
   await page.waitForFunction((v) => document.getElementById('vertex').value === v, String(target));
   await waitForAnswers(page);
   // A second finger ends this, and the next drag turns the mesh.
-  await touch('touchStart', [to]);
-  await touch('touchStart', [to, at]);
+  const turns = (expected) => page.waitForFunction((v) => window.meshhoodPage.view.controls.enabled === v, expected);
+  const marker = await placeOf(page, target);
+  await touch('touchStart', [marker]);
+  await turns(false);
+  await touch('touchStart', [marker, at]);
   await touch('touchEnd', []);
-  assert.ok(await page.evaluate(() => window.meshhoodPage.view.controls.enabled));
+  await turns(true);
 });
 
 test('files that are dropped are shown; broken ones get the words of the command line', async () => {
