@@ -44,7 +44,8 @@ def test_a_scan_with_holes_is_shown(tmp_path):
     V = np.vstack([V.astype(float), [(np.nan, 0, 0)]])
     with pytest.warns(UserWarning, match="1 vertices without a position"):
         page = meshhood.view(V, F)
-    np.testing.assert_array_equal(mesh_of(page, tmp_path)[0][-1], V[0])
+    with pytest.warns(UserWarning, match=r"\(NaN\), the first of which is 18, are walls"):
+        np.testing.assert_array_equal(mesh_of(page, tmp_path)[0][:-1], V[:-1])
 
 
 def test_polygons_keep_their_corners(tmp_path):
@@ -80,7 +81,8 @@ def test_a_notebook_gets_a_frame_and_a_file_the_page(tmp_path):
         ({"v": 9999}, "v: vertex 9999"),
         ({"r": -1}, "r: radius -1"),
         ({"r": float("inf")}, "finite"),
-        ({"r": 1, "unit": "foot"}, "unit: "),
+        ({"unit": "foot"}, "unit: "),
+        ({"height": 0}, "height: 0"),
         ({"ids": [-1]}, "ids: row 0: vertex -1"),
         ({"values": [1.0, 2.0]}, "values: an array of shape"),
         ({"values": np.full(len(meshes.two_plates(5)[0]), -1e300)}, "values: vertex 0: -1e\\+300, but a page holds numbers of at most 3.4e\\+38"),
@@ -91,9 +93,18 @@ def test_wrong_arguments_are_named(options, message):
         meshhood.view(*meshes.two_plates(5), **options)
 
 
-def test_faces_beyond_the_vertices_are_refused():
-    with pytest.raises(ValueError, match="F: corner 7"):
-        meshhood.view(np.zeros((3, 3)), np.array([[0, 1, 7]]))
+@pytest.mark.parametrize(
+    ("V", "F", "message"),
+    [
+        (np.zeros((3, 3)), [[0, 1, 7]], "F: face 0"),
+        ([(0, 0, 0), (1, 0, 0), (0, np.inf, 0)], [[0, 1, 2]], "V: vertex 2: .*inf"),
+        (np.zeros((99, 3)), [[0, 1, 2]], "V: a mesh of 2[0-9]{3} bytes, but a page holds at most 999"),
+    ],
+)
+def test_meshes_that_the_page_cannot_open_are_refused(V, F, message, monkeypatch):
+    monkeypatch.setattr(meshhood._view, "_MOST_BYTES", 999)
+    with pytest.raises(ValueError, match=message):
+        meshhood.view(np.asarray(V, float), np.asarray(F))
 
 
 def test_the_error_for_a_missing_page_says_how_to_build_it(monkeypatch, stand_in):

@@ -17,6 +17,7 @@ from ._other_files import binary_ply
 from ._types import Number, Unit, Vertex, Vertices
 
 _PLACE = "<!-- meshhood:page -->"  # replaced by the mesh
+_MOST_BYTES = 256 << 20  # a browser holds a text of at most 2^29 characters
 
 
 class Page:
@@ -85,20 +86,24 @@ def view(
     name : the name of the mesh on the page.
     height : the height of the page in a notebook, in pixels.
 
-    The page holds the positions and faces, about 50 bytes for each vertex of a closed triangle mesh, and builds its own
-    index in the browser. Raises ValueError or TypeError, naming the argument, and FileNotFoundError if the page was not
-    built before this package was installed.
+    The page holds the positions and faces, at most 256 MB: about 60 bytes for each vertex of a closed triangle mesh of
+    float32, and builds its own index in the browser. Raises ValueError or TypeError, naming the argument, and
+    FileNotFoundError if the page was not built before this package was installed.
     """
     page = _built_page()
     if hasattr(F, "tocoo"):
         raise TypeError("F: expected faces, not a graph")
-    positions, corners, offsets = placed(mesh_arrays(V, F), stacklevel=3)[0]
-    settings = _settings(len(positions), v, r, unit, ids, values, name)
+    mesh = mesh_arrays(V, F)
+    _core.check_mesh(placed(mesh, stacklevel=3)[0])
+    settings = _settings(len(mesh[0]), v, r, unit, ids, values, name)
+    height = _convert.integer(height, "height")
     script = json.dumps(settings).replace("<", "\\u003c")
-    mesh = base64.b64encode(binary_ply(positions, corners, offsets)).decode("ascii")
+    ply = binary_ply(*mesh)  # the page makes walls of vertices without a position, as it does for a file
+    if len(ply) > _MOST_BYTES:
+        raise ValueError(f"V: a mesh of {len(ply)} bytes, but a page holds at most {_MOST_BYTES}; drop a file onto a page")
     data = (
         f'<script type="application/json" id="meshhood-settings">{script}</script>\n'
-        f'<script type="text/plain" id="meshhood-mesh">{mesh}</script>\n'
+        f'<script type="text/plain" id="meshhood-mesh">{base64.b64encode(ply).decode("ascii")}</script>\n'
     )
     return Page(page.replace(_PLACE, data, 1), height)
 
@@ -121,9 +126,10 @@ def _settings(count: int, v: Any, r: Any, unit: Any, ids: Any, values: Any, name
     settings: dict[str, Any] = {"name": str(name)}
     if v is not None:
         settings["vertex"] = _convert.vertex(v, count, "v")
+    unit = _convert.choice(unit, "unit", ("mesh", "edge"))
     if r is not None:
         settings["radius"] = _convert.radius(r)
-        settings["unit"] = _convert.choice(unit, "unit", ("mesh", "edge"))
+        settings["unit"] = unit
         if settings["radius"] == float("inf"):
             raise ValueError("r: radius inf, expected a finite number")
     if ids is not None:
