@@ -126,9 +126,9 @@ NormalCone cone_of(const Bundle& normals) {
 NormalCones::NormalCones(const IndexView& index, const FaceTree& tree) {
   BoundingBox box;  // in double, because boxes of the tree are rounded to floats of the frame
   for (const Triangle& triangle : tree.triangles()) {
-    for (const Point& corner : corners_in_frame(index, triangle.corners)) box.add(corner);
+    for (const Point& corner : corners_of(index, triangle.corners)) box.add(corner);
   }
-  diagonal_ = length(box.high - box.low);
+  diagonal_ = length(index.frame.scale * (box.high - box.low));
   std::vector<Bundle> groups = in_groups(
       tree.triangles().size(), [&](std::size_t i) { return bundle_of(doubled_area(index, tree.triangles()[i])); });
   for (;;) {

@@ -26,11 +26,12 @@ namespace {
 
 constexpr std::size_t kRowsOfTask = 256;
 
-// The radius of the first ball, in the frame: more than the diagonal of any surface, beyond which no ball counts.
-constexpr double kFirstRadius = 4;
-
-// What is not farther than this, times the largest coordinate or the extent of the mesh, is at the same place.
+// What is not farther than this, times the largest coordinate or the extent of one of the two faces, is at the same
+// place. The extent of the mesh would hide thin walls in it: one vertex may be far away.
 constexpr double kSamePlace = 0x1p-46;
+
+/// Returns the largest absolute value of a coordinate.
+double largest(const Point& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
 /// A ball that touches a spot from inside, in the frame, and shrinks while a search goes through boxes. It stays inside
 /// of what it was, so a box that it once did not meet is left out for good.
@@ -88,6 +89,7 @@ struct Spot {
   Point normal;                   // a unit vector; NaN without one
   std::uint32_t place = kAbsent;  // of the vertex that it is
   std::uint32_t face = kAbsent;   // whose point it is
+  double extent = 0;              // of that face
 };
 
 /// Measures the distance to what is opposite to a spot.
@@ -99,9 +101,7 @@ class OppositeSide {
         spot_(spot),
         inward_(-1.0 * spot.normal),
         at_(index.frame.to_frame(spot.at)),
-        same_(kSamePlace *
-              std::max(index.frame.scale * std::max({std::abs(spot.at.x), std::abs(spot.at.y), std::abs(spot.at.z)}),
-                       1.0)) {}
+        size_(index.frame.scale * std::max(largest(spot.at), spot.extent)) {}
 
   [[nodiscard]] double by_ray() const {
     return has_normal() ? way_to_first([](std::size_t) { return true; }) : kNan;
@@ -112,7 +112,8 @@ class OppositeSide {
     if (!has_normal()) return kNan;
     const double scale = index_->frame.scale;
     const double way = way_to_first([&](std::size_t i) { return opposes(i); });
-    const double first = std::min(scale * way / 2, kFirstRadius);
+    // A larger one counts no more, and its rounding would hide what is small.
+    const double first = std::min(scale * way / 2, 2 * cones.diagonal());
     TouchingBall ball(*index_, at_, inward_, first);
     BoxTree::Walk walk(tree_->boxes(), ball);
     const auto shrink = [&](std::size_t i) {
@@ -124,7 +125,7 @@ class OppositeSide {
     };
     while (walk.advance(shrink, [](std::size_t) {}, enters)) {
     }
-    return ball.radius() <= cones.diagonal() ? 2 * ball.radius() / scale : kInfinity;
+    return ball.radius() > 0 && ball.radius() <= cones.diagonal() ? 2 * ball.radius() / scale : kInfinity;
   }
 
  private:
@@ -143,7 +144,7 @@ class OppositeSide {
   template <class IsCounted>
   [[nodiscard]] double way_to_first(IsCounted&& is_counted) const {
     const auto counts = [&](std::size_t i, const TrianglePoint& at) {
-      return at.distance * index_->frame.scale > same_ && !touches(i) && is_counted(i);
+      return at.distance * index_->frame.scale > same_place(from_spot(i)) && !touches(i) && is_counted(i);
     };
     return find_first_hit(*index_, *tree_, spot_.at, inward_, counts).at.distance;
   }
@@ -152,15 +153,28 @@ class OppositeSide {
     return tree_->triangles()[i].corners;
   }
 
+  /// Returns the corners of a triangle relative to the spot, in the unit of the frame. They do not go through the
+  /// frame, whose origin may be far away.
+  [[nodiscard]] std::array<Point, 3> from_spot(std::size_t i) const {
+    std::array<Point, 3> result = corners_of(*index_, corners(i));
+    for (Point& corner : result) corner = index_->frame.scale * (corner - spot_.at);
+    return result;
+  }
+
+  /// Returns the distance up to which a triangle is at the same place.
+  [[nodiscard]] double same_place(const std::array<Point, 3>& triangle) const {
+    return kSamePlace * std::max({size_, largest(triangle[0]), largest(triangle[1]), largest(triangle[2])});
+  }
+
   /// Returns the radius, in the frame, of the largest ball beside a triangle, which shrinks from `radius` until the
   /// nearest point of the triangle is not in it. So it depends on no other triangle.
   [[nodiscard]] double largest_beside(std::size_t i, double radius) const {
-    const auto [a, b, c] = corners_in_frame(*index_, corners(i));
-    const std::array<Point, 3> from_spot{a - at_, b - at_, c - at_};
+    const std::array<Point, 3> triangle = from_spot(i);
+    const double same = same_place(triangle);
     for (;;) {
-      const TrianglePoint nearest = nearest_in_triangle(radius * inward_, from_spot, 1);
+      const TrianglePoint nearest = nearest_in_triangle(radius * inward_, triangle, 1);
       const double along = dot(inward_, nearest.point);
-      const bool is_inside = nearest.distance < radius && along > same_;
+      const bool is_inside = nearest.distance < radius && along > same;
       const double smaller = is_inside ? dot(nearest.point, nearest.point) / (2 * along) : radius;
       if (!(smaller > 0 && smaller < radius)) return radius;
       radius = smaller;
@@ -172,7 +186,7 @@ class OppositeSide {
   Spot spot_;
   Point inward_;
   Point at_;     // in the frame
-  double same_;  // likewise
+  double size_;  // of what rounding at the spot depends on, in the unit of the frame
 };
 
 /// Returns the point of a face nearest to `q`, and the normal of the face.
@@ -184,9 +198,11 @@ Spot spot_on_face(const SurfaceState& state, const FaceTree& tree, std::size_t f
   Point area{0, 0, 0};
   double least = kInfinity;
   for (const Triangle& triangle : tree.triangles_of(face, corners.size())) {
-    const TrianglePoint found = nearest_in_triangle(q, corners_of(index, triangle.corners), scale);
+    const std::array<Point, 3> positions = corners_of(index, triangle.corners);
+    const TrianglePoint found = nearest_in_triangle(q, positions, scale);
     if (found.distance < least) spot.at = found.point;
     least = std::min(least, found.distance);
+    for (const Point& corner : positions) spot.extent = std::max(spot.extent, largest(corner - positions[0]));
     area = area + doubled_area(index, triangle);
   }
   if (const double size = length(area); size > 0) spot.normal = (1 / size) * area;
