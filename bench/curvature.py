@@ -20,7 +20,7 @@ SECONDS = 12  # intended for libigl, for a mesh and radius
 MOST_SECONDS = 40  # allowed for libigl
 LIBIGL_COST = 0.27e-6  # approximate seconds for each vertex found
 MESHLAB_COST = 0.5e-6
-NORMAL_BYTES = 28  # of a vertex, in a surface
+NORMAL_BYTES = 24  # of a vertex, in a surface
 
 
 def run(names):
@@ -93,8 +93,8 @@ def grown(size):
     V, F = V.astype(float), F.astype(np.int64)
     index = meshhood.MeshIndex(V, F)
     tools = {"ours": ours(index, V, F, GROWTH_RADIUS, {})}
-    values = V[:, 0].copy()
-    peaks = {"mean_peak": memory.peak_of(lambda: index.aggregate(values, GROWTH_RADIUS, unit="edge", workers=1)),
+    radius, values = GROWTH_RADIUS * index.mean_edge_length, V[:, 0].copy()
+    peaks = {"mean_peak": memory.peak_of(lambda: index.aggregate(values, radius, workers=1)),
              "curvature_peak": memory.peak_of(tools["ours"])}
     if size <= LIBIGL_SIZE:
         tools |= {"libigl": peers(V, F, index, GROWTH_RADIUS, 1e9)["libigl"]}
@@ -124,7 +124,7 @@ def ours(index, V, F, edges, options):
     from meshhood import _core
     from meshhood._mesh import face_arrays
 
-    radius = _core.libigl_radius(index.positions, *face_arrays(F), edges=float(edges))
+    radius = _core.libigl_radius((index.positions, *face_arrays(F)), edges=float(edges))
     settings = {"like": "libigl", "workers": 1, **options}
     return lambda: index.curvature(radius, F=F, **settings)
 

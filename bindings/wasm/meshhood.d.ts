@@ -192,8 +192,8 @@ export type Unit = 'mesh' | 'edge';
  * Of a radius and of distances. `straight`: in a straight line. `path`: lengths of the shortest paths along edges; the
  * vertices of one neighborhood then ascend by them. `surface`: the same for paths that also run straight over two
  * triangles that share a side, nearer to geodesics (docs/queries.md); it needs `faces`. `rings`: numbers of edges.
- * `space`: in a straight line, to every vertex, connected or not; calls about what is connected refuse it. All but
- * `straight` need method `exact`.
+ * `space`: in a straight line, to every vertex, connected or not; k nearest, discs, and the nearest connected and
+ * unconnected vertices refuse it. All but `straight` need method `exact`.
  */
 export type Metric = 'straight' | 'path' | 'surface' | 'rings' | 'space';
 

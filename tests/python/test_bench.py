@@ -9,10 +9,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from bench import machine, pictures, places, results  # noqa: E402: from the checkout
+from bench import curvature, machine, pictures, places, results  # noqa: E402: from the checkout
 from bench.arrays import contest as arrays  # noqa: E402
 from bench.peers import contest  # noqa: E402
-from bench.sections import arrays as array_tables, peers as peer_tables  # noqa: E402
+from bench.sections import arrays as array_tables, curvature_growth, peers as peer_tables  # noqa: E402
 
 
 @pytest.fixture
@@ -69,6 +69,15 @@ def test_arrays(elsewhere, monkeypatch):
         assert rows[names[2]]["found"] == pytest.approx(listed[names[3]]["found"])
         assert all(row["seconds"]["median"] > 0 for row in rows.values())
     assert [line[:12] for line in array_tables.times(data).splitlines()[2:]] == ["| tiny | 3 |", "| tiny | 4 |"]
+
+
+def test_growth(elsewhere, monkeypatch):
+    monkeypatch.setattr(curvature, "SIZES", (500,))
+    monkeypatch.setattr(curvature, "LIBIGL_SIZE", 0)
+    curvature.run_growth(500)
+    data = results.load("curvature_growth")
+    assert data["rows"][0]["ours"] > 0
+    assert curvature_growth.growth(data).splitlines()[2].startswith("| 5")
 
 
 def test_pictures(elsewhere, monkeypatch):

@@ -103,8 +103,8 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         stay joined to both of its sides: to separate two sides, cut the edges that cross the line between them. Areas,
         patches and gaps are those of the faces, and cross a cut edge.
     keep_faces : keep a copy of the faces, 4 bytes for each corner and, unless all are triangles, for each face. Without
-        it, or from a graph, the calls that need faces need them as their argument F: the faces, or a mesh. Faces of
-        another mesh are refused.
+        it, or from a graph, the calls that need faces need them as their argument F: the faces, or a mesh. Faces
+        with edges that the index does not have are refused.
     workers : number of threads, -1 for one per processor. The index does not depend on it.
     progress : True shows a bar of tqdm. A function is called as progress(done, total); an exception from it ends the
         call.
@@ -123,10 +123,10 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
     metric : "straight", the neighborhood in the ball of radius `r`; "path", the vertices whose shortest path along
         edges is at most `r` long. Distances, and the weights that follow from them, are then the lengths of these
         paths. "surface", the same for paths that also run straight over two triangles that share a side: nearer to
-        geodesics than paths along edges (docs/queries.md). The index must have faces; their lines are kept, about 150
-        bytes a vertex. "rings", the vertices that at most `r` edges separate from the vertex; distances are
-        then numbers of edges. "space", the vertices within `r` in space, connected or not; calls about what is
-        connected refuse it.
+        geodesics than paths along edges (docs/queries.md). The index must have faces. What is made of them is
+        kept, about 260 bytes a vertex. "rings", the vertices that at most `r` edges separate from the vertex; distances
+        are then numbers of edges. "space", the vertices within `r` in space, connected or not; k nearest, discs, and
+        the nearest connected and unconnected vertices refuse it.
     unit : of `r` and `scales`: "mesh" is that of V, "edge" is `mean_edge_length`.
     F : other faces than those that the index keeps, or a mesh. What is made of them, such as normals, is kept for the
         next call with the same faces.
@@ -135,8 +135,8 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
 
     Vertices are numbered as in V, with int32 ids; at most 2^31 - 1 vertices. V and F are copied: later changes have no
     effect. V and F may have any memory layout, and be anything that offers its memory to NumPy (`__array__`,
-    `__array_interface__`) or by DLPack, as tensors of PyTorch on the CPU do. Types other than float32, float64, int32,
-    int64, uint32 and uint64 are converted. Cost: O(#V log #V + #E).
+    `__array_interface__`) or by DLPack, as tensors of PyTorch on the CPU do. Other integers are converted, and
+    positions of float16 or integers to float64, if that is exact. Cost: O(#V log #V + #E).
 
     Warns if faces whose corners coincide, or differ by rounding, are not connected (an unwelded mesh), and if float32
     positions are only some 64 times as fine as the mean edge: then edges are off by a percent, or vertices coincide.
