@@ -140,6 +140,30 @@ class AddOn(unittest.TestCase):
         bpy.ops.meshhood.select_connected(radius=3)
         self.assertEqual(selected(obj), [0, 1, 2, 3])
 
+    def test_a_shape_key_is_selected_as_edit_mode_shows_it(self):
+        obj = torus()
+        obj.shape_key_add(name="Basis")
+        large = obj.shape_key_add(name="Large")
+        for point in large.data:
+            point.co = 3 * point.co
+        index = index_of(obj)
+        expected = sorted(index.neighborhood(500, 0.59).tolist())
+        for key, scale in ((0, 1), (1, 3)):
+            obj.active_shape_key_index = key
+            activate(obj, 500)
+            bpy.ops.meshhood.select_connected(radius=0.59 * scale)
+            self.assertEqual(selected(obj), expected)
+            bpy.ops.object.mode_set(mode="OBJECT")
+        activate(obj, 500)
+        edited = bmesh.from_edit_mesh(obj.data)
+        edited.verts[500].co *= 10
+        bmesh.ops.delete(edited, geom=[edited.verts[0]], context="VERTS")
+        bpy.ops.meshhood.select_connected(radius=1.8)
+        self.assertEqual(selected(obj), [499])
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.meshhood.thickness()
+        np.testing.assert_allclose(values_of(obj, "thickness"), index_of(obj).thickness(), rtol=1e-4)
+
     def test_a_selection_is_replaced_or_extended_and_undone(self):
         obj = torus()
         index = index_of(obj)
@@ -227,6 +251,13 @@ class AddOn(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "another attribute meshhood: rename or remove it"):
             bpy.ops.meshhood.curvature()
         self.assertNotIn("mean_curvature", obj.data.attributes)
+        for group in ("thickness", "meshhood"):
+            obj = torus()
+            obj.vertex_groups.new(name=group)
+            before = obj.data.attributes.keys()
+            with self.assertRaisesRegex(RuntimeError, f"has a vertex group {group}: rename or remove it"):
+                bpy.ops.meshhood.thickness()
+            self.assertEqual(obj.data.attributes.keys(), before)
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.select_all(action="DESELECT")
         with self.assertRaisesRegex(RuntimeError, "No active vertex: in vertex select mode, click one"):
@@ -256,6 +287,7 @@ class AddOn(unittest.TestCase):
         self.assertEqual(Indexed().execute(bpy.context), {"FINISHED"})
         self.assertEqual([kind for kind, _ in reports], [{"WARNING"}])
         self.assertIn("24 vertices at 3 different positions", reports[0][1])
+        self.assertTrue(reports[0][1].endswith("Weld the mesh first: Mesh > Merge > By Distance"), reports[0][1])
 
     def test_a_missing_package_is_said_with_what_installs_it(self):
         obj = torus(moved())
@@ -290,9 +322,14 @@ class AddOn(unittest.TestCase):
             meshhood.MeshIndex = whole
 
     def test_it_can_be_disabled(self):
+        from meshhood_blender import object_index
+
+        torus()
+        bpy.ops.meshhood.thickness()
         for _ in range(2):
             bpy.ops.preferences.addon_disable(module="meshhood_blender")
             self.assertFalse(hasattr(bpy.types, "MESHHOOD_OT_thickness"))
+            self.assertEqual(object_index._last, (None, None))
             bpy.ops.preferences.addon_enable(module="meshhood_blender")
             self.assertTrue(hasattr(bpy.types, "MESHHOOD_OT_thickness"))
 

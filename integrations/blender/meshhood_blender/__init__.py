@@ -12,6 +12,7 @@ from typing import Any
 import bpy
 
 from .measure import MESHHOOD_OT_curvature, MESHHOOD_OT_thickness
+from .object_index import forget_index
 from .select_connected import MESHHOOD_OT_select_connected
 
 bl_info = {
@@ -49,3 +50,4 @@ def unregister() -> None:
     bpy.types.VIEW3D_MT_select_edit_mesh.remove(_in_select_menu)
     for each in reversed(_CLASSES):
         bpy.utils.unregister_class(each)
+    forget_index()

@@ -41,7 +41,7 @@ class _Measure(Reporting):
         written = {name: ("FLOAT", "value", values)}
         if self.colors:
             written[_COLORS] = ("FLOAT_COLOR", "color", _colors(strengths))
-        _write(mesh, written)
+        _write(context.object, written)
         if self.colors:
             mesh.color_attributes.active_color = mesh.color_attributes[_COLORS]
         mesh.update()
@@ -100,10 +100,14 @@ class MESHHOOD_OT_curvature(_Measure, bpy.types.Operator):
         return name, values, _between(values, -most, most)
 
 
-def _write(mesh: Any, written: dict[str, tuple[str, str, Any]]) -> None:
-    """Attributes of the vertices by name: their type, its member, the values. All or none."""
+def _write(obj: Any, written: dict[str, tuple[str, str, Any]]) -> None:
+    """Attributes of the vertices by name: their type, its member, the values. All or none; they replace those of the
+    same name and type."""
+    mesh = obj.data
     for name, (data_type, _, _) in written.items():
         found = mesh.attributes.get(name)
+        if found is None and name in obj.vertex_groups:  # a new attribute would get another name
+            raise ValueError(f"The mesh has a vertex group {name}: rename or remove it")
         if found is not None and (found.data_type, found.domain) != (data_type, "POINT"):
             raise ValueError(f"The mesh has another attribute {name}: rename or remove it")
     for name, (data_type, _, _) in written.items():  # all, before one is written: a new one moves the others

@@ -13,10 +13,15 @@ import numpy as np
 _last: tuple[Any, Any] = (None, None)
 
 
+def forget_index() -> None:
+    global _last
+    _last = (None, None)
+
+
 def index_of(obj: Any, progress: Any = None) -> Any:
-    """The `meshhood.MeshIndex` of the mesh of `obj` as it is outside edit mode, without modifiers, with the vertices
-    where the world has them. Raises ImportError that says how to install meshhood, and ValueError without faces and
-    edges."""
+    """The `meshhood.MeshIndex` of the mesh of `obj`, without modifiers, with the vertices where the world has them: in
+    edit mode, after `update_from_editmode`, those of the active shape key, and otherwise those without shape keys.
+    Raises ImportError that says how to install meshhood, and ValueError without faces and edges."""
     global _last
     arrays = _world_positions(obj), *_polygons(obj)
     kept, index = _last
@@ -42,7 +47,8 @@ def _package() -> Any:
 
 def _world_positions(obj: Any) -> Any:
     positions = np.empty(3 * len(obj.data.vertices), np.float32)
-    obj.data.vertices.foreach_get("co", positions)
+    edited = obj.active_shape_key if obj.mode == "EDIT" else None
+    (edited.data if edited else obj.data.vertices).foreach_get("co", positions)
     matrix = np.array(obj.matrix_world)
     return positions.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3]
 

@@ -3,12 +3,18 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from typing import Any
 
 import bpy
 
 _EDGES = 5  # of the first radius
+_ADVICE = (  # calls of Python in warnings of the package, and the menus of edit mode that do the same
+    (r"pass F=F\[:, ::-1\]", "use Mesh > Normals > Recalculate Outside"),
+    (r"V, F, ids = meshhood\.weld\(V, F\)", "Mesh > Merge > By Distance"),
+    (r"V, F, ids = meshhood\.weld\(V, F, eps=(.*)\)", r"Mesh > Merge > By Distance, of \1 world units"),
+)
 
 
 def radius_property(text: str) -> Any:
@@ -51,5 +57,8 @@ class Reporting:
         finally:
             manager.progress_end()
         for warning in caught:
-            self.report({"WARNING"}, str(warning.message))
+            text = str(warning.message)
+            for call, here in _ADVICE:
+                text = re.sub(call, here, text)
+            self.report({"WARNING"}, text)
         return {"FINISHED"}

@@ -19,7 +19,7 @@ class MESHHOOD_OT_select_connected(Reporting, bpy.types.Operator):
     bl_idname = "meshhood.select_connected"
     bl_label = "Select Connected within Radius"
 
-    radius: radius_property("How far, in world units; a vertex at exactly this distance is selected")  # type: ignore
+    radius: radius_property("How far, in world units")  # type: ignore
     metric: metric_property()  # type: ignore
     extend: bpy.props.BoolProperty(name="Extend", description="Keep the selection", default=False)  # type: ignore
 
