@@ -10,6 +10,8 @@ point arrays, whose names say metric, radius and unit. Lengths are in the unit o
 
 from __future__ import annotations
 
+import hashlib
+import re
 import sys
 import warnings
 import weakref
@@ -26,6 +28,11 @@ paraview_plugin_name = "meshhood"
 _METRICS = ("straight", "path", "surface")
 _UNITS = ("edge", "mesh")
 _METHODS = ("ray", "sphere")
+_ADVICE = (  # calls of Python in warnings of the package, and the filters that do the same
+    (r"pass F=F\[:, ::-1\]", "apply the filter Surface Normals with Flip Normals, without Splitting"),
+    (r"V, F, ids = meshhood\.weld\(V, F\)", "apply the filter Clean"),
+    (r"V, F, ids = meshhood\.weld\(V, F, eps=(.*)\)", r"apply the filter Clean with an Absolute Tolerance of \1"),
+)
 
 
 def _choice(name: str, entries: tuple[str, ...], text: str) -> str:
@@ -154,7 +161,10 @@ class _Filter(VTKPythonAlgorithmBase):
                 output.Initialize()
                 vtkOutputWindow.GetInstance().DisplayErrorText(f"{self._label}: {error}\n")
         for warning in caught:
-            vtkOutputWindow.GetInstance().DisplayWarningText(f"{self._label}: {warning.message}\n")
+            text = str(warning.message)
+            for call, here in _ADVICE:
+                text = re.sub(call, here, text)
+            vtkOutputWindow.GetInstance().DisplayWarningText(f"{self._label}: {text}\n")
         return 1
 
     def _progress(self, done: int, total: int) -> None:
@@ -275,7 +285,7 @@ class MeshhoodCurvature(_Filter):
     '<InputArrayDomain name="point_arrays" attribute_type="point"/>',
 )
 class MeshhoodSmooth(_Filter):
-    """Adds the smoothed array, with the width in its name."""
+    """Adds the smoothed array, with the width or `smooth` in its name."""
 
     _weighted = 1
     SetWeighByArea = _setter("_weighted")
@@ -290,12 +300,13 @@ class MeshhoodSmooth(_Filter):
         smooth = self._index.smooth(
             vtk_to_numpy(array), self._radius, weights=weights, nan="omit", progress=self._progress, **self._unit_and_metric
         )
-        _add(output.GetPointData(), self._named(name, letter="fwhm"), smooth)
+        plain = name if self._is_named else f"{name} smooth"  # the input keeps its array
+        _add(output.GetPointData(), self._named(plain, letter="fwhm"), smooth)
 
 
-# The indices that a filter holds, by the times at which points and polygons were changed. VTK gives no time twice, so
-# that all filters of a mesh share an index, and the next radius needs no other.
-_indices: weakref.WeakValueDictionary[tuple[int, int], Any] = weakref.WeakValueDictionary()
+# The indices that a filter holds, by digests of points and polygons: all filters of a mesh share an index, and the next
+# radius needs no other. VTK's times of change do not tell meshes apart, since an edit in place may leave them.
+_indices: weakref.WeakValueDictionary[tuple[Any, ...], Any] = weakref.WeakValueDictionary()
 
 
 def _index_of(mesh: Any, progress: Any) -> Any:
@@ -304,14 +315,17 @@ def _index_of(mesh: Any, progress: Any) -> Any:
         raise ValueError(f"Input: has {strips}, expected polygons: apply the filter Triangulate first")
     if mesh.GetNumberOfPolys() == 0:
         raise ValueError("Input: has no polygons")
-    key = mesh.GetPoints().GetMTime(), mesh.GetPolys().GetMTime()
+    polygons = mesh.GetPolys()
+    arrays = mesh.GetPoints().GetData(), polygons.GetOffsetsArray(), polygons.GetConnectivityArray()
+    points, *faces = (np.ascontiguousarray(vtk_to_numpy(array)) for array in arrays)
+    key = tuple((array.dtype.str, hashlib.blake2b(array).digest()) for array in (points, *faces))
     index = _indices.get(key)
     if index is None:
-        index = _indices[key] = _new_index(mesh, progress)
+        index = _indices[key] = _package().MeshIndex(points, tuple(faces), progress=progress)
     return index
 
 
-def _new_index(mesh: Any, progress: Any) -> Any:
+def _package() -> Any:
     try:
         import meshhood
     except ImportError as error:
@@ -319,9 +333,7 @@ def _new_index(mesh: Any, progress: Any) -> Any:
             f"needs the Python package meshhood ({error}). Install it for Python {sys.version_info[0]}."
             f"{sys.version_info[1]}, and start ParaView with its folder in PYTHONPATH: integrations/paraview/README.md"
         ) from None
-    polygons = mesh.GetPolys()
-    faces = vtk_to_numpy(polygons.GetOffsetsArray()), vtk_to_numpy(polygons.GetConnectivityArray())
-    return meshhood.MeshIndex(vtk_to_numpy(mesh.GetPoints().GetData()), faces, progress=progress)
+    return meshhood
 
 
 def _corner_at(index: Any, point: tuple[float, float, float]) -> int:

@@ -216,6 +216,10 @@ class Filters(unittest.TestCase):
                 normals = self.result(found)
                 smooth = index.smooth(normals["Normals"], 4, unit="edge", metric=metric, weights=weights)
                 np.testing.assert_array_equal(normals[f"Normals {said}fwhm=4 edges"], smooth)
+                found.RadiusInNames = 0
+                unnamed = self.result(found)
+                np.testing.assert_array_equal(unnamed["Normals smooth"], smooth)
+                np.testing.assert_array_equal(unnamed["Normals"], normals["Normals"])
         self.assertTrue(np.isnan(index.smooth(values, 4, unit="edge", nan="omit")).any())
 
     def test_errors_are_one_message(self):
@@ -250,7 +254,10 @@ class Filters(unittest.TestCase):
         for first in range(0, len(V), 3):
             mesh.GetPolys().InsertNextCell(3, [first, first + 1, first + 2])
         servermanager.Fetch(simple.MeshhoodThickness(Input=source_of(mesh)))
-        self.assertIn("Meshhood Thickness: V: 24 vertices at 3 different positions", self.window.GetOutput())
+        said = self.window.GetOutput()
+        self.assertIn("Meshhood Thickness: V: 24 vertices at 3 different positions", said)
+        self.assertIn("Weld the mesh first: apply the filter Clean\n", said)
+        self.assertIn("apply the filter Surface Normals with Flip Normals, without Splitting; an open sheet", said)
 
     def test_other_data_is_refused_by_the_input(self):
         for name in ("MeshhoodNeighborhood", "MeshhoodThickness", "MeshhoodCurvature", "MeshhoodSmooth"):
@@ -282,6 +289,22 @@ class Filters(unittest.TestCase):
             self.assertEqual(len(built), 2)
         finally:
             meshhood.MeshIndex = whole
+
+    def test_a_mesh_that_is_edited_in_place_has_a_new_index(self):
+        mesh = mixed_cells()
+        found = simple.MeshhoodNeighborhood(Input=source_of(mesh), Start="vertex id", Radius=2.5, RadiusInNames=0)
+        found.Unit = "units of the points"
+        self.assertEqual(self.result(found)["neighborhood"].sum(), 5)
+        vtk_to_numpy(mesh.GetPoints().GetData())[:] *= 2  # as the two below, without a new time of points and polygons
+        mesh.Modified()
+        self.assertEqual(self.result(found)["neighborhood"].sum(), 3)
+        mesh.GetPolys().InsertNextCell(3, [0, mesh.GetPoints().InsertNextPoint(0, -1, 0), 1])
+        mesh.GetPointData().GetArray("point").InsertNextValue(70)
+        mesh.GetCellData().GetArray("cell").InsertNextValue(60)
+        mesh.Modified()
+        arrays = self.result(found)
+        self.assertEqual({len(values) for values in arrays.values()}, {8})
+        self.assertEqual(list(np.flatnonzero(arrays["neighborhood"])), [0, 1, 3, 7])
 
     def test_progress_reaches_the_end(self):
         found = simple.MeshhoodCurvature(Input=sphere(Radius=9))
