@@ -4,7 +4,7 @@
 
     scan_graph.py MESH [RADIUS]
 
-RADIUS   in mean lengths of the first edge of each face, 3 unless given
+RADIUS   in mean edge lengths, 3 unless given
 """
 
 import resource
@@ -15,20 +15,22 @@ import numpy as np
 
 
 def roughness(near, V):
-    """Per vertex, how far it lies from the mean of its neighborhood."""
-    means = (near @ V) / np.diff(near.indptr)[:, None]
+    """Per vertex, how far it lies from the mean of its neighborhood; NaN where it has no position."""
+    means = (near @ V) / np.maximum(np.diff(near.indptr), 1)[:, None]
     return np.linalg.norm(V - means, axis=1)
 
 
 def main():
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
     V, F = meshhood.read_mesh(sys.argv[1])
-    edges = float(sys.argv[2]) if len(sys.argv) > 2 else 3.0
-    radius = edges * np.linalg.norm(V[F[:, 0]] - V[F[:, 1]], axis=1).mean()
-    near = meshhood.MeshIndex(V, F).radius_neighbors_graph(radius, progress=sys.stderr.isatty())
+    index = meshhood.MeshIndex(V, F)
+    radius = (float(sys.argv[2]) if len(sys.argv) > 2 else 3.0) * index.mean_edge_length
+    near = index.radius_neighbors_graph(radius, progress=sys.stderr.isatty())
     rough = roughness(near, V)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
     print(f"{near.shape[0]} vertices, {near.nnz} pairs within {radius:.3g}, at most {peak:.2f} GB of memory")
-    print(f"roughness {np.median(rough) / radius:.3f} radii in the middle, {rough.max() / radius:.3f} at most")
+    print(f"roughness {np.nanmedian(rough) / radius:.3f} radii in the middle, {np.nanmax(rough) / radius:.3f} at most")
 
 
 if __name__ == "__main__":

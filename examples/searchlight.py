@@ -52,9 +52,11 @@ def searchlight(index, radius, walls, values):
 
 
 def main():
+    if len(sys.argv) not in (2, 3, 4):
+        sys.exit(__doc__)
     V, F = meshhood.read_mesh(sys.argv[1])
     radius = float(sys.argv[2]) if len(sys.argv) > 2 else 8.0
-    walls = wall_of(sys.argv[3:], len(V))
+    walls = wall_of(sys.argv[3:], len(V)) | np.isnan(V).any(axis=1)
     index = meshhood.MeshIndex(V, F)
     rng = np.random.default_rng(7)
     center = int(rng.choice(np.flatnonzero(~walls)))

@@ -116,8 +116,9 @@ canvas.addEventListener('pointermove', (event) => {
   const hit = pressed?.isBrush ? hitOf(event) : null;
   if (hit) brush(hit);
 });
-canvas.addEventListener('pointerup', (event) => {
+window.addEventListener('pointerup', (event) => { // also beside the canvas, where a brush may end
   if (pressed === null) return; // it went down elsewhere
+  controls.enabled = true;
   const isClick = !pressed.isBrush && Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < 5;
   const hit = isClick ? hitOf(event) : null;
   if (hit) {

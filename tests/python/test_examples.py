@@ -82,6 +82,37 @@ def test_scan_graph(tmp_path):
     assert "1002496 vertices" in run("scan_graph.py", scan, memory=FOUR_GB)
 
 
+SCRIPTS = {"scan_graph.py": ["2"], "searchlight.py": ["3"], "curvature_map.py": ["5", "colors.ply"]}
+
+
+@pytest.mark.parametrize("script", SCRIPTS)
+def test_a_scan_may_be_flat_have_polygons_and_vertices_without_a_position(script, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    x, y = (axis.ravel().astype(float) for axis in np.meshgrid(range(20), range(20), indexing="ij"))
+    a = np.arange(400).reshape(20, 20)
+    quads = np.stack([a[:-1, :-1], a[1:, :-1], a[1:, 1:], a[:-1, 1:]], axis=-1).reshape(-1, 4)
+    V = np.vstack([np.column_stack([x, y, 0 * x]), np.full((1, 3), np.nan)])
+    meshhood.write_mesh("scan.ply", V, (np.arange(0, 4 * len(quads) + 1, 4), quads.ravel()))
+    run(script, "scan.ply", *SCRIPTS[script])
+    if script == "curvature_map.py":
+        assert Path("colors.ply").read_bytes().count(bytes([244, 243, 239])) == len(V)  # white
+
+
+@pytest.mark.parametrize("script", SCRIPTS)
+@pytest.mark.parametrize("count", [0, 5])
+def test_a_wrong_number_of_arguments_shows_the_usage(script, count):
+    command = [sys.executable, EXAMPLES / script, *["x"] * count]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and f"    {script} " in done.stderr and "Traceback" not in done.stderr
+
+
+def test_curvature_map_says_that_a_radius_is_too_small(tmp_path):
+    surface = meshes.shared("scan/cortex_left_41k.ply.zst", tmp_path)
+    command = [sys.executable, EXAMPLES / "curvature_map.py", surface, "0", tmp_path / "map.ply"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.stderr.startswith("EDGES: 0, expected a larger radius") and not (tmp_path / "map.ply").exists()
+
+
 TASKS = sorted((EXAMPLES / "tasks").glob("*.py"))
 
 
