@@ -8,6 +8,7 @@ import { load } from './modules.mjs';
 const { differences, comparison } = await load('verdict');
 const { toEdges } = await load('link');
 const { nextVertex } = await load('walking');
+const { Painting, mapOf } = await load('paint');
 
 const text = (sentence) => sentence.map((part) => (typeof part === 'string' ? part : `*${part.emphasized}*`)).join('');
 
@@ -41,6 +42,28 @@ test('a radius in a link has few digits, and gives the same radius again up to o
     for (const radius of [12, 3.5, 0.1, 27.31]) {
       assert.ok(Math.abs(toEdges(radius, meanEdge) * meanEdge - radius) <= 2 ** -52 * radius);
     }
+  }
+});
+
+test('where values have both signs, 0 is white, whatever they are; the legend has the same colors', () => {
+  const [blue, white, red, violet] = [[1, 8, 30], [237, 236, 236], [34, 0, 3], [15, 0, 23]]; // in linear light
+  for (const [values, range, colors, options] of [
+    [[-8, 0, 4], [-8, 8], [blue, white, [200, 58, 35]]],
+    [[-1, ...Array(98).fill(0), 1], [-1, 1], [blue, white, white]],
+    [[0, 2, 4], [0, 4], [violet]],
+    [[-4, -2, 0], [-4, 0], [violet]],
+    [[0, 2, 4], [-4, 4], [white], { isSigned: true }],
+    [[0, 0, 0], [-1, 1], [white, white, white], { isSigned: true }],
+    [[0, 1, NaN], [-1, 1], [white, red], { range: [-1, 1] }],
+  ]) {
+    const painting = new Painting(values.length);
+    const shown = painting.setScalar({ title: 'heat', values, ...options });
+    assert.deepEqual(shown, range, `${values.slice(0, 3)}`);
+    colors.forEach((rgb, v) => {
+      const painted = [...painting.colors.subarray(4 * v, 4 * v + 3)];
+      assert.ok(painted.every((part, i) => Math.abs(part - rgb[i]) <= 3), `${painted}, expected ${rgb} for ${values[v]}`);
+    });
+    assert.equal(mapOf(shown).gradient.startsWith('linear-gradient(to right, rgb(5, 48, 97)'), range[0] < 0 && range[1] > 0);
   }
 });
 

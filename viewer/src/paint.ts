@@ -10,8 +10,8 @@ import type { Range, Scalar } from './scalar';
 /** From top to bottom, as in Figure 4 of the paper. The places of their bytes. */
 const LAYERS = ['exact', 'paper', 'ball'] as const;
 
-export function mapOf(scalar: Scalar): ColorMap {
-  return scalar.isSigned ? SIGNED : AMOUNTS;
+export function mapOf([low, high]: Range): ColorMap {
+  return low < 0 && high > 0 ? SIGNED : AMOUNTS;
 }
 
 export class Painting {
@@ -55,7 +55,7 @@ const MISSING = linearBytes(MISSING_COLOR);
 
 /** The color of each vertex. */
 function colorsOf(scalar: Scalar, [low, high]: Range): (v: number) => Rgb {
-  const { table } = mapOf(scalar);
+  const { table } = mapOf([low, high]);
   return (v) => {
     const value = scalar.values[v];
     if (!Number.isFinite(value)) return MISSING;

@@ -168,7 +168,7 @@ export class Panel {
     const legend = find('legend');
     legend.hidden = scalar === null || range === null;
     if (scalar === null || range === null) return;
-    legend.querySelector<HTMLElement>('.ramp')!.style.background = mapOf(scalar).gradient;
+    legend.querySelector<HTMLElement>('.ramp')!.style.background = mapOf(range).gradient;
     [shortNumber(range[0]), scalar.title, shortNumber(range[1])].forEach((text, i) => {
       legend.querySelectorAll('span')[i].textContent = text;
     });

@@ -2,23 +2,18 @@
 // Numbers that the neighborhoods of all vertices give, for colors.
 import type { Curvature } from 'meshhood';
 
-import type { Range, Scalar } from './scalar';
+import type { Scalar } from './scalar';
 
-/** How the values of a quantity are shown. */
-interface Quantity {
-  title: string;
-  isSigned: boolean;
-  range?: Range;
-}
+type Quantity = Omit<Scalar, 'values'>;
 
 export const QUANTITIES = {
-  count: { title: 'vertices', isSigned: false },
+  count: { title: 'vertices' },
   mean: { title: 'mean curvature', isSigned: true },
   gaussian: { title: 'Gaussian curvature', isSigned: true },
   k1: { title: 'larger curvature', isSigned: true },
   k2: { title: 'smaller curvature', isSigned: true },
-  shapeIndex: { title: 'shape index', isSigned: true, range: [-1, 1] },
-  curvedness: { title: 'curvedness', isSigned: false },
+  shapeIndex: { title: 'shape index', range: [-1, 1] },
+  curvedness: { title: 'curvedness' },
 } satisfies Record<string, Quantity>;
 
 export type QuantityName = keyof typeof QUANTITIES;
