@@ -65,12 +65,35 @@ test('the properties of a file are read as the library reads its header', async 
     plain: {}, comment: { comment: 'this is not the end_header' }, word: { comment: 'end_header' },
     element: { comment: 'element vertex 1' }, cr: { lineEnd: '\r' }, crlf: { lineEnd: '\r\n' },
     markup: { property: 'float <script>alert(1)</script>' }, proto: { property: 'float __proto__' },
-    blank: { property: 'float no\xa0break' },
+    blank: { property: 'float no\xa0break' }, long: { comment: 'long '.repeat(20_000) },
   };
   for (const [name, options] of Object.entries(cases)) {
     assert.deepEqual(await valuesOf(page, `${name}.ply`, binaryPly(options)), [10, 20, 30], name);
   }
   await expectNoMarkup(page);
+});
+
+test('the properties of a file in text are read from the lines that the library reads, under their names', async () => {
+  const page = await openBuilt();
+  await page.click('#display summary');
+  const triangle = ['0 0 0', '1 0 0', '0 1 0'].map((place, v) => `${place} ${10 * v}`);
+  const [element, list, end] = FACE;
+  const file = ({ name = 'heat', before = [], more = [], after = [element, list], rows }) => Buffer.from(['ply',
+    'format ascii 1.0', ...before, 'element vertex 3', ...COLUMNS, `property float ${name}`, ...more, ...after, end, ...rows,
+  ].join('\n'));
+  const cases = {
+    further: { rows: [...triangle.map((row) => `${row} 99`), '3 0 1 2'] },
+    furtherLater: { rows: [triangle[0], '', `${triangle[1]} `, triangle[2], '3 0 1 2 99'] },
+    running: { rows: ['0 0', '0 0 1 0', '0 10 0 1 0 20', '3 0 1 2'] },
+    shared: { rows: [`${triangle.join(' ')} 3 0 1 2`] },
+    facesFirst: { before: [element, list], after: [], rows: ['3 0 1 2 99', ...triangle] },
+    lists: { more: ['property list uchar int owners'], rows: [`${triangle[0]} 2 7 8`, `${triangle[1]} 0`, triangle[2], '3 0 1 2'] },
+    accents: { name: 'temp\u00e9rature\u00c0', rows: [...triangle, '3 0 1 2'] },
+  };
+  for (const [name, options] of Object.entries(cases)) {
+    assert.deepEqual(await valuesOf(page, `${name}.ply`, file(options)), [0, 10, 20], name);
+  }
+  assert.equal((await page.locator('#legend span').allTextContents())[1], 'temp\u00e9rature\u00c0');
 });
 
 test('values that are huge, denormal or not numbers have the right colors, or none', async () => {
@@ -81,6 +104,7 @@ test('values that are huge, denormal or not numbers have the right colors, or no
     ['huge', ['1e300', '-1e300', '0'], ['-1e+300', '1e+300']],
     ['most', ['1.7e308', '-1.7e308', '0'], ['-1.7e+308', '1.7e+308']],
     ['denormal', ['5e-324', '0', '1e-310'], ['0', '1e-310']],
+    ['signs', ['-1', '0', '4'], ['-4', '4']],
     ['none', ['nan', 'inf', '-inf'], ['0', '1']],
   ]) {
     const values = await valuesOf(page, `${name}.ply`, textPly(texts));

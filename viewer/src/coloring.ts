@@ -45,7 +45,7 @@ export class Coloring {
   /** Another mesh is open, perhaps with values that were passed to the page. Returns what is drawn of its vertices. */
   open(opened: Opened, passed: Scalar | null): Painting {
     this.#painting = new Painting(opened.vertices);
-    this.#own = new Map(opened.scalars.map(({ name, values }) => [`ply:${name}`, { title: name, values }]));
+    this.#own = new Map(opened.scalars.map((scalar) => [`ply:${scalar.title}`, scalar]));
     if (passed !== null) this.#own.set(PASSED, passed);
     this.#panel.ownColors = new Map([...this.#own].map(([choice, { title }]) => [choice, title]));
     this.#answers.clear();

@@ -2,8 +2,8 @@
 // The messages between the page and its worker.
 import type { Method } from 'meshhood';
 
-import type { PlyScalar } from './ply_scalars';
 import type { QuantityName } from './quantities';
+import type { Scalar } from './scalar';
 
 export type { Method };
 
@@ -68,7 +68,7 @@ export interface Opened {
   methods: readonly Method[];
   warnings: string[];
   /** Further numbers of the vertices of a PLY file. */
-  scalars: PlyScalar[];
+  scalars: Scalar[];
 }
 
 export type Reply =

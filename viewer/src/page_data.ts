@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The data that `meshhood view` and `meshhood.view` have written into the page: a mesh file and settings.
+import type { Scalar } from './scalar';
 
 export interface Settings {
   /** The name of the mesh file. */
@@ -21,7 +22,7 @@ export interface Settings {
 export interface PageData {
   settings: Settings;
   file: Blob;
-  scalar: { title: string; values: Float32Array } | null;
+  scalar: Scalar | null;
 }
 
 function decode(base64: string): Uint8Array<ArrayBuffer> {
@@ -39,10 +40,6 @@ export function takePageData(): PageData | null {
   const settings = JSON.parse(settingsElement.textContent ?? '') as Settings;
   const file = new Blob([decode((meshElement.textContent ?? '').trim())]);
   meshElement.remove(); // its text is no longer needed, and large
-  const { scalar } = settings;
-  return {
-    settings,
-    file,
-    scalar: scalar ? { title: scalar.title, values: new Float32Array(decode(scalar.values).buffer) } : null,
-  };
+  const { scalar = null } = settings;
+  return { settings, file, scalar: scalar && { ...scalar, values: new Float32Array(decode(scalar.values).buffer) } };
 }

@@ -2,11 +2,7 @@
 // The additional numbers of the vertices of a PLY file, for colors. The reader of the library, which keeps positions and
 // faces only, has accepted the file before, so that nothing is checked here.
 
-export interface PlyScalar {
-  name: string;
-  /** In double where the file has doubles, which a float could not hold. */
-  values: Float32Array | Float64Array;
-}
+import type { Scalar } from './scalar';
 
 type Read = (data: DataView, at: number, littleEndian: boolean) => number;
 
@@ -26,76 +22,100 @@ const OTHER_NAMES: Record<string, string> = {
 };
 const NOT_SCALARS = new Set(['x', 'y', 'z', 'nx', 'ny', 'nz', 'red', 'green', 'blue', 'alpha']);
 
-interface Layout {
+interface Property {
+  title: string;
+  type: string;
+  /** Of the number of values, if it is a list. */
+  countType?: string;
+  /** Empty unless they are wanted: what is written to them is dropped then. */
+  values: Float32Array | Float64Array;
+}
+
+interface Header {
   format: string;
-  vertices: number;
-  properties: { name: string; type: string }[];
+  elements: { name: string; rows: number; properties: Property[] }[];
   /** Of the first byte after the header. */
-  begin: number;
+  end: number;
 }
 
 /** What separates words, for the reader of the library. Others, such as a no-break space, belong to words. */
 const BLANKS = /[ \t\v\f\r\n]+/;
 
-/** The lines of the header as words, and where it ends. Null if it is longer than what is decoded here. */
-function readHeader(bytes: Uint8Array): { lines: string[][]; end: number } | null {
-  const head = new TextDecoder('latin1').decode(bytes.subarray(0, 1 << 16));
+function readHeader(bytes: Uint8Array): Header {
+  const [lf, cr] = [10, 13];
   // As the reader of the library does: all lines end as the first one. A CR before an LF counts as a blank.
-  const first = /\r\n|\r|\n/.exec(head)?.[0];
-  const lineEnd = first === '\r' ? '\r' : '\n';
-  const lines: string[][] = [];
-  for (let begin = 0, end; (end = head.indexOf(lineEnd, begin)) >= 0; begin = end + 1) {
-    const words = head.slice(begin, end).split(BLANKS).filter((word) => word !== '');
-    if (words[0] === 'end_header') return { lines, end: end + 1 };
-    lines.push(words);
+  const first = bytes.findIndex((byte) => byte === lf || byte === cr);
+  const lineEnd = bytes[first] === cr && bytes[first + 1] !== lf ? cr : lf;
+  const header: Header = { format: '', elements: [], end: 0 };
+  for (let words: string[] = []; words[0] !== 'end_header'; ) {
+    const line = bytes.subarray(header.end, bytes.indexOf(lineEnd, header.end) + 1 || bytes.length);
+    header.end += line.length;
+    words = new TextDecoder().decode(line).split(BLANKS).filter((word) => word !== '');
+    if (words[0] === 'format') header.format = words[1];
+    if (words[0] === 'element') header.elements.push({ name: words[1], rows: Number(words[2]), properties: [] });
+    if (words[0] !== 'property') continue;
+    const { name, rows, properties } = header.elements.at(-1)!;
+    const [type, countType] = words.slice(1, -1).reverse().map((word) => OTHER_NAMES[word] ?? word);
+    const title = words.at(-1)!;
+    const isWanted = name === 'vertex' && countType === undefined && !NOT_SCALARS.has(title);
+    const Reals = type === 'float64' ? Float64Array : Float32Array; // a float could not hold all doubles
+    properties.push({ title, type, countType, values: new Reals(isWanted ? rows : 0) });
   }
-  return null;
+  return header;
 }
 
-/** Null unless the vertices come first and have no lists. */
-function readLayout(bytes: Uint8Array): Layout | null {
-  const header = readHeader(bytes);
-  if (header === null) return null;
-  const { lines } = header;
-  const format = lines.find(([word]) => word === 'format')?.[1] ?? '';
-  const elements = lines.flatMap(([word], i) => (word === 'element' ? [i] : []));
-  const [, name, count] = lines[elements[0]] ?? [];
-  if (name !== 'vertex') return null;
-  const own = lines.slice(elements[0] + 1, elements[1]).filter(([word]) => word === 'property');
-  if (own.some(([, type]) => type === 'list')) return null;
-  const properties = own.map(([, type, property]) => ({ name: property, type: OTHER_NAMES[type] ?? type }));
-  return { format, vertices: Number(count), properties, begin: header.end };
-}
-
-export function readPlyScalars(bytes: Uint8Array): PlyScalar[] {
-  const layout = readLayout(bytes);
-  const wanted = layout?.properties.some(({ name }) => !NOT_SCALARS.has(name));
-  if (layout === null || !wanted) return [];
-  const columns = layout.properties.map(({ name, type }) => {
-    const Reals = type === 'float64' ? Float64Array : Float32Array;
-    return { name, values: new Reals(layout.vertices) };
-  });
-  if (layout.format === 'ascii') readText(bytes, layout, columns);
-  else readBinary(bytes, layout, columns);
-  return columns.filter(({ name }) => !NOT_SCALARS.has(name));
-}
-
-function readText(bytes: Uint8Array, layout: Layout, columns: PlyScalar[]): void {
-  const words = new TextDecoder('latin1').decode(bytes.subarray(layout.begin)).matchAll(/[^ \t\v\f\r\n]+/g);
-  for (let row = 0; row < layout.vertices; ++row) {
-    for (const { values } of columns) values[row] = Number(words.next().value?.[0]);
+/** `warnings` are those of the reader. */
+export function readPlyScalars(bytes: Uint8Array, warnings: string[]): Scalar[] {
+  const { format, elements, end } = readHeader(bytes);
+  const last = elements.findIndex(({ name }) => name === 'vertex');
+  const scalars = elements[last].properties.filter(({ values }) => values.length > 0);
+  if (scalars.length === 0) return [];
+  const body = bytes.subarray(end);
+  const isLittle = format === 'binary_little_endian';
+  const numbers = format === 'ascii' ? textNumbers(body, warnings) : binaryNumbers(body, isLittle);
+  for (const { rows, properties } of elements.slice(0, last + 1)) {
+    for (let row = 0; row < rows && properties.length > 0; ++row) {
+      properties.forEach(({ type, countType, values }, i) => {
+        if (countType === undefined) values[row] = numbers.next(type);
+        else if (i === 0 || !numbers.isLineOver()) {
+          for (let left = numbers.next(countType); left > 0; --left) numbers.next(type);
+        }
+      });
+      numbers.endRow();
+    }
   }
+  return scalars;
 }
 
-function readBinary(bytes: Uint8Array, layout: Layout, columns: PlyScalar[]): void {
-  const data = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const isLittle = layout.format === 'binary_little_endian';
-  let at = layout.begin;
-  for (let row = 0; row < layout.vertices; ++row) {
-    columns.forEach(({ values }, i) => {
-      const [size, read] = TYPES[layout.properties[i].type];
-      values[row] = read(data, at, isLittle);
-      at += size;
-    });
-  }
+/** The numbers of the rows, one after the other. */
+interface Numbers {
+  next(type: string): number;
+  /** Then the list that would be next is empty. */
+  isLineOver(): boolean;
+  endRow(): void;
+}
+
+function textNumbers(bytes: Uint8Array, warnings: string[]): Numbers {
+  // Otherwise rows may run over lines and share them, and there are no further numbers.
+  const areLines = warnings.some((warning) => warning.includes('lines with more numbers than the header declares'));
+  const text = new TextDecoder('latin1').decode(bytes);
+  const words = /([^ \t\v\f\r\n]+)[ \t\v\f]*([\r\n])?/g;
+  let isOver = false;
+  const next = () => {
+    const [, word, lineEnd] = words.exec(text)!;
+    isOver = lineEnd !== undefined || words.lastIndex === text.length;
+    return Number(word);
+  };
+  return { next, isLineOver: () => isOver, endRow: () => { while (areLines && !isOver) next(); } };
+}
+
+function binaryNumbers(bytes: Uint8Array, isLittle: boolean): Numbers {
+  const data = new DataView(bytes.buffer, bytes.byteOffset);
+  let at = 0;
+  const next = (type: string) => {
+    const [size, read] = TYPES[type];
+    at += size;
+    return read(data, at - size, isLittle);
+  };
+  return { next, isLineOver: () => false, endRow: () => {} };
 }

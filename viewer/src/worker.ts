@@ -9,8 +9,8 @@ import { EXAMPLES, findExample } from './examples';
 import { METHODS } from './messages';
 import type { Message, Method, Query, Reply, Request, Source } from './messages';
 import { readPlyScalars } from './ply_scalars';
-import type { PlyScalar } from './ply_scalars';
 import type { CurvatureName, QuantityName } from './quantities';
+import type { Scalar } from './scalar';
 import { makeSurface } from './surface';
 
 interface Arrays {
@@ -19,7 +19,7 @@ interface Arrays {
   offsets: Uint32Array | null;
   walls: Uint8Array | null;
   warnings: string[];
-  scalars: PlyScalar[];
+  scalars: Scalar[];
   index?: MeshIndex; // that of an index file
 }
 
@@ -80,7 +80,7 @@ function read(bytes: Uint8Array<ArrayBuffer>, { name, weld: eps, precision }: Ex
     return { ...NO_MORE, positions: index.positions, ...(index.faces ?? { corners: new Uint32Array() }), index };
   }
   const mesh = readMesh(bytes, name, { precision, progress: reportProgress('Reading') });
-  const arrays = { ...mesh, scalars: mesh.format === 'ply' ? readPlyScalars(bytes) : [] };
+  const arrays = { ...mesh, scalars: mesh.format === 'ply' ? readPlyScalars(bytes, mesh.warnings) : [] };
   if (mesh.walls !== null) arrays.warnings.push('paper and bfs give no answers, because they know no walls');
   if (eps !== undefined) joinVertices(arrays, eps);
   return arrays;
