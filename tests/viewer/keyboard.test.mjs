@@ -12,6 +12,7 @@ const vertexOf = async (page) => Number(await page.inputValue('#vertex'));
 
 test('the keyboard reaches the mesh, and a ring shows it', async () => {
   const page = await open();
+  await page.getByRole('application', { name: /^The mesh\. Click a vertex/ }).waitFor();
   const outline = () => page.evaluate(() => {
     const { outlineStyle, outlineWidth } = getComputedStyle(document.getElementById('canvas'));
     return outlineStyle === 'none' ? 0 : parseFloat(outlineWidth);

@@ -100,6 +100,18 @@ test('the slider and both numbers set the same radius', async () => {
   await waitForAnswers(page);
   assert.deepEqual(await read(), [0, 0]);
   assert.deepEqual(await idsOf(page, 'exact'), [7000]);
+  for (const text of ['-3', '']) {
+    for (const id of ['radius-edges', 'radius-units']) {
+      await page.evaluate(([id, text]) => {
+        const field = document.getElementById(id);
+        field.addEventListener('invalid', () => { field.dataset.told = text; }, { once: true });
+        field.value = text;
+        field.dispatchEvent(new Event('change'));
+      }, [id, text]);
+      assert.equal(await page.getAttribute(`#${id}`, 'data-told'), text, `${id} '${text}'`);
+    }
+  }
+  assert.deepEqual(await idsOf(page, 'exact'), [7000]);
 });
 
 test('keys do what their list says', async () => {
@@ -187,6 +199,18 @@ test('files that are dropped are shown; broken ones get the words of the command
 
   await drop(page, 'damaged.mhi', readFileSync(file('scroll.mhi')).fill(7, 5000, 5001));
   await page.waitForFunction(() => /checksum/.test(document.querySelector('#error p').textContent));
+});
+
+test('only files are told to be dropped', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
+  for (const [part, isShown] of [['text', false], [null, true]]) {
+    await page.evaluate((text) => {
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(...(text === null ? [new File([], 'mesh.ply')] : [text, 'text/plain']));
+      window.dispatchEvent(new DragEvent('dragover', { dataTransfer, bubbles: true, cancelable: true }));
+    }, part);
+    assert.equal(await page.isVisible('#drop'), isShown);
+  }
 });
 
 test('an index that the page saves is that of the command line', async () => {

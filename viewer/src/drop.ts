@@ -5,7 +5,7 @@ export function connectDrop(open: (file: File) => void): void {
   const drop = document.getElementById('drop')!;
   window.addEventListener('dragover', (event) => {
     event.preventDefault();
-    drop.hidden = false;
+    drop.hidden = !event.dataTransfer?.types.includes('Files'); // not of a text
   });
   window.addEventListener('dragleave', (event) => {
     if (event.relatedTarget === null) drop.hidden = true;

@@ -79,12 +79,12 @@ export class Panel {
     for (const [id, unit] of [['radius-edges', 'edge'], ['radius-units', 'mesh']] as const) {
       const input = find<HTMLInputElement>(id);
       input.addEventListener('change', () => {
-        if (input.value !== '' && Number(input.value) >= 0) this.#wishes.radius(Number(input.value), unit, true);
+        if (input.reportValidity()) this.#wishes.radius(Number(input.value), unit, true);
       });
     }
     const vertex = find<HTMLInputElement>('vertex');
     vertex.addEventListener('change', () => {
-      if (vertex.value !== '') this.#wishes.vertex(Number(vertex.value));
+      if (vertex.value !== '' || vertex.reportValidity()) this.#wishes.vertex(Number(vertex.value));
     });
   }
 
@@ -97,13 +97,8 @@ export class Panel {
   }
 
   get look(): Look {
-    const isChecked = (id: string) => find<HTMLInputElement>(id).checked;
-    return {
-      cut: find<HTMLSelectElement>('cut').value as Cut,
-      hideNearer: isChecked('nearer'),
-      wireframe: isChecked('wireframe'),
-      ball: isChecked('ball'),
-    };
+    const [nearer, wireframe, ball] = ['nearer', 'wireframe', 'ball'].map((id) => find<HTMLInputElement>(id).checked);
+    return { cut: find<HTMLSelectElement>('cut').value as Cut, hideNearer: nearer, wireframe, ball };
   }
 
   set look(look: Look) {

@@ -406,12 +406,7 @@ function directionsAround(preferred: THREE.Vector3): THREE.Vector3[] {
 
 function surfaceMaterial(): THREE.Material {
   return new THREE.MeshStandardMaterial({
-    vertexColors: true,
-    side: THREE.DoubleSide,
-    roughness: 0.75,
-    metalness: 0,
-    polygonOffset: true,
-    polygonOffsetFactor: 1,
-    polygonOffsetUnits: 1,
+    vertexColors: true, side: THREE.DoubleSide, roughness: 0.75, metalness: 0,
+    polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
   });
 }
