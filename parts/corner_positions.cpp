@@ -9,7 +9,9 @@ CornerPositions::CornerPositions(ChunkedMesh& mesh, const FaceChunk& faces) {
   if (faces.corners.empty()) return;
   const auto [least, most] = std::minmax_element(faces.corners.begin(), faces.corners.end());
   if (*most - *least < faces.corners.size()) {
-    read_between(mesh, *least, *most);
+    first_ = *least;
+    positions_.resize(static_cast<std::size_t>(*most - *least + 1));
+    mesh.read_positions(first_, positions_);
   } else {
     read_sparse(mesh, faces);
   }
@@ -18,12 +20,6 @@ CornerPositions::CornerPositions(ChunkedMesh& mesh, const FaceChunk& faces) {
 std::size_t CornerPositions::number(std::uint64_t id) const {
   if (ids_.empty()) return static_cast<std::size_t>(id - first_);
   return static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin());
-}
-
-void CornerPositions::read_between(ChunkedMesh& mesh, std::uint64_t first, std::uint64_t last) {
-  first_ = first;
-  positions_.resize(static_cast<std::size_t>(last - first + 1));
-  mesh.read_positions(first, positions_);
 }
 
 void CornerPositions::read_sparse(ChunkedMesh& mesh, const FaceChunk& faces) {

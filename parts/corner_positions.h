@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "parts/chunked_mesh.h"
@@ -16,19 +17,16 @@ class CornerPositions {
  public:
   CornerPositions(ChunkedMesh& mesh, const FaceChunk& faces);
 
-  /// The number of vertices, which are numbered from 0.
-  [[nodiscard]] std::size_t size() const { return positions_.size(); }
+  /// Of all vertices, which are numbered from 0.
+  [[nodiscard]] std::span<const Point> positions() const { return positions_; }
 
   /// The number of a vertex that is a corner.
   [[nodiscard]] std::size_t number(std::uint64_t id) const;
-
-  [[nodiscard]] const Point& at(std::size_t number) const { return positions_[number]; }
 
   /// The position of a vertex that is a corner.
   [[nodiscard]] const Point& operator[](std::uint64_t id) const { return positions_[number(id)]; }
 
  private:
-  void read_between(ChunkedMesh& mesh, std::uint64_t first, std::uint64_t last);
   void read_sparse(ChunkedMesh& mesh, const FaceChunk& faces);
 
   std::uint64_t first_ = 0;         // of the ids, if they are dense

@@ -10,22 +10,15 @@ namespace {
 
 double coordinate(const Point& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-/// The order of vertices along an axis. Total, so that equal positions are separated as well.
-struct Along {
-  int axis;
-
-  bool operator()(const Site& a, const Site& b) const { return key(a) < key(b); }
-
-  [[nodiscard]] std::tuple<double, double, double, std::uint64_t> key(const Site& vertex) const {
-    const Point& p = vertex.position;
-    return {coordinate(p, axis), coordinate(p, (axis + 1) % 3), coordinate(p, (axis + 2) % 3), vertex.id};
-  }
-};
+/// What orders vertices along an axis. The order is total, so that equal positions are separated as well.
+std::tuple<double, double, double, std::uint64_t> key_along(int axis, const Site& vertex) {
+  const Point& p = vertex.position;
+  return {coordinate(p, axis), coordinate(p, (axis + 1) % 3), coordinate(p, (axis + 2) % 3), vertex.id};
+}
 
 int longest_axis(std::span<const Site> sample) {
   Box box;
   for (const Site& vertex : sample) box.add(vertex.position);
-  if (box.is_empty()) return 0;
   const std::array sides{box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z};
   return static_cast<int>(std::max_element(sides.begin(), sides.end()) - sides.begin());
 }
@@ -38,12 +31,12 @@ void Box::add(const Point& p) {
 }
 
 bool Box::may_hold_within(const Point& p, double squared_radius) const {
-  if (is_empty()) return false;
+  if (low.x > high.x) return false;  // empty
   const Point nearest{std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y), std::clamp(p.z, low.z, high.z)};
   return squared_distance(p, nearest) <= squared_radius;
 }
 
-CutTree::CutTree(std::vector<Site> sample, std::size_t parts) : owned_(parts) {
+CutTree::CutTree(std::vector<Site> sample, std::size_t parts) {
   nodes_.reserve(2 * parts - 1);
   cut(sample, 0, parts);
 }
@@ -61,7 +54,7 @@ void CutTree::cut(std::span<Site> sample, std::size_t first_part, std::size_t pa
   const std::size_t middle = sample.size() * first_half / parts;
   const auto pivot = sample.begin() + static_cast<std::ptrdiff_t>(middle);
   if (pivot != sample.end()) {
-    std::nth_element(sample.begin(), pivot, sample.end(), Along{axis});
+    std::ranges::nth_element(sample, pivot, {}, [axis](const Site& vertex) { return key_along(axis, vertex); });
     nodes_[node].pivot = *pivot;
   }
   nodes_[node].axis = axis;
@@ -72,7 +65,7 @@ void CutTree::cut(std::span<Site> sample, std::size_t first_part, std::size_t pa
 
 std::size_t CutTree::next(std::size_t node, const Site& vertex) const {
   const Node& here = nodes_[node];
-  return Along{here.axis}(vertex, here.pivot) ? node + 1 : here.second;
+  return key_along(here.axis, vertex) < key_along(here.axis, here.pivot) ? node + 1 : here.second;
 }
 
 std::size_t CutTree::owner(const Site& vertex) const {
@@ -83,12 +76,8 @@ std::size_t CutTree::owner(const Site& vertex) const {
 
 void CutTree::add(const Site& vertex) {
   std::size_t node = 0;
-  for (;;) {
-    nodes_[node].box.add(vertex.position);
-    if (nodes_[node].axis < 0) break;
-    node = next(node, vertex);
-  }
-  ++owned_[nodes_[node].second];
+  for (; nodes_[node].axis >= 0; node = next(node, vertex)) nodes_[node].box.add(vertex.position);
+  nodes_[node].box.add(vertex.position);
 }
 
 void CutTree::find_near(const Point& p, double squared_halo, std::vector<std::uint32_t>& parts) const {

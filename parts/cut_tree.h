@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,13 +18,10 @@ struct Site {
 
 /// An axis-parallel box; empty at first.
 struct Box {
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
   Point low{kInfinity, kInfinity, kInfinity};
   Point high{-kInfinity, -kInfinity, -kInfinity};
 
   void add(const Point& p);
-  [[nodiscard]] bool is_empty() const { return !(low.x <= high.x); }
 
   /// Whether the point of the box nearest to `p` passes the predicate. If not, then no point of the box does: each
   /// coordinate of the difference to the nearest point is the smallest, and rounded differences, squares and sums keep
@@ -43,15 +39,10 @@ class CutTree {
   /// `parts` >= 1. O(#sample log #parts).
   CutTree(std::vector<Site> sample, std::size_t parts);
 
-  [[nodiscard]] std::size_t size() const { return owned_.size(); }
-
   [[nodiscard]] std::size_t owner(const Site& vertex) const;
 
-  /// Counts `vertex` for its owner, and extends the boxes around it.
+  /// Extends the boxes around `vertex`.
   void add(const Site& vertex);
-
-  /// The number of vertices added to a part.
-  [[nodiscard]] std::uint64_t owned(std::size_t part) const { return owned_[part]; }
 
   /// Replaces `parts` by those, ascending, whose box may hold a vertex from which `p` passes the predicate: a superset
   /// of the parts that own a vertex within the halo of `p`.
@@ -70,7 +61,6 @@ class CutTree {
   void collect(std::size_t node, const Point& p, double squared_halo, std::vector<std::uint32_t>& parts) const;
 
   std::vector<Node> nodes_;  // preorder
-  std::vector<std::uint64_t> owned_;
 };
 
 }  // namespace meshhood::parts

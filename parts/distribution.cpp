@@ -13,11 +13,11 @@ namespace {
 class CornerParts {
  public:
   CornerParts(const CornerPositions& vertices, const CutTree& tree, double squared_halo) {
-    begins_.reserve(vertices.size() + 1);
+    begins_.reserve(vertices.positions().size() + 1);
     std::vector<std::uint32_t> near;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
+    for (const Point& p : vertices.positions()) {
       begins_.push_back(parts_.size());
-      tree.find_near(vertices.at(i), squared_halo, near);
+      tree.find_near(p, squared_halo, near);
       parts_.insert(parts_.end(), near.begin(), near.end());
     }
     begins_.push_back(parts_.size());
@@ -51,7 +51,7 @@ void add_face(const Distribution& to, std::span<const std::uint64_t> face, const
       const std::size_t number = vertices.number(corner);
       const auto has = parts[number];
       if (std::binary_search(has.begin(), has.end(), part)) continue;
-      to.contents.vertices.append(part, Site{vertices.at(number), corner});
+      to.contents.vertices.append(part, Site{vertices.positions()[number], corner});
     }
   }
 }
@@ -59,7 +59,7 @@ void add_face(const Distribution& to, std::span<const std::uint64_t> face, const
 }  // namespace
 
 std::vector<std::uint64_t> Distribution::add_vertices(Stages& stages) const {
-  std::vector<std::uint64_t> sizes(tree.size());
+  std::vector<std::uint64_t> sizes(finished.size());
   std::vector<std::uint32_t> near;
   for_each_vertex(mesh, stages, [&](const Site& vertex) {
     tree.find_near(vertex.position, squared_halo, near);
