@@ -64,7 +64,6 @@ Faces read_faces(ChunkedMesh& mesh, std::size_t size) {
   parts::FaceChunk chunk;
   mesh.rewind_faces();
   while (mesh.read_faces(size, chunk)) {
-    if (chunk.first != all.degrees.size()) fail("a chunk begins at another face");
     for (std::size_t i = 0; i < chunk.size(); ++i) all.degrees.push_back(chunk.face(i).size());
     all.corners.insert(all.corners.end(), chunk.corners.begin(), chunk.corners.end());
   }

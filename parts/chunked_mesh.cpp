@@ -15,14 +15,6 @@
 namespace meshhood::parts {
 namespace {
 
-bool is_valid(double coordinate) { return std::abs(coordinate) <= kLargestCoordinate; }
-
-/// An index as it was stored: negative ones are huge when read as unsigned.
-std::string index_text(std::uint64_t index) {
-  const auto value = static_cast<std::int64_t>(index);
-  return value < 0 ? std::to_string(value) : std::to_string(index);
-}
-
 class MeshInMemory final : public ChunkedMesh {
  public:
   MeshInMemory(io::Mesh mesh, const std::string& name)
@@ -33,11 +25,9 @@ class MeshInMemory final : public ChunkedMesh {
 
  private:
   void load_positions(std::uint64_t first, std::span<Point> out) override {
-    std::visit(
-        [&](const auto& xyz) {
-          for (std::size_t i = 0; i < out.size(); ++i) out[i] = point(std::span(xyz), first + i);
-        },
-        mesh_.positions);
+    mesh_.view().positions.visit([&](const auto& xyz) {
+      for (std::size_t i = 0; i < out.size(); ++i) out[i] = point(xyz, first + i);
+    });
   }
 
   bool load_face(std::uint64_t face, std::vector<std::uint64_t>& corners) override {
@@ -60,7 +50,7 @@ void ChunkedMesh::read_positions(std::uint64_t first, std::span<Point> out) {
   for (std::size_t i = 0; i < out.size(); ++i) {
     const Point& p = out[i];
     for (const auto& [axis, value] : {std::pair('x', p.x), std::pair('y', p.y), std::pair('z', p.z)}) {
-      if (is_valid(value)) [[likely]] {
+      if (std::abs(value) <= kLargestCoordinate) [[likely]] {
         continue;
       }
       raise(ErrorCode::InvalidMesh,
@@ -77,7 +67,6 @@ void ChunkedMesh::rewind_faces() {
 }
 
 bool ChunkedMesh::read_faces(std::size_t corners, FaceChunk& chunk) {
-  chunk.first = next_face_;
   chunk.corners.clear();
   chunk.ends.clear();
   while (chunk.corners.size() < corners && chunk.size() < corners) {
@@ -98,12 +87,15 @@ void ChunkedMesh::check_face(std::span<const std::uint64_t> corners) const {
     if (corners[i] < vertices_) [[likely]] {
       continue;
     }
+    // As it was stored: negative ones are huge when read as unsigned.
+    const auto stored = static_cast<std::int64_t>(corners[i]);
     raise_no_such_vertex(ErrorCode::InvalidMesh, fmt::format("{}: face {}: corner {} is vertex ", name_, next_face_, i),
-                         index_text(corners[i]), vertices_);
+                         std::to_string(stored), vertices_);
   }
 }
 
 void ChunkedMesh::check_degree(std::uint64_t corners) const {
+  constexpr std::uint64_t kMostCorners = std::uint64_t{1} << 20;
   if (corners <= kMostCorners) return;
   raise(ErrorCode::TooLarge, fmt::format("{}: face {} has {} corners, but the limit of a partition is {}", name_,
                                          next_face_, corners, kMostCorners));

@@ -17,7 +17,6 @@ namespace meshhood::parts {
 
 /// Faces in the order of the mesh.
 struct FaceChunk {
-  std::uint64_t first = 0;             ///< the number of the first face
   std::vector<std::uint64_t> corners;  ///< of all faces, face after face
   std::vector<std::size_t> ends;       ///< of each face in `corners`
 
@@ -59,14 +58,11 @@ class ChunkedMesh {
   /// ends. False if there is no further face.
   bool read_faces(std::size_t corners, FaceChunk& chunk);
 
-  /// The longest face.
-  static constexpr std::uint64_t kMostCorners = std::uint64_t{1} << 20;
-
  protected:
   ChunkedMesh(std::string name, std::uint64_t vertices, bool is_double)
       : name_(std::move(name)), vertices_(vertices), is_double_(is_double) {}
 
-  /// Throws Error{TooLarge} if a face has more than `kMostCorners`.
+  /// Throws Error{TooLarge} if a face has more than 2^20 corners.
   void check_degree(std::uint64_t corners) const;
 
  private:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <limits>
@@ -36,7 +37,7 @@ struct Coordinate {
 /// Where the values of a PLY file lie.
 struct Layout {
   io::PlyHeader header;
-  std::uint64_t vertices = 0;
+  const io::PlyElement* vertices = nullptr;
   std::uint64_t first_vertex = 0;  ///< its byte
   std::size_t row_bytes = 0;       ///< of a vertex
   std::array<Coordinate, 3> axes{};
@@ -70,12 +71,11 @@ std::optional<Layout> find_layout(io::PlyHeader header, std::uint64_t header_byt
   if (header.encoding == io::PlyEncoding::Ascii) return std::nullopt;
   Layout layout{.header = std::move(header)};
   std::uint64_t offset = header_bytes;
-  bool has_vertices = false;
   for (const io::PlyElement& element : layout.header.elements) {
     if (element.name == "tristrips") return std::nullopt;
     if (element.name == "face") {
       const auto list = find_corner_list(element);
-      if (!list || !has_vertices) return std::nullopt;
+      if (!list || layout.vertices == nullptr) return std::nullopt;
       layout.faces = &element;
       layout.corner_list = *list;
       break;
@@ -87,24 +87,14 @@ std::optional<Layout> find_layout(io::PlyHeader header, std::uint64_t header_byt
       const auto axes = find_axes(element);
       if (!axes) return std::nullopt;
       layout.axes = *axes;
-      layout.vertices = element.count;
+      layout.vertices = &element;
       layout.first_vertex = offset;
       layout.row_bytes = row;
-      has_vertices = true;
     }
     offset += element.count * row;
   }
-  if (!has_vertices) return std::nullopt;
+  if (layout.vertices == nullptr) return std::nullopt;
   return layout;
-}
-
-double coordinate(const char* bytes, io::PlyType type, std::endian order) {
-  return with_type(type,
-                   [&](auto example) { return static_cast<double>(io::number_at<decltype(example)>(bytes, order)); });
-}
-
-bool needs_double(const std::array<Coordinate, 3>& axes) {
-  return !fits_float(axes[0].type) || !fits_float(axes[1].type) || !fits_float(axes[2].type);
 }
 
 /// The faces of a file, once in order.
@@ -172,15 +162,15 @@ class FaceReader {
 class ChunkedPly final : public ChunkedMesh {
  public:
   ChunkedPly(RandomFile file, Layout layout)
-      : ChunkedMesh(io::printable_name(file.path().string()), layout.vertices, needs_double(layout.axes)),
+      : ChunkedMesh(io::printable_name(file.path().string()), layout.vertices->count,
+                    !std::ranges::all_of(layout.axes, io::fits_float, &Coordinate::type)),
         file_(std::move(file)),
-        layout_(std::move(layout)),
-        order_(order_of(layout_.header.encoding)) {
-    const std::uint64_t end = layout_.first_vertex + layout_.vertices * layout_.row_bytes;
+        layout_(std::move(layout)) {
+    const std::uint64_t end = layout_.first_vertex + vertex_count() * layout_.row_bytes;
     if (end <= file_.size()) return;
     raise(ErrorCode::MalformedFile,
           fmt::format("{}: {} vertices of {} bytes end at byte {}, but the file has {} bytes: it is truncated", name(),
-                      layout_.vertices, layout_.row_bytes, end, file_.size()));
+                      vertex_count(), layout_.row_bytes, end, file_.size()));
   }
 
  private:
@@ -198,7 +188,12 @@ class ChunkedPly final : public ChunkedMesh {
   }
 
   [[nodiscard]] Point position_at(const char* row) const {
-    const auto at = [&](const Coordinate& axis) { return coordinate(row + axis.offset, axis.type, order_); };
+    const std::endian order = order_of(layout_.header.encoding);
+    const auto at = [&](const Coordinate& axis) {
+      return with_type(axis.type, [&](auto example) {
+        return static_cast<double>(io::number_at<decltype(example)>(row + axis.offset, order));
+      });
+    };
     return {at(layout_.axes[0]), at(layout_.axes[1]), at(layout_.axes[2])};
   }
 
@@ -214,7 +209,6 @@ class ChunkedPly final : public ChunkedMesh {
 
   RandomFile file_;
   Layout layout_;
-  std::endian order_;
   std::vector<char> buffer_;
   std::optional<FaceReader> faces_;
 };
