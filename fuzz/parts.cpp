@@ -87,13 +87,8 @@ std::string sealed(std::string_view rest) {
   return fmt::format("{{\"checksum\": \"{:016x}\",\n{}", checksum({std::as_bytes(std::span(rest))}), rest);
 }
 
-bool operator==(const parts::PartFile& a, const parts::PartFile& b) {
-  return a.name == b.name && a.bytes == b.bytes && a.checksum == b.checksum;
-}
-
 bool is_same(const parts::Part& a, const parts::Part& b) {
-  return a.vertices == b.vertices && a.owned == b.owned && a.faces == b.faces &&
-         std::ranges::equal(a.files, b.files, [](const auto& f, const auto& g) { return f == g; });
+  return a.vertices == b.vertices && a.owned == b.owned && a.faces == b.faces && a.files == b.files;
 }
 
 /// A manifest that is accepted is the same when it is written and read again.

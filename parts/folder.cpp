@@ -2,9 +2,7 @@
 #include "parts/folder.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <string>
-#include <string_view>
 
 #include <fmt/format.h>
 

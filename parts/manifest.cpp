@@ -22,6 +22,9 @@
 namespace meshhood::parts {
 namespace {
 
+/// The version of the folder and its files.
+constexpr unsigned kFormat = 1;
+
 constexpr std::string_view kFloat = "float";
 constexpr std::string_view kDouble = "double";
 
@@ -38,10 +41,8 @@ std::uint64_t number_of(std::string_view hex_digits) {
   return number;
 }
 
-std::uint64_t checksum_of(std::string_view text) { return checksum({std::as_bytes(std::span(text))}); }
-
 std::string first_line(std::string_view rest) {
-  return fmt::format("{{\"checksum\": \"{}\",\n", hex(checksum_of(rest)));
+  return fmt::format("{{\"checksum\": \"{}\",\n", hex(checksum({std::as_bytes(std::span(rest))})));
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, std::string_view reason) {
@@ -215,13 +216,6 @@ std::optional<Plan> read_plan(const std::filesystem::path& part_folder) {
   std::error_code unknown;
   if (!std::filesystem::exists(file, unknown)) return std::nullopt;
   return read_json(file, plan_from);
-}
-
-void verify_part(const std::filesystem::path& part_folder, const Part& part) {
-  for (const PartFile& expected : part.files) {
-    const std::filesystem::path file = part_folder / expected.name;
-    verify_file(file, io::MappedFile(file).bytes(), expected);
-  }
 }
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest) {

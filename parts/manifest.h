@@ -16,9 +16,6 @@
 /// The contents of a folder of parts. docs/scale.md describes the files.
 namespace meshhood::parts {
 
-/// The version of the folder and its files.
-inline constexpr unsigned kFormat = 1;
-
 inline constexpr std::string_view kManifestFile = "manifest.json";
 
 /// The mesh that was partitioned, and the options: the same for all parts of a folder.
@@ -39,6 +36,8 @@ struct PartFile {
   std::string name;
   std::uint64_t bytes = 0;
   std::uint64_t checksum = 0;  ///< XXH3 (64 bits)
+
+  friend bool operator==(const PartFile&, const PartFile&) = default;
 };
 
 /// A part, in a folder of its own.
@@ -67,7 +66,7 @@ inline constexpr std::string_view kOffsetsFile = "face_offsets.npy";
 inline constexpr std::array kPartFiles{kIndexFile, kVerticesFile, kOwnedFile, kCornersFile, kOffsetsFile};
 inline constexpr std::string_view kPartFile = "part.json";
 
-/// Size and checksum of a file. Throws Error{IoFailure}.
+/// Size and checksum of a file. Throws Error{IoFailure}. O(bytes).
 [[nodiscard]] PartFile describe_file(const std::filesystem::path& folder, std::string_view name);
 
 /// Writes PART_FOLDER/part.json. Throws Error{IoFailure}.
@@ -87,10 +86,6 @@ void verify_size(const std::filesystem::path& file, std::uint64_t bytes, const P
 
 /// Throws Error{MalformedIndex}, naming the file, unless its content has the size and checksum.
 void verify_file(const std::filesystem::path& file, std::span<const std::byte> content, const PartFile& expected);
-
-/// Throws Error{MalformedIndex}, naming the file, unless every file of the part has its size and checksum.
-/// Throws Error{IoFailure} if one is missing. O(bytes).
-void verify_part(const std::filesystem::path& part_folder, const Part& part);
 
 /// Writes FOLDER/manifest.json atomically. Throws Error{IoFailure}.
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);

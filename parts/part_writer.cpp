@@ -30,9 +30,9 @@ std::vector<Site> read_vertices(const Spill& spill, std::size_t number) {
   vertices.reserve(static_cast<std::size_t>(spill.size(number) / sizeof(Site)));
   SpillReader reader(spill, number, kReadBuffer);
   for (Site vertex = {}; reader.next(vertex);) vertices.push_back(vertex);
-  std::sort(vertices.begin(), vertices.end(), [](const Site& a, const Site& b) { return a.id < b.id; });
-  const auto same = [](const Site& a, const Site& b) { return a.id == b.id; };
-  vertices.erase(std::unique(vertices.begin(), vertices.end(), same), vertices.end());
+  std::ranges::sort(vertices, {}, &Site::id);
+  const auto repeats = std::ranges::unique(vertices, {}, &Site::id);
+  vertices.erase(repeats.begin(), repeats.end());
   return vertices;
 }
 
@@ -67,27 +67,26 @@ template <class Real>
 std::vector<Real> positions_of(std::span<const Site> vertices) {
   std::vector<Real> xyz;
   xyz.reserve(3 * vertices.size());
-  for (const Site& vertex : vertices) {
-    for (const double x : {vertex.position.x, vertex.position.y, vertex.position.z})
-      xyz.push_back(static_cast<Real>(x));
+  for (const auto& [p, id] : vertices) {
+    for (const double x : {p.x, p.y, p.z}) xyz.push_back(static_cast<Real>(x));
   }
   return xyz;
 }
 
-/// The ids of all vertices, and the numbers of those that the part owns.
-struct Numbering {
+std::vector<std::int64_t> ids_of(std::span<const Site> vertices) {
   std::vector<std::int64_t> ids;
-  std::vector<std::int32_t> owned;
-};
+  ids.reserve(vertices.size());
+  for (const Site& vertex : vertices) ids.push_back(static_cast<std::int64_t>(vertex.id));
+  return ids;
+}
 
-Numbering number_vertices(std::span<const Site> vertices, const CutTree& tree, std::size_t part) {
-  Numbering result;
-  result.ids.reserve(vertices.size());
-  for (const Site& vertex : vertices) {
-    if (tree.owner(vertex) == part) result.owned.push_back(static_cast<std::int32_t>(result.ids.size()));
-    result.ids.push_back(static_cast<std::int64_t>(vertex.id));
+/// The numbers of the vertices that the part owns.
+std::vector<std::int32_t> owned_by(std::size_t part, std::span<const Site> vertices, const CutTree& tree) {
+  std::vector<std::int32_t> owned;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (tree.owner(vertices[i]) == part) owned.push_back(static_cast<std::int32_t>(i));
   }
-  return result;
+  return owned;
 }
 
 /// Frees the positions, once the index has them.
@@ -116,20 +115,21 @@ Part write_part_files(const std::filesystem::path& folder, const PartContents& c
                       const CutTree& tree, bool is_double, const Run& run) {
   std::vector<Site> vertices = read_vertices(contents.vertices, number);
   check_count(vertices.size(), number);
-  const Numbering numbering = number_vertices(vertices, tree, number);
+  const std::vector<std::int64_t> ids = ids_of(vertices);
+  const std::vector<std::int32_t> owned = owned_by(number, vertices, tree);
   MeshData mesh;
   is_double ? mesh.positions = positions_of<double>(vertices) : mesh.positions = positions_of<float>(vertices);
   std::vector<Site>().swap(vertices);
-  io::Faces faces = read_faces(contents.faces, number, numbering.ids);
+  io::Faces faces = read_faces(contents.faces, number, ids);
   mesh.offsets = std::move(faces.offsets());
   mesh.corners = std::move(faces.corners());
 
   write_index(folder / kIndexFile, mesh, run);
-  write_array<std::int64_t>(folder / kVerticesFile, numbering.ids);
-  write_array<std::int32_t>(folder / kOwnedFile, numbering.owned);
+  write_array<std::int64_t>(folder / kVerticesFile, ids);
+  write_array<std::int32_t>(folder / kOwnedFile, owned);
   write_array<std::int32_t>(folder / kCornersFile, mesh.corners);
   write_array<std::int64_t>(folder / kOffsetsFile, mesh.offsets);
-  Part part{.vertices = numbering.ids.size(), .owned = numbering.owned.size(), .faces = faces.size(), .files = {}};
+  Part part{.vertices = ids.size(), .owned = owned.size(), .faces = faces.size(), .files = {}};
   for (const std::string_view name : kPartFiles) part.files.push_back(describe_file(folder, name));
   return part;
 }

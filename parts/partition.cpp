@@ -16,7 +16,6 @@
 #include "io/messages.h"
 #include "parts/cut_tree.h"
 #include "parts/distribution.h"
-#include "parts/edge_lengths.h"
 #include "parts/folder.h"
 #include "parts/part_writer.h"
 #include "parts/passes.h"
@@ -66,13 +65,8 @@ void check_number_of_parts(std::uint64_t parts, std::uint64_t sample_bytes) {
 /// One call of `partition`.
 class Partitioning {
  public:
-  Partitioning(ChunkedMesh& mesh, fs::path folder, const PartitionOptions& options, const Run& run)
-      : mesh_(mesh),
-        folder_(std::move(folder)),
-        options_(options),
-        budget_{.memory = options.memory},
-        threads_(run.threads),
-        stages_(run.progress) {}
+  Partitioning(ChunkedMesh& mesh, const fs::path& folder, const PartitionOptions& options, const Run& run)
+      : mesh_(mesh), folder_(folder), options_(options), run_(run) {}
 
   PartitionResult run() {
     const FolderLock lock(folder_);
@@ -80,7 +74,7 @@ class Partitioning {
     const std::uint64_t parts = number_of_parts(options_, mesh_.vertex_count());
     check_number_of_parts(parts, budget_.sample_bytes);
     stages_.begin(0.05);
-    Survey found = survey(mesh_, sample_size(parts), stages_);
+    Survey found = survey(mesh_, parts, stages_);
     mark_folder(folder_);
     const TemporaryFolder temporary(folder_ / kTemporaryFolder);
     make_plan(found, parts, temporary.path());
@@ -103,9 +97,7 @@ class Partitioning {
 
   void make_plan(const Survey& found, std::uint64_t parts, const fs::path& temporary) {
     stages_.begin(0.2);
-    std::uint64_t done = 0;
-    const double mean = mean_edge_length(mesh_, temporary, budget_.corners,
-                                         [&](std::size_t corners) { stages_.report(done += corners, found.corners); });
+    const double mean = mean_edge_length(mesh_, temporary, budget_.corners, found.corners, stages_);
     plan() = {.vertices = mesh_.vertex_count(),
               .faces = found.faces,
               .is_double = mesh_.is_double(),
@@ -169,11 +161,11 @@ class Partitioning {
   }
 
   static bool is_whole(const fs::path& folder, const Part& part) {
+    const auto is_as_listed = [&](const PartFile& file) { return describe_file(folder, file.name) == file; };
     try {
-      verify_part(folder, part);
-      return true;
+      return std::ranges::all_of(part.files, is_as_listed);
     } catch (const Error& error) {
-      if (error.code() != ErrorCode::MalformedIndex && error.code() != ErrorCode::IoFailure) throw;
+      if (error.code() != ErrorCode::IoFailure) throw;
       return false;  // written again
     }
   }
@@ -224,7 +216,7 @@ class Partitioning {
     };
     fs::create_directory(work);
     Part written =
-        write_part_files(work, contents, part, tree, plan().is_double, {.threads = threads_, .progress = progress});
+        write_part_files(work, contents, part, tree, plan().is_double, {.threads = run_.threads, .progress = progress});
     write_part(work, plan(), part, written);
     fs::rename(work, folder_of(part));
     fs::remove(contents.vertices.file(part));
@@ -233,11 +225,11 @@ class Partitioning {
   }
 
   ChunkedMesh& mesh_;
-  fs::path folder_;
+  const fs::path& folder_;
   const PartitionOptions& options_;
-  Budget budget_;
-  unsigned threads_;
-  Stages stages_;
+  const Run& run_;
+  Budget budget_{.memory = options_.memory};
+  Stages stages_{run_.progress};
   PartitionResult result_;
   std::vector<bool> finished_;
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <limits>
 #include <span>
 
@@ -38,7 +37,7 @@ std::uint64_t sample_size(std::uint64_t parts) {
   return std::max(kLeast, parts * kOfEachPart);
 }
 
-Survey survey(ChunkedMesh& mesh, std::uint64_t sample, Stages& stages) {
+Survey survey(ChunkedMesh& mesh, std::uint64_t parts, Stages& stages) {
   Survey result;
   const auto hash = [&](std::span<const std::byte> bytes) {
     const Fingerprint before = result.content_hash;
@@ -46,7 +45,7 @@ Survey survey(ChunkedMesh& mesh, std::uint64_t sample, Stages& stages) {
   };
   const std::array<std::uint64_t, 2> head{mesh.vertex_count(), mesh.is_double() ? 8U : 4U};
   hash(std::as_bytes(std::span(head)));
-  const std::uint64_t limit = sample_limit(mesh.vertex_count(), sample);
+  const std::uint64_t limit = sample_limit(mesh.vertex_count(), sample_size(parts));
   for_each_vertex_chunk(mesh, stages, [&](std::uint64_t first, std::span<const Point> positions) {
     hash(std::as_bytes(positions));
     for (std::size_t i = 0; i < positions.size(); ++i) {

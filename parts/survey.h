@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "meshhood/fingerprint.h"
@@ -24,9 +26,16 @@ struct Survey {
 /// another memory cuts alike. The share that a part owns then has a standard deviation of about 2 %.
 [[nodiscard]] std::uint64_t sample_size(std::uint64_t parts);
 
-/// Reads the whole mesh once, so that every fault is found before anything is written.
+/// Reads the whole mesh once, so that every fault is found before anything is written. The sample has approximately
+/// `sample_size(parts)` vertices.
+[[nodiscard]] Survey survey(ChunkedMesh& mesh, std::uint64_t parts, Stages& stages);
+
+/// The mean length of the distinct edges: to the last bit what `mean_edge_length` gives for the whole mesh, because the
+/// lengths are added in the same order. 0 if there are no edges.
 ///
-/// sample  the number of vertices in the sample, approximately.
-[[nodiscard]] Survey survey(ChunkedMesh& mesh, std::uint64_t sample, Stages& stages);
+/// An external merge sort: the edges of each chunk of `chunk_corners` corners, of `corners` in all, are sorted into a
+/// file of `folder`, and the files are merged. Memory: about 100 bytes a corner of a chunk.
+[[nodiscard]] double mean_edge_length(ChunkedMesh& mesh, const std::filesystem::path& folder, std::size_t chunk_corners,
+                                      std::uint64_t corners, Stages& stages);
 
 }  // namespace meshhood::parts

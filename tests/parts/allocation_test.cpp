@@ -63,7 +63,7 @@ TEST_F(PartitionAllocation, FailsWhereAFolderIsRead) {
   shortages.fail_each([] { return std::optional<parts::Part>(); },
                       [&](auto& part) {
                         auto found = parts::read_part(part_folder, manifest.plan, 1);
-                        parts::verify_part(part_folder, *found);
+                        static_cast<void>(parts::describe_file(part_folder, parts::kIndexFile));
                         part = std::move(found);
                       },
                       [&](const auto& part, Ending ending) {
