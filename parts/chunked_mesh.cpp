@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "parts/chunked_mesh.h"
 
-#include <cmath>
 #include <system_error>
 #include <variant>
 
@@ -48,15 +47,7 @@ class MeshInMemory final : public ChunkedMesh {
 void ChunkedMesh::read_positions(std::uint64_t first, std::span<Point> out) {
   load_positions(first, out);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const Point& p = out[i];
-    for (const auto& [axis, value] : {std::pair('x', p.x), std::pair('y', p.y), std::pair('z', p.z)}) {
-      if (std::abs(value) <= kLargestCoordinate) [[likely]] {
-        continue;
-      }
-      raise(ErrorCode::InvalidMesh,
-            fmt::format("{}: vertex {}: {} is {}, expected a finite number of at most 2^500 in magnitude", name_,
-                        first + i, axis, to_text(value)));
-    }
+    if (!is_valid_position(out[i])) refuse_position(first + i, out[i], name_ + ": ");
   }
 }
 

@@ -17,7 +17,7 @@ std::tuple<double, double, double, std::uint64_t> key_along(int axis, const Site
 }
 
 int longest_axis(std::span<const Site> sample) {
-  Box box;
+  BoundingBox box;
   for (const Site& vertex : sample) box.add(vertex.position);
   const std::array sides{box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z};
   return static_cast<int>(std::max_element(sides.begin(), sides.end()) - sides.begin());
@@ -25,12 +25,8 @@ int longest_axis(std::span<const Site> sample) {
 
 }  // namespace
 
-void Box::add(const Point& p) {
-  low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-  high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-}
-
-bool Box::may_hold_within(const Point& p, double squared_radius) const {
+bool may_hold_within(const BoundingBox& box, const Point& p, double squared_radius) {
+  const auto& [low, high] = box;
   if (low.x > high.x) return false;  // empty
   const Point nearest{std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y), std::clamp(p.z, low.z, high.z)};
   return squared_distance(p, nearest) <= squared_radius;
@@ -87,7 +83,7 @@ void CutTree::find_near(const Point& p, double squared_halo, std::vector<std::ui
 
 void CutTree::collect(std::size_t node, const Point& p, double squared_halo, std::vector<std::uint32_t>& parts) const {
   const Node& here = nodes_[node];
-  if (!here.box.may_hold_within(p, squared_halo)) return;
+  if (!may_hold_within(here.box, p, squared_halo)) return;
   if (here.axis < 0) {
     parts.push_back(here.second);
     return;

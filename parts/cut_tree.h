@@ -16,18 +16,10 @@ struct Site {
   std::uint64_t id = 0;
 };
 
-/// An axis-parallel box; empty at first.
-struct Box {
-  Point low{kInfinity, kInfinity, kInfinity};
-  Point high{-kInfinity, -kInfinity, -kInfinity};
-
-  void add(const Point& p);
-
-  /// Whether the point of the box nearest to `p` passes the predicate. If not, then no point of the box does: each
-  /// coordinate of the difference to the nearest point is the smallest, and rounded differences, squares and sums keep
-  /// that order. So the answer is never wrong by a rounding error.
-  [[nodiscard]] bool may_hold_within(const Point& p, double squared_radius) const;
-};
+/// Whether the point of the box nearest to `p` passes the predicate. If not, then no point of the box does: each
+/// coordinate of the difference to the nearest point is the smallest, and rounded differences, squares and sums keep
+/// that order. So the answer is never wrong by a rounding error.
+[[nodiscard]] bool may_hold_within(const BoundingBox& box, const Point& p, double squared_radius);
 
 /// Cuts space into parts: a kd-tree, each leaf of which is a part. Every vertex belongs to one part, its owner.
 ///
@@ -53,7 +45,7 @@ class CutTree {
     int axis = -1;             ///< of the cut; -1 for a part
     Site pivot;                ///< the first vertex of the second half
     std::uint32_t second = 0;  ///< the node of the second half, or the part; the first half is the next node
-    Box box;                   ///< of the added vertices
+    BoundingBox box;           ///< of the added vertices
   };
 
   void cut(std::span<Site> sample, std::size_t first_part, std::size_t parts);

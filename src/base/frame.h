@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -23,19 +22,6 @@ struct FramePoint {
 
 /// A sphere in the coordinates of a `Frame`.
 using FrameSphere = Sphere<float>;
-
-struct BoundingBox {
-  Point low{kNone, kNone, kNone};
-  Point high{-kNone, -kNone, -kNone};
-
-  static constexpr double kNone = kInfinity;
-
-  void add(const Point& p) { add(BoundingBox{p, p}); }
-  void add(const BoundingBox& box) {
-    low = {std::min(low.x, box.low.x), std::min(low.y, box.low.y), std::min(low.z, box.low.z)};
-    high = {std::max(high.x, box.high.x), std::max(high.y, box.high.y), std::max(high.z, box.high.z)};
-  }
-};
 
 /// Coordinates in which every vertex lies in [-1, 1]^3, whatever the unit of the positions. The tree stores floats,
 /// which rounds a vertex by at most 2^-25 along each axis.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -30,6 +32,25 @@ struct Point {
   double x;
   double y;
   double z;
+};
+
+[[nodiscard]] inline bool is_valid_coordinate(double coordinate) { return std::abs(coordinate) <= kLargestCoordinate; }
+
+/// Returns whether the coordinates are finite and at most 2^500 in magnitude.
+[[nodiscard]] inline bool is_valid_position(const Point& p) {
+  return is_valid_coordinate(p.x) && is_valid_coordinate(p.y) && is_valid_coordinate(p.z);
+}
+
+/// An axis-parallel box; empty at first.
+struct BoundingBox {
+  Point low{kInfinity, kInfinity, kInfinity};
+  Point high{-kInfinity, -kInfinity, -kInfinity};
+
+  void add(const Point& p) { add(BoundingBox{p, p}); }
+  void add(const BoundingBox& box) {
+    low = {std::min(low.x, box.low.x), std::min(low.y, box.low.y), std::min(low.z, box.low.z)};
+    high = {std::max(high.x, box.high.x), std::max(high.y, box.high.y), std::max(high.z, box.high.z)};
+  }
 };
 
 template <class Real>

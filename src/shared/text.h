@@ -4,11 +4,15 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "meshhood/error.h"
 #include "meshhood/mesh.h"
+
+#include "shared/distance.h"
 
 namespace meshhood::inline v0_1 {
 
@@ -29,6 +33,16 @@ namespace meshhood::inline v0_1 {
 [[noreturn]] inline void raise_no_such_vertex(ErrorCode code, std::string_view where, std::string_view vertex,
                                               std::size_t vertices) {
   raise(code, std::string(where).append(vertex) + ", but the mesh has " + std::to_string(vertices) + " vertices");
+}
+
+/// Throws Error{InvalidMesh}, naming vertex `v` and the first of its coordinates that is not valid. The message begins
+/// with `where`.
+[[noreturn]] inline void refuse_position(std::uint64_t v, const Point& p, std::string_view where = {}) {
+  const auto [axis, coordinate] = !is_valid_coordinate(p.x)   ? std::pair('x', p.x)
+                                  : !is_valid_coordinate(p.y) ? std::pair('y', p.y)
+                                                              : std::pair('z', p.z);
+  raise(ErrorCode::InvalidMesh, std::string(where) + "vertex " + std::to_string(v) + ": " + axis + " is " +
+                                    to_text(coordinate) + ", expected a finite number of at most 2^500 in magnitude");
 }
 
 }  // namespace meshhood::inline v0_1

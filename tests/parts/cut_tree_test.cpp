@@ -13,7 +13,6 @@
 namespace meshhood::test {
 namespace {
 
-using parts::Box;
 using parts::CutTree;
 using parts::Site;
 
@@ -69,16 +68,16 @@ TEST(CutTree, HasNoPartNearbyThatOwnsNothing) {
 }
 
 // The predicate is true of a corner of the box whenever it is true of a point inside.
-TEST(Box, MayHoldEveryPointThatThePredicateAccepts) {
+TEST(BoundingBox, MayHoldEveryPointThatThePredicateAccepts) {
   Random random(3);
   for (int i = 0; i < 100'000; ++i) {
     const auto point = [&] { return Point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
-    Box box;
+    BoundingBox box;
     const Point inside = point();
     box.add(inside);
     box.add(point());
     const Point p = point();
-    EXPECT_TRUE(box.may_hold_within(p, squared_distance(p, inside)));
+    EXPECT_TRUE(parts::may_hold_within(box, p, squared_distance(p, inside)));
   }
 }
 

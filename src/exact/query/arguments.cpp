@@ -7,7 +7,7 @@
 
 #include "meshhood/error.h"
 
-#include "base/validate.h"
+#include "shared/distance.h"
 #include "shared/text.h"
 
 namespace meshhood::inline v0_1 {
