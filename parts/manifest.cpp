@@ -132,7 +132,6 @@ std::string json_of(const PartFile& file, std::string_view indent) {
 
 std::string json_of(const Part& part, const std::string& indent) {
   std::vector<std::string> files;
-  files.reserve(part.files.size());
   for (const PartFile& file : part.files) files.push_back(json_of(file, indent + "  "));
   return fmt::format(R"({{
 {0} "vertices": {1},
@@ -220,7 +219,6 @@ std::optional<Plan> read_plan(const std::filesystem::path& part_folder) {
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest) {
   std::vector<std::string> parts;
-  parts.reserve(manifest.parts.size());
   for (const Part& part : manifest.parts) parts.push_back("\n  " + json_of(part, "  "));
   write_json(folder / kManifestFile,
              fmt::format("{},\n \"parts\": [{}\n ]\n}}\n", json_of(manifest.plan), fmt::join(parts, ",")));

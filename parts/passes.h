@@ -47,15 +47,13 @@ class Stages {
   std::size_t done_ = 0;
 };
 
-/// The number of vertices that are read at once. Fixed, because the content hash depends on it.
-inline constexpr std::size_t kVertexChunk = std::size_t{1} << 16;
-
 /// Calls `f(first, positions)` for all vertices, a chunk at a time.
 template <class F>
 void for_each_vertex_chunk(ChunkedMesh& mesh, Stages& stages, F&& f) {
+  constexpr std::uint64_t kVertexChunk = std::uint64_t{1} << 16;  // fixed, because the content hash depends on it
   std::vector<Point> positions;
   for (std::uint64_t first = 0; first < mesh.vertex_count(); first += positions.size()) {
-    positions.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kVertexChunk, mesh.vertex_count() - first)));
+    positions.resize(static_cast<std::size_t>(std::min(kVertexChunk, mesh.vertex_count() - first)));
     mesh.read_positions(first, positions);
     f(first, std::span<const Point>(positions));
     stages.report(first + positions.size(), mesh.vertex_count());
