@@ -29,10 +29,10 @@ def main():
     V, F = meshhood.read_mesh(scan)
     found = meshhood.MeshIndex(V, F).curvature(float(edges), unit="edge")
     if not found.ok.any():
-        sys.exit(f"EDGES: {edges}, expected a larger radius: no vertex has neighbors enough for a fit")
+        sys.exit(f"EDGES: {edges}, expected a larger radius: no vertex has enough neighbors for a fit")
     largest = np.quantile(abs(found.mean[found.ok]), 0.98)
     meshhood.write_mesh(output, V, F, colors=colors_of(found.mean, largest))
-    print(f"{len(V)} vertices, {found.ok.sum()} fitted; 98 % have a mean curvature of at most {largest:.4g}")
+    print(f"{len(V)} vertices, {found.ok.sum()} fitted; 98 % have a mean curvature of at most {largest:.4g} in magnitude")
 
 
 if __name__ == "__main__":

@@ -33,8 +33,8 @@ struct Survey {
 /// The mean length of the distinct edges: to the last bit what `mean_edge_length` gives for the whole mesh, because the
 /// lengths are added in the same order. 0 if there are no edges.
 ///
-/// An external merge sort: the edges of each chunk of `chunk_corners` corners, of `corners` in all, are sorted into a
-/// file of `folder`, and the files are merged. Memory: about 100 bytes a corner of a chunk.
+/// An external merge sort: the edges of each chunk of `chunk_corners` corners are sorted into a file of `folder`, and
+/// the files are merged. Memory: about 100 bytes a corner of a chunk. `corners`, of all faces, is for the progress.
 [[nodiscard]] double mean_edge_length(ChunkedMesh& mesh, const std::filesystem::path& folder, std::size_t chunk_corners,
                                       std::uint64_t corners, Stages& stages);
 

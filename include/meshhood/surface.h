@@ -257,7 +257,7 @@ enum class ThicknessMethod : std::uint8_t {
 
 /// Returns the thickness at each of `vertices`, in the unit of the positions. Faces with the vertex as a corner do not
 /// count, nor does what lies at the same place: no farther than 2^-46 times the largest coordinate of the vertex, or
-/// times the extent of the face, seen from there. It is infinite where nothing else is met, or the radius of the ball
+/// of a corner of the face relative to the vertex. It is infinite where nothing else is met, or the radius of the ball
 /// exceeds the diagonal of the box around the faces, and NaN for a vertex without a normal.
 ///
 /// Masks have no effect. A row depends on the surface with its index, its vertex and the method alone, bit for bit.

@@ -26,8 +26,9 @@ namespace {
 
 constexpr std::size_t kRowsOfTask = 256;
 
-// What is not farther than this, times the largest coordinate or the extent of one of the two faces, is at the same
-// place. The extent of the mesh would hide thin walls in it: one vertex may be far away.
+// What is not farther than this, times the largest coordinate of the spot, of a corner of the face relative to it, or
+// of the extent of its own face, is at the same place. The extent of the mesh would hide thin walls: a vertex may be
+// far.
 constexpr double kSamePlace = 0x1p-46;
 
 /// Returns the largest absolute value of a coordinate.
@@ -174,8 +175,8 @@ class OppositeSide {
     for (;;) {
       const TrianglePoint nearest = nearest_in_triangle(radius * inward_, triangle, 1);
       const double along = dot(inward_, nearest.point);
-      const bool is_inside = nearest.distance < radius && along > same;
-      const double smaller = is_inside ? dot(nearest.point, nearest.point) / (2 * along) : radius;
+      // The ball through the point: smaller if the point is inside. A distance from a center far away would not tell.
+      const double smaller = along > same ? dot(nearest.point, nearest.point) / (2 * along) : radius;
       if (!(smaller > 0 && smaller < radius)) return radius;
       radius = smaller;
     }

@@ -87,6 +87,7 @@ test('the properties of a file in text are read from the lines that the library 
     running: { rows: ['0 0', '0 0 1 0', '0 10 0 1 0 20', '3 0 1 2'] },
     shared: { rows: [`${triangle.join(' ')} 3 0 1 2`] },
     facesFirst: { before: [element, list], after: [], rows: ['3 0 1 2 99', ...triangle] },
+    facesBeside: { before: [element, 'property uchar flag', list], after: [], rows: ['7', '3 0 1 2', ...triangle] },
     lists: { more: ['property list uchar int owners'], rows: [`${triangle[0]} 2 7 8`, `${triangle[1]} 0`, triangle[2], '3 0 1 2'] },
     accents: { name: 'temp\u00e9rature\u00c0', rows: [...triangle, '3 0 1 2'] },
   };

@@ -84,7 +84,7 @@ export class Panel {
     }
     const vertex = find<HTMLInputElement>('vertex');
     vertex.addEventListener('change', () => {
-      if (vertex.value !== '' || vertex.reportValidity()) this.#wishes.vertex(Number(vertex.value));
+      if (vertex.value === '') vertex.reportValidity(); else this.#wishes.vertex(Number(vertex.value));
     });
   }
 

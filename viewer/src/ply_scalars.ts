@@ -20,6 +20,7 @@ const OTHER_NAMES: Record<string, string> = {
   char: 'int8', uchar: 'uint8', short: 'int16', ushort: 'uint16', int: 'int32', uint: 'uint32', float: 'float32',
   double: 'float64',
 };
+const MOST = 1000; // properties to choose from
 const NOT_SCALARS = new Set(['x', 'y', 'z', 'nx', 'ny', 'nz', 'red', 'green', 'blue', 'alpha']);
 
 interface Property {
@@ -27,6 +28,7 @@ interface Property {
   type: string;
   /** Of the number of values, if it is a list. */
   countType?: string;
+  isRequired: boolean; // other lists are empty if the line of their row is over
   /** Empty unless they are wanted: what is written to them is dropped then. */
   values: Float32Array | Float64Array;
 }
@@ -57,9 +59,10 @@ function readHeader(bytes: Uint8Array): Header {
     const { name, rows, properties } = header.elements.at(-1)!;
     const [type, countType] = words.slice(1, -1).reverse().map((word) => OTHER_NAMES[word] ?? word);
     const title = words.at(-1)!;
-    const isWanted = name === 'vertex' && countType === undefined && !NOT_SCALARS.has(title);
+    const isRequired = properties.length === 0 || /^(face|tristrips) vertex_ind(ices|ex)$/.test(`${name} ${title}`);
+    const isWanted = name === 'vertex' && countType === undefined && properties.length < MOST && !NOT_SCALARS.has(title);
     const Reals = type === 'float64' ? Float64Array : Float32Array; // a float could not hold all doubles
-    properties.push({ title, type, countType, values: new Reals(isWanted ? rows : 0) });
+    properties.push({ title, type, countType, isRequired, values: new Reals(isWanted ? rows : 0) });
   }
   return header;
 }
@@ -71,16 +74,15 @@ export function readPlyScalars(bytes: Uint8Array, warnings: string[]): Scalar[] 
   const scalars = elements[last].properties.filter(({ values }) => values.length > 0);
   if (scalars.length === 0) return [];
   const body = bytes.subarray(end);
-  const isLittle = format === 'binary_little_endian';
-  const numbers = format === 'ascii' ? textNumbers(body, warnings) : binaryNumbers(body, isLittle);
+  const numbers = format === 'ascii' ? textNumbers(body, warnings) : binaryNumbers(body, format === 'binary_little_endian');
   for (const { rows, properties } of elements.slice(0, last + 1)) {
     for (let row = 0; row < rows && properties.length > 0; ++row) {
-      properties.forEach(({ type, countType, values }, i) => {
+      for (const { type, countType, isRequired, values } of properties) {
         if (countType === undefined) values[row] = numbers.next(type);
-        else if (i === 0 || !numbers.isLineOver()) {
+        else if (isRequired || !numbers.isLineOver()) {
           for (let left = numbers.next(countType); left > 0; --left) numbers.next(type);
         }
-      });
+      }
       numbers.endRow();
     }
   }

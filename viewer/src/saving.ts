@@ -25,8 +25,7 @@ export async function savePicture(view: View, mesh: string): Promise<void> {
 
 /** The ids of the answer for `vertex`, as `meshhood query` prints them. */
 export function saveIds(ids: Uint32Array, vertex: number, mesh: string): void {
-  const lines = [...ids].map((id) => `${id}\n`);
-  download(new Blob(lines, { type: 'text/plain' }), `${stem(mesh)}-${vertex}.txt`);
+  download(new Blob([...ids].map((id) => `${id}\n`), { type: 'text/plain' }), `${stem(mesh)}-${vertex}.txt`);
 }
 
 export function saveIndex(bytes: Uint8Array<ArrayBuffer>, mesh: string): void {

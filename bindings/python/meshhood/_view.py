@@ -86,8 +86,8 @@ def view(
     name : the name of the mesh on the page.
     height : the height of the page in a notebook, in pixels.
 
-    The page holds the positions and faces, at most 256 MB: about 60 bytes for each vertex of a closed triangle mesh of
-    float32, and builds its own index in the browser. Raises ValueError or TypeError, naming the argument, and
+    The page holds the positions and faces, about 60 bytes for each vertex of a closed triangle mesh of float32, of at
+    most 6 million vertices, and builds its own index in the browser. Raises ValueError or TypeError, naming the argument, and
     FileNotFoundError if the page was not built before this package was installed.
     """
     page = _built_page()
