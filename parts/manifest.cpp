@@ -131,8 +131,8 @@ std::string json_of(const PartFile& file, std::string_view indent) {
 }
 
 std::string json_of(const Part& part, const std::string& indent) {
-  std::vector<std::string> files;
-  for (const PartFile& file : part.files) files.push_back(json_of(file, indent + "  "));
+  std::vector<std::string> files(part.files.size());
+  std::ranges::transform(part.files, files.begin(), [&](const PartFile& f) { return json_of(f, indent + "  "); });
   return fmt::format(R"({{
 {0} "vertices": {1},
 {0} "owned": {2},
@@ -218,8 +218,8 @@ std::optional<Plan> read_plan(const std::filesystem::path& part_folder) {
 }
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest) {
-  std::vector<std::string> parts;
-  for (const Part& part : manifest.parts) parts.push_back("\n  " + json_of(part, "  "));
+  std::vector<std::string> parts(manifest.parts.size());
+  std::ranges::transform(manifest.parts, parts.begin(), [](const Part& part) { return "\n  " + json_of(part, "  "); });
   write_json(folder / kManifestFile,
              fmt::format("{},\n \"parts\": [{}\n ]\n}}\n", json_of(manifest.plan), fmt::join(parts, ",")));
 }
