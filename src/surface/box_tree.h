@@ -142,7 +142,7 @@ class BoxTree::Walk {
   template <class Fetch, class Enters>
   void open(std::size_t level, std::size_t number, Fetch& fetch, Enters& enters);
 
-  static constexpr std::size_t kMostBoxes = 11 * kFanOut;  // enough for 2^32 items
+  static constexpr std::size_t kMostBoxes = std::size_t{11} * kFanOut;  // enough for 2^32 items
 
   const BoxTree* tree_;
   Shape* shape_;
