@@ -139,7 +139,7 @@ TEST_F(Folder, HasItsDamagedPartsWrittenAgain) {
       const auto& files = manifest.parts[number].files;
       const auto listed = std::ranges::find(files, fs::path(name).filename().string(), &parts::PartFile::name);
       expect_refused(ErrorCode::MalformedIndex, shown,
-                     [&] { parts::verify_file(folder / name, std::as_bytes(std::span(bytes)), *listed); });
+                     [&] { parts::verify_file(folder / shown, std::as_bytes(std::span(bytes)), *listed); });
       const fs::path kept = folder / parts::part_name((number + 1) % 4) / "index.mhi";
       const auto written = fs::last_write_time(kept);
       EXPECT_EQ(run(folder).kept, 3U) << name;
