@@ -26,9 +26,9 @@ namespace {
 
 constexpr std::size_t kRowsOfTask = 256;
 
-// What is not farther than this, times the largest coordinate of the spot, of a corner of the face relative to it, or
-// of the extent of its own face, is at the same place. The extent of the mesh would hide thin walls: a vertex may be
-// far.
+// What is not farther than this times a length is at the same place. The length is the largest of the coordinates of
+// the spot, of those of the corners of the other face relative to it, and of the extent of its own face. That of the
+// mesh would hide thin walls, because a vertex may be far away.
 constexpr double kSamePlace = 0x1p-46;
 
 /// Returns the largest absolute value of a coordinate.

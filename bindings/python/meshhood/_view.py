@@ -87,8 +87,8 @@ def view(
     height : the height of the page in a notebook, in pixels.
 
     The page holds the positions and faces, about 60 bytes for each vertex of a closed triangle mesh of float32, of at
-    most 6 million vertices, and builds its own index in the browser. Raises ValueError or TypeError, naming the argument, and
-    FileNotFoundError if the page was not built before this package was installed.
+    most 6 million vertices, and builds its own index in the browser. Raises ValueError or TypeError, naming the
+    argument, and FileNotFoundError if the page was not built before this package was installed.
     """
     page = _built_page()
     if hasattr(F, "tocoo"):
@@ -100,7 +100,7 @@ def view(
     script = json.dumps(settings).replace("<", "\\u003c")
     ply = binary_ply(*mesh)  # the page makes walls of vertices without a position, as it does for a file
     if len(ply) > _MOST_BYTES:
-        raise ValueError(f"V: a mesh of {len(ply)} bytes, but a page holds at most {_MOST_BYTES}; drop a file onto a page")
+        raise ValueError(f"V: a mesh of {len(ply)} bytes, but a page holds at most {_MOST_BYTES}; drop a file onto one")
     data = (
         f'<script type="application/json" id="meshhood-settings">{script}</script>\n'
         f'<script type="text/plain" id="meshhood-mesh">{base64.b64encode(ply).decode("ascii")}</script>\n'
