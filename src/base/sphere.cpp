@@ -28,8 +28,6 @@ constexpr int kMaxExchanges = 64;
 using Matrix = std::array<std::array<double, 3>, 3>;
 using Vector = std::array<double, 3>;
 
-double largest_component(const Point& a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); }
-
 struct Ball {
   Point center{};
   double squared_radius = 0;

@@ -1,24 +1,44 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "shared/distance.h"
 
 namespace meshhood::inline v0_1 {
 
-// Vector arithmetic on points. Every operation is rounded on its own, in the order written.
+// Vector arithmetic. Every operation is rounded on its own, in the order written.
 
-[[nodiscard]] inline Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-[[nodiscard]] inline Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-[[nodiscard]] inline Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
+template <class Real>
+[[nodiscard]] RealVector<Real> operator+(const RealVector<Real>& a, const RealVector<Real>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class Real>
+[[nodiscard]] RealVector<Real> operator-(const RealVector<Real>& a, const RealVector<Real>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class Real>
+[[nodiscard]] RealVector<Real> operator*(const std::type_identity_t<Real>& s, const RealVector<Real>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
 
-[[nodiscard]] inline double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+template <class Real>
+[[nodiscard]] Real dot(const RealVector<Real>& a, const RealVector<Real>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class Real>
+[[nodiscard]] RealVector<Real> cross(const RealVector<Real>& a, const RealVector<Real>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 [[nodiscard]] inline double length(const Point& a) { return std::sqrt(dot(a, a)); }
 
-[[nodiscard]] inline Point cross(const Point& a, const Point& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+/// Returns the largest magnitude of a component.
+[[nodiscard]] inline double largest_component(const Point& a) {
+  return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }
 
 /// Returns twice the vector area of a triangle: the same bits as those of the polygon below, without its loop.

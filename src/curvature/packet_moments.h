@@ -52,8 +52,7 @@ inline void find_places(Searcher& searcher, const IndexView& index, std::uint32_
                                       const Point& center) {
   double extent = 0;
   for (const std::uint32_t i : places) {
-    const Point p = index.frame.scale * (index.position(i) - center);
-    extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    extent = std::max(extent, largest_component(index.frame.scale * (index.position(i) - center)));
   }
   return extent;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -60,7 +59,7 @@ struct JacobiRotation {
 
 /// Returns the vector, or its negative: the one whose component of largest magnitude is positive.
 [[nodiscard]] inline Point with_sign(const Point& a) {
-  const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+  const double largest = largest_component(a);
   const bool negative = a.x == -largest || (a.x != largest && (a.y == -largest || (a.y != largest && a.z < 0)));
   return negative ? -1 * a : a;
 }

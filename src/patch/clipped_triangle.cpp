@@ -14,8 +14,6 @@ constexpr double kPi = std::numbers::pi;
 /// That is more than the error of the point of a side whose corners are near (see `kFar`).
 constexpr double kTouch = 0x1p-45;
 
-RealVector<double> as_vector(const Point& p) { return {p.x, p.y, p.z}; }
-
 template <class Real>
 RealVector<Real> offset(const PatchBall& ball, const Point& p) {
   return offset_of<Real>(p, ball.center, ball.scale);
@@ -46,14 +44,14 @@ void ClippedTriangle::set_line(Side& side, const RealVector<Real>& begin, const 
   const Real square = dot(whole, whole);
   const auto rounded = static_cast<double>(square);
   if (rounded == 0) {
-    side.nearest = unit * begin.round();
+    side.nearest = unit * in_double(begin);
     side.along = {0, 0, 0};
     side.is_between = false;
     return;
   }
   const Real share = Real(0) - dot(begin, whole) / square;
-  side.nearest = unit * (begin + share * whole).round();
-  side.along = (sign / std::sqrt(rounded)) * whole.round();
+  side.nearest = unit * in_double(begin + share * whole);
+  side.along = (sign / std::sqrt(rounded)) * in_double(whole);
   side.is_between = static_cast<double>(share) > 0 && static_cast<double>(share) < 1;
 }
 
@@ -81,8 +79,7 @@ void ClippedTriangle::find_nearest(std::size_t i) {
     const auto to = offset<Twofold>(*ball_, triangle_->corners[end]);
     set_line(sides_[i], from, to - from, 1 / ball_->radius, sign);
   } else {
-    const auto from = as_vector(corners_[begin]);
-    set_line(sides_[i], from, as_vector(corners_[end]) - from, 1, sign);
+    set_line(sides_[i], corners_[begin], corners_[end] - corners_[begin], 1, sign);
   }
 }
 
@@ -149,7 +146,7 @@ ClippedTriangle::Plane ClippedTriangle::find_plane() const {
                                           offset<Real>(*ball_, triangle_->corners[1]),
                                           offset<Real>(*ball_, triangle_->corners[2])};
   const RealVector<Real> area = cross(corners[1] - corners[0], corners[2] - corners[0]);
-  const Point rounded = area.round();
+  const Point rounded = in_double(area);
   const double size = length(rounded);
   if (size == 0) return {};
   bool has_foot = true;

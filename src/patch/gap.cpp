@@ -24,7 +24,7 @@ double far_distance(const Point& q, const std::array<Point, 3>& corners, double 
                                        offset_of<Twofold>(corners[1], q, scale),
                                        offset_of<Twofold>(corners[2], q, scale)};
   const RealVector<Twofold> area = cross(p[1] - p[0], p[2] - p[0]);
-  const double size = length(area.round());
+  const double size = length(in_double(area));
   double least = kInfinity;
   bool has_foot = size > 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -34,7 +34,7 @@ double far_distance(const Point& q, const std::array<Point, 3>& corners, double 
     Twofold share = static_cast<double>(square) > 0 ? Twofold(0) - dot(p[i], side) / square : Twofold(0);
     if (!(static_cast<double>(share) > 0)) share = Twofold(0);
     if (static_cast<double>(share) > 1) share = Twofold(1);
-    least = std::min(least, length((p[i] + share * side).round()));
+    least = std::min(least, length(in_double(p[i] + share * side)));
   }
   return (has_foot ? std::abs(static_cast<double>(dot(area, p[0]))) / size : least) / scale;
 }

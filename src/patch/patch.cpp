@@ -2,7 +2,6 @@
 #include "meshhood/patch.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,6 +12,7 @@
 #include "meshhood/error.h"
 
 #include "base/validate.h"
+#include "base/vector.h"
 #include "batch/packets.h"
 #include "batch/position_sort.h"
 #include "batch/rows.h"
@@ -79,7 +79,7 @@ struct PatchSearcher::State {
     double reach = radius;
     for (const VertexId corner : (*surface->faces)[face]) {
       const Point at = index.position_of(corner);
-      reach = std::max({reach, kRounding * std::abs(at.x), kRounding * std::abs(at.y), kRounding * std::abs(at.z)});
+      reach = std::max(reach, kRounding * largest_component(at));
       for (const TriangleId t : all.fans[index.place(corner)]) {
         if (all.face[t] != face) continue;
         const double distance = nearest_in_triangle(p, corners_of(index, all.corners[t]), index.frame.scale).distance;

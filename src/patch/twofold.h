@@ -57,28 +57,10 @@ struct Twofold {
   }
 };
 
-/// A vector of doubles or of `Twofold`.
+/// Rounds a vector to double.
 template <class Real>
-struct RealVector {
-  Real x;
-  Real y;
-  Real z;
-
-  friend RealVector operator+(const RealVector& a, const RealVector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend RealVector operator-(const RealVector& a, const RealVector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend RealVector operator*(const Real& s, const RealVector& a) { return {s * a.x, s * a.y, s * a.z}; }
-
-  [[nodiscard]] Point round() const { return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}; }
-};
-
-template <class Real>
-[[nodiscard]] Real dot(const RealVector<Real>& a, const RealVector<Real>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-template <class Real>
-[[nodiscard]] RealVector<Real> cross(const RealVector<Real>& a, const RealVector<Real>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+[[nodiscard]] Point in_double(const RealVector<Real>& a) {
+  return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
 }
 
 /// Returns `p` - `center`, times `scale`, a power of two, which does not round.

@@ -28,11 +28,15 @@ inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Up to this, no square of a distance overflows.
 inline constexpr double kLargestCoordinate = 0x1p500;
 
-struct Point {
-  double x;
-  double y;
-  double z;
+/// A vector of doubles, or of numbers of higher precision.
+template <class Real>
+struct RealVector {
+  Real x;
+  Real y;
+  Real z;
 };
+
+using Point = RealVector<double>;
 
 [[nodiscard]] inline bool is_valid_coordinate(double coordinate) { return std::abs(coordinate) <= kLargestCoordinate; }
 

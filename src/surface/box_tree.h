@@ -209,7 +209,7 @@ class BoxTree::Ball {
         center_(center),
         rounded_{static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z)},
         reach_(&reach) {
-    const double largest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), 1.0});
+    const double largest = std::max(largest_component(center), 1.0);
     is_far_ = largest > kFar;
     rounding_ = is_far_ ? 0x1p-50 : 0x1p-22;
     slack_ = rounding_ * largest;
@@ -268,11 +268,11 @@ class BoxTree::Line {
       : kernels_(&kernels(best_isa())),
         begin_(way_to_frame(origin, direction)),
         start_(origin + begin_ * direction),
-        slack_(0x1p-20 + 0x1p-48 * (std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)}) + begin_)),
+        slack_(0x1p-20 + 0x1p-48 * (largest_component(origin) + begin_)),
         ray_{axis(start_.x, direction.x), axis(start_.y, direction.y), axis(start_.z, direction.z)},
         reach_(&reach) {
     // In the frame, the direction changes a coordinate by at most 2.
-    const bool may_meet = std::max({std::abs(start_.x), std::abs(start_.y), std::abs(start_.z)}) <= 3 + slack_;
+    const bool may_meet = largest_component(start_) <= 3 + slack_;
     if (may_meet) update();
   }
 

@@ -34,8 +34,6 @@ constexpr std::size_t kRaysAhead = 8;
 constexpr std::size_t kRaysTogether = 8;
 constexpr std::size_t kCachedBytes = 8 << 20;
 
-double largest_of(const Point& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
-
 /// Returns twice the signed area of the triangle of the origin and two points of the plane; exact if it is 0. The
 /// rounding of the products keeps their order, unless they become equal.
 double doubled_area(const Point& a, const Point& b) {
@@ -131,11 +129,11 @@ void search_together(const SurfaceState& state, const FaceTree& tree, std::size_
 
 Ray::Ray(const Point& origin, const Point& direction, const Frame& frame)
     : in_frame_(frame.to_frame(origin)),
-      direction_{direction.x / largest_of(direction), direction.y / largest_of(direction),
-                 direction.z / largest_of(direction)},
+      direction_{direction.x / largest_component(direction), direction.y / largest_component(direction),
+                 direction.z / largest_component(direction)},
       length_(length(direction_)),
       frame_scale_(frame.scale),
-      scale_(std::ldexp(1.0, -std::ilogb(std::max(largest_of(origin - frame.origin), 1 / frame.scale)))),
+      scale_(std::ldexp(1.0, -std::ilogb(std::max(largest_component(origin - frame.origin), 1 / frame.scale)))),
       axes_(std::abs(direction_.x) == 1   ? Axes{&Point::y, &Point::z, &Point::x}
             : std::abs(direction_.y) == 1 ? Axes{&Point::z, &Point::x, &Point::y}
                                           : Axes{&Point::x, &Point::y, &Point::z}),

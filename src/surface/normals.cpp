@@ -121,7 +121,7 @@ Normals read_normals(const IndexView& index, std::span<const double> given) {
   for (std::size_t i = 0; i < vertices; ++i) {
     const VertexId id = index.id(i);
     const Point n = point(given, id);
-    const double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+    const double largest = largest_component(n);
     if (std::isinf(n.x) || std::isinf(n.y) || std::isinf(n.z)) {
       raise(ErrorCode::InvalidMesh,
             "the normal of vertex " + std::to_string(id) + " is infinite, expected numbers, or NaN for no normal");

@@ -195,8 +195,7 @@ Point exit_point(const Point& inside, const Point& outside, const Point& center,
   if (squared_distance(outside, center) <= squared_radius(radius)) return outside;
   const Point d = outside - inside;
   const Point e = inside - center;
-  const auto largest = [](const Point& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); };
-  const double unit = std::max({largest(d), largest(e), radius});
+  const double unit = std::max({largest_component(d), largest_component(e), radius});
   const Point step = (1 / unit) * d;
   const Point offset = (1 / unit) * e;
   const double a = dot(step, step);

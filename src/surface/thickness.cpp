@@ -31,9 +31,6 @@ constexpr std::size_t kRowsOfTask = 256;
 // mesh would hide thin walls, because a vertex may be far away.
 constexpr double kSamePlace = 0x1p-46;
 
-/// Returns the largest absolute value of a coordinate.
-double largest(const Point& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
-
 /// A ball that touches a spot from inside, in the frame, and shrinks while a search goes through boxes. It stays inside
 /// of what it was, so a box that it once did not meet is left out for good.
 class TouchingBall {
@@ -102,7 +99,7 @@ class OppositeSide {
         spot_(spot),
         inward_(-1.0 * spot.normal),
         at_(index.frame.to_frame(spot.at)),
-        size_(index.frame.scale * std::max(largest(spot.at), spot.extent)) {}
+        size_(index.frame.scale * std::max(largest_component(spot.at), spot.extent)) {}
 
   [[nodiscard]] double by_ray() const {
     return has_normal() ? way_to_first([](std::size_t) { return true; }) : kNan;
@@ -164,7 +161,8 @@ class OppositeSide {
 
   /// Returns the distance up to which a triangle is at the same place.
   [[nodiscard]] double same_place(const std::array<Point, 3>& triangle) const {
-    return kSamePlace * std::max({size_, largest(triangle[0]), largest(triangle[1]), largest(triangle[2])});
+    return kSamePlace * std::max({size_, largest_component(triangle[0]), largest_component(triangle[1]),
+                                  largest_component(triangle[2])});
   }
 
   /// Returns the radius, in the frame, of the largest ball beside a triangle, which shrinks from `radius` until the
@@ -203,7 +201,7 @@ Spot spot_on_face(const SurfaceState& state, const FaceTree& tree, std::size_t f
     const TrianglePoint found = nearest_in_triangle(q, positions, scale);
     if (found.distance < least) spot.at = found.point;
     least = std::min(least, found.distance);
-    for (const Point& corner : positions) spot.extent = std::max(spot.extent, largest(corner - positions[0]));
+    for (const Point& corner : positions) spot.extent = std::max(spot.extent, largest_component(corner - positions[0]));
     area = area + doubled_area(index, triangle);
   }
   if (const double size = length(area); size > 0) spot.normal = (1 / size) * area;
