@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The memory of a call, from the counters of Linux. As a program, that of the first call of all vertices, at 5 mean edges
-and at 16 radii up to that, in bytes a vertex beyond the mesh and the index, each call in a process of its own:
+"""The memory of a call, from the counters of Linux. As a program, that of two equal calls of all vertices, at 5 mean
+edges and at 16 radii up to that, in bytes a vertex beyond the mesh and the index, each pair in a process of its own. The
+first of them makes what the index keeps for patches:
 
     PYTHONPATH=PACKAGE python3 bench/memory.py MESH...
 """
@@ -31,12 +32,12 @@ def status(name):
     return 1024 * int(re.search(rf"{name}:\s*(\d+) kB", text)[1])
 
 
-def first_call(path, call, options, radii):
+def two_calls(path, call, options, radii):
     import meshhood
 
     index = meshhood.MeshIndex(*meshhood.read_mesh(path))
     scales = [5 * index.mean_edge_length * (i + 1) / radii for i in range(radii)]
-    return peak_of(lambda: getattr(index, call)(scales=scales, **options)) / len(index)
+    return [peak_of(lambda: getattr(index, call)(scales=scales, **options)) / len(index) for _ in range(2)]
 
 
 KINDS = (("moments", {"degree": 2}), ("moments", {"degree": 4}), ("invariants", {}), ("gaps", {}))
@@ -48,5 +49,5 @@ if __name__ == "__main__" and sys.argv[1] != "--one":
             subprocess.run([sys.executable, __file__, "--one", file, str(number)], check=True)
 elif __name__ == "__main__":
     name, given, radii = CALLS[int(sys.argv[3])]
-    held = first_call(sys.argv[2], name, given, radii)
-    print(f"{Path(sys.argv[2]).name}, {name} {given or ''}, {radii} radii: {held:.0f} bytes a vertex")
+    first, second = two_calls(sys.argv[2], name, given, radii)
+    print(f"{Path(sys.argv[2]).name}, {name} {given or ''}, {radii} radii: {first:.0f}, {second:.0f} bytes a vertex")
