@@ -33,7 +33,7 @@ struct SearcherAccess {
     std::array<Clock::time_point, 4> at;
     at[0] = Clock::now();
     Searcher::Query<Real> query(searcher, hierarchy, v, radius);
-    searcher.pieces_.clear();
+    searcher.scratch_->pieces.clear();
     query.climb_up(radius / QueryOptions{}.radius_ratio);
     at[1] = Clock::now();
     query.breadth_first_search();

@@ -15,7 +15,7 @@ namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 
 /// The largest number of neighbors over all vertices, which is twice the number of edges.
-inline constexpr std::size_t kMaxNeighbors = std::numeric_limits<EdgeOffset>::max();
+inline constexpr std::size_t kMaxNeighbors = (std::numeric_limits<EdgeOffset>::max)();
 
 /// Borrows a symmetric graph in CSR form: the neighbors of `v` are `neighbors[offsets[v]] .. neighbors[offsets[v + 1] -
 /// 1]`. Each row ascends, without repetition and without `v` itself.

@@ -78,7 +78,7 @@ struct CurvatureOptions {
 
 /// Returns the radius of libigl's neighborhoods: `edges` times the mean length of the sides of all faces. A side of two
 /// faces counts twice, so that this differs from `mean_edge_length` where the mesh has a border. It is 0 if there are
-/// no sides. Throws Error{InvalidMesh, TooLarge}.
+/// no sides. Throws Error{InvalidMesh, TooLarge}, and Error{InvalidRadius} unless `edges` is >= 0 or infinite.
 [[nodiscard]] double libigl_radius(const MeshView& mesh, double edges);
 
 /// Principal curvatures, one entry for each row of the query.

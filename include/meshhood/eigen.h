@@ -23,13 +23,22 @@
 
 namespace meshhood::inline v0_1 {
 
+namespace detail {
+
+/// Whether a matrix owns its coefficients. A `Ref` to constants may: it copies what it cannot refer to.
+template <class M>
+struct OwnsCoefficients : std::is_base_of<Eigen::PlainObjectBase<M>, M> {};
+template <class M, int Options, class Stride>
+struct OwnsCoefficients<Eigen::Ref<const M, Options, Stride>> : std::true_type {};
+
+}  // namespace detail
+
 /// A matrix of Eigen whose coefficients lie in memory that outlives the expression: an lvalue, or a view of one (`Map`,
-/// `Ref`, `Block`). A temporary matrix is not.
+/// `Block`, `Ref` to a matrix that may change). A temporary matrix is not.
 template <class M>
 concept BorrowedMatrix = std::derived_from<std::remove_cvref_t<M>, Eigen::DenseBase<std::remove_cvref_t<M>>> &&
                          (std::remove_cvref_t<M>::Flags & Eigen::DirectAccessBit) != 0 &&
-                         (std::is_lvalue_reference_v<M> ||
-                          !std::derived_from<std::remove_cvref_t<M>, Eigen::PlainObjectBase<std::remove_cvref_t<M>>>);
+                         (std::is_lvalue_reference_v<M> || !detail::OwnsCoefficients<std::remove_cvref_t<M>>::value);
 
 namespace detail {
 

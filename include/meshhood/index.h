@@ -65,9 +65,9 @@ class Index {
   /// Without `changed`, positions and bounds are made beside the old ones, which are then freed; with it, they are
   /// changed in place, unless refit.h says otherwise.
   ///
-  /// No thread may use the index or its searchers meanwhile. Afterwards a searcher throws Error{InvalidOption} until
-  /// `rebind` makes it one of the new state, and a `Surface` until its `refit_in_place`. A masked index (see masks.h)
-  /// throws, too, and is to be made again.
+  /// No thread may use the index, or its searchers, surfaces or masked indices, meanwhile. Afterwards a searcher throws
+  /// Error{InvalidOption} until `rebind` makes it one of the new state, and a `Surface` until its `refit_in_place`. A
+  /// masked index (see masks.h) throws, too, and is to be made again.
   ///
   /// Throws as `refit`; the index is then as it was.
   void refit_in_place(const PositionsView& positions, const Run& run = {});

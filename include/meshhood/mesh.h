@@ -19,7 +19,7 @@ namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 
 /// The largest number of vertices of a mesh. One id is reserved.
-inline constexpr std::size_t kMaxVertices = std::numeric_limits<VertexId>::max() - std::size_t{1};
+inline constexpr std::size_t kMaxVertices = (std::numeric_limits<VertexId>::max)() - std::size_t{1};
 
 /// A contiguous range of `T` that may be borrowed: an lvalue or a view. A temporary container is neither, so that a
 /// view of one does not compile.
@@ -274,8 +274,8 @@ class FacesView {
   [[nodiscard]] std::size_t corner_count() const { return are_triangles() ? 3 * count_ : corners_.size(); }
 
   /// Return the arrays as given. Use `for_each` to read the faces: triangles may be strided.
-  [[nodiscard]] const IndicesView& offsets() const { return offsets_; }
-  [[nodiscard]] const IndicesView& corners() const { return corners_; }
+  [[nodiscard]] IndicesView offsets() const { return offsets_; }
+  [[nodiscard]] IndicesView corners() const { return corners_; }
   [[nodiscard]] std::size_t face_stride() const { return face_stride_; }      ///< of triangles, in elements
   [[nodiscard]] std::size_t corner_stride() const { return corner_stride_; }  ///< of triangles, in elements
 

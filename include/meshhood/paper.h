@@ -182,24 +182,28 @@ class Searcher {
     [[nodiscard]] std::size_t size() const { return std::size_t{end} - begin; }
   };
 
-  /// Runs the three phases for one precision of positions, and leaves the pieces of the answer in `pieces_`.
+  /// Runs the three phases for one precision of positions, and leaves the pieces of the answer in `scratch_`.
   template <class Real>
   class Query;
 
   template <class F>
   void run(VertexId v, double radius, F&& answer);
 
-  /// Returns a number that marks no cluster in `visited_` yet.
+  /// Returns a number that marks no cluster yet.
   std::uint32_t next_query();
 
+  struct Scratch {
+    std::vector<std::uint32_t> visited;  // by cluster: the last query that saw it
+    std::uint32_t query = 0;
+    std::vector<ClusterId> reached;
+    std::vector<ClusterId> refined;
+    std::vector<Piece> pieces;
+    std::vector<VertexRange> ranges;
+  };
+
   detail::Owner<const Index::Storage> storage_;
+  detail::Owner<Scratch> scratch_;
   QueryOptions options_;
-  std::vector<std::uint32_t> visited_;  // by cluster: the last query that saw it
-  std::uint32_t query_ = 0;
-  std::vector<ClusterId> reached_;
-  std::vector<ClusterId> refined_;
-  std::vector<Piece> pieces_;
-  std::vector<VertexRange> ranges_;
   QueryProfile profile_;
 };
 

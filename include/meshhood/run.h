@@ -29,7 +29,7 @@ inline constexpr unsigned kMaxThreads = 1024;
 
 /// How a long call runs: the last argument of each. The result does not depend on it.
 struct Run {
-  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint64_t kUnlimited = (std::numeric_limits<std::uint64_t>::max)();
 
   /// The number of threads, the calling one included; at most `kMaxThreads`. 1 starts no thread. Fewer are used if the
   /// system cannot create them, and one where the platform has none, as WebAssembly. They end with the call.

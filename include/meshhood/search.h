@@ -96,7 +96,8 @@ struct Dab {
 /// the result or the mesh; on folded surfaces, and from a point, with the number of leaves of the result. Paths take
 /// O(n log n) for a result of n vertices, and the first search of an index O(#V + #E): the index keeps the lengths of
 /// all edges for all searchers (76 bytes a vertex with six edges). Rings take O(n), space a time that grows with the
-/// leaves at the surface of the ball. Only `nested` allocates once the buffers have grown.
+/// leaves at the surface of the ball. Only `nested`, `nearest_connected` and `stroke` allocate once the buffers have
+/// grown.
 ///
 /// Use one object per thread: it owns scratch memory, 23 to 30 bytes per leaf for balls around vertices, 64 for all
 /// else of the straight metric; 8 bytes a vertex for paths. Each part is made when it is first needed. It shares the

@@ -75,7 +75,7 @@ struct NearestVertex {
 [[nodiscard]] NearestVertex nearest(const Index& index, const SpacePoint& point);
 
 /// Does the same for many points, in their order; faster than one by one, as near points are searched after each other.
-/// Throws as the overload above, naming the row, and Error{Cancelled}. Needs 32 bytes a point, half of them the result.
+/// Throws as the overload above, naming the row, and Error{Cancelled}. Needs 40 bytes a point, 16 of them the result.
 [[nodiscard]] std::vector<NearestVertex> nearest(const Index& index, std::span<const SpacePoint> points,
                                                  const Run& run = {});
 

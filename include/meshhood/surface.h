@@ -22,7 +22,7 @@ namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 
 /// No face.
-inline constexpr std::size_t kNoFace = std::numeric_limits<std::size_t>::max();
+inline constexpr std::size_t kNoFace = (std::numeric_limits<std::size_t>::max)();
 
 /// A point on a face; by default none.
 struct SurfacePoint {
@@ -145,7 +145,7 @@ class Surface {
   [[nodiscard]] SurfacePoint closest_point(const SpacePoint& point) const;
 
   /// Does the same for each of `points`. They are taken along a space-filling curve, and each search begins with the
-  /// last answer, so that one takes about a third of the time of a single call. Needs 16 bytes a point. Throws as
+  /// last answer, so that one takes about a third of the time of a single call. Needs 24 bytes a point. Throws as
   /// above, naming the row, and Error{Cancelled}.
   [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const SpacePoint> points, const Run& run = {}) const;
 
@@ -262,7 +262,7 @@ enum class ThicknessMethod : std::uint8_t {
 ///
 /// Masks have no effect. A row depends on the surface with its index, its vertex and the method alone, bit for bit.
 /// Takes O(log #V) a row on most surfaces; for a ball, O(#F) where the whole surface is nearly a ball, all faces of
-/// which it touches. Needs 16 bytes a row. Throws Error{VertexOutOfRange, Cancelled}, naming the row,
+/// which it touches. Needs 24 bytes a row. Throws Error{VertexOutOfRange, Cancelled}, naming the row,
 /// Error{InvalidOption} after a refit in place, and Error{InvalidMesh} if no face has three corners.
 [[nodiscard]] std::vector<double> thickness(const Surface& surface, const BatchVertices& vertices = {},
                                             ThicknessMethod method = ThicknessMethod::Ray, const Run& run = {});

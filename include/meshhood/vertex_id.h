@@ -17,7 +17,7 @@ MESHHOOD_API_BEGIN
 using VertexId = std::uint32_t;
 
 /// No vertex.
-inline constexpr VertexId kNoVertex = std::numeric_limits<VertexId>::max();
+inline constexpr VertexId kNoVertex = (std::numeric_limits<VertexId>::max)();
 
 /// An index into a list of neighbors, in which each edge occurs twice.
 using EdgeOffset = std::uint32_t;

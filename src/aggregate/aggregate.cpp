@@ -336,14 +336,15 @@ SignalView unchanged(const SignalView& signal, std::span<const double> result, s
 /// Returns the product, if its doubles fit into `max_bytes`.
 std::size_t checked_size(std::size_t radii, std::size_t rows, std::size_t channels, std::size_t reductions,
                          std::uint64_t max_bytes) {
-  const std::uint64_t most =
-      std::min<std::uint64_t>(max_bytes, std::numeric_limits<std::ptrdiff_t>::max()) / sizeof(double);
+  const std::uint64_t bytes = std::min<std::uint64_t>(max_bytes, std::numeric_limits<std::ptrdiff_t>::max());
+  const std::uint64_t most = bytes / sizeof(double);
   const bool fits = rows == 0 || (channels <= most / rows && reductions <= most / rows / channels &&
                                   radii <= most / rows / channels / reductions);
   if (!fits) {
     raise(ErrorCode::TooLarge, std::to_string(radii) + " radii of " + std::to_string(rows) + " rows of " +
                                    std::to_string(channels) + " channels by " + std::to_string(reductions) +
-                                   " reductions are more than the limit of " + std::to_string(most) + " numbers");
+                                   " reductions are more than " + std::to_string(most) +
+                                   " numbers, as many as fit into max_bytes, " + std::to_string(bytes));
   }
   return radii * rows * channels * reductions;
 }

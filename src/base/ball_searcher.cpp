@@ -10,7 +10,7 @@
 namespace meshhood::inline v0_1 {
 namespace {
 
-/// Calls `f(w, position, center)` for every vertex of the ball, in ascending order.
+/// Calls `f(w)` for every vertex of the ball, in ascending order.
 template <class F>
 void scan(const PositionsView& positions, VertexId v, double radius, F&& f) {
   check_query(v, positions.size(), radius);
@@ -18,41 +18,55 @@ void scan(const PositionsView& positions, VertexId v, double radius, F&& f) {
     const SearchBall ball(point(xyz, v), radius);
     const auto scan_all = [&](const auto& all) {
       for (std::size_t w = 0; w < positions.size(); ++w) {
-        const Point p = point(all, w);
-        if (ball.contains(p)) f(static_cast<VertexId>(w), p, ball.center());
+        if (ball.contains(point(all, w))) f(static_cast<VertexId>(w));
       }
     };
     xyz.is_packed() ? scan_all(xyz.packed()) : scan_all(xyz);
   });
 }
 
+std::size_t size_of(std::span<const VertexRange> ranges) {
+  std::size_t size = 0;
+  for (const VertexRange& range : ranges) size += range.size();
+  return size;
+}
+
 }  // namespace
 
+// What is replaced has not changed if memory runs out: the answer is found first, and has room before it is written.
+
 void BallSearcher::neighborhood(Vertex v, double radius, std::vector<VertexId>& out) {
-  check_query(v, vertex_count(), radius);
+  out.reserve(size_of(ranges(v, radius)));
   out.clear();
-  scan(positions_, v, radius, [&](VertexId w, const Point&, const Point&) { out.push_back(w); });
+  for (const VertexRange& range : ranges_) {
+    for (VertexId w = range.begin; w < range.end; ++w) out.push_back(w);
+  }
 }
 
 void BallSearcher::neighborhood(Vertex v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
-  check_query(v, vertex_count(), radius);
+  distances.reserve(size_of(ranges(v, radius)));
+  out.reserve(size_of(ranges_));
   out.clear();
   distances.clear();
-  scan(positions_, v, radius, [&](VertexId w, const Point& p, const Point& center) {
-    out.push_back(w);
-    distances.push_back(std::sqrt(squared_distance(p, center)));
+  positions_.visit([&](const auto& xyz) {
+    for (const VertexRange& range : ranges_) {
+      for (VertexId w = range.begin; w < range.end; ++w) {
+        out.push_back(w);
+        distances.push_back(std::sqrt(squared_distance(point(xyz, w), point(xyz, v))));
+      }
+    }
   });
 }
 
 std::span<const VertexRange> BallSearcher::ranges(Vertex v, double radius) & {
   ranges_.clear();
-  scan(positions_, v, radius, [&](VertexId w, const Point&, const Point&) { append_to(ranges_, w); });
+  scan(positions_, v, radius, [&](VertexId w) { append_to(ranges_, w); });
   return ranges_;
 }
 
 std::size_t BallSearcher::count(Vertex v, double radius) {
   std::size_t result = 0;
-  scan(positions_, v, radius, [&](VertexId, const Point&, const Point&) { ++result; });
+  scan(positions_, v, radius, [&](VertexId) { ++result; });
   return result;
 }
 

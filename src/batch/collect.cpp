@@ -8,13 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "meshhood/error.h"
-
 #include "base/prefetch.h"
 #include "batch/batch.h"
 #include "batch/rows.h"
 #include "shared/large_pages.h"
 #include "shared/row_order.h"
+#include "shared/text.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
@@ -160,7 +159,7 @@ std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& 
 
 std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const BatchQuery& query,
                                          const BatchAllocator& allocate, const BatchOptions& options, const Run& run) {
-  if (!allocate) raise(ErrorCode::InvalidOption, "allocate is empty, expected a function");
+  check_function(allocate, "allocate");
   if (!method.factory().is_count_cheap) return stream_and_copy(method, query, allocate, options, run);
   Batch batch(method, query, options, run, 2);
   SizeLimit limit = limit_of(options, run, batch.rows().size());

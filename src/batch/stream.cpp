@@ -6,11 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "meshhood/error.h"
-
 #include "batch/batch.h"
 #include "shared/raw_vector.h"
 #include "shared/row_order.h"
+#include "shared/text.h"
 
 namespace meshhood::inline v0_1 {
 namespace {
@@ -194,7 +193,7 @@ class Stream {
 
 void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, const RowSink& sink,
                            const BatchOptions& options, const Run& run) {
-  if (!sink) raise(ErrorCode::InvalidOption, "sink is empty, expected a function");
+  check_function(sink, "sink");
   Batch batch(method, query, options, run, 1);
   Stream(batch, sink).run();
   batch.task().finish();

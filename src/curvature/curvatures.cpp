@@ -202,6 +202,7 @@ double curvedness(double k1, double k2) {
 }
 
 double libigl_radius(const MeshView& mesh, double edges) {
+  check_radius(edges, "edges: ");
   validate(mesh);
   double sum = 0;
   std::size_t sides = 0;

@@ -10,6 +10,7 @@
 #include "meshhood/serialize.h"
 
 #include "shared/checksum.h"
+#include "shared/text.h"
 
 namespace meshhood::inline v0_1::file {
 namespace {
@@ -244,6 +245,7 @@ std::vector<Section> SectionWriter::make_table(TaskContext& task) const {
 }
 
 void SectionWriter::write(Header header, const Sink& sink, TaskContext& task) const {
+  check_function(sink, "sink");
   if constexpr (std::endian::native != std::endian::little) {
     raise(ErrorCode::MalformedIndex, "saving an index requires a little-endian machine");
   }

@@ -4,6 +4,7 @@
 // copied, or vertices counted, afterwards.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -23,13 +24,14 @@ class Searcher::Query {
  public:
   Query(Searcher& searcher, const Hierarchy<Real>& hierarchy, VertexId v, double radius)
       : searcher_(searcher),
+        scratch_(*searcher.scratch_),
         hierarchy_(hierarchy),
         cluster_(static_cast<ClusterId>(hierarchy.lowest_cluster[v])),
         ball_(position_of(v), radius) {}
 
-  /// Runs the three phases, and stores the pieces of the answer in the searcher.
+  /// Runs the three phases, and leaves the pieces of the answer in the searcher.
   void run(double radius, double radius_ratio) {
-    searcher_.pieces_.clear();
+    scratch_.pieces.clear();
     climb_up(radius / radius_ratio);
     breadth_first_search();
     range_search();
@@ -38,7 +40,7 @@ class Searcher::Query {
   /// Returns an upper bound of the size of the answer.
   [[nodiscard]] std::size_t max_size() const {
     std::size_t result = 0;
-    for (const Piece& piece : searcher_.pieces_) result += piece.size();
+    for (const Piece& piece : scratch_.pieces) result += piece.size();
     return result;
   }
 
@@ -71,13 +73,13 @@ class Searcher::Query {
 
   /// Phase 2: finds `SC`, the clusters that intersect the ball and are connected to that of `v` through such clusters.
   void breadth_first_search() {
-    std::vector<ClusterId>& reached = searcher_.reached_;
+    std::vector<ClusterId>& reached = scratch_.reached;
     const std::uint32_t query = searcher_.next_query();
     reached.assign(1, cluster_);
-    searcher_.visited_[cluster_] = query;
+    scratch_.visited[cluster_] = query;
     for (std::size_t head = 0; head < reached.size(); ++head) {
       for (const ClusterId sibling : level().siblings.view()[reached[head]]) {
-        if (std::exchange(searcher_.visited_[sibling], query) == query) continue;
+        if (std::exchange(scratch_.visited[sibling], query) == query) continue;
         if (ball_.classify(level().spheres[sibling]) != Containment::Outside) reached.push_back(sibling);
       }
     }
@@ -88,12 +90,12 @@ class Searcher::Query {
   /// the ball is taken as a whole, and one that intersects its surface is replaced by its children. The answer is the
   /// same; only vertices near the surface are tested.
   void range_search() {
-    std::vector<ClusterId>& clusters = searcher_.reached_;
+    std::vector<ClusterId>& clusters = scratch_.reached;
     for (;; --level_) {
-      searcher_.refined_.clear();
+      scratch_.refined.clear();
       for (const ClusterId cluster : clusters) search_cluster(cluster);
       if (level_ == 0) break;
-      std::swap(clusters, searcher_.refined_);
+      std::swap(clusters, scratch_.refined);
     }
   }
 
@@ -105,16 +107,17 @@ class Searcher::Query {
       return;
     }
     for (ClusterId c = level().first_child[cluster]; c < level().first_child[cluster + 1]; ++c) {
-      searcher_.refined_.push_back(c);
+      scratch_.refined.push_back(c);
     }
   }
 
   void add_piece(const Piece& piece) {
-    searcher_.pieces_.push_back(piece);
+    scratch_.pieces.push_back(piece);
     if (!piece.inside) searcher_.profile_.vertices_tested += piece.size();
   }
 
   Searcher& searcher_;
+  Scratch& scratch_;
   const Hierarchy<Real>& hierarchy_;
   std::size_t level_ = 0;  // counted from the lowest level that is kept
   ClusterId cluster_;
@@ -126,7 +129,7 @@ void Searcher::Query<Real>::collect(std::vector<VertexId>& out) const {
   const std::vector<VertexId>& vertices = hierarchy_.vertices;
   out.resize(max_size());
   auto end = out.begin();
-  for (const Piece& piece : searcher_.pieces_) {
+  for (const Piece& piece : scratch_.pieces) {
     if (piece.inside) {
       end = std::copy(vertices.begin() + piece.begin, vertices.begin() + piece.end, end);
       continue;
@@ -147,7 +150,7 @@ void Searcher::Query<Real>::collect(std::vector<VertexId>& out, std::vector<doub
   distances.reserve(max_size());
   out.clear();
   distances.clear();
-  for (const Piece& piece : searcher_.pieces_) {
+  for (const Piece& piece : scratch_.pieces) {
     for (std::size_t i = piece.begin; i < piece.end; ++i) {
       const Point p = point<Real>(hierarchy_.positions, i);
       if (!piece.inside && !ball_.contains(p)) continue;
@@ -160,7 +163,7 @@ void Searcher::Query<Real>::collect(std::vector<VertexId>& out, std::vector<doub
 template <class Real>
 std::size_t Searcher::Query<Real>::count() const {
   std::size_t total = 0;
-  for (const Piece& piece : searcher_.pieces_) {
+  for (const Piece& piece : scratch_.pieces) {
     if (piece.inside) {
       total += piece.size();
       continue;
@@ -175,7 +178,7 @@ std::size_t Searcher::Query<Real>::count() const {
 template <class Real>
 void Searcher::Query<Real>::collect(std::vector<VertexRange>& out) const {
   out.clear();
-  for (const Piece& piece : searcher_.pieces_) {
+  for (const Piece& piece : scratch_.pieces) {
     if (piece.inside) {
       out.push_back({piece.begin, piece.end});
       continue;
@@ -192,11 +195,12 @@ void validate(const QueryOptions& options) {
         "radius_ratio is " + to_text(options.radius_ratio) + ", expected a finite number > 0");
 }
 
-Searcher::Searcher(const Index& index, const QueryOptions& options) : storage_(index.storage_.share()) {
+Searcher::Searcher(const Index& index, const QueryOptions& options)
+    : storage_(index.storage_.share()), scratch_(std::make_unique<Scratch>()) {
   set_options(options);
   const std::size_t clusters =
       std::visit([](const auto& hierarchy) { return hierarchy.levels.front().size(); }, storage_->hierarchy);
-  visited_.assign(clusters, 0);
+  scratch_->visited.assign(clusters, 0);
 }
 
 void Searcher::set_options(const QueryOptions& options) {
@@ -211,11 +215,11 @@ std::span<const VertexId> Searcher::permutation() const& {
 }
 
 std::uint32_t Searcher::next_query() {
-  if (++query_ == 0) {
-    std::fill(visited_.begin(), visited_.end(), 0);
-    query_ = 1;
+  if (++scratch_->query == 0) {
+    std::ranges::fill(scratch_->visited, 0);
+    scratch_->query = 1;
   }
-  return query_;
+  return scratch_->query;
 }
 
 template <class F>
@@ -239,8 +243,8 @@ void Searcher::neighborhood(Vertex v, double radius, std::vector<VertexId>& out,
 }
 
 std::span<const VertexRange> Searcher::ranges(Vertex v, double radius) & {
-  run(v, radius, [&](auto& query) { query.collect(ranges_); });
-  return ranges_;
+  run(v, radius, [&](auto& query) { query.collect(scratch_->ranges); });
+  return scratch_->ranges;
 }
 
 std::size_t Searcher::count(Vertex v, double radius) {

@@ -238,6 +238,7 @@ std::vector<SurfacePoint> gaps(const Surface& surface, const IndicesView& faces,
 }
 
 void for_each_gap(const Surface& surface, const BatchQuery& query, const SurfacePointVisitor& visit, const Run& run) {
+  check_function(visit, "visit");
   for_each_patch(surface, query, {.measures = false, .gaps = true}, run,
                  [&](std::size_t row, const RowPatch& patch) { visit(row, patch.gap); });
 }

@@ -35,6 +35,12 @@ namespace meshhood::inline v0_1 {
   raise(code, std::string(where).append(vertex) + ", but the mesh has " + std::to_string(vertices) + " vertices");
 }
 
+/// Throws Error{InvalidOption} if an argument that is called back is empty.
+template <class Function>
+void check_function(const Function& function, const char* name) {
+  if (!function) raise(ErrorCode::InvalidOption, std::string(name) + " is empty, expected a function");
+}
+
 /// Throws Error{InvalidMesh}, naming vertex `v` and the first of its coordinates that is not valid. The message begins
 /// with `where`.
 [[noreturn]] inline void refuse_position(std::uint64_t v, const Point& p, std::string_view where = {}) {

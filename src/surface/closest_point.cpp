@@ -15,6 +15,7 @@
 #include "exact/query/arguments.h"
 #include "shared/large_pages.h"
 #include "shared/parallel.h"
+#include "shared/text.h"
 #include "surface/face_tree.h"
 #include "surface/face_triangles.h"
 #include "surface/surface.h"
@@ -109,6 +110,7 @@ std::vector<SurfacePoint> Surface::closest_points(std::span<const SpacePoint> po
 
 void Surface::for_each_closest_point(std::span<const SpacePoint> points, const SurfacePointVisitor& visit,
                                      const Run& run) const {
+  check_function(visit, "visit");
   const State& state = SurfaceAccess::state(*this);
   check_points(points, "points");
   TaskContext task(run.threads, run.progress, points.size());

@@ -186,6 +186,7 @@ std::vector<SurfacePoint> Surface::first_hits(std::span<const SpacePoint> origin
 
 void Surface::for_each_first_hit(std::span<const SpacePoint> origins, std::span<const SpacePoint> directions,
                                  const SurfacePointVisitor& visit, const Run& run) const {
+  check_function(visit, "visit");
   const State& state = SurfaceAccess::state(*this);
   if (origins.size() != directions.size()) {
     raise(ErrorCode::InvalidOption, std::to_string(directions.size()) + " directions, expected one for each of " +

@@ -15,7 +15,7 @@ namespace meshhood::inline v0_1::paper {
 
 struct SearcherAccess {
   /// Continues as if there had been `queries` queries.
-  static void set_query(Searcher& searcher, std::uint32_t queries) { searcher.query_ = queries; }
+  static void set_query(Searcher& searcher, std::uint32_t queries) { searcher.scratch_->query = queries; }
 };
 
 }  // namespace meshhood::inline v0_1::paper
