@@ -165,11 +165,11 @@ struct CorrectedRows {
 }  // namespace
 
 CorrectedCurvatures corrected_curvatures(const Surface& surface, const BatchQuery& query, const Run& run) {
-  TaskContext task(run.threads);
-  const OrientedIndex state = SurfaceAccess::oriented(surface, task);
   if (surface.face_count() == 0 && surface.vertex_count() != 0) {
     raise(ErrorCode::InvalidMesh, "the surface has no faces, expected faces, also with normals");
   }
+  TaskContext task(run.threads);
+  const OrientedIndex state = SurfaceAccess::oriented(surface, task);
   constexpr std::size_t kChannels = CorrectedCurvatures::kMeasures;
   const std::vector<double> held = measures_by_vertex(state, SurfaceAccess::state(surface).faces().view());
   std::vector<VertexId> listed;

@@ -99,7 +99,7 @@ GraphData graph_of(const IndexView& index, const std::vector<std::uint32_t>& sam
   return {std::move(positions), std::move(adjacency)};
 }
 
-/// Returns the radius of the new leaf of each vertex, in the frame.
+/// Returns the radius of the new leaf of each vertex, in the frame `frame`.
 std::vector<double> new_radii(const GraphData& graph, const Frame& frame) {
   TaskContext task;
   const LeafPartition leaves = make_leaves(graph.view().positions, EdgeSource(graph.view().adjacency), frame, task);
@@ -117,21 +117,22 @@ std::vector<double> new_radii(const GraphData& graph, const Frame& frame) {
   return radii;
 }
 
-/// The mean radii of the leaves that hold the inner vertices of a sample.
+/// The mean radii of the leaves that hold the inner vertices of a sample, in the unit of the mesh.
 struct Radii {
   double present = 0;
   double rebuilt = 0;
 };
 
-Radii compare_around(const IndexView& index, std::size_t seed) {
+/// `frame` is that of a new index.
+Radii compare_around(const IndexView& index, std::size_t seed, const Frame& frame) {
   const std::vector<std::uint32_t> sample = take_sample(index, seed, kSampleSize);
-  const std::vector<double> rebuilt = new_radii(graph_of(index, sample), index.frame);
+  const std::vector<double> rebuilt = new_radii(graph_of(index, sample), frame);
   const std::size_t inner = std::min(sample.size(), kInnerSize);
   Radii mean;
   for (std::size_t i = 0; i < inner; ++i) {
     const Leaf& leaf = index.leaves[leaf_of(index.slot_at(sample[i]))];
-    mean.present += static_cast<double>(leaf.bounds.radius) / static_cast<double>(inner);
-    mean.rebuilt += rebuilt[i] / static_cast<double>(inner);
+    mean.present += static_cast<double>(leaf.bounds.radius) / index.frame.scale / static_cast<double>(inner);
+    mean.rebuilt += rebuilt[i] / frame.scale / static_cast<double>(inner);
   }
   return mean;
 }
@@ -143,11 +144,12 @@ Quality quality(const Index& index) {
   const std::size_t samples = std::min(kSamples, view.vertex_count());
   if (samples == 0) return {.mean_radius = 0, .rebuilt_radius = 0, .gain = 1};
   const auto share = 1 / static_cast<double>(samples);
+  const Frame frame = make_frame(index.positions());
   Quality result{.mean_radius = 0, .rebuilt_radius = 0, .gain = 1};
   for (std::size_t i = 0; i < samples; ++i) {
-    const Radii radii = compare_around(view, (2 * i + 1) * view.vertex_count() / (2 * samples));
-    result.mean_radius += share * radii.present / view.frame.scale;
-    result.rebuilt_radius += share * radii.rebuilt / view.frame.scale;
+    const Radii radii = compare_around(view, (2 * i + 1) * view.vertex_count() / (2 * samples), frame);
+    result.mean_radius += share * radii.present;
+    result.rebuilt_radius += share * radii.rebuilt;
   }
   result.gain = result.mean_radius / result.rebuilt_radius;
   return result;

@@ -68,7 +68,6 @@ std::size_t Triangles::bytes() const {
 
 Triangles::Triangles(const IndexView& index, const StoredFaces& faces, TaskContext& task) {
   make_meshlets(triangles_of_leaves(index, faces, task), task);
-  if (size() == 0) raise(ErrorCode::InvalidMesh, "every face of the mesh has a wall, expected one without");
   make_fans(index.vertex_count());
   find_borders(index, task);
 }

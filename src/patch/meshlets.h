@@ -50,8 +50,8 @@ struct Triangles {
   };
   std::vector<LooseEdge> loose;  // ascending
 
-  /// Throws Error{InvalidMesh} if no face without a wall has a triangle, Error{TooLarge} beyond 2^32 / 3 triangles, and
-  /// Error{Cancelled}.
+  /// There are none if every face has a wall. Throws Error{InvalidMesh} if no face has a triangle, Error{TooLarge}
+  /// beyond 2^32 / 3 triangles, and Error{Cancelled}.
   Triangles(const IndexView& index, const StoredFaces& faces, TaskContext& task);
 
   [[nodiscard]] std::size_t size() const { return corners.size(); }

@@ -210,9 +210,8 @@ Spot spot_on_face(const SurfaceState& state, const FaceTree& tree, std::size_t f
 
 /// Measures at `spot_of(row)`, in the order of `slot_of(row)`, so that spots near each other follow each other.
 template <class SlotOf, class SpotOf>
-std::vector<double> measure_rows(const SurfaceState& state, std::size_t rows, ThicknessMethod method, TaskContext& task,
-                                 SlotOf&& slot_of, SpotOf&& spot_of) {
-  const FaceTree& tree = state.tree(task);
+std::vector<double> measure_rows(const SurfaceState& state, const FaceTree& tree, std::size_t rows,
+                                 ThicknessMethod method, TaskContext& task, SlotOf&& slot_of, SpotOf&& spot_of) {
   const NormalCones* const cones = method == ThicknessMethod::Sphere ? &state.cones(task) : nullptr;
   std::vector<double> result(rows);
   for_each_by_position(rows, kRowsOfTask, slot_of, task, [&](unsigned thread, std::size_t row) {
@@ -230,9 +229,10 @@ std::vector<double> thickness(const Surface& surface, const BatchVertices& verti
   const SurfaceState& state = SurfaceAccess::state(surface);
   const Rows rows({.vertices = vertices, .radius = 0}, state.index->vertex_count());
   TaskContext task(run.threads, run.progress, rows.size());
+  const FaceTree& tree = state.tree(task);
   const OrientedIndex oriented = SurfaceAccess::oriented(surface, task);
   return measure_rows(
-      state, rows.size(), method, task, [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; },
+      state, tree, rows.size(), method, task, [&](std::size_t row) { return state.index->slot[rows.vertex(row)]; },
       [&](std::size_t row) {
         const std::uint32_t place = state.index->place(rows.vertex(row));
         return Spot{oriented.position(place), oriented.normal(place), place};
@@ -246,7 +246,7 @@ std::vector<double> thickness(const Surface& surface, const IndicesView& faces, 
   TaskContext task(run.threads, run.progress, rows.size());
   const FaceTree& tree = state.tree(task);
   return measure_rows(
-      state, rows.size(), method, task, [&](std::size_t row) { return state.index->slot[rows.corners()[row]]; },
+      state, tree, rows.size(), method, task, [&](std::size_t row) { return state.index->slot[rows.corners()[row]]; },
       [&](std::size_t row) {
         const auto& [x, y, z] = rows.point(row);
         return spot_on_face(state, tree, rows.face(row), {x, y, z});

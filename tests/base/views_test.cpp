@@ -341,6 +341,7 @@ concept ViewedAsPositions = requires(M&& matrix) { positions_view(std::forward<M
 static_assert(ViewedAsPositions<const Eigen::MatrixXd&>);
 static_assert(ViewedAsPositions<Eigen::Map<const Eigen::MatrixXf>>);
 static_assert(!ViewedAsPositions<Eigen::MatrixXd>);
+static_assert(ViewedAsPositions<Eigen::Ref<Eigen::MatrixXd>> && !ViewedAsPositions<Eigen::Ref<const Eigen::MatrixXd>>);
 // If a matrix is passed as an array, the order of its entries is lost.
 static_assert(!std::constructible_from<PositionsView, const Eigen::MatrixXd&>);
 static_assert(!MakesTriangles<const Eigen::MatrixXi&>);
@@ -355,7 +356,9 @@ TEST_F(Views, OfMatricesOfEigenAreReadInBothOrders) {
   const Eigen::MatrixXi column_faces = row_faces;
   expect_same(mesh_view(rows, row_faces));
   expect_same(mesh_view(columns, column_faces));
-  expect_same(mesh_view(Eigen::Ref<const Eigen::MatrixXd>(columns), Eigen::Ref<const Eigen::MatrixXi>(column_faces)));
+  const Eigen::Ref<const Eigen::MatrixXd> positions = columns;
+  const Eigen::Ref<const Eigen::MatrixXi> faces = column_faces;
+  expect_same(mesh_view(positions, faces));
   const Eigen::Matrix3Xd transposed = rows.transpose();
   expect_same(mesh_view(transposed.transpose(), column_faces));
   const Eigen::MatrixX<std::int64_t> wide = column_faces.cast<std::int64_t>();

@@ -360,7 +360,6 @@ TEST_F(Batches, RefuseInvalidArgumentsBeforeTheFirstRow) {
   refused(ErrorCode::InvalidOption, "threads is 1025, expected at most 1024", {.radius = 1.0}, {.threads = 1025});
   expect_refused(ErrorCode::InvalidOption, "radius_ratio is 0",
                  [&] { const SearchMethod method(approximate, {.radius_ratio = 0}); });
-  expect_refused(ErrorCode::InvalidOption, "sink is empty", [&] { for_each_neighborhood(index, {.radius = 1.0}, {}); });
 }
 
 TEST_F(Batches, RefuseAnInvalidGraph) {

@@ -481,6 +481,9 @@ TEST(Curvatures, RefuseInvalidArgumentsAndNameThem) {
   expect_refused(ErrorCode::InvalidMesh, "16 vertices", [&] { return Surface(one.index, smaller.view()); });
   expect_refused(ErrorCode::InvalidMesh, "no faces",
                  [&] { return curvatures(Surface(one.index, no_faces), {.radius = 1.0}); });
+  expect_refused(ErrorCode::InvalidMesh, "expected faces, also with normals",
+                 [&] { return corrected_curvatures(Surface(one.index, no_faces), {.radius = 1.0}); });
+  expect_refused(ErrorCode::InvalidRadius, "edges: radius -1", [&] { return libigl_radius(one.mesh.view(), -1); });
   expect_refused(ErrorCode::InvalidMesh, "25 vertices",
                  [&] { return Surface::of_normals(one.index, std::span(normals).first(3)); });
   normals[3 * 4 + 1] = -std::numeric_limits<double>::infinity();

@@ -71,6 +71,17 @@ TEST(Quality, IsLargeForTornLeaves) {
   EXPECT_GT(found, 1.5);
 }
 
+TEST(Quality, IsLargeWhereAVertexWasFarAwayBecauseTheFrameIsStillThatLarge) {
+  const auto [mesh, index] = indexed(bumpy_grid(100));
+  TestMesh far = mesh;
+  far.positions[0] = 1e9;
+  far.finish(true);
+  const std::vector<VertexId> changed{0};
+  const Index back = refit(refit(index, far.positions_view(), changed), mesh.positions_view(), changed);
+  EXPECT_NEAR(quality(index).gain, 1, 0.3);
+  EXPECT_GT(quality(back).gain, 10);
+}
+
 TEST(Quality, OfAMeshWithoutVerticesHasTheGainOne) {
   const TestMesh mesh;
   EXPECT_EQ(quality(build(mesh.view())).gain, 1);

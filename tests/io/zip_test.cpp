@@ -37,7 +37,7 @@ class Zip : public ::testing::Test {
 };
 
 TEST_F(Zip, RunsAndStoredMembersAreUnpacked) {
-  for (const std::uint64_t count : {0, 1, 2, 258, 259, 260, 516, 517, 10'000}) {
+  for (const std::uint64_t count : {0U, 1U, 2U, 258U, 259U, 260U, 516U, 517U, 10'000U}) {
     ZipWriter zip(file);
     zip.begin("stored", 13);
     zip.write("12345");

@@ -116,6 +116,15 @@ TEST(Query, AnswersStayTheSameWhenTheQueryNumberWrapsAround) {
   }
 }
 
+TEST(Query, AnswersStayTheSameWhenTheSearcherIsMovedToItself) {
+  const TestMesh mesh = make_grid(40, 40, false);
+  paper::Searcher searcher(paper::build(mesh.view()));
+  const std::size_t expected = searcher.count(820, 9);
+  paper::Searcher& same = searcher;
+  searcher = std::move(same);
+  EXPECT_EQ(searcher.count(820, 9), expected);
+}
+
 TEST(Query, ResultsReuseTheirBuffer) {
   const TestMesh mesh = make_grid(40, 40, false);
   const paper::Index index = paper::build(mesh.view());

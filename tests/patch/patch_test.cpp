@@ -765,6 +765,28 @@ TEST(Patch, AtEdgesThatAreNotManifold) {
   EXPECT_TRUE(std::isnan(wing.measure(v, 0.5).volume));
 }
 
+TEST(Patch, IsNowhereIfEveryFaceHasAWall) {
+  TestMesh mesh;
+  for (const double x : {0, 1}) {
+    mesh.add_vertex(x, 0, 0);
+    mesh.add_vertex(x, 1, 0);
+  }
+  mesh.add_face({0, 2, 1});
+  mesh.add_face({2, 3, 1});
+  mesh.finish(true);
+  const std::vector<std::uint8_t> walls{0, 1, 0, 0};
+  const Index view = masked(build(mesh.view()), {.walls = walls});
+  const Surface surface(view, mesh.view().faces);
+  const Invariants found = invariants(surface, {.radius = 2});
+  EXPECT_EQ(found.area, std::vector<double>(4, 0.0));
+  EXPECT_TRUE(std::ranges::all_of(found.volume, [](double volume) { return std::isnan(volume); }));
+  for (const SurfacePoint& gap : gaps(surface, {.radius = 2})) EXPECT_EQ(gap.face, kNoFace);
+  PatchSearcher searcher(surface);
+  EXPECT_TRUE(searcher.patch(0, 2).empty());
+  EXPECT_TRUE(searcher.patch({0, SpacePoint{0.2, 0.2, 0}}, 2).empty());
+  EXPECT_TRUE(searcher.clip(0, 2).points.empty());
+}
+
 /// As if the faces with a wall were not there.
 TEST(Patch, DoesNotHaveFacesWithAWall) {
   const auto [mesh, index] = indexed(make_ball(3));

@@ -428,7 +428,8 @@ TEST(Thickness, RefusesWrongVerticesAndMeshesWithoutFaces) {
   refuse("faces: row 1: face " + std::to_string(mesh.face_count()), faces, points);
   refuse("points: row 1: coordinate 2 is inf", std::vector<std::size_t>{0, 0}, points);
   refuse("2 points, expected one for each of 1 faces", std::vector<std::size_t>{0}, points);
-  expect_refused(ErrorCode::InvalidMesh, "face", [&] { return thickness(Surface(index, FacesView{})); });
+  expect_refused(ErrorCode::InvalidMesh, "no face of three corners",
+                 [&] { return thickness(Surface(index, FacesView{})); });
 }
 
 }  // namespace

@@ -174,6 +174,7 @@ void expect_queries(Shortages& shortages, const TestMesh& mesh, const AnyIndex& 
 
 TEST_P(Allocation, FailsInAQuery) {
   expect_queries<Searcher>(shortages, mesh, index);
+  expect_queries<BallSearcher>(shortages, mesh, mesh.positions_view());
   expect_answered<Searcher>(shortages, mesh, index, [](Searcher& s, VertexId v, double r, Answers& answers) {
     std::size_t count = 0;
     for (const VertexRange& range : s.ranges(v, r)) count += range.end - range.begin;

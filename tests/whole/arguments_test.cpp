@@ -151,6 +151,23 @@ TEST_F(Arguments, ACallbackThatThrowsOrQueriesLeavesTheIndexUsable) {
   EXPECT_THAT(answers(4, kInfinity), Each(SizeIs(9)));
 }
 
+TEST_F(Arguments, AnEmptyFunctionIsRefusedByName) {
+  const Surface surface(index_, mesh_.view());
+  const std::vector<SpacePoint> points(1);
+  const auto refuse = [&](const std::string& name, const auto& call) {
+    expect_refused(ErrorCode::InvalidOption, name + " is empty, expected a function", call);
+  };
+  const BatchAllocator none;
+  refuse("sink", [&] { for_each_neighborhood(index_, {.radius = 1.0}, {}); });
+  refuse("sink", [&] { save(index_, Sink()); });
+  refuse("sink", [&] { paper::save(paper_index_, Sink()); });
+  refuse("allocate", [&] { return neighborhoods(index_, {.radius = 1.0}, none); });
+  refuse("allocate", [&] { k_nearest(index_, {}, 2, none); });
+  refuse("visit", [&] { for_each_gap(surface, {.radius = 1.0}, {}); });
+  refuse("visit", [&] { surface.for_each_closest_point(points, {}); });
+  refuse("visit", [&] { surface.for_each_first_hit(points, points, {}); });
+}
+
 TEST_F(Arguments, ACancelledBuildLeaksNothing) {
   expect_refused(ErrorCode::Cancelled, "",
                  [&] { return build(mesh_.view(), {.progress = [](auto&&...) { return false; }}); });

@@ -113,7 +113,8 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
     `counts(r, vertices=None)`. Their arguments mean the same everywhere:
 
     vertices : the rows: a sequence of vertices, a bool mask (#V,), or None for all. Or one vertex where the result is a
-        number or an array of numbers for each; it then has no axis of vertices.
+        number or an array of numbers for each; it then has no axis of vertices. An array of #V numbers that are 0 or one
+        other is refused, because it may be meant as a mask; a list is not.
     r : the radius, >= 0 or inf, or one for each row. A vertex at exactly `r` is inside.
     scales : several radii for all rows, instead of `r`. The result has a leading axis of scales. Lists of neighborhoods
         have the rows of all scales, scale after scale.
