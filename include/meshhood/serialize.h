@@ -67,10 +67,9 @@ struct MapOptions {
 /// Returns the index in place: nothing is copied, and pages of a mapped file are read when queries need them. Progress
 /// is that of `load`; a trusted file has no parts.
 ///
-/// bytes   at an address that is a multiple of `kIndexAlignment`; must not change as long as the index lives, or
-///         what was made of it: searchers, surfaces, refitted and masked indices. A file that is truncated or
-///         overwritten in place changes under its mapping (a file replaced by renaming does not). If that can happen,
-///         use `load`.
+/// bytes   at an address that is a multiple of `kIndexAlignment`; must not change as long as the index lives, or a
+///         searcher, a surface or another index that was made from it. A file that is truncated or overwritten in
+///         place changes under its mapping (a file replaced by renaming does not). If that can happen, use `load`.
 /// owner   kept as long; null if the caller keeps the bytes.
 ///
 /// Throws as `load`, and Error{InvalidOption} if the address is not aligned. Takes O(bytes), or O(1) if trusted.
