@@ -42,12 +42,15 @@ class Flattening {
   Point area_;
 };
 
-/// Returns whether the polygon turns right at no corner.
+/// Returns whether the polygon turns right at no corner. Corners in a row at one point count as one, because the turn
+/// at each alone is 0.
 bool is_convex(std::span<const Point> corners, const Flattening& flat) {
-  Flat a = flat(corners[corners.size() - 2]);
   Flat b = flat(corners.back());
+  Flat a = b;
+  for (std::size_t i = corners.size() - 1; is_same(a, b) && i-- > 0;) a = flat(corners[i]);
   for (const Point& p : corners) {
     const Flat c = flat(p);
+    if (is_same(b, c)) continue;
     if (turn(a, b, c) < 0) return false;
     a = b;
     b = c;

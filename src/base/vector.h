@@ -41,6 +41,14 @@ template <class Real>
   return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }
 
+/// Returns the length of a vector area. Where a vertex is far from all others, the squares of areas in the frame may
+/// underflow; elsewhere, it has the bits of `length`.
+[[nodiscard]] inline double area_of(const Point& a) {
+  if (const double size = length(a); size > 0x1p-480) return size;
+  const double largest = largest_component(a);
+  return largest > 0 ? largest * length({a.x / largest, a.y / largest, a.z / largest}) : 0;
+}
+
 /// Returns twice the vector area of a triangle: the same bits as those of the polygon below, without its loop.
 [[nodiscard]] inline Point doubled_vector_area(const Point& a, const Point& b, const Point& c) {
   return Point{0, 0, 0} + cross(b - a, c - a);  // the sum has no -0, as for polygons

@@ -70,12 +70,14 @@ double moment_feature(Feature kind, const PrincipalComponents& found, std::size_
   return -4 * dot({center[0] / radius, center[1] / radius, center[2] / radius}, normal);
 }
 
-double patch_feature(Feature kind, const RowPatch& patch) {
+/// Computes a feature from a patch, in a frame of this scale.
+double patch_feature(Feature kind, const RowPatch& patch, double scale) {
   const double r = patch.radius;
   if (kind == Feature::Gap) return patch.gap.face == kNoFace ? kNan : patch.gap.distance / r;
   if (!(patch.area > 0)) return kNan;
   if (kind == Feature::Area) return patch.area / r / r / std::numbers::pi;
-  return patch.volume / r / r / r / (4 * std::numbers::pi / 3);
+  const double in_frame = scale * r;
+  return patch.volume / in_frame / in_frame / in_frame / (4 * std::numbers::pi / 3);
 }
 
 bool is_length(double radius) { return radius > 0 && std::isfinite(radius); }
@@ -233,7 +235,8 @@ class FeatureExtraction {
     const auto has = [this](Feature kind) { return std::ranges::find(kinds_, kind) != kinds_.end(); };
     const PatchParts parts{.measures = has(Feature::Area) || has(Feature::Volume), .gaps = has(Feature::Gap)};
     return patch_visitor(*patches_, parts, [this](std::size_t row, const RowPatch& patch) {
-      write_row(Source::Patches, row, [&](Feature kind) { return patch_feature(kind, patch); });
+      const double scale = patches_->index->frame.scale;
+      write_row(Source::Patches, row, [&](Feature kind) { return patch_feature(kind, patch, scale); });
     });
   }
 

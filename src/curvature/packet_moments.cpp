@@ -248,11 +248,12 @@ const QueryMoments& PacketMoments::finish() {
 // and log A_d and log B_d are convex in d (Lyapunov), so A_1 >= A_2 (A_2 / A_4)^(1/2), A_3 >= A_2 (A_2 / W)^(1/2),
 // B_1 <= (W B_2)^(1/2) and B_3 <= (B_2 B_4)^(1/2). So B_4 <= K A_4 and W B_2 B_4 <= K^2 A_2^3 are enough: the latter is
 // the condition for d = 3, from which those for d = 1 and d = 2 follow, since B_4 >= A_4 and W B_4 >= B_2^2. All is
-// divided by W here, so that nothing underflows. Where digits were lost, the computed A_4 is at most about
-// epsilon B_4, and the test fails, too.
+// divided by W here. Fourth powers underflow where the neighborhood is small in its unit: then A_4 is small, or 0, and
+// the test fails. Where digits were lost, the computed A_4 is at most about epsilon B_4, and it fails, too.
 bool PacketMoments::is_accurate(std::size_t query) const {
   constexpr double kMostLoss = 400;
   constexpr double kLeastWeight = 0x1p-800;  // products of smaller weights and powers may underflow
+  constexpr double kLeastFourth = 0x1p-200;  // of A_4, divided by W, likewise
   const double weight = moments_.at[moment_index(0, 0, 0)][query];
   if (weight == 0) return true;  // the sums are 0
   if (!(weight >= kLeastWeight)) return false;
@@ -266,7 +267,7 @@ bool PacketMoments::is_accurate(std::size_t query) const {
   const double b4 = (root4 * root4) * (root4 * root4);
   const double a2 = per_weight * after_.second[query];
   const double a4 = per_weight * after_.fourth[query];
-  return b4 <= kMostLoss * a4 && b2 * b4 <= (kMostLoss * kMostLoss) * ((a2 * a2) * a2);
+  return a4 >= kLeastFourth && b4 <= kMostLoss * a4 && b2 * b4 <= (kMostLoss * kMostLoss) * ((a2 * a2) * a2);
 }
 
 PacketVisitor moment_visitor(const MomentSource& source, MomentVisitor visit) {

@@ -128,7 +128,7 @@ struct PatchParts {
 struct RowPatch {
   double radius;
   double area = kNan;
-  double volume = kNan;
+  double volume = kNan;  // in the frame
   SurfacePoint gap = {};
 };
 

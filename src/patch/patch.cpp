@@ -36,6 +36,9 @@ const PatchState& patches_alone(const SurfaceState& surface) {
   return surface.patches(alone);
 }
 
+/// Returns a volume, given in the frame, in the unit of the mesh.
+double volume_in_mesh(double volume, double scale) { return volume / scale / scale / scale; }
+
 /// Runs the search around a vertex.
 void run_at(const PatchState& state, PatchSearch& search, VertexId v, double radius, bool measures) {
   const std::uint32_t slot = state.index->slot[v];
@@ -114,7 +117,7 @@ ClippedMesh PatchSearcher::clip(const PatchStart& start, double radius, double t
 
 PatchMeasure PatchSearcher::measure(const PatchStart& start, double radius) {
   state_->run(start, radius, true);
-  return {state_->search.area(), state_->search.volume()};
+  return {state_->search.area(), volume_in_mesh(state_->search.volume(), state_->surface->index->frame.scale)};
 }
 
 SurfacePoint PatchSearcher::gap(const PatchStart& start, double radius) {
@@ -201,9 +204,10 @@ PacketVisitor patch_visitor(const PatchState& state, PatchParts parts, RowPatchV
 Invariants invariants(const Surface& surface, const BatchQuery& query, const Run& run) {
   const std::size_t size = query.result_rows(surface.vertex_count());
   Invariants result{std::vector<double>(size), std::vector<double>(size)};
+  const double scale = SurfaceAccess::state(surface).frame.scale;
   for_each_patch(surface, query, {.measures = true, .gaps = false}, run, [&](std::size_t row, const RowPatch& patch) {
     result.area[row] = patch.area;
-    result.volume[row] = patch.volume;
+    result.volume[row] = volume_in_mesh(patch.volume, scale);
   });
   return result;
 }

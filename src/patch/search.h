@@ -36,7 +36,7 @@ class PatchSearch {
   /// Returns whether the patch has a triangle.
   [[nodiscard]] bool exists() const { return seen_count_ > 0; }
 
-  /// Return area and volume in the unit of the mesh, after a run with `measures`.
+  /// Return the area in the unit of the mesh, and the volume in the frame, after a run with `measures`.
   [[nodiscard]] double area() const { return sums_.area(ball_); }
   [[nodiscard]] double volume() const { return exists() ? sums_.volume(ball_) : kNan; }
 

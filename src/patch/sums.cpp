@@ -128,7 +128,7 @@ double PatchSums::volume(const PatchBall& ball) const {
   const double slack = kSlack * area * std::min(r, 4.0);
   if (std::abs(triple) > ball_triple + slack) triple = std::fmod(triple, ball_triple);
   if (triple < -slack) triple += ball_triple;
-  return std::max(0.0, triple) / 3 / ball.scale / ball.scale / ball.scale;
+  return std::max(0.0, triple) / 3;
 }
 
 }  // namespace meshhood::inline v0_1

@@ -127,7 +127,8 @@ class PatchSums {
   /// Returns the area in the unit of the mesh.
   [[nodiscard]] double area(const PatchBall& ball) const;
 
-  /// Returns NaN if a border is in the ball, else a volume that is not negative. The patch must have a triangle.
+  /// Returns NaN if a border is in the ball, else a volume that is not negative, in the frame: in the unit of the mesh,
+  /// it may overflow. The patch must have a triangle.
   [[nodiscard]] double volume(const PatchBall& ball) const;
 
  private:

@@ -229,7 +229,7 @@ RoughDistance compare_roughly(const std::array<Point, 3>& corners, const Point& 
   const Point nearest = roughly_nearest(from_q);
   const double along = std::min({dot(nearest, from_q[0]), dot(nearest, from_q[1]), dot(nearest, from_q[2])});
   const double square = dot(nearest, nearest);
-  return {square, along > 0 ? share_of(along * along, square) : 0};
+  return {square, along > 0 ? along * share_of(along, square) : 0};  // the square of a product might overflow
 }
 
 TrianglePoint nearest_in_triangle(const Point& q, const std::array<Point, 3>& corners, double scale) {

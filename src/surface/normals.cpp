@@ -31,9 +31,9 @@ RawVector<std::uint32_t> places_of_vertices(const IndexView& index, TaskContext&
 }
 
 /// Returns the vector area of a face in the unit of the frame, where products do not overflow. `place_of(i)` is the
-/// place of corner `i` in index order.
-template <class Real, class PlaceOf>
-Point vector_area(std::span<const Real> xyz, double scale, std::size_t corners, PlaceOf&& place_of) {
+/// place of corner `i` in `xyz`. The origin of the frame is not taken off: it may be far from the face.
+template <class Positions, class PlaceOf>
+Point vector_area(const Positions& xyz, double scale, std::size_t corners, PlaceOf&& place_of) {
   const auto corner = [&](std::size_t i) { return scale * point(xyz, place_of(i)); };
   if (corners == 3) return 0.5 * doubled_vector_area(corner(0), corner(1), corner(2));
   return 0.5 * doubled_vector_area(corners, corner);
@@ -64,17 +64,10 @@ void sum_areas(std::span<const Real> xyz, double scale, std::span<const std::uin
   }
 }
 
-/// Returns the length of the vector area, in the unit of the frame.
-template <class Real>
-double frame_area(const StridedPositions<Real>& xyz, const Frame& frame, std::span<const VertexId> corners) {
-  const auto corner = [&](std::size_t i) { return frame.to_frame(point(xyz, corners[i])); };
-  return length(doubled_vector_area(corners.size(), corner)) / 2;
-}
-
 }  // namespace
 
 void Normals::set(std::size_t place, const Point& n) {
-  const double norm = length(n);
+  const double norm = area_of(n);
   const double size = norm > 0 ? norm : kNan;
   x[place] = n.x / size;
   y[place] = n.y / size;
@@ -133,16 +126,17 @@ Normals read_normals(const IndexView& index, std::span<const double> given) {
 
 std::vector<double> vertex_areas(const MeshView& mesh) {
   validate(mesh);
-  const Frame frame = make_frame(mesh.positions);
+  const double scale = make_frame(mesh.positions).scale;
   std::vector<double> areas(mesh.positions.size());
   mesh.positions.visit([&](const auto& xyz) {
     mesh.faces.for_each([&](std::size_t /*face*/, std::span<const VertexId> corners) {
       if (corners.size() < 3) return;
-      const double share = frame_area(xyz, frame, corners) / static_cast<double>(corners.size());
+      const Point area = vector_area(xyz, scale, corners.size(), [&](std::size_t i) { return corners[i]; });
+      const double share = area_of(area) / static_cast<double>(corners.size());
       for (const VertexId corner : corners) areas[corner] += share;
     });
   });
-  for (double& area : areas) area = (area / frame.scale) / frame.scale;
+  for (double& area : areas) area = (area / scale) / scale;
   return areas;
 }
 

@@ -737,5 +737,17 @@ TEST(VertexAreas, AreRightAtAnyScaleAndInAnyPolygon) {
   }
 }
 
+TEST(VertexAreas, DoNotDependOnAVertexFarAway) {
+  for (const double far : {1e9, 1e16, 1e30, 1e90, 1e140}) {
+    TestMesh mesh;
+    for (const auto& [x, y] : {std::pair{0, 0}, {3, 0}, {0, 3}, {4, 2}, {1, 2}}) mesh.add_vertex(x, y, 0);
+    mesh.add_vertex(far, 0, 0);
+    mesh.add_face({0, 1, 2});
+    mesh.add_face({0, 1, 3, 4});
+    mesh.finish(false);
+    EXPECT_THAT(vertex_areas(mesh.view()), ElementsAre(3, 3, 1.5, 1.5, 1.5, 0)) << far;
+  }
+}
+
 }  // namespace
 }  // namespace meshhood::test

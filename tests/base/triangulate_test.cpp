@@ -70,6 +70,14 @@ TEST(Triangulate, CoversPolygons) {
   expect_covered({{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}});
 }
 
+/// A reflex corner that is listed again stays reflex, though the polygon turns at neither copy.
+TEST(Triangulate, CoversPolygonsWithCornersThatAreListedAgain) {
+  expect_covered({{4, 0}, {1, 1}, {1, 1}, {0, 4}, {0, 0}});                                  // an arrow
+  expect_covered({{0, 0}, {2, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 1}, {1, 1}, {1, 2}, {0, 2}});  // an L
+  expect_covered({{0, 0}, {0, 0}, {4, 1}, {4, 1}, {0, 2}, {0, 2}, {1, 1}, {1, 1}});
+  expect_covered({{0, 0}, {0, 0}, {1, 0}, {1, 1}, {1, 1}, {1, 1}, {0, 1}});  // a square
+}
+
 TEST(Triangulate, CoversStars) {
   Random random(1);
   for (std::size_t trial = 0; trial < 30; ++trial) {
@@ -89,6 +97,8 @@ TEST(Triangulate, ConvexPolygonsAreFans) {
   const std::vector<Point> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.2}, {0.5, 1.5, 0}, {0, 1, 0}};
   Triangulation triangles{{7, 7, 7}};
   triangulate(corners, triangles);
+  EXPECT_THAT(triangles, testing::ElementsAre(std::array{0U, 1U, 2U}, std::array{0U, 2U, 3U}, std::array{0U, 3U, 4U}));
+  triangulate(std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}}, triangles);
   EXPECT_THAT(triangles, testing::ElementsAre(std::array{0U, 1U, 2U}, std::array{0U, 2U, 3U}, std::array{0U, 3U, 4U}));
   triangulate(std::span(corners).first(2), triangles);
   EXPECT_TRUE(triangles.empty());

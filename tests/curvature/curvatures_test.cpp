@@ -238,6 +238,24 @@ TEST(Curvatures, DoNotDependOnWhereTheMeshLies) {
             1e-9);
 }
 
+/// Squares of areas underflow in the frame.
+TEST(Curvatures, DoNotDependOnAVertexFarAway) {
+  TestMesh mesh = bumpy_grid(12).finish(false);
+  const WithSurface alone = with_surface(mesh);
+  mesh.add_vertex(1e90, 0, 0);
+  const WithSurface one = with_surface(mesh.finish(false));
+  const Curvatures expected = curvatures(alone.surface, {.radius = 3});
+  const Curvatures found = curvatures(one.surface, {.radius = 3});
+  const CorrectedCurvatures corrected = corrected_curvatures(alone.surface, {.radius = 3});
+  const CorrectedCurvatures found_corrected = corrected_curvatures(one.surface, {.radius = 3});
+  for (std::size_t v = 0; v < alone.mesh.size(); ++v) {
+    ASSERT_EQ(found.state[v], CurvatureState::Fitted);
+    ASSERT_NEAR(found.k1[v], expected.k1[v], 1e-9);
+    ASSERT_NEAR(found_corrected.k1[v], corrected.k1[v], 1e-9);
+    ASSERT_NEAR(found_corrected.area[v], corrected.area[v], 1e-12 * corrected.area[v]);
+  }
+}
+
 TEST(Curvatures, DoNotDependOnTheNumbering) {
   Random random(7);
   const TestMesh mesh = torus(3, 1);

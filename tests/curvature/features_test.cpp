@@ -144,6 +144,19 @@ TEST(Features, OfPatchesAreInvariantsAndGapsWithoutUnit) {
   EXPECT_THAT(totals, testing::Each(2U)) << "curvatures and patches share a search";
 }
 
+/// The volumes themselves overflow and underflow.
+TEST(Features, OfPatchesDoNotDependOnTheUnit) {
+  const auto in_unit = [](int exponent) {
+    TestMesh given = two_corners();
+    for (double& x : given.positions) x = std::ldexp(x, exponent);
+    const WithSurface one = with_surface(given);
+    return features(one.surface, {{}, std::ldexp(0.4, exponent)},
+                    {.kinds = {Feature::Volume, Feature::Area, Feature::Gap}});
+  };
+  EXPECT_THAT(in_unit(-400), testing::Pointwise(testing::NanSensitiveDoubleEq(), in_unit(0)));
+  EXPECT_THAT(in_unit(400), testing::Pointwise(testing::NanSensitiveDoubleEq(), in_unit(0)));
+}
+
 TEST_F(BumpyFeatures, OfPatchesHaveNoVolumeAtABorderAndNoFacesBehindWalls) {
   const FeatureOptions kinds{.kinds = {Feature::Area, Feature::Volume}};
   const std::vector<VertexId> rows{0, 210};  // a corner, and in the middle

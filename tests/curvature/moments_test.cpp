@@ -139,6 +139,24 @@ TEST(Moments, OfTinyNeighborhoodsAreThoseOfTheirVertices) {
   }
 }
 
+/// Leaves of the vertices at one point have no extent, and powers of their rings underflow in the unit of the frame.
+TEST(Moments, OfRingsOfVerticesAtOnePointDoNotDependOnAVertexFarAway) {
+  TestMesh mesh;
+  constexpr std::uint32_t kSame = 100;
+  for (std::uint32_t v = 0; v < 2 * kSame; ++v) mesh.add_vertex(v < kSame ? 0 : 1, 0, 0);
+  for (std::uint32_t v = 0; v < kSame; ++v) mesh.add_face({v, v + kSame});
+  for (std::uint32_t v = 1; v < kSame; ++v) {
+    mesh.add_face({v - 1, v});
+    mesh.add_face({v + kSame - 1, v + kSame});
+  }
+  mesh.add_vertex(1e120, 0, 0);
+  const auto [finished, index] = indexed(mesh.finish(false));
+  const std::vector<double> found = moments(index, {.radius = 1, .metric = Metric::Rings}, {.degree = 4});
+  for (std::size_t v = 0; v < kSame; ++v) {
+    for (unsigned degree = 1; degree <= 4; ++degree) ASSERT_EQ(found[35 * v + moment_column(degree, 0, 0)], 1);
+  }
+}
+
 TEST(Moments, OfDenormalPositionsAreExact) {
   TestMesh mesh = make_grid(12, 12, true).finish(false);
   for (double& x : mesh.positions) x *= 0x1p-1070;

@@ -85,7 +85,8 @@ class PacketPatchesOf : public testing::TestWithParam<Family> {
     EXPECT_NEAR(packets.area(q) / disc, search.area() / disc, 1e-12 * std::max(1.0, search.area() / disc));
     EXPECT_EQ(std::isnan(packets.volume(q)), std::isnan(search.volume()));
     if (std::isnan(search.volume())) return;
-    const double ball = disc * radius * 4 / 3;
+    const double r = packets.ball(q).radius;
+    const double ball = 4 * std::numbers::pi / 3 * r * r * r;
     if (GetParam().name == "collinear") return;  // what its needles enclose is rounding
     EXPECT_NEAR(packets.volume(q) / ball, search.volume() / ball, 1e-12 * std::max(1.0, search.volume() / ball));
   }

@@ -868,6 +868,22 @@ TEST(Patch, IsTheSameFarFromTheOrigin) {
   }
 }
 
+/// Squares of areas underflow in the frame.
+TEST(Patch, IsTheSameWithAVertexFarAway) {
+  TestMesh mesh = make_box({2, 2, 2}, 1);
+  Case alone(mesh);
+  mesh.add_vertex(1e90, 0, 0);
+  Case other(mesh.finish(false));
+  for (const double r : {0.5, 1.7, 10.0}) {
+    const PatchMeasure expected = alone.searcher.measure(0, r);
+    const PatchMeasure found = other.searcher.measure(0, r);
+    EXPECT_NEAR(found.area, expected.area, 1e-13) << r;
+    EXPECT_NEAR(found.volume, expected.volume, 1e-13) << r;
+    EXPECT_NEAR(other.searcher.clip(0, r, 1e-3).area, expected.area, 1e-13) << r;
+  }
+  EXPECT_NEAR(invariants(other.surface, {.radius = 10}).area[0], 24, 1e-13) << "of meshlets";
+}
+
 /// The corners of an L are listed from each of them; those of its fan would cover what is outside.
 TEST(Patch, OfAPolygonIsItsOwn) {
   const std::vector<std::array<double, 2>> corners{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};

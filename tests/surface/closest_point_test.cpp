@@ -194,6 +194,24 @@ TEST(ClosestPoint, OfFacesThatMeetFindsTheOneWithTheSmallestNumber) {
   }
 }
 
+/// The fourth power of the distance overflows in the frame.
+TEST(ClosestPoint, IsFoundFromFarAway) {
+  for (const double at : {0.0, 1e111}) {
+    for (const double side : {0.0, 1.0}) {
+      TestMesh mesh;
+      for (const double y : {0.0, side}) mesh.add_vertex(at, y, 0);
+      mesh.add_vertex(at, 0, side);
+      mesh.add_face({0, 1, 2});
+      const WithSurface one = with_surface(mesh.finish(false));
+      for (const double q : {-1e50, -1e80, -1e120, -1e150}) {
+        const SurfacePoint found = one.surface.closest_point({q, 0.25, 0.25});
+        EXPECT_EQ(found.distance, at - q);
+        EXPECT_NEAR(found.barycentric[0] + found.barycentric[1] + found.barycentric[2], 1, 1e-15);
+      }
+    }
+  }
+}
+
 TEST(ClosestPoint, OfAConvexPolygonIsThatOfItsFan) {
   TestMesh mesh;
   mesh.add_vertex(0, 0, 0);
