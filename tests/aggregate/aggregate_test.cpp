@@ -681,7 +681,7 @@ TEST_F(Aggregate, RefusesWrongArguments) {
   refuse(ErrorCode::InvalidOption, "weights: 3599 values", {values, 1, weights}, query);
   const std::vector<VertexId> list{0, 3600};
   refuse(ErrorCode::VertexOutOfRange, "row 1", {values}, {.vertices = list, .radius = 1});
-  expect_refused(ErrorCode::TooLarge, "limit of 10 numbers",
+  expect_refused(ErrorCode::TooLarge, "more than 10 numbers, as many as fit into max_bytes, 80",
                  [&] { return aggregate(scene.index(), {values}, query, {.max_bytes = 80}); });
   std::vector<double> small(5);
   expect_refused(ErrorCode::InvalidOption, "room for 5 numbers",
