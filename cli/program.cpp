@@ -211,7 +211,7 @@ std::string unknown_argument(const CLI::App& program) {
   const CLI::App& command = commands.empty() ? program : *commands.front();
   for (const std::string& argument : command.remaining()) {
     const bool is_option = argument.starts_with('-');
-    if (!is_option && &command != &program) continue;
+    if (argument == "--" || (!is_option && &command != &program)) continue;
     std::vector<std::string> candidates = names_of_options(command);
     if (!is_option) {
       for (const CLI::App* known : program.get_subcommands({})) candidates.push_back(known->get_name());

@@ -65,7 +65,9 @@ class VtkWriter {
     }
   }
 
+  /// Some readers take no faces for a damaged file.
   void write_polygons() {
+    if (mesh_.faces.size() == 0) return;
     file_.write(fmt::format("\nPOLYGONS {} {}\n", mesh_.faces.size(), numbers_of(mesh_.faces)));
     mesh_.faces.for_each([this](std::size_t, std::span<const VertexId> corners) {
       number(static_cast<std::int32_t>(corners.size()));

@@ -429,6 +429,19 @@ def test_values_of_vtp(tmp_path):
     np.testing.assert_array_equal(mesh["n"], V)
     np.testing.assert_array_equal(mesh["RGB"], colors)
     np.testing.assert_array_equal(meshhood.read_mesh(tmp_path / "a.vtp").faces[1], polygons[1])
+    for letter in '"&<>':
+        with pytest.raises(ValueError, match=r"values\['a.b'\]: expected a name without .* for .vtp"):
+            meshhood.write_mesh(tmp_path / "b.vtp", V, F, values={f"a{letter}b": V[:, 2]})
+    assert not (tmp_path / "b.vtp").exists()
+
+
+@pytest.mark.parametrize("extension", ("vtk", "vtp"))
+def test_values_of_vertices_without_faces_are_read_by_vtk(tmp_path, extension):
+    pyvista = pytest.importorskip("pyvista")
+    file = tmp_path / f"a.{extension}"
+    meshhood.write_mesh(file, V, np.empty((0, 3), np.int32), values={"h": V[:, 2]})
+    np.testing.assert_array_equal(pyvista.read(file)["h"], V[:, 2])
+    assert len(meshhood.read_mesh(file).vertices) == len(V)
 
 
 def test_values_and_colors_of_glb(tmp_path):

@@ -328,6 +328,8 @@ def _write_gifti(nibabel: Any, writing: Writing, path: str) -> bytes:
 def _write_vtp(pyvista: Any, writing: Writing, path: str) -> bytes:
     mesh = poly_data(pyvista, writing.positions, writing.corners, writing.offsets)
     for name, numbers in writing.values:
+        if any(letter in name for letter in "\"&<>"):
+            raise ValueError(f"values[{name!r}]: expected a name without \" & < > for .vtp, where VTK does not escape them")
         mesh.point_data[name] = numbers
     if writing.colors is not None:
         mesh.point_data["RGB"] = writing.colors
