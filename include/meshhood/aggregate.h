@@ -125,8 +125,8 @@ struct AggregateQuery {
 };
 
 /// Returns the size of the result: #radii by #rows by channels by #reductions, radius after radius, and row after row.
-/// There is one radius unless there are scales. Throws Error{TooLarge} if it exceeds the address space or
-/// `run.max_bytes`, and Error{InvalidOption} if there are no channels or no reductions.
+/// There is one radius unless there are scales; radii and ids are not checked. Throws Error{TooLarge} if it exceeds the
+/// address space or `run.max_bytes`, and Error{InvalidOption} if there are no channels or no reductions.
 [[nodiscard]] std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query,
                                          const Run& run = {});
 

@@ -158,7 +158,7 @@ struct BatchQuery {
   Metric metric = Metric::Straight;
 
   /// Returns the number of rows of a result for a mesh of `vertex_count` vertices: #radii by #rows if there are scales.
-  /// Throws Error{TooLarge} if an array cannot have `columns` doubles for each.
+  /// Radii and ids are not checked. Throws Error{TooLarge} if an array cannot have `columns` doubles for each.
   [[nodiscard]] std::size_t result_rows(std::size_t vertex_count, std::size_t columns = 1) const;
 };
 

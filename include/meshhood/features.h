@@ -79,10 +79,12 @@ struct Persistence {
   std::vector<double> radius;    ///< #rows: the radius at which it has this strength; 0 if there is none
 };
 
-/// values     #radii by #rows, one kind of feature. A NaN ends a run.
-/// radii      >= 0, strictly ascending.
-/// threshold  > 0.
-/// Takes O(#values), on one thread. Throws Error{InvalidOption, InvalidRadius}.
+/// Finds over how many consecutive radii a feature lasts, for each of #rows = #values / #radii rows.
+///
+/// values     #radii by #rows, one kind of feature. A NaN ends a run. Error{InvalidOption} if #rows is not whole.
+/// radii      >= 0, strictly ascending, or Error{InvalidRadius}; at least one, or Error{InvalidOption}.
+/// threshold  > 0, or Error{InvalidOption}.
+/// Takes O(#values), on one thread.
 [[nodiscard]] Persistence persistence(std::span<const double> values, std::span<const double> radii, double threshold);
 
 MESHHOOD_API_END

@@ -27,8 +27,8 @@ struct LinkOptions {
 ///
 /// The points are sorted into the cells of a grid; one pass counts the neighbors and one lists them. Takes O(#V log #V
 /// + #pairs of points in neighboring cells). Outliers do not make the cells larger: where some are 2^50 times `link`
-/// away, the points are cut at gaps first, and each part has a grid of its own. Needs memory for the result, and 52
-/// bytes a point.
+/// away, the points are cut at gaps first, and each part has a grid of its own. Needs memory for the result, and at
+/// most 80 bytes a point.
 ///
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}; TooLarge, with the limit, if there are more than
 /// `max_edges`, as soon as so many are counted.

@@ -141,7 +141,7 @@ class Searcher {
   /// Returns #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// Returns the permutation of the index.
+  /// Returns the permutation of the index. It is valid as long as the searcher.
   [[nodiscard]] std::span<const VertexId> permutation() const&;
   [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 

@@ -24,7 +24,7 @@ using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 /// One thread for each processor.
 inline constexpr unsigned kAllProcessors = 0;
 
-/// The largest number of threads that a call accepts.
+/// The largest number of threads that calls accept; those that always run on one, such as `save`, may accept more.
 inline constexpr unsigned kMaxThreads = 1024;
 
 /// How a long call runs: the last argument of each. The result does not depend on it.

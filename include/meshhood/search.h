@@ -100,15 +100,15 @@ struct Dab {
 /// grown.
 ///
 /// Use one object per thread: it owns scratch memory, 23 to 30 bytes per leaf for balls around vertices, 64 for all
-/// else of the straight metric; 8 bytes a vertex for paths. Each part is made when it is first needed. It shares the
-/// memory of the index, which may be moved or destroyed meanwhile: answers are those of the index as it was. After
-/// `refit_in_place`, each query throws Error{InvalidOption} until `rebind`; so do those of a searcher that has been
-/// moved from, which can be assigned, destroyed and bound again.
+/// else of the straight metric, up to 250 more for `connecting_radius` and `nearest_connected`; 8 bytes a vertex for
+/// paths. Each part is made when it is first needed. It shares the memory of the index, which may be moved or destroyed
+/// meanwhile: answers are those of the index as it was. After `refit_in_place`, each query throws Error{InvalidOption}
+/// until `rebind`; so do those of one that has been moved from, which can be assigned, destroyed and bound again.
 ///
-/// On a graph unlike a surface (with a vertex that has very many neighbors, or with random edges), the cost of a ball
-/// is that of `ReferenceSearcher`, and each searcher owns 20 bytes per vertex more (36 for double). All of them share a
-/// copy of the graph, which the index keeps: 4 bytes per vertex and 4 for each of its neighbors, which `Index::bytes`
-/// does not count. The query that makes it takes O(#V + #E).
+/// On a graph unlike a surface (with a vertex that has very many neighbors, or with random edges), a ball takes the
+/// steps of `ReferenceSearcher` and up to four times as long. Each searcher then owns 20 bytes per vertex more (36 for
+/// double). All of them share a copy of the graph, which the index keeps: 4 bytes per vertex and 4 for each of its
+/// neighbors, which `Index::bytes` does not count. The query that makes it takes O(#V + #E).
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed, the coordinate, the dab or `k`;
 /// arguments are then unchanged. A point as a start by rings is an InvalidOption, because a point has no edges; so is
@@ -128,7 +128,7 @@ class Searcher {
   /// Returns #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// Returns the permutation of the index.
+  /// Returns the permutation of the index. It is valid as long as the searcher, or until `rebind`.
   [[nodiscard]] std::span<const VertexId> permutation() const&;
   [[nodiscard]] std::span<const VertexId> permutation() const&& = delete;
 

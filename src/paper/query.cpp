@@ -54,7 +54,7 @@ class Searcher::Query {
 
   [[nodiscard]] const Level<Real>& level() const { return hierarchy_.levels[level_]; }
 
-  /// Finds the position of `v` among the few vertices of its lowest cluster.
+  /// Finds the position of `v` by a scan of its lowest cluster, which has few vertices unless there is a hub.
   [[nodiscard]] Point position_of(VertexId v) const {
     const auto first = hierarchy_.vertices.begin() + hierarchy_.levels.front().first_vertex[cluster_];
     const auto position = std::find(first, hierarchy_.vertices.end(), v) - hierarchy_.vertices.begin();

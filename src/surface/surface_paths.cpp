@@ -92,6 +92,10 @@ class SurfaceGraph {
     });
     Adjacency edges;
     std::vector<double> lengths;
+    // The lists are kept, and hardly ever shorter than this: growing ones would keep up to twice the memory.
+    edges.offsets.reserve(lines.size() + 1);
+    edges.neighbors.reserve(lines.elements.size());
+    lengths.reserve(lines.elements.size());
     edges.offsets.push_back(0);
     for (VertexId v = 0; v < lines.size(); ++v) {
       for (const auto& [to, length] : lines[v]) {

@@ -61,6 +61,17 @@ def test_a_soup_whose_corners_differ_by_rounding_warns_with_a_distance():
     meshhood.MeshIndex(vertices, faces)  # no warning
 
 
+@pytest.mark.parametrize(("scales", "welds"), (((1,), 0), ((1, 1e-3, 1e-3), 1)), ids=("one size", "two sizes"))
+def test_faces_that_are_truly_separate_cause_no_warning_and_hardly_a_weld(monkeypatch, scales, welds):
+    random = np.random.default_rng(4)
+    cards = [scale * (V[quad] + random.uniform(0, 100, 3)) for scale in scales for quad in QUADS]
+    calls = []
+    weld = meshhood._mesh._core.weld
+    monkeypatch.setattr(meshhood._mesh._core, "weld", lambda *args, **options: calls.append(1) or weld(*args, **options))
+    meshhood.MeshIndex(np.concatenate(cards), np.arange(4 * len(cards)).reshape(-1, 4))
+    assert len(calls) == welds
+
+
 @pytest.mark.parametrize("eps", (np.nan, np.inf))
 def test_a_wrong_eps_is_refused(eps):
     with pytest.raises(ValueError, match="eps: .*expected a finite number >= 0"):

@@ -16,6 +16,8 @@
 
 #include "meshhood/meshhood.h"
 
+#include "exact/index_access.h"
+#include "exact/weighted_graph.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/indexed.h"
@@ -211,6 +213,15 @@ TEST(SurfacePaths, CrossNoCutEdgeAndNoSideOfThreeTriangles) {
   mesh.add_face({0, 1, 4});
   mesh.finish(false);
   EXPECT_GT(lengths_from(surface_paths(Surface(build(mesh.view()), mesh.view())), 2)[3], 2.1);
+}
+
+TEST(SurfacePaths, KeepNoMemoryThatTheyDoNotUse) {
+  const TestMesh mesh = ball(9, 13);
+  const Index index = surface_paths(Surface(build(mesh.view()), mesh.view()));
+  const WeightedGraph& graph = IndexAccess::share_graph(index)->paths_of(IndexAccess::view(index));
+  EXPECT_EQ(graph.lengths.capacity(), graph.lengths.size());
+  EXPECT_EQ(graph.edges->neighbors.capacity(), graph.edges->neighbors.size());
+  EXPECT_EQ(graph.edges->offsets.capacity(), graph.edges->offsets.size());
 }
 
 /// How much longer than a great circle, in the mean.
