@@ -112,15 +112,15 @@ void PacketPatches::add_meshlet(MeshletId meshlet) {
   const Meshlet& sums = state_->meshlets.meshlets[meshlet];
   if (sums.has_border) for_each_query(all, [&](std::size_t q) { sums_[q].meet_border(); });
   inside_.clear();
-  if (all != 0) inside_.push_back({sums.area, sums.vector_area, sums.moment, all});
+  if (all != 0) inside_.push_back({sums.area, sums.vector_area, sums.moment, sums.center(), all});
   if (some != all) {
-    for (const TriangleId t : state_->triangles.of_meshlet(meshlet)) add_triangle(t, sums.center(), some & ~all);
+    for (const TriangleId t : state_->triangles.of_meshlet(meshlet)) add_triangle(t, some & ~all);
   }
-  if (measures_) kernels_->add_whole(inside_, sums.center(), centers_, state_->index->frame.scale, whole_);
+  if (measures_) kernels_->add_whole(inside_, centers_, state_->index->frame.scale, whole_);
 }
 
-/// Adds a triangle, with its moment about `point`.
-void PacketPatches::add_triangle(TriangleId t, const Point& point, QueryWord queries) {
+/// Adds a triangle. Its moment is about a corner in the balls, since other corners of the meshlet may be far away.
+void PacketPatches::add_triangle(TriangleId t, QueryWord queries) {
   auto [a, b, c] = words_of(t);
   a &= queries;
   b &= queries;
@@ -135,7 +135,7 @@ void PacketPatches::add_triangle(TriangleId t, const Point& point, QueryWord que
   if (whole != 0 && measures_) {
     const double scale = state_->index->frame.scale;
     const Point vector = 0.5 * cross(scale * (corners[1] - corners[0]), scale * (corners[2] - corners[0]));
-    inside_.push_back({length(vector), vector, dot(vector, scale * (corners[0] - point)), whole});
+    inside_.push_back({length(vector), vector, 0, corners[0], whole});
   }
   // If two corners are in a ball, no side dips.
   const QueryWord cut = (measures_ ? a | b | c : a ^ b ^ c) & ~whole;

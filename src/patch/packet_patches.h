@@ -72,7 +72,7 @@ class PacketPatches {
   void leave_loose();
   void touch(LeafId leaf);
   void add_meshlet(MeshletId meshlet);
-  void add_triangle(TriangleId t, const Point& point, QueryWord queries);
+  void add_triangle(TriangleId t, QueryWord queries);
   void meet_borders(TriangleId t, const std::array<QueryWord, 3>& words);
   void leave_at_diagonals(TriangleId t, const std::array<QueryWord, 3>& words);
   void add_cut(TriangleId t, const std::array<Point, 3>& corners, const std::array<QueryWord, 3>& words,

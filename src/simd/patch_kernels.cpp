@@ -280,26 +280,25 @@ LaneMask measure(const CutTriangles& cut, std::size_t count, ClippedTriangles& c
   return plain & measured & first_lanes(static_cast<unsigned>(count));
 }
 
-void add_whole(std::span<const WholeTriangles> triangles, const Point& point, const PointPerLane<double>& centers,
-               double scale, WholeSums& sums) {
+void add_whole(std::span<const WholeTriangles> triangles, const PointPerLane<double>& centers, double scale,
+               WholeSums& sums) {
   const Doubles d;
   QueryWord queries = 0;
   for (const WholeTriangles& one : triangles) queries |= one.queries;
   for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Doubles>) {
     if ((queries >> i & first_lanes(kLanes<Doubles>)) == 0) continue;
+    const auto center = load_rows(d, centers, i);
     auto area = hn::Zero(d);
     auto moment = hn::Zero(d);
-    Vectors vector{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     for (const WholeTriangles& one : triangles) {
       const Lanes chosen = mask_of(d, one.queries >> i);
+      const auto offset = scaled(difference(splat_point(d, one.point), center), splat(scale));
+      const auto from_center = hn::Add(splat(one.moment), scalar_product(splat_point(d, one.vector), offset));
       area = hn::Add(area, only(d, chosen, splat(one.area)));
-      moment = hn::Add(moment, only(d, chosen, splat(one.moment)));
-      vector = sum(vector, {only(d, chosen, splat(one.vector.x)), only(d, chosen, splat(one.vector.y)),
-                            only(d, chosen, splat(one.vector.z))});
+      moment = hn::Add(moment, only(d, chosen, from_center));
     }
-    const auto offset = scaled(difference(splat_point(d, point), load_rows(d, centers, i)), splat(scale));
     add_to(sums.area[i], area);
-    add_to(sums.moment[i], hn::Add(moment, scalar_product(vector, offset)));
+    add_to(sums.moment[i], moment);
   }
 }
 

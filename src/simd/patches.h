@@ -100,12 +100,13 @@ struct ClippedTriangles {
   PerLane<double> imaginary;
 };
 
-/// Sums over triangles in the balls of some queries: of area, vector area, and area times distance of the plane from a
-/// point, along the normal.
+/// Sums over triangles in the balls of some queries: of area, vector area, and area times distance of the plane from
+/// `point`, along the normal. From a point far from the triangles, the last would lose digits.
 struct WholeTriangles {
   double area;
   Point vector;
   double moment;
+  Point point;
   QueryWord queries;
 };
 
@@ -116,10 +117,9 @@ struct WholeSums {
 };
 
 struct PatchKernels {
-  /// Adds triangles to the sums of their queries: their area, and their moment from the center of the query. The
-  /// moments in `triangles` are from `point`.
-  void (*add_whole)(std::span<const WholeTriangles> triangles, const Point& point, const PointPerLane<double>& centers,
-                    double scale, WholeSums& sums);
+  /// Adds triangles to the sums of their queries: their area, and their moment from the center of the query.
+  void (*add_whole)(std::span<const WholeTriangles> triangles, const PointPerLane<double>& centers, double scale,
+                    WholeSums& sums);
 
   /// Measures the first `count` triangles; reads and writes whole vectors, so the lanes behind them need rows, too.
   /// Returns those that it has measured: not one that has no area, is a needle, has a corner far away, an arc that is

@@ -34,18 +34,21 @@ constexpr std::size_t kRaysAhead = 8;
 constexpr std::size_t kRaysTogether = 8;
 constexpr std::size_t kCachedBytes = 8 << 20;
 
-/// Returns twice the signed area of the triangle of the origin and two points of the plane; exact if it is 0. The
-/// rounding of the products keeps their order, unless they become equal.
+/// Returns twice the signed area of the triangle of the origin and two points of the plane.
+Twofold precise_area(const Point& a, const Point& b) { return Twofold::product(a.x, b.y) - Twofold::product(a.y, b.x); }
+
+/// Does the same in double; exact if it is 0. The rounding of the products keeps their order, unless they become equal.
 double doubled_area(const Point& a, const Point& b) {
   const double left = a.x * b.y;
   const double right = a.y * b.x;
-  return left != right ? left - right : Twofold::product(a.x, b.y).low - Twofold::product(a.y, b.x).low;
+  return left != right ? left - right : static_cast<double>(precise_area(a, b));
 }
 
 Point flat(const Point& p) { return {p.x, p.y, 0}; }
 
 /// Returns the weights of the origin in a triangle of the plane, inside of which it lies: its share of the height over
 /// the longest side, then its share of this side. So it is off by a few units of this side, however thin the triangle.
+/// Where the areas are mostly rounding, a weight may be negative.
 std::array<double, 3> weights_inside(const std::array<Point, 3>& seen, const std::array<double, 3>& areas) {
   const std::array sides{flat(seen[1] - seen[0]), flat(seen[2] - seen[1]), flat(seen[0] - seen[2])};
   const std::size_t i = longest(sides);
@@ -53,10 +56,25 @@ std::array<double, 3> weights_inside(const std::array<Point, 3>& seen, const std
   const std::size_t k = (i + 2) % 3;
   std::array<double, 3> weights{};
   weights[k] = areas[k] / ((areas[0] + areas[1]) + areas[2]);
-  const double share = -dot(sides[i], flat(seen[i]) - weights[k] * sides[k]) / dot(sides[i], sides[i]);
-  weights[j] = std::clamp(share, 0.0, 1 - weights[k]);
-  weights[i] = std::max((1 - weights[j]) - weights[k], 0.0);
+  weights[j] = -dot(sides[i], flat(seen[i]) - weights[k] * sides[k]) / dot(sides[i], sides[i]);
+  weights[i] = (1 - weights[j]) - weights[k];
   return weights;
+}
+
+/// Returns the same weights by areas that are not rounding. They tell on which side of the origin the triangle is.
+std::array<Twofold, 3> precise_weights_inside(const std::array<Point, 3>& seen) {
+  const std::array areas{precise_area(seen[1], seen[2]), precise_area(seen[2], seen[0]),
+                         precise_area(seen[0], seen[1])};
+  const Twofold sum = areas[0] + areas[1] + areas[2];
+  return {areas[0] / sum, areas[1] / sum, areas[2] / sum};
+}
+
+/// Returns how far along the ray a triangle is met.
+template <class Real>
+Real way_of(const std::array<Point, 3>& seen, const std::array<Real, 3>& weights) {
+  Real way = 0;
+  for (std::size_t i = 0; i < 3; ++i) way = way + weights[i] * seen[i].z;
+  return way;
 }
 
 /// Returns the weights on the line of the side from corner `i` to `j`, seen from the same end by all its triangles.
@@ -155,14 +173,17 @@ std::optional<TrianglePoint> Ray::meet(const std::array<Point, 3>& corners) cons
   if ((least < 0) == (most > 0)) return std::nullopt;  // the triangle is beside the ray, or seen from its side
   TrianglePoint found{{}, {0, 0, 0}, 0};
   const auto zero = static_cast<std::size_t>(std::ranges::find(areas, 0.0) - areas.begin());
-  found.barycentric = zero == areas.size() ? weights_inside(seen, areas)
-                                           : weights_on_side(corners, seen, (zero + 1) % 3, (zero + 2) % 3);
-  double way = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    found.point = found.point + found.barycentric[i] * corners[i];
-    way += found.barycentric[i] * seen[i].z;
+  const bool is_inside = zero == areas.size();
+  found.barycentric =
+      is_inside ? weights_inside(seen, areas) : weights_on_side(corners, seen, (zero + 1) % 3, (zero + 2) % 3);
+  double way = way_of(seen, found.barycentric);
+  if (is_inside && (way < 0 || std::ranges::min(found.barycentric) < 0)) {
+    const std::array<Twofold, 3> weights = precise_weights_inside(seen);
+    for (std::size_t i = 0; i < 3; ++i) found.barycentric[i] = static_cast<double>(weights[i]);
+    way = static_cast<double>(way_of(seen, weights));
   }
   if (!(way >= 0)) return std::nullopt;
+  for (std::size_t i = 0; i < 3; ++i) found.point = found.point + found.barycentric[i] * corners[i];
   found.distance = way / scale_ * length_;
   return found;
 }

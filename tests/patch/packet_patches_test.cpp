@@ -25,6 +25,7 @@
 #include "support/family_name.h"
 #include "support/indexed.h"
 #include "support/random.h"
+#include "support/round_meshes.h"
 #include "support/scale.h"
 #include "support/test_triangles.h"
 #include "surface/surface.h"
@@ -166,6 +167,24 @@ TEST(PacketPatches, FollowSidesThatDipIntoTheBall) {
     // Beyond so many the patch is searched alone, so that the time is in proportion.
     EXPECT_EQ(found, count > 64 ? 0U : 1U) << count;
     EXPECT_TRUE(found == 0 || triangles == PatchSearcher(surface).patch(0, 0.9).size());
+  }
+}
+
+/// Those of a search alone keep their digits beside a far corner, even one of their meshlet.
+TEST(PacketPatches, KeepTheirDigitsBesideAFarCorner) {
+  constexpr double kRadius = 0.8;
+  const double whole = 4 * std::numbers::pi / 3 * kRadius * kRadius * kRadius;
+  for (const double far : {1e9, 1e16, 1e60}) {
+    SCOPED_TRACE(far);
+    TestMesh given = ball(7, 10);
+    const std::size_t last = given.size() - 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) given.positions[3 * last + axis] *= far;
+    const auto [mesh, index, surface] = with_surface(std::move(given));
+    const Invariants all = invariants(surface, {.radius = kRadius});
+    PatchSearcher searcher(surface);
+    for (VertexId v = 0; v < last; ++v) {
+      EXPECT_NEAR(all.volume[v] / whole, searcher.measure(v, kRadius).volume / whole, 1e-12) << v;
+    }
   }
 }
 

@@ -198,6 +198,74 @@ TEST(Ray, MeetsASliverToAFewUnitsOfItsLongestSide) {
   EXPECT_LE(most, 64 * 0x1p-53);
 }
 
+/// The corners of a cap are collinear but for rounding, so its areas as the ray sees them are rounding, too.
+TEST(Ray, MeetsACapOnTheRay) {
+  Random random(9);
+  double most = 0;
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < scaled(100000, 10000); ++i) {
+    const Point a = random_point(random);
+    const Point b = random_point(random);
+    const std::array corners{a, b, a + random.uniform() * (b - a)};
+    const Point origin = 2 * random_point(random);
+    const Point direction = a + random.uniform() * (b - a) - origin;
+    const auto found = Ray(origin, direction, {}).meet(corners);
+    if (!found) continue;
+    ++hits;
+    ASSERT_GE(std::ranges::min(found->barycentric), 0) << i;
+    most = std::max(most, length(origin + found->distance / length(direction) * direction - found->point));
+  }
+  std::printf("%zu hits, at most %.2g units of 2^-53\n", hits, most * 0x1p53);
+  EXPECT_GT(hits, 1000U);
+  EXPECT_LE(most, 64 * 0x1p-53);
+}
+
+/// Rays to a point of a cap. The second leaves a closed body, in which no other triangle is ahead.
+TEST(Ray, MeetsACapAtItsDistance) {
+  struct Case {
+    std::array<Point, 3> corners;
+    Point origin;
+    Point direction;
+  };
+  const Case cases[] = {
+      {{{{1.156684816361389, 0.2556536953260734, -0.28195093113356795},
+         {-0.6687632486800595, 0.02914187841028646, -1.0272423409142437},
+         {1.0251246650039123, 0.23932897511716328, -0.33566412766537207}}},
+       {-2.1349531896997123, 1.1762362884771016, 0.8072949629243333},
+       {1.8926297128853187, -1.0941793754622824, -1.6604310639258597}},
+      {{{{0, -1.1223924735486979, 0}, {-1155.8555292024978, 0, 0}, {-20.64839823166753, -1.102341864990334, 0}}},
+       {-10.50010019223354, -0.006981018155285734, 0.07274969336312598},
+       {3.088129614902522, -1.1082140680210468, -0.07274969336312598}}};
+  for (const auto& [corners, origin, direction] : cases) {
+    const auto found = Ray(origin, direction, {}).meet(corners);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->distance, length(direction), 1e-14);
+  }
+}
+
+/// Such a triangle leads from before the origin to behind it, so its weights in double do not tell where it is met.
+TEST(Ray, MeetsWhatLiesAheadIfItIsSeenNearlyFromItsSide) {
+  Random random(10);
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < scaled(100000, 10000); ++i) {
+    // Whole numbers, so that all is exact.
+    const auto whole = [&](std::uint64_t bound) { return static_cast<double>(random.below(bound)); };
+    const double x = 0x1p36 + whole(1ULL << 36U);
+    const double y = x + 1 + whole(100);
+    const Point u{x, y, whole(1ULL << 37U) - 0x1p36};
+    const Point v{x + 1, y + 1, whole(1ULL << 37U) - 0x1p36};
+    const std::array<double, 4> share{whole(9) - 4, whole(9) - 4, whole(9) - 4, whole(9) - 4};
+    if (share[0] * share[3] == share[1] * share[2]) continue;  // a line
+    const Point a = share[0] * u + share[1] * v;
+    const Point b = share[2] * u + share[3] * v;
+    const Point middle{0, 0, whole(1ULL << 30U)};
+    const auto found = Ray({0, 0, 0}, {0, 0, 1}, {}).meet({middle + a, middle + b, middle - (a + b)});
+    ASSERT_TRUE(found) << i;
+    ++hits;
+  }
+  EXPECT_GT(hits, 1000U);
+}
+
 TEST(Ray, OnASideMeetsBothTrianglesAtTheSameDistance) {
   Random random(3);
   std::size_t at_side = 0;
