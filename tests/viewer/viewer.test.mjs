@@ -279,6 +279,26 @@ async function chooseColor(page, color) {
 
 const valuesOf = (page) => page.evaluate(() => Array.from(window.meshhoodPage.values));
 
+test('curvatures of two sheets on each other, whose normals cancel but for rounding, are those of the command line', async () => {
+  const side = 40;
+  const rows = Array.from({ length: side * side }, (_, v) => {
+    const [x, y] = [v % side, Math.floor(v / side)];
+    return [x / 3, y / 7, Math.sin(x) / 5 + Math.cos(1.7 * y) / 9].join(' ');
+  });
+  const faces = rows.flatMap((_, v) => (v % side === side - 1 || v + side >= rows.length ? [] : [
+    `3 ${v} ${v + 1} ${v + side}`, `3 ${v + 1} ${v + side + 1} ${v + side}`,
+    `3 ${v + side} ${v + 1} ${v}`, `3 ${v + side} ${v + side + 1} ${v + 1}`,
+  ]));
+  writeFileSync(file('sheets.off'), ['OFF', `${rows.length} ${faces.length} 0`, ...rows, ...faces, ''].join('\n'));
+  meshhood('view', 'sheets.off', '-v', '820', '-r', '1.5', '-o', 'sheets.html');
+  meshhood('curvature', 'sheets.off', '-r', '1.5', '-o', 'sheets.npz');
+  const { k1, state } = arraysOf(readFileSync(file('sheets.npz')));
+  const page = await openPage(browser, file('sheets.html'));
+  await page.click('#display summary');
+  await chooseColor(page, 'k1');
+  assert.deepEqual(await valuesOf(page), Array.from(k1, (x, v) => ([2, 3].includes(state[v]) ? NaN : x)));
+});
+
 test('curvatures are those of the command line, where something could be fitted', async () => {
   meshhood('generate', 'folds', '--vertices', '5000', '-o', 'folds.ply');
   meshhood('curvature', 'folds.ply', '-r', '3', '-o', 'folds.npz');
