@@ -179,6 +179,7 @@ test('a finger chooses a vertex, and takes the marker along', async () => {
 test('files that are dropped are shown; broken ones get the words of the command line', async () => {
   const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
   assert.equal(await page.inputValue('#vertex'), '5');
+  assert.equal(await page.getAttribute('#file', 'accept'), '.ply,.obj,.off,.stl,.vtk,.mhi');
   await show(page, 'scroll.ply', readFileSync(file('scroll.ply')));
   await setRadius(page, 8);
   await setVertex(page, 4321);
