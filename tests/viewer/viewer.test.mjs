@@ -81,6 +81,38 @@ test('a click on a vertex asks for it, and a drag of the marker takes it along',
   await expectAnswers(page, 'plates.ply', 690, 3);
 });
 
+test('what is no query is refused until the next input, and the query before stays', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=500&radius=1e308' });
+  const give = async (id, text) => {
+    await page.fill(`#${id}`, text);
+    await page.press(`#${id}`, 'Enter');
+    await waitForAnswers(page);
+  };
+  const error = () => page.textContent('#error p');
+  const fields = ['vertex', 'radius-edges', 'radius-units'];
+  const shown = () => Promise.all(fields.map((id) => page.inputValue(`#${id}`)));
+  assert.ok((await shown()).every((text) => Number.isFinite(parseFloat(text))), 'a link without a radius that is finite');
+  await give('radius-edges', '3');
+  const before = [...await shown(), await idsOf(page, 'exact')];
+  for (const [id, text, expected] of [
+    ['vertex', '1.5', /^vertex 1\.5, expected a whole number$/],
+    ['vertex', '99999999', /^vertex 99999999, but the mesh has \d+ vertices$/],
+    ['vertex', '-3', /^vertex -3, but the mesh has \d+ vertices$/],
+    ['radius-edges', '1.7e308', /^radius Infinity, expected a finite number$/],
+  ]) {
+    await give(id, text);
+    assert.match(await error(), expected);
+    assert.deepEqual([...await shown(), await idsOf(page, 'exact')], before, text);
+    await give('radius-edges', '4');
+    assert.ok(await page.isHidden('#error'), text);
+    await give('radius-edges', '3');
+  }
+  await drop(page, 'broken.obj', Buffer.from('v 0\n'));
+  await page.waitForSelector('#error:not([hidden])');
+  await give('vertex', '501');
+  assert.match(await error(), /^broken\.obj/);
+});
+
 test('the slider and both numbers set the same radius', async () => {
   const page = await openPage(browser, file('page.html'));
   const read = async () => [Number(await page.inputValue('#radius-edges')), Number(await page.inputValue('#radius-units'))];
@@ -123,6 +155,12 @@ test('keys do what their list says', async () => {
   assert.equal(await edges(), 11.2);
   await press('-');
   assert.equal(await edges(), 10);
+  for (const [key, radius] of [['-', 0.1786], ['+', 0.56]]) { // from a fifth; + begins at half an edge
+    await page.fill('#radius-edges', '0.2');
+    await page.press('#radius-edges', 'Enter');
+    await press(key);
+    assert.equal(await edges(), radius, key);
+  }
   for (const [key, id] of [['h', 'nearer'], ['w', 'wireframe'], ['b', 'ball']]) {
     const before = await page.evaluate((id) => document.getElementById(id).checked, id);
     await press(key);
