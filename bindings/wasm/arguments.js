@@ -124,10 +124,10 @@ export function expectString(value, name) {
   if (typeof value !== 'string') refuseType(value, name, 'a string');
 }
 
-/** `count` is that of the mesh. */
+/** Returns the vertex. `count` is that of the mesh. */
 export function expectVertex(v, count) {
   if (!Number.isInteger(v)) throw new TypeError(`vertex ${shown(v)}, expected a whole number`);
-  if (v >= 0 && v < count) return;
+  if (v >= 0 && v < count) return v;
   throw new MeshhoodError('VertexOutOfRange', `vertex ${v}, but the mesh has ${count} vertices`);
 }
 
@@ -183,6 +183,7 @@ export function withFaces(instance, faces, use) {
     if (instance.call('take_held_faces')) return use();
     throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which this index does not have');
   }
+  if (typeof faces !== 'object' || !('corners' in faces)) refuseType(faces, 'faces', 'an object with corners');
   const corners = expectType(faces.corners, INDICES, 'corners');
   const offsets = readOffsets(faces.offsets ?? null);
   return instance.with([widened(corners), widened(offsets)], (ids, begins) => {

@@ -16,10 +16,7 @@ const PAGE_BYTES = 2 ** 16;
 /** What an instance can hold is less than the 4 GiB that it can address. */
 const MOST_BYTES = 2 ** 32 - PAGE_BYTES;
 
-/**
- * Errors of the arguments of a call, after which the instance is unchanged. Where memory is out, the module traps
- * without an error.
- */
+/** Errors of arguments, after which the instance is unchanged. Where memory is out, the module traps without one. */
 const ARGUMENT_ERRORS = new Set(['VertexOutOfRange', 'InvalidRadius', 'InvalidOption', 'InvalidMesh', 'TooLarge']);
 
 export class MeshhoodError extends Error {

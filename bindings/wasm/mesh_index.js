@@ -295,9 +295,10 @@ export class MeshIndex extends Owner {
 
   /** The coordinates of a point; or a vertex of the mesh, alone. */
   #readStart(start) {
-    if (!isVertex(start)) return expectPoint(start, 'start', 'a vertex or three numbers');
-    expectVertex(start, this.#vertexCount);
-    return [start];
+    if (isVertex(start)) return [expectVertex(start, this.#vertexCount)];
+    const place = expectPoint(start, 'start', 'a vertex or three numbers');
+    this.instance.call('check_start', ...place);
+    return place;
   }
 
   /** Calls `use` while the start and the masks are in the memory of the module, and returns its result. */

@@ -201,8 +201,7 @@ export interface MetricOptions {
   metric?: Metric;
   /**
    * For metric `surface`: the faces that the index was built from; null for those that it holds. Their lines, about
-   * 150 bytes a vertex for each use with or without masks, are kept until other faces are used; each call compares the
-   * faces.
+   * 150 bytes a vertex for each use with or without masks, are kept until other faces are used, which each call checks.
    */
   faces?: Faces | null;
 }
@@ -365,8 +364,7 @@ export class Curvature {
   /** K = k1 k2. */
   readonly gaussian: Unshared<Float64Array>;
   /**
-   * Koenderink's shape index: 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a valley, -1 in a bowl. NaN where
-   * both curvatures are 0.
+   * Koenderink's shape index: 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a valley, -1 in a bowl, NaN if flat.
    */
   readonly shapeIndex: Unshared<Float64Array>;
   /** Koenderink's curvedness, the square root of (k1^2 + k2^2) / 2. */
@@ -509,11 +507,9 @@ export class MeshIndex {
   );
 
   /**
-   * Loads a saved index and verifies all of it. The bytes are those of an index file of C++, Python or the command
-   * line.
+   * Loads a saved index and verifies all of it. The bytes are an index file of C++, Python or the command line.
    *
-   * @throws MeshhoodError MalformedIndex, naming the section, the byte, what it contains and what was expected;
-   * TooLarge
+   * @throws MeshhoodError TooLarge; MalformedIndex, with the section, the byte, what it contains and what was expected
    */
   static load(bytes: Bytes, options?: { progress?: Progress | null }): MeshIndex;
 
@@ -588,11 +584,7 @@ export class MeshIndex {
     r: number,
     options?: StartOptions & AnswerOptions & { distances?: false },
   ): Unshared<Uint32Array>;
-  neighborhood(
-    start: Start,
-    r: number,
-    options: StartOptions & AnswerOptions & { distances: true },
-  ): IdsWithDistances;
+  neighborhood(start: Start, r: number, options: StartOptions & AnswerOptions & { distances: true }): IdsWithDistances;
   neighborhood(
     start: Start,
     r: number,
@@ -646,18 +638,11 @@ export class MeshIndex {
    * The first point of the surface on the ray from a point along a direction, which is not 0, of any length; null if it
    * meets nothing. It meets either side of a face, and slips through nowhere between faces. As `closestPoint` otherwise.
    */
-  firstHit(
-    origin: Exclude<Start, number>,
-    direction: Exclude<Start, number>,
-    options?: FaceOptions,
-  ): SurfacePoint | null;
+  firstHit(origin: Exclude<Start, number>, direction: Exclude<Start, number>, options?: FaceOptions): SurfacePoint | null;
 
   /** The neighborhoods of many vertices, of all by default. */
   neighborhoods(r: Radii, options?: RowOptions & AnswerOptions & { distances?: false }): Rows;
-  neighborhoods(
-    r: Radii,
-    options: RowOptions & AnswerOptions & { distances: true },
-  ): RowsWithDistances;
+  neighborhoods(r: Radii, options: RowOptions & AnswerOptions & { distances: true }): RowsWithDistances;
   neighborhoods(r: Radii, options?: RowOptions & AnswerOptions & { distances?: boolean }): Rows | RowsWithDistances;
 
   /** The number of vertices of each neighborhood: #rows; with scales, r is null, and the result is #scales by #rows. */
@@ -758,10 +743,7 @@ export class MeshIndex {
   smooth(
     values: Numbers,
     fwhm: number,
-    options?: Pick<
-      AggregateOptions,
-      'weights' | 'faces' | 'vertices' | 'metric' | 'walls' | 'ignored' | 'nan' | 'unit'
-    >,
+    options?: Pick<AggregateOptions, 'weights' | 'faces' | 'vertices' | 'metric' | 'walls' | 'ignored' | 'nan' | 'unit'>,
   ): Unshared<Float64Array>;
 
   /**

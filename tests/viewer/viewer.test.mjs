@@ -81,6 +81,38 @@ test('a click on a vertex asks for it, and a drag of the marker takes it along',
   await expectAnswers(page, 'plates.ply', 690, 3);
 });
 
+test('what is no query is refused until the next input, and the query before stays', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=500&radius=1e308' });
+  const give = async (id, text) => {
+    await page.fill(`#${id}`, text);
+    await page.press(`#${id}`, 'Enter');
+    await waitForAnswers(page);
+  };
+  const error = () => page.textContent('#error p');
+  const fields = ['vertex', 'radius-edges', 'radius-units'];
+  const shown = () => Promise.all(fields.map((id) => page.inputValue(`#${id}`)));
+  assert.ok((await shown()).every((text) => Number.isFinite(parseFloat(text))), 'a link without a radius that is finite');
+  await give('radius-edges', '3');
+  const before = [...await shown(), await idsOf(page, 'exact')];
+  for (const [id, text, expected] of [
+    ['vertex', '1.5', /^vertex 1\.5, expected a whole number$/],
+    ['vertex', '99999999', /^vertex 99999999, but the mesh has \d+ vertices$/],
+    ['vertex', '-3', /^vertex -3, but the mesh has \d+ vertices$/],
+    ['radius-edges', '1.7e308', /^radius Infinity, expected a finite number$/],
+  ]) {
+    await give(id, text);
+    assert.match(await error(), expected);
+    assert.deepEqual([...await shown(), await idsOf(page, 'exact')], before, text);
+    await give('radius-edges', '4');
+    assert.ok(await page.isHidden('#error'), text);
+    await give('radius-edges', '3');
+  }
+  await drop(page, 'broken.obj', Buffer.from('v 0\n'));
+  await page.waitForSelector('#error:not([hidden])');
+  await give('vertex', '501');
+  assert.match(await error(), /^broken\.obj/);
+});
+
 test('the slider and both numbers set the same radius', async () => {
   const page = await openPage(browser, file('page.html'));
   const read = async () => [Number(await page.inputValue('#radius-edges')), Number(await page.inputValue('#radius-units'))];
@@ -123,6 +155,12 @@ test('keys do what their list says', async () => {
   assert.equal(await edges(), 11.2);
   await press('-');
   assert.equal(await edges(), 10);
+  for (const [key, radius] of [['-', 0.1786], ['+', 0.56]]) { // from a fifth; + begins at half an edge
+    await page.fill('#radius-edges', '0.2');
+    await page.press('#radius-edges', 'Enter');
+    await press(key);
+    assert.equal(await edges(), radius, key);
+  }
   for (const [key, id] of [['h', 'nearer'], ['w', 'wireframe'], ['b', 'ball']]) {
     const before = await page.evaluate((id) => document.getElementById(id).checked, id);
     await press(key);
@@ -179,6 +217,7 @@ test('a finger chooses a vertex, and takes the marker along', async () => {
 test('files that are dropped are shown; broken ones get the words of the command line', async () => {
   const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
   assert.equal(await page.inputValue('#vertex'), '5');
+  assert.equal(await page.getAttribute('#file', 'accept'), '.ply,.obj,.off,.stl,.vtk,.mhi');
   await show(page, 'scroll.ply', readFileSync(file('scroll.ply')));
   await setRadius(page, 8);
   await setVertex(page, 4321);
@@ -278,6 +317,26 @@ async function chooseColor(page, color) {
 }
 
 const valuesOf = (page) => page.evaluate(() => Array.from(window.meshhoodPage.values));
+
+test('curvatures of two sheets on each other, whose normals cancel but for rounding, are those of the command line', async () => {
+  const side = 40;
+  const rows = Array.from({ length: side * side }, (_, v) => {
+    const [x, y] = [v % side, Math.floor(v / side)];
+    return [x / 3, y / 7, Math.sin(x) / 5 + Math.cos(1.7 * y) / 9].join(' ');
+  });
+  const faces = rows.flatMap((_, v) => (v % side === side - 1 || v + side >= rows.length ? [] : [
+    `3 ${v} ${v + 1} ${v + side}`, `3 ${v + 1} ${v + side + 1} ${v + side}`,
+    `3 ${v + side} ${v + 1} ${v}`, `3 ${v + side} ${v + side + 1} ${v + 1}`,
+  ]));
+  writeFileSync(file('sheets.off'), ['OFF', `${rows.length} ${faces.length} 0`, ...rows, ...faces, ''].join('\n'));
+  meshhood('view', 'sheets.off', '-v', '820', '-r', '1.5', '-o', 'sheets.html');
+  meshhood('curvature', 'sheets.off', '-r', '1.5', '-o', 'sheets.npz');
+  const { k1, state } = arraysOf(readFileSync(file('sheets.npz')));
+  const page = await openPage(browser, file('sheets.html'));
+  await page.click('#display summary');
+  await chooseColor(page, 'k1');
+  assert.deepEqual(await valuesOf(page), Array.from(k1, (x, v) => ([2, 3].includes(state[v]) ? NaN : x)));
+});
 
 test('curvatures are those of the command line, where something could be fitted', async () => {
   meshhood('generate', 'folds', '--vertices', '5000', '-o', 'folds.ply');
@@ -438,7 +497,11 @@ test('a broken file that comes while a mesh is prepared leaves that mesh, as wha
 
 test('a link that comes while a mesh is prepared is followed, also to the mesh that is shown', async () => {
   const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=folds&vertex=5&radius=3' });
-  await openExample(page, 'terrain', () => { location.hash = '#example=folds&vertex=7&radius=3'; });
+  await openExample(page, 'terrain', () => {
+    const { href } = location;
+    location.hash = '#example=folds&vertex=7&radius=3';
+    history.replaceState(null, '', href); // as the page does when a mesh is open, before it learns of the link
+  });
   await waitForMesh(page, 'folds');
   assert.equal(await page.inputValue('#vertex'), '7');
 });

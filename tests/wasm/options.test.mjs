@@ -92,6 +92,31 @@ test('options of another type are refused by name, and leave the index usable', 
   assert.ok(index.count(5, 3) > 0);
 });
 
+test('an error names the argument that it is about', () => {
+  const point = ': coordinate 0 is nan, expected a finite number of magnitude up to 2^500';
+  const ids = Uint32Array.of(1);
+  const start = [NaN, 0, 0];
+  const expected = 'expected an object with corners';
+  const cutting = (...cut) => () => build(mesh, { cut: Uint32Array.from(cut) });
+  for (const [call, message] of [
+    [() => index.curvature(2, { faces: mesh.corners }), `faces: Uint32Array, ${expected}`],
+    [() => index.submesh(ids, { faces: {} }), `faces: Object, ${expected}`],
+    [() => index.thickness({ faces: 'all' }), `faces: 'all', ${expected}`],
+    [() => index.gaps(2, { faces: { corners: [0, 1, 2] } }), 'corners: Array, expected Uint32Array or Int32Array or Uint16Array'],
+    [() => new MeshIndex(mesh.positions), 'corners: undefined, expected Uint32Array or Int32Array or Uint16Array'],
+    [cutting(0, 1, 2), 'cut: edges: 3 ends, expected two for each edge'],
+    [cutting(0, 71), 'cut: edge 0: vertices 0 and 71 are not joined by an edge'],
+    [cutting(0, 1, 0, 99), 'cut: edge 1: vertex 99, but the mesh has 72 vertices'],
+    [() => index.rim(ids, start, 1, { faces: mesh }), `start${point}`],
+    [() => index.patch(start, 1, { faces: mesh, face: 0 }), `start${point}`],
+    [() => index.count(start, 1), `start${point}`],
+    [() => index.neighborhood(start, 1, { seeds: ids }), `start${point}`],
+    [() => index.nearest(start), `point${point}`],
+  ]) {
+    assert.throws(call, { message });
+  }
+});
+
 test('options that are no object are refused', () => {
   for (const options of ['edge', null, 3, true]) {
     assert.throws(() => index.neighborhood(5, 3, options), { name: 'TypeError', message: `options: ${options}, expected an object` });

@@ -14,8 +14,8 @@ test('the packed package works in an empty project', () => {
   assert.match(archive, /^meshhood-[\d.]+\.tgz$/);
   assert.deepEqual(readdirSync(join(project, 'node_modules', 'meshhood')).sort(), [
     'LICENSE', 'NOTICE', 'README.md', 'arguments.js', 'curvature.js', 'instance.js', 'mesh_file.js', 'mesh_index.js',
-    'meshhood.d.ts', 'meshhood.js', 'meshhood.wasm', 'package.json', 'rows.js', 'version.js', 'weld.js',
-    'words.js',
+    'meshhood.d.ts', 'meshhood.js', 'meshhood.wasm', 'meshhood.wasm.d.ts', 'package.json', 'rows.js', 'version.js',
+    'weld.js', 'words.js',
   ]);
   writeFileSync(join(project, 'use.js'), `
     import { MeshIndex, initialize, version } from 'meshhood';

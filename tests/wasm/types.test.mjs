@@ -77,6 +77,14 @@ const FILES = `
   }
 `;
 
+test('the file of the module has a type', () => {
+  const use = "import { initialize } from 'meshhood';\nimport wasm from 'meshhood/meshhood.wasm';\nawait initialize(wasm);";
+  for (const way of ['nodenext', 'esnext']) {
+    const options = ['--target', 'es2022', '--module', way, '--moduleResolution', way === 'nodenext' ? way : 'bundler'];
+    assert.deepEqual(compile(use, ...options), { status: 0, stdout: '' }, way);
+  }
+});
+
 test('a browser takes results for a file', () => {
   assert.deepEqual(compile(FILES, '--target', 'es2022'), { status: 0, stdout: '' });
 });

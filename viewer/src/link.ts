@@ -32,8 +32,8 @@ export function toHash(state: State): string {
   return `#${parameters.toString().replaceAll('%2C', ',')}`;
 }
 
-/** Values that are missing in the address, or are not numbers, are null. */
-export function fromHash(hash: string): State {
+/** Values that are missing in the address, by default all, or are not numbers, are null. */
+export function fromHash(hash = ''): State {
   const parameters = new URLSearchParams(hash.replace(/^#/, ''));
   const camera = (parameters.get('camera') ?? '').split(',').map(Number);
   return {

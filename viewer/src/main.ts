@@ -56,7 +56,7 @@ class Page {
     connectNotices();
     this.#connectKeys();
     this.#keepClear();
-    window.addEventListener('hashchange', () => this.#follow(fromHash(location.hash)));
+    window.addEventListener('hashchange', ({ newURL }) => this.#follow(fromHash(new URL(newURL).hash)));
     document.getElementById('copy-link')!.hidden = !HAS_ADDRESS;
     this.#opening.openFirst(fromHash(location.hash));
   }

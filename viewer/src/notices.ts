@@ -22,6 +22,13 @@ export const showError = showIn('error');
 /** What the page accepted, but may not be as it was meant. */
 export const showWarning = showIn('warning');
 
+let refusal: string | null = null;
+/** Shows why an input is refused, until one is accepted: null. Any other error stays. */
+export function showRefusal(reason: string | null): void {
+  if (reason !== null || document.querySelector('#error p')!.textContent === refusal) showError(reason);
+  refusal = reason;
+}
+
 const hint = () => document.getElementById('hint')!;
 let timer = 0;
 

@@ -21,8 +21,6 @@ export interface Asked {
   pageData: PageData | null;
 }
 
-const NO_LINK = '';
-
 export class Opening {
   readonly #engine: Engine;
   readonly #panel: Panel;
@@ -48,13 +46,13 @@ export class Opening {
     }
   }
 
-  openExample(name: string, link: State = fromHash(NO_LINK)): void {
+  openExample(name: string, link: State = fromHash()): void {
     const example = findExample(name) ?? EXAMPLES[0];
     this.#open({ source: { kind: 'example', name: example.name }, link, pageData: null });
   }
 
   openFile(file: File): void {
-    this.#open({ source: { kind: 'file', name: file.name, content: file }, link: fromHash(NO_LINK), pageData: null });
+    this.#open({ source: { kind: 'file', name: file.name, content: file }, link: fromHash(), pageData: null });
   }
 
   #open(asked: Asked): void {

@@ -138,7 +138,7 @@ export class Panel {
   }
 
   setVertex(vertex: number): void {
-    find<HTMLInputElement>('vertex').value = String(vertex);
+    find<HTMLInputElement>('vertex').value = vertex < 0 ? '' : String(vertex); // none yet
   }
 
   /** In the unit of the mesh. */

@@ -4,7 +4,7 @@ import type { Engine } from './engine';
 import { METHODS } from './messages';
 import type { Method, Opened } from './messages';
 import type { MethodTable } from './method_table';
-import { hideHint, showError } from './notices';
+import { hideHint, showRefusal } from './notices';
 import type { Panel } from './panel';
 
 export interface Listeners {
@@ -36,7 +36,7 @@ export class Querying {
   /** Another mesh is open; it has no query yet. */
   open(opened: Opened): void {
     this.#opened = opened;
-    this.#vertex = -1;
+    this.#setVertex(-1);
     this.#given = null;
     this.#answers.clear();
     for (const method of METHODS) this.#table.setPossible(method, opened.methods.includes(method));
@@ -57,10 +57,8 @@ export class Querying {
   select(vertex: number, isFinal = true): void {
     if (this.#opened === null) return;
     const { vertices } = this.#opened;
-    if (!Number.isInteger(vertex) || vertex < 0 || vertex >= vertices) {
-      showError(`vertex ${vertex}, but the mesh has ${vertices} vertices`);
-      return;
-    }
+    if (!Number.isInteger(vertex)) return this.#refuse(`vertex ${vertex}, expected a whole number`);
+    if (vertex < 0 || vertex >= vertices) return this.#refuse(`vertex ${vertex}, but the mesh has ${vertices} vertices`);
     hideHint();
     this.#setVertex(vertex);
     this.#ask(isFinal);
@@ -72,17 +70,25 @@ export class Querying {
 
   /** In the unit of the mesh. */
   setRadius(radius: number, isFinal = true): void {
+    if (!Number.isFinite(radius)) return this.#refuse(`radius ${radius}, expected a finite number`);
     this.#radius = radius;
     this.#ask(isFinal);
   }
 
   multiplyRadius(factor: number): void {
-    this.setRadius(Math.max(this.#radius, 0.5 * this.meanEdge) * factor);
+    this.setRadius(Math.max(this.#radius, factor > 1 ? 0.5 * this.meanEdge : 0) * factor);
   }
 
   showMethod(method: Method, isShown: boolean): void {
     this.#setShown(method, isShown);
     this.#ask(true);
+  }
+
+  /** Says why an input is refused. The panel shows the query before, which stays. */
+  #refuse(reason: string): void {
+    this.#panel.setVertex(this.#vertex);
+    this.#panel.setRadius(this.#radius);
+    showRefusal(reason);
   }
 
   #setVertex(vertex: number): void {
@@ -99,11 +105,13 @@ export class Querying {
   #ask(isFinal: boolean): void {
     if (this.#vertex < 0) return;
     this.#given = null;
+    showRefusal(null);
     this.#table.clearTimes();
     this.#panel.setRadius(this.#radius);
     const shown = METHODS.filter((method) => this.#shown.has(method));
-    const answering = shown.filter((method) => method !== 'bfs'); // whose answer is that of the index
-    this.#engine.query(this.#vertex, this.#radius, withExact(answering), shown);
+    // The others are compared with the exact answer, which is that of bfs, too.
+    const answering = METHODS.filter((method) => method === 'exact' || (method !== 'bfs' && this.#shown.has(method)));
+    this.#engine.query(this.#vertex, this.#radius, answering, shown);
     this.#listeners.asked(isFinal);
   }
 
@@ -155,9 +163,4 @@ export class Querying {
   ids(method: Method): Uint32Array {
     return (this.#given ?? this.#answers.get(method) ?? new Uint32Array()).slice().sort();
   }
-}
-
-/** The exact answer is always requested, because the others are compared with it. */
-function withExact(methods: Method[]): Method[] {
-  return methods.includes('exact') ? methods : ['exact', ...methods];
 }

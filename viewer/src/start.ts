@@ -29,13 +29,13 @@ export function startOf(opened: Opened, { source, link, pageData }: Asked, query
   const isPassed = settings?.vertex !== undefined;
   const vertex = link.vertex ?? settings?.vertex ?? Math.floor(query.at * opened.vertices);
   const meanEdge = opened.meanEdge || 1;
-  const passed = settings?.radius === undefined ? null : settings.radius * (settings.unit === 'edge' ? meanEdge : 1);
-  const linked = link.radius === null ? null : link.radius * meanEdge;
+  const passed = (settings?.radius ?? NaN) * (settings?.unit === 'edge' ? meanEdge : 1);
+  const linked = (link.radius ?? NaN) * meanEdge;
   const look = { ...link.look };
   if (!isLink) look.cut = query.cut ?? look.cut;
   return {
     vertex: Math.min(vertex, opened.vertices - 1),
-    radius: linked ?? passed ?? query.radius * meanEdge,
+    radius: [linked, passed].find(Number.isFinite) ?? query.radius * meanEdge,
     hidden: link.hidden,
     ids: settings?.ids === undefined ? null : Uint32Array.from(settings.ids),
     look,

@@ -4,9 +4,9 @@ import type { Surface } from './messages';
 
 type Reals = Float32Array | Float64Array;
 
-/** Polygons as fans of triangles. */
+/** Polygons as fans of triangles. A copy in any case: the tree of the picture sorts it, and the page gets it. */
 export function triangulate(corners: Uint32Array, offsets: Uint32Array | null): Uint32Array {
-  if (offsets === null) return corners;
+  if (offsets === null) return corners.slice();
   const faces = Math.max(offsets.length - 1, 0);
   const sides = (face: number) => offsets[face + 1] - offsets[face];
   let count = 0;

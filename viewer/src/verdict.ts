@@ -3,14 +3,10 @@
 import type { Method } from './messages';
 import { format, shortNumber } from './numbers';
 
-const NAMES = { ball: 'the plain ball', paper: 'the approximate method' } as const;
+const NAMES = { ball: 'plain ball', paper: 'approximate method' } as const;
 
 /** A sentence of which some parts are emphasized. */
 export type Sentence = (string | { emphasized: string })[];
-
-function capital(text: string): string {
-  return text[0].toUpperCase() + text.slice(1);
-}
 
 const vertices = (count: number, kind = '') => `${format(count)} ${kind}${count === 1 ? 'vertex' : 'vertices'}`;
 
@@ -25,8 +21,8 @@ export function differences(sizes: Map<Method, number>): Sentence {
   const parts = wrong.map((method, i): Sentence => {
     const count = sizes.get(method)! - exact;
     return i === 0
-      ? [`${capital(NAMES[method])} has `, { emphasized: vertices(count, 'wrong ') }]
-      : [`, ${NAMES[method]} `, { emphasized: format(count) }];
+      ? [`The ${NAMES[method]} has `, { emphasized: vertices(count, 'wrong ') }]
+      : [`, the ${NAMES[method]} `, { emphasized: format(count) }];
   });
   return [...parts.flat(), '.'];
 }

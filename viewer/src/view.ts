@@ -279,7 +279,9 @@ export class View {
 
   /** The vertex nearest to what is seen at a point of the canvas, in pixels; null over the background. */
   pick(x: number, y: number): number | null {
-    return this.#picker?.pick(this.#toScreen(x, y), this.camera) ?? null;
+    const { clientWidth, clientHeight } = this.#renderer.domElement;
+    const at = new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight);
+    return this.#picker?.pick(at, this.camera) ?? null;
   }
 
   /** Where a vertex is on the canvas, in pixels. */
@@ -295,11 +297,6 @@ export class View {
     if (this.#vertex < 0) return false;
     const marker = this.toCanvas(this.#vertex);
     return Math.hypot(marker.x - x, marker.y - y) <= pixels;
-  }
-
-  #toScreen(x: number, y: number): THREE.Vector2 {
-    const { clientWidth, clientHeight } = this.#renderer.domElement;
-    return new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight);
   }
 
   /** Looks at the whole mesh from the side on which it appears largest. */

@@ -115,8 +115,7 @@ async function open(source: Source, opening: number): Promise<void> {
   index?.dispose();
   index = opened;
   current = opening;
-  // The triangles go to the page.
-  faces = mesh.offsets === null ? { corners: mesh.corners.slice() } : { corners: mesh.corners, offsets: mesh.offsets };
+  faces = { corners: mesh.corners, offsets: mesh.offsets };
   walls = mesh.walls;
   curvature = null;
   ++latestComputation;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 /// The functions that JavaScript provides to the module (bindings/wasm/instance.js).
 namespace meshhood::wasm {
@@ -10,6 +11,9 @@ namespace meshhood::wasm {
 /// copied.
 [[clang::import_module("meshhood"), clang::import_name("keep_error")]]
 void keep_error(int code, const char* message, std::size_t size);
+
+/// What the next error is about, in front of its message, where the library has another name for an argument.
+inline std::string subject;
 
 /// Whether to continue (see `Progress`).
 [[clang::import_module("meshhood"), clang::import_name("report_progress")]]

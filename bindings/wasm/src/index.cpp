@@ -55,7 +55,9 @@ IndicesView view_indices(const void* indices, std::size_t count, bool is_signed)
   const Run run{.progress = report_progress};
   if (cut_count == 0) return workspace.replace_index(meshhood::build(given, run));
   const Adjacency whole = adjacency(given);
+  subject = "cut: ";
   const Adjacency rest = cut_edges(whole.view(), std::span(cut, cut_count));
+  subject.clear();
   workspace.replace_index(meshhood::build(GraphView{given.positions, rest.view()}, run));
 }
 

@@ -13,7 +13,7 @@ namespace meshhood::inline v0_1 {
 
 void raise(ErrorCode code, std::string message, std::string /*path*/, int /*error_number*/) {
   {
-    const std::string text = std::move(message);
+    const std::string text = std::exchange(wasm::subject, {}) + std::move(message);
     wasm::keep_error(static_cast<int>(code), text.data(), text.size());
   }
   __builtin_trap();

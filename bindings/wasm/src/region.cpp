@@ -11,6 +11,7 @@
 
 #include "answer.h"
 #include "arguments.h"
+#include "exact/query/arguments.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
@@ -25,6 +26,11 @@ void answer_sizes() { answer.counts.assign(region_sizes.begin(), region_sizes.en
 }  // namespace
 
 [[clang::export_name("start_at_vertex")]] void start_at_vertex(VertexId v) { origin = v; }
+
+/// Of a point that calls on one start are about: the library has other names for it.
+[[clang::export_name("check_start")]] void check_start(double x, double y, double z) {
+  check_point({x, y, z}, "start");
+}
 
 /// The vertex nearest to the point is the seed if `seeds` is null.
 [[clang::export_name("start_at_point")]] void start_at_point(double x, double y, double z, const VertexId* seeds,
