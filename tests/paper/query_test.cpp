@@ -118,7 +118,8 @@ TEST(Query, AnswersStayTheSameWhenTheQueryNumberWrapsAround) {
 
 TEST(Query, AnswersStayTheSameWhenTheSearcherIsMovedToItself) {
   const TestMesh mesh = make_grid(40, 40, false);
-  paper::Searcher searcher(paper::build(mesh.view()));
+  const paper::Index index = paper::build(mesh.view());
+  paper::Searcher searcher(index);
   const std::size_t expected = searcher.count(820, 9);
   paper::Searcher& same = searcher;
   searcher = std::move(same);
