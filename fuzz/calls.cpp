@@ -407,12 +407,10 @@ class Session {
   }
 
   /// Those without a wall.
-  static std::size_t count_polygons(const test::TestMesh& mesh, const std::vector<std::uint8_t>& walls = {}) {
+  static std::size_t count_polygons(const test::TestMesh& mesh) {
     std::size_t polygons = 0;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-      const bool has_wall =
-          std::ranges::any_of(mesh.face(f), [&](VertexId v) { return !walls.empty() && walls[v] != 0; });
-      polygons += static_cast<std::size_t>(mesh.face(f).size() > 2 && !has_wall);
+      polygons += static_cast<std::size_t>(mesh.face(f).size() > 2);
     }
     return polygons;
   }
@@ -510,7 +508,7 @@ class Session {
     find_nearest(searched, all, radius, 2);
     const test::TestMesh& mesh = place.subject->mesh;
     const Surface surface(searched, mesh.view().faces);
-    if (count_polygons(mesh, start.walls) != 0) return find_patches_of_points(surface, mesh, all, radius, 2);
+    if (count_polygons(mesh) != 0) return find_patches_of_points(surface, mesh, all, radius, 2);
     const std::vector<std::size_t> none;
     expect_refused(ErrorCode::InvalidMesh, [&] { static_cast<void>(gaps(surface, none, {}, radius)); });
   }

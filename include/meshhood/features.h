@@ -60,7 +60,7 @@ struct FeatureOptions {
 /// areas, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls, threads or the
 /// processor. Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, and InvalidMesh if the surface
 /// has neither faces nor normals. A radius must be > 0 and finite. Area, Volume and Gap throw InvalidOption by another
-/// metric than `Straight` and of a surface without faces, and InvalidMesh if every face has a wall.
+/// metric than `Straight` and of a surface without faces.
 [[nodiscard]] std::vector<double> features(const Surface& surface, const BatchQuery& query,
                                            const FeatureOptions& options = {}, const Run& run = {});
 

@@ -249,6 +249,7 @@ void k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k,
                const NearestOptions& options, const Run& run) {
   NearestRows rows(index, vertices, options, run);
   check_k(k);
+  check_function(allocate, "allocate");
   if (rows.size() != 0 && k > kMostValues / rows.size()) {
     raise(ErrorCode::TooLarge, "k: " + std::to_string(k) + " vertices for each of " + std::to_string(rows.size()) +
                                    " rows, expected at most " + std::to_string(kMostValues) + " in all");

@@ -90,7 +90,7 @@ void BoxTree::build(std::size_t count, BoxOf&& box_of) {
   levels_.clear();
   sizes_.clear();
   const auto add_level = [&](std::size_t size, auto&& box_at) {
-    std::vector<BoxGroup> groups((size + kFanOut - 1) / kFanOut);
+    std::vector<BoxGroup> groups(std::max<std::size_t>(1, (size + kFanOut - 1) / kFanOut));  // a walk begins in one
     for (std::size_t i = 0; i < size; ++i) set(groups[i / kFanOut], i % kFanOut, box_at(i));
     levels_.push_back(std::move(groups));
     sizes_.push_back(size);

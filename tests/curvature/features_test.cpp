@@ -169,8 +169,8 @@ TEST_F(BumpyFeatures, OfPatchesHaveNoVolumeAtABorderAndNoFacesBehindWalls) {
   EXPECT_LT(walled[2], found[2]);
   EXPECT_TRUE(std::isnan(walled[3]));
   walls.assign(walls.size(), 1);
-  expect_refused(ErrorCode::InvalidMesh, "every face",
-                 [&] { return features(surface.on(masked(index, {.walls = walls})), {rows, 2.0}, kinds); });
+  const std::vector<double> none = features(surface.on(masked(index, {.walls = walls})), {rows, 2.0}, kinds);
+  EXPECT_TRUE(std::isnan(none[0]) && std::isnan(none[1]));
 }
 
 TEST(Features, TheHeightOfASphereIsItsRadiusTimesTheMeanCurvature) {
