@@ -70,11 +70,14 @@ Mesh read_format(Format format, InputBuffer& input, const ReaderOptions& options
 
 void refuse_walls(const Mesh& mesh, const std::string& name) {
   const auto wall = std::find(mesh.walls.begin(), mesh.walls.end(), 1);
-  if (wall == mesh.walls.end()) return;
+  if (wall != mesh.walls.end()) refuse_wall(static_cast<std::uint64_t>(wall - mesh.walls.begin()), name);
+}
+
+void refuse_wall(std::uint64_t vertex, const std::string& name) {
   raise(ErrorCode::InvalidMesh,
         fmt::format("{}: vertex {} has no position (NaN), which an index file cannot say; write the mesh without such "
                     "vertices",
-                    name, wall - mesh.walls.begin()));
+                    name, vertex));
 }
 
 Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {

@@ -106,6 +106,9 @@ struct Mesh : MeshData {
 /// `name` is the file in the message.
 void refuse_walls(const Mesh& mesh, const std::string& name);
 
+/// Throws the same about one vertex.
+[[noreturn]] void refuse_wall(std::uint64_t vertex, const std::string& name);
+
 /// An additional value, or vector, for each vertex of a written file.
 struct VertexProperty {
   std::string name;        ///< printable ASCII without blanks

@@ -98,6 +98,8 @@ class Arrays final : public ChunkedMesh {
     }
   }
 
+  [[nodiscard]] const std::string& name_of_faces() const override { return faces_.name(); }
+
  private:
   void load_positions(std::uint64_t first, std::span<Point> out) override {
     std::array<double, 3> xyz{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "parts/chunked_mesh.h"
 
+#include <cmath>
 #include <system_error>
 #include <variant>
 
@@ -47,7 +48,10 @@ class MeshInMemory final : public ChunkedMesh {
 void ChunkedMesh::read_positions(std::uint64_t first, std::span<Point> out) {
   load_positions(first, out);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (!is_valid_position(out[i])) refuse_position(first + i, out[i], name_ + ": ");
+    const Point& p = out[i];
+    if (is_valid_position(p)) continue;
+    if (std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z)) io::refuse_wall(first + i, name_);
+    refuse_position(first + i, p, name_ + ": ");
   }
 }
 
@@ -80,7 +84,8 @@ void ChunkedMesh::check_face(std::span<const std::uint64_t> corners) const {
     }
     // As it was stored: negative ones are huge when read as unsigned.
     const auto stored = static_cast<std::int64_t>(corners[i]);
-    raise_no_such_vertex(ErrorCode::InvalidMesh, fmt::format("{}: face {}: corner {} is vertex ", name_, next_face_, i),
+    raise_no_such_vertex(ErrorCode::InvalidMesh,
+                         fmt::format("{}: face {}: corner {} is vertex ", name_of_faces(), next_face_, i),
                          std::to_string(stored), vertices_);
   }
 }
@@ -88,8 +93,8 @@ void ChunkedMesh::check_face(std::span<const std::uint64_t> corners) const {
 void ChunkedMesh::check_degree(std::uint64_t corners) const {
   constexpr std::uint64_t kMostCorners = std::uint64_t{1} << 20;
   if (corners <= kMostCorners) return;
-  raise(ErrorCode::TooLarge, fmt::format("{}: face {} has {} corners, but the limit of a partition is {}", name_,
-                                         next_face_, corners, kMostCorners));
+  raise(ErrorCode::TooLarge, fmt::format("{}: face {} has {} corners, but the limit of a partition is {}",
+                                         name_of_faces(), next_face_, corners, kMostCorners));
 }
 
 std::unique_ptr<ChunkedMesh> open_mesh(const std::filesystem::path& path, std::uint64_t max_bytes,

@@ -38,8 +38,9 @@ class ChunkedMesh {
   ChunkedMesh& operator=(const ChunkedMesh&) = delete;
   virtual ~ChunkedMesh() = default;
 
-  /// The file, printable.
+  /// The file, printable: that of the positions.
   [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] virtual const std::string& name_of_faces() const { return name_; }
 
   [[nodiscard]] std::uint64_t vertex_count() const { return vertices_; }
   [[nodiscard]] bool is_double() const { return is_double_; }

@@ -17,9 +17,9 @@ CornerPositions::CornerPositions(ChunkedMesh& mesh, const FaceChunk& faces) {
   }
 }
 
-std::size_t CornerPositions::number(std::uint64_t id) const {
-  if (ids_.empty()) return static_cast<std::size_t>(id - first_);
-  return static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin());
+const Point& CornerPositions::operator[](std::uint64_t id) const {
+  if (ids_.empty()) return positions_[static_cast<std::size_t>(id - first_)];
+  return positions_[static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin())];
 }
 
 void CornerPositions::read_sparse(ChunkedMesh& mesh, const FaceChunk& faces) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "parts/chunked_mesh.h"
@@ -17,14 +16,8 @@ class CornerPositions {
  public:
   CornerPositions(ChunkedMesh& mesh, const FaceChunk& faces);
 
-  /// Of all vertices, which are numbered from 0.
-  [[nodiscard]] std::span<const Point> positions() const { return positions_; }
-
-  /// The number of a vertex that is a corner.
-  [[nodiscard]] std::size_t number(std::uint64_t id) const;
-
   /// The position of a vertex that is a corner.
-  [[nodiscard]] const Point& operator[](std::uint64_t id) const { return positions_[number(id)]; }
+  [[nodiscard]] const Point& operator[](std::uint64_t id) const;
 
  private:
   void read_sparse(ChunkedMesh& mesh, const FaceChunk& faces);

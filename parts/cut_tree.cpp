@@ -25,11 +25,12 @@ int longest_axis(std::span<const Site> sample) {
 
 }  // namespace
 
-bool may_hold_within(const BoundingBox& box, const Point& p, double squared_radius) {
-  const auto& [low, high] = box;
-  if (low.x > high.x) return false;  // empty
-  const Point nearest{std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y), std::clamp(p.z, low.z, high.z)};
-  return squared_distance(p, nearest) <= squared_radius;
+bool may_be_within(const BoundingBox& a, const BoundingBox& b, double squared_radius) {
+  const Point gap{std::max({a.low.x - b.high.x, b.low.x - a.high.x, 0.0}),
+                  std::max({a.low.y - b.high.y, b.low.y - a.high.y, 0.0}),
+                  std::max({a.low.z - b.high.z, b.low.z - a.high.z, 0.0})};
+  const double squared = squared_distance(gap, {0, 0, 0});
+  return squared <= squared_radius && squared < kInfinity;  // to an empty box it is infinite
 }
 
 CutTree::CutTree(std::vector<Site> sample, std::size_t parts) {
@@ -74,22 +75,6 @@ void CutTree::add(const Site& vertex) {
   std::size_t node = 0;
   for (; nodes_[node].axis >= 0; node = next(node, vertex)) nodes_[node].box.add(vertex.position);
   nodes_[node].box.add(vertex.position);
-}
-
-void CutTree::find_near(const Point& p, double squared_halo, std::vector<std::uint32_t>& parts) const {
-  parts.clear();
-  collect(0, p, squared_halo, parts);
-}
-
-void CutTree::collect(std::size_t node, const Point& p, double squared_halo, std::vector<std::uint32_t>& parts) const {
-  const Node& here = nodes_[node];
-  if (!may_hold_within(here.box, p, squared_halo)) return;
-  if (here.axis < 0) {
-    parts.push_back(here.second);
-    return;
-  }
-  collect(node + 1, p, squared_halo, parts);
-  collect(here.second, p, squared_halo, parts);
 }
 
 }  // namespace meshhood::parts

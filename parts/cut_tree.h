@@ -16,10 +16,10 @@ struct Site {
   std::uint64_t id = 0;
 };
 
-/// Whether the point of the box nearest to `p` passes the predicate. If not, then no point of the box does: each
-/// coordinate of the difference to the nearest point is the smallest, and rounded differences, squares and sums keep
-/// that order. So the answer is never wrong by a rounding error.
-[[nodiscard]] bool may_hold_within(const BoundingBox& box, const Point& p, double squared_radius);
+/// Returns whether the nearest points of two boxes pass the predicate. If not, then no points of the boxes do: each
+/// coordinate of the difference of the nearest is the smallest, and rounded differences, squares and sums keep that
+/// order. So the answer is never wrong by a rounding error. False if a box is empty.
+[[nodiscard]] bool may_be_within(const BoundingBox& a, const BoundingBox& b, double squared_radius);
 
 /// Cuts space into parts: a kd-tree, each leaf of which is a part. Every vertex belongs to one part, its owner.
 ///
@@ -36,9 +36,16 @@ class CutTree {
   /// Extends the boxes around `vertex`.
   void add(const Site& vertex);
 
-  /// Replaces `parts` by those, ascending, whose box may hold a vertex from which `p` passes the predicate: a superset
-  /// of the parts that own a vertex within the halo of `p`.
-  void find_near(const Point& p, double squared_halo, std::vector<std::uint32_t>& parts) const;
+  /// Calls `f(part, box)` for the parts of `node`, ascending, whose box `may_be_within` the halo of `near`: all that
+  /// own a vertex within the halo of a point of `near`, and perhaps others.
+  template <class F>
+  void for_each_near(const BoundingBox& near, double squared_halo, F&& f, std::size_t node = 0) const {
+    const Node& here = nodes_[node];
+    if (!may_be_within(here.box, near, squared_halo)) return;
+    if (here.axis < 0) return f(here.second, here.box);
+    for_each_near(near, squared_halo, f, node + 1);
+    for_each_near(near, squared_halo, f, here.second);
+  }
 
  private:
   struct Node {
@@ -50,7 +57,6 @@ class CutTree {
 
   void cut(std::span<Site> sample, std::size_t first_part, std::size_t parts);
   [[nodiscard]] std::size_t next(std::size_t node, const Site& vertex) const;
-  void collect(std::size_t node, const Point& p, double squared_halo, std::vector<std::uint32_t>& parts) const;
 
   std::vector<Node> nodes_;  // preorder
 };

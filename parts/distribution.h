@@ -12,8 +12,8 @@
 
 namespace meshhood::parts {
 
-/// Distributes a mesh over its parts. A part gets every vertex within the halo of one that it owns, every face with
-/// such a corner, and the other corners of these faces as its fringe.
+/// Distributes a mesh over its parts. A part gets every vertex and every face within the halo of a vertex that it owns,
+/// also a face whose corners are all farther away, and the other corners of these faces as its fringe.
 struct Distribution {
   ChunkedMesh& mesh;
   const CutTree& tree;  ///< of all vertices

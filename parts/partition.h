@@ -43,9 +43,10 @@ struct PartitionResult {
 
 /// Cuts a mesh into parts with a halo and writes them to `folder`, which is created if it does not exist.
 ///
-/// A part owns the vertices of a cell of a kd-tree. It also has every vertex within the halo of one that it owns, and
-/// the fringe: the other corners of all faces around these. For a vertex that it owns it therefore gives the
-/// neighborhood of any radius up to the halo, exactly, and every face around the vertices of that neighborhood.
+/// A part owns the vertices of a cell of a kd-tree. It also has every vertex and face within the halo of one that it
+/// owns, and the fringe: the other corners of these faces. For a vertex that it owns it therefore gives the
+/// neighborhood of any radius up to the halo, exactly, every face around the vertices of it, and every face that its
+/// ball reaches.
 ///
 /// The mesh is read in chunks: five passes over the positions and three over the faces. Memory stays within
 /// `options.memory`; temporary files in `folder` take about 100 bytes for each vertex of a triangle mesh of all parts.

@@ -174,9 +174,11 @@ TEST_F(ChunkedMeshes, NameTheFaultOfAFile) {
     });
   };
   const auto head = [](const std::string& type, const std::string& shape) { return io::npy_header(type, shape); };
-  refused(ErrorCode::InvalidMesh, "V.npy: vertex 1: y is nan",
+  refused(ErrorCode::InvalidMesh, "V.npy: vertex 1: y is inf",
+          npy(std::vector<float>{0, 0, 0, 1, std::numeric_limits<float>::infinity(), 0}, 3), npy(F, 3));
+  refused(ErrorCode::InvalidMesh, "V.npy: vertex 1 has no position (NaN), which an index file cannot say; write the ",
           npy(std::vector<float>{0, 0, 0, 1, std::numeric_limits<float>::quiet_NaN(), 0}, 3), npy(F, 3));
-  refused(ErrorCode::InvalidMesh, "face 0: corner 2 is vertex 3, but the mesh has 3 vertices", npy(V, 3),
+  refused(ErrorCode::InvalidMesh, "F.npy: face 0: corner 2 is vertex 3, but the mesh has 3 vertices", npy(V, 3),
           npy(std::vector<std::int32_t>{0, 1, 3}, 3));
   refused(ErrorCode::InvalidMesh, "face 0: corner 0 is vertex -1", npy(V, 3),
           npy(std::vector<std::int64_t>{-1, 1, 2}, 3));
@@ -188,7 +190,7 @@ TEST_F(ChunkedMeshes, NameTheFaultOfAFile) {
   // No byte of the file bounds the number of these rows.
   refused(ErrorCode::MalformedFile, "shape (1000000000000, 0), expected values", npy(V, 3),
           head("<i4", "(1000000000000, 0)"));
-  refused(ErrorCode::TooLarge, "has 2000000 corners, but the limit of a partition is 1048576", npy(V, 3),
+  refused(ErrorCode::TooLarge, "F.npy: face 0 has 2000000 corners, but the limit of a partition is 1048576", npy(V, 3),
           npy(std::vector<std::int32_t>(2'000'000), 2'000'000));
   refused(ErrorCode::UnsupportedFormat, "expected (#V, 3) float32 or float64 in C order", npy(F, 3), npy(F, 3));
   refused(ErrorCode::UnsupportedFormat, "expected (#F, k) integers", npy(V, 3), npy(V, 3));

@@ -2,7 +2,6 @@
 #include "parts/cut_tree.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -25,6 +24,12 @@ std::vector<Site> random_sites(std::size_t count, Random& random) {
   return sites;
 }
 
+std::vector<std::uint32_t> parts_near(const CutTree& tree, const BoundingBox& box, double squared_halo) {
+  std::vector<std::uint32_t> parts;
+  tree.for_each_near(box, squared_halo, [&](std::uint32_t part, const BoundingBox&) { parts.push_back(part); });
+  return parts;
+}
+
 TEST(CutTree, GivesEveryPartTheSameShareOfTheSample) {
   Random random(1);
   const std::vector<Site> sites = random_sites(1000, random);
@@ -41,14 +46,12 @@ TEST(CutTree, FindsEveryPartThatOwnsAVertexWithinTheHalo) {
   const std::vector<Site> sites = random_sites(300, random);
   CutTree tree(sites, 9);
   for (const Site& site : sites) tree.add(site);
-  std::vector<std::uint32_t> near;
   std::size_t ties = 0;
   for (const Site& a : sites) {
     for (const Site& b : sites) {
       // The radius is exactly the distance.
-      const double radius = std::sqrt(squared_distance(a.position, b.position));
-      tree.find_near(a.position, squared_radius(radius), near);
-      EXPECT_THAT(near, testing::Contains(tree.owner(b)));
+      const double squared = squared_radius(std::sqrt(squared_distance(a.position, b.position)));
+      EXPECT_THAT(parts_near(tree, {a.position, a.position}, squared), testing::Contains(tree.owner(b)));
       ++ties;
     }
   }
@@ -57,18 +60,16 @@ TEST(CutTree, FindsEveryPartThatOwnsAVertexWithinTheHalo) {
 
 TEST(CutTree, HasNoPartNearbyThatOwnsNothing) {
   CutTree tree({}, 4);
-  std::vector<std::uint32_t> near;
-  tree.find_near({0, 0, 0}, std::numeric_limits<double>::infinity(), near);
-  EXPECT_THAT(near, testing::IsEmpty());
+  const BoundingBox origin{{0, 0, 0}, {0, 0, 0}};
+  EXPECT_THAT(parts_near(tree, origin, kInfinity), testing::IsEmpty());
   tree.add({{1, 1, 1}, 0});
-  tree.find_near({0, 0, 0}, squared_radius(std::numbers::sqrt3), near);
-  EXPECT_EQ(near.size(), 1U);
-  tree.find_near({0, 0, 0}, squared_radius(1.7), near);
-  EXPECT_THAT(near, testing::IsEmpty());
+  EXPECT_THAT(parts_near(tree, origin, squared_radius(std::numbers::sqrt3)), testing::SizeIs(1));
+  EXPECT_THAT(parts_near(tree, origin, squared_radius(1.7)), testing::IsEmpty());
+  EXPECT_THAT(parts_near(tree, {}, kInfinity), testing::IsEmpty()) << "nothing is near an empty box";
 }
 
-// The predicate is true of a corner of the box whenever it is true of a point inside.
-TEST(BoundingBox, MayHoldEveryPointThatThePredicateAccepts) {
+// The predicate is true of the nearest points of the boxes whenever it is true of any points of them.
+TEST(BoundingBox, MayBeWithinEveryDistanceThatThePredicateAccepts) {
   Random random(3);
   for (int i = 0; i < 100'000; ++i) {
     const auto point = [&] { return Point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
@@ -77,7 +78,11 @@ TEST(BoundingBox, MayHoldEveryPointThatThePredicateAccepts) {
     box.add(inside);
     box.add(point());
     const Point p = point();
-    EXPECT_TRUE(parts::may_hold_within(box, p, squared_distance(p, inside)));
+    BoundingBox other{p, p};
+    EXPECT_TRUE(parts::may_be_within(box, other, squared_distance(p, inside)));
+    other.add(point());
+    EXPECT_TRUE(parts::may_be_within(box, other, squared_distance(p, inside)));
+    EXPECT_TRUE(parts::may_be_within(other, box, squared_distance(p, inside)));
   }
 }
 

@@ -128,14 +128,35 @@ class Checker {
     return result;
   }
 
-  /// Every face around every vertex within the halo of an owned one is there, in the order of the mesh.
+  /// Every face around every vertex within the halo of an owned one is there, in the order of the mesh, and every other
+  /// face within the halo.
   void check_faces(const OpenPart& part) const {
     std::set<std::uint32_t> near;
     for (const auto number : part.owned) {
       const Ids ball = oracle_.ball(id(part, number), manifest_.plan.halo);
       near.insert(ball.begin(), ball.end());
     }
-    EXPECT_EQ(faces_around(faces_of(part), near), faces_around(faces_of(mesh_), near));
+    const std::vector<Face> faces = faces_of(part);
+    EXPECT_EQ(faces_around(faces, near), faces_around(faces_of(mesh_), near));
+    const std::set<Face> has(faces.begin(), faces.end());
+    for (const Face& face : faces_of(mesh_)) EXPECT_TRUE(has.contains(face) || !has_near_edge(face, part));
+  }
+
+  [[nodiscard]] Point position(std::uint32_t v) const { return point(mesh_.positions_view(), v); }
+
+  /// Whether the middle of an edge is within the halo of a vertex that the part owns: all corners may be farther away.
+  bool has_near_edge(const Face& face, const OpenPart& part) const {
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const Point a = position(face[i]);
+      const Point b = position(face[(i + 1) % face.size()]);
+      const Point middle{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
+      const auto is_near = [&](std::int32_t number) {
+        const double squared = squared_distance(position(id(part, number)), middle);
+        return squared <= squared_radius(manifest_.plan.halo);
+      };
+      if (std::any_of(part.owned.begin(), part.owned.end(), is_near)) return true;
+    }
+    return false;
   }
 
   const TestMesh& mesh_;
@@ -217,6 +238,29 @@ TEST(PartitionOfFewVertices, HasPartsThatOwnNothing) {
   EXPECT_EQ(empty, 4);
   Random random(1);
   Checker(mesh, scratch.path() / "parts", manifest).check(random, 4);
+}
+
+TEST(PartitionOfLongFaces, HasAFaceThatABallReachesBetweenItsCorners) {
+  TestMesh mesh;
+  mesh.add_vertex(0, 0, 0);
+  mesh.add_vertex(2, -1.5, 0);
+  mesh.add_vertex(2, 1.5, 0);
+  mesh.add_vertex(10, 0, 0);
+  mesh.add_face({0, 1, 2});
+  mesh.add_face({2, 1, 3});
+  mesh.finish(false);
+  for (const double halo : {2.2, 2.0, 1.9}) {  // up to the edge of both faces it is 2, to its ends 2.5
+    const Scratch scratch;
+    const Manifest manifest = make_parts(mesh, scratch.path() / "parts", {.parts = 4, .halo = halo});
+    for (std::size_t number = 0; number < manifest.parts.size(); ++number) {
+      const OpenPart part(scratch.path() / "parts" / parts::part_name(number));
+      ASSERT_EQ(part.owned.size(), 1U);
+      const bool is_first = part.ids[static_cast<std::size_t>(part.owned[0])] == 0;
+      if (is_first) {
+        EXPECT_EQ(faces_of(part).size(), halo < 2 ? 1U : 2U) << halo;
+      }
+    }
+  }
 }
 
 TEST(PartitionOfNothing, HasEmptyParts) {

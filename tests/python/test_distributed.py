@@ -7,6 +7,7 @@ import shutil
 import signal
 import threading
 import time
+import types
 
 import meshes
 import meshhood
@@ -120,6 +121,10 @@ def test_aggregates_refuse_values_of_another_mesh(parts):
         parts.aggregate(np.ones(3), 1)
     with pytest.raises(TypeError, match="weights: 'volume'"):
         parts.aggregate(np.ones(parts.n_vertices), 1, weights="volume")
+    weights = np.ones(parts.n_vertices)
+    weights[1234] = -1
+    with pytest.raises(ValueError, match="weights: vertex 1234: -1.0, expected a finite number >= 0"):
+        parts.aggregate(weights, 1, weights=weights).compute()
     with pytest.raises(ValueError, match="halo="):
         parts.aggregate(np.ones(parts.n_vertices), 2 * HALO)
 
@@ -163,6 +168,39 @@ def corners_of(part, index, owned):
     """The number of faces around each vertex, from the faces of the part."""
     _, faces = part.mesh
     return np.bincount(faces.ravel(), minlength=len(index))[owned]
+
+
+def measured(r, part, index, owned):
+    F = part.mesh
+    gaps = index.gaps(r, owned, F=F, workers=1).distance
+    sizes = [len(index.patch(int(vertex), r, F=F)) for vertex in owned]
+    return np.column_stack([*index.invariants(r, owned, F=F, workers=1), gaps, sizes])
+
+
+def test_what_is_measured_on_faces_is_that_of_the_whole_mesh(tmp_path):
+    """Two sheets with edges longer than the halo, and parts of one vertex: balls reach faces whose corners are all outside."""
+    V, quads = meshes.grid(8)
+    F = meshes.triangles(quads)
+    V, F, r = np.concatenate([V, V + [0.5, 0.4, 0.2]]), np.concatenate([F, F + len(V)]), 0.9
+    parts = meshhood.partition(written(tmp_path / "mesh.ply", V, F), tmp_path / "parts", parts=len(V), halo=r)
+    found = parts.map(functools.partial(measured, r), r, shape=(4,)).compute()
+    expected = measured(r, types.SimpleNamespace(mesh=F), meshhood.MeshIndex(V, F), np.arange(len(V)))
+    assert np.isfinite(expected[:, 2]).sum() > len(V) / 2  # of the gaps
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
+
+
+def test_a_part_without_faces_has_no_normals(tmp_path):
+    V, F = meshes.two_plates(30)
+    V = np.concatenate([V, np.random.default_rng(3).uniform(100, 101, (len(V), 3))])
+    parts = meshhood.partition(written(tmp_path / "mesh.ply", V, F), tmp_path / "parts", parts=4, halo=3)
+    assert min(size.faces for size in parts.sizes) == 0
+    expected = meshhood.MeshIndex(V, F).curvature(2)
+    state, count = dask.compute(*parts.curvature(2)[4:])
+    np.testing.assert_array_equal(state, expected.state)
+    np.testing.assert_array_equal(count, expected.count)
+    parts = meshhood.partition(written(tmp_path / "points.ply", V, F[:0]), tmp_path / "points", parts=2, halo=3)
+    with pytest.raises(ValueError, match="the mesh has no faces, expected faces"):
+        parts.curvature(2)
 
 
 def test_the_faces_around_every_vertex_are_complete(parts, mesh):
@@ -596,3 +634,24 @@ def test_map_meshes_takes_meshes_and_indexes(tmp_path):
     np.testing.assert_array_equal([np.load(file) for file in files][1::2], expected)
     with pytest.raises(FileNotFoundError):
         distributed.map_meshes([tmp_path / "none.ply"], mean_count)
+
+
+class Old(ValueError):
+    """An exception of Python 3.9 or 3.10, without `add_note`."""
+
+    @property
+    def add_note(self):
+        raise AttributeError
+
+
+class Unsaved:
+    def __array__(self, *_, **__):
+        raise Old("not an array")
+
+
+@pytest.mark.parametrize("result", (None, Unsaved()))
+def test_an_error_names_its_mesh_also_while_the_result_is_saved(tmp_path, result):
+    file = written(tmp_path / "mesh.ply", *meshes.two_plates(5))
+    with pytest.raises(ValueError) as caught:
+        distributed.map_meshes([file], lambda index: result, to=tmp_path / "out")
+    assert f"in {file}" in "".join([str(caught.value), *getattr(caught.value, "__notes__", ())])

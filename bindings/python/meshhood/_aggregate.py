@@ -310,12 +310,17 @@ def area_weights(index: Held, weights: Any, F: Any) -> Any:
     if isinstance(weights, str):
         _convert.choice(weights, "weights", ("area",))
         return _core.vertex_areas((index._methods.positions, *index._face_arrays(F, " or numbers as weights=")))
+    return read_weights(weights, range(index._count))
+
+
+def read_weights(weights: Any, vertices: Any) -> NDArray[np.float64]:
+    """The weights of these vertices, checked."""
     array = _copied(weights, "weights", "biuf")
-    if array.shape != (index._count,):
-        raise ValueError(f"weights: expected an array of shape ({index._count},), not {array.shape}")
+    if array.shape != (len(vertices),):
+        raise ValueError(f"weights: expected an array of shape ({len(vertices)},), not {array.shape}")
     wrong = np.flatnonzero(~((array >= 0) & (array < np.inf)))
     if wrong.size:
-        raise ValueError(f"weights: vertex {wrong[0]}: {array[wrong[0]]}, expected a finite number >= 0")
+        raise ValueError(f"weights: vertex {vertices[wrong[0]]}: {array[wrong[0]]}, expected a finite number >= 0")
     return array
 
 

@@ -59,8 +59,9 @@ class OpenPart:
 
     @property
     def mesh(self) -> Mesh:
-        """The positions and faces of the part, as `meshhood.MeshIndex` takes them. The faces are complete around every
-        vertex within the halo of an owned one."""
+        """The positions and faces of the part, as `meshhood.MeshIndex` takes them. They have every face within the halo of
+        an owned vertex, and so all faces around each vertex there. A part of points alone has none, which calls that
+        need faces refuse. See `Parts.map` for what is exact."""
         corners, offsets = self._faces()
         return Mesh(self.index.positions, (offsets, corners) if len(offsets) else corners.reshape(-1, 3))
 

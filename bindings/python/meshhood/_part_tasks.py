@@ -10,6 +10,7 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import NDArray
 
+from ._aggregate import read_weights
 from ._curvature import BEYOND_HALO, FEWEST_POINTS, NO_NORMAL
 from ._files import load, read_mesh
 from ._index import MeshIndex
@@ -36,14 +37,16 @@ def on_mesh(function: Callable[[MeshIndex], Any], file: Optional[ResultFile], me
             is_index = opened.read(8) == b"\x8bMHI\r\n\x1a\n"
         index = load(mesh, mmap=True) if is_index else MeshIndex(*read_mesh(mesh), workers=1)
         result = function(index)
+        if file is None:
+            return result
+        with file.writer() as target:
+            np.save(target, np.asarray(result), allow_pickle=False)
     except Exception as error:
         if hasattr(error, "add_note"):
             error.add_note(f"in {mesh}")
+        elif not isinstance(error, OSError):  # Python 3.9 and 3.10; an OSError has numbers there, and names a file
+            error.args = (f"{error}; in {mesh}",)
         raise
-    if file is not None:
-        with file.writer() as target:
-            np.save(target, np.asarray(result), allow_pickle=False)
-    return result if file is None else None
 
 
 def owned_ids(part: OpenPart) -> NDArray[np.int64]:
@@ -61,7 +64,7 @@ def aggregate_values(
     return index.aggregate(
         _rows_of(values, part),
         radius,
-        weights=weights if weights is None or by_area else _rows_of(weights, part),
+        weights=weights if weights is None or by_area else read_weights(_rows_of(weights, part), part.vertices),
         F=part.mesh.faces if by_area else None,
         vertices=owned,
         workers=1,
@@ -72,7 +75,10 @@ def aggregate_values(
 def curvature_rows(
     radius: float, halo: float, options: dict[str, Any], part: OpenPart, index: MeshIndex, owned: Any
 ) -> NDArray[np.float64]:
-    found = index.curvature(radius, owned, F=part.mesh.faces, workers=1, **options)
+    faces = part.mesh.faces
+    # An index without faces has no normals to fit by, but a part without them is one of vertices that have none.
+    surface = {"F": faces} if len(faces) else {"normals": np.zeros((len(index), 3))}
+    found = index.curvature(radius, owned, workers=1, **surface, **options)
     rows = np.column_stack(found)
     few = np.flatnonzero((found.count < FEWEST_POINTS) & (found.state != NO_NORMAL))
     few = few[index.counts(halo, owned[few], workers=1) < FEWEST_POINTS - 1]  # else all that a fit needs is in the halo

@@ -46,8 +46,8 @@ def partition(
     resume : keep the parts that an earlier run on the same mesh with the same `halo` and `parts` has finished. Otherwise
         they are removed; if one has files of others, that is an error, and nothing is removed.
 
-    Each vertex is owned by one part. A part also has every vertex within the halo of one that it owns, and all faces
-    around these. So it answers queries of the vertices that it owns exactly, without the other parts.
+    Each vertex is owned by one part. A part also has every vertex and every face within the halo of one that it owns. So it
+    answers queries of the vertices that it owns exactly, without the other parts.
 
     Returns the parts, as `open_parts`. Raises ValueError, naming the file and element; OSError, also if another run
     writes into the folder; KeyboardInterrupt on Ctrl-C. Finished parts then stay, and the next run continues.

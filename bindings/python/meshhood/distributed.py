@@ -60,7 +60,7 @@ class Parts:
 
     Every method takes a radius `r` up to `halo`, in `unit`: "mesh" is the unit of the positions, "edge" is
     `mean_edge_length`. A larger radius is an error, which names the halo that it needs. Results are those of one index of the
-    whole mesh.
+    whole mesh; `map` says which calls in a function of your own give these.
 
     >>> meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
     <meshhood.distributed.Parts: 642 vertices in 2 parts, halo 0.5>
@@ -168,10 +168,13 @@ class Parts:
         last digits may differ from those of one index, because the order of the sums does. A row is refused, with state
         5 and NaN for its values, if fewer than six vertices are within `r` and the fit to the nearest ones needs edges
         beyond the halo, which its part may not have. Compute all arrays together, by `dask.compute(found.k1, found.k2)`.
+        Raises ValueError if the mesh has no faces.
 
         >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
         >>> mean = parts.curvature(0.3).mean.compute()
         """
+        if not any(size.faces for size in self.sizes):
+            raise ValueError("the mesh has no faces, expected faces")
         options = {"like": like, "fit": fit, "filter": bool(filter)}
         function = functools.partial(curvature_rows, self._radius(r, unit), self.halo, options)
         rows = self.map(function, r, unit=unit, shape=(CURVATURE_COLUMNS,), order=order)
@@ -208,6 +211,11 @@ class Parts:
             mesh whose results do not fit into the memory of one worker, use "parts" or `write`.
 
         Nothing is computed before `compute()`, `persist()` or `store`. Errors of `function` are passed on.
+
+        Up to `r`, calls on neighborhoods and patches give the results of the whole mesh, and so do those with
+        `F=part.mesh`: areas, volumes, gaps, normals. `corrected_curvature` does so if the halo is larger than its radius
+        by the longest edge, and `curvature` where `Parts.curvature` refuses no row. `thickness`, `first_hit` and
+        `closest_point` look farther than any halo; they see the faces of the part alone.
 
         >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
         >>> heights = lambda part, index, owned: index.positions[owned, 2]
