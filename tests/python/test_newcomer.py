@@ -107,11 +107,14 @@ ERRORS = (
     ("index.counts(1, np.ones(5, bool))", ValueError,
         "vertices: a bool mask of shape (5,), expected (50,)"),
     ("index.counts(1, np.ones(N, int))", TypeError,
-        "vertices: 50 numbers 0 or 1, expected vertices, or a bool mask: vertices == 1"),
+        "vertices: 50 numbers 0 or 1, expected vertices, or a bool mask: vertices == 1; such "
+        "vertices as a list: vertices.tolist()"),
     ("index.counts(1, (V[:, 0] > 2).astype(float))", TypeError,
-        "vertices: 50 numbers 0 or 1, expected vertices, or a bool mask: vertices == 1"),
+        "vertices: 50 numbers 0 or 1, expected vertices, or a bool mask: vertices == 1; such "
+        "vertices as a list: vertices.tolist()"),
     ("index.counts(1, np.uint8(255) * (V[:, 0] > 2))", TypeError,
-        "vertices: 50 numbers 0 or 255, expected vertices, or a bool mask: vertices == 255"),
+        "vertices: 50 numbers 0 or 255, expected vertices, or a bool mask: vertices == 255; such "
+        "vertices as a list: vertices.tolist()"),
     ("index.k_nearest([1, 2, 3])", TypeError,
         "k: expected an integer, not list"),
     ("index.aggregate(V[:5], 1)", ValueError,

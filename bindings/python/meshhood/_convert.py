@@ -30,7 +30,7 @@ def _refuse_mask_of_numbers(array, count, name):
     if (most == 1 or array.min() == 0) and np.all((array == 0) | (array == most)):
         raise TypeError(
             f"{name}: {count} numbers 0 or {most:g}, expected vertices, or a bool mask: "
-            f"{name} == {most:g}; a list of such vertices is not taken for a mask: {name}.tolist()"
+            f"{name} == {most:g}; such vertices as a list: {name}.tolist()"
         )
 
 
