@@ -309,16 +309,18 @@ double parse_radius(std::string_view name, const std::string& text) {
 double length_of_unit(const std::string& unit, Input& input) { return unit == "edge" ? edge_unit(input) : 1; }
 
 double resolve(const Radius& radius, Input& input) {
-  const double typed = parse_radius("radius", radius.value);
-  const double value = length_of_unit(radius.unit, input) * typed;
-  input.need_halo(value);
-  return value;
+  return resolve(Radii{{radius.value}, radius.unit}, input).front();
 }
 
 std::vector<double> resolve(const Radii& radii, Input& input) {
   std::vector<double> result;
   result.reserve(radii.values.size());
-  for (const std::string& value : radii.values) result.push_back(resolve(Radius{value, radii.unit}, input));
+  for (const std::string& value : radii.values) result.push_back(parse_radius("radius", value));
+  const double unit = length_of_unit(radii.unit, input);  // once: it takes a pass over all edges
+  for (double& radius : result) {
+    radius *= unit;
+    input.need_halo(radius);
+  }
   return result;
 }
 

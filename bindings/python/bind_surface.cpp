@@ -107,6 +107,13 @@ Output<double> measure_thickness(const Surface& surface, const Call& call, bool 
   }));
 }
 
+/// Not a copy: the array keeps the surface alive, and may not be written to.
+Output<const double> areas_of(const nb::object& self) {
+  const auto& surface = nb::cast<const Surface&>(self);
+  const std::span<const double> areas = without_lock([&] { return surface.vertex_areas(); });
+  return {areas.data(), {areas.size()}, self};
+}
+
 auto submesh(const Surface& surface, const Ids& ids, bool all) {
   Submesh part = surface.submesh(ids_of(ids), all ? Corners::All : Corners::Any);
   return std::tuple(owned<std::int32_t>(std::move(part.vertices)), owned<std::int64_t>(std::move(part.faces)),
@@ -226,6 +233,7 @@ nb::class_<Surface> bind_surface(nb::module_& module) {
            [](Surface& surface, const ExactMethod& method, const Ids& changed) {
              without_lock([&] { surface.refit_in_place(method.index(), ids_of(changed)); });
            })
+      .def("vertex_areas", &areas_of, nb::rv_policy::reference)
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("first_hits", &first_hits, nb::arg(), nb::arg(), nb::arg("threads"), nb::arg("progress").none())
       .def("thickness", &measure_thickness, nb::arg(), nb::arg("by_sphere"))

@@ -94,8 +94,10 @@ void search_along_curve(std::span<const SpacePoint> points, const Frame& frame, 
       rows_along_curve(points.size(), [&](std::size_t row) { return frame.to_frame(point_of(row)); }, task);
   task.parallel_for(points.size(), kPointsOfSearch, [&](unsigned thread, std::size_t begin, std::size_t end) {
     auto search = make();
-    for (std::size_t i = begin; i < end; ++i) visit(in_order[i], search.run(point_of(in_order[i])));
-    task.advance(thread, end - begin);
+    for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
+      visit(in_order[i], search.run(point_of(in_order[i])));
+      task.advance(thread, 1);
+    }
   });
   task.finish();
 }

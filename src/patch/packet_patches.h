@@ -37,7 +37,7 @@ class PacketPatches {
 
   /// Returns the queries whose patches it has found. For the others, patch and neighborhood may differ, by a loose
   /// edge, a diagonal or what is behind a side that dips into the ball; or much is behind such sides; or the radius is
-  /// almost 0, or infinite. With `measures`, it also finds area and volume.
+  /// almost 0. With `measures`, it also finds area and volume.
   QueryWord find(const PacketAnswer& packet, bool measures);
 
   // The functions below are for a query that was found.

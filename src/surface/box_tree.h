@@ -36,7 +36,7 @@ namespace meshhood::inline v0_1 {
 /// for. Far from the mesh the error is large, so there it measures in double.
 class BoxTree {
  public:
-  /// Makes a tree of `count` items, at least one. `box_of(i)` returns their boxes.
+  /// Makes a tree of `count` items, which may be none. `box_of(i)` returns their boxes.
   template <class BoxOf>
   void build(std::size_t count, BoxOf&& box_of);
 
@@ -90,7 +90,7 @@ void BoxTree::build(std::size_t count, BoxOf&& box_of) {
   levels_.clear();
   sizes_.clear();
   const auto add_level = [&](std::size_t size, auto&& box_at) {
-    std::vector<BoxGroup> groups(std::max<std::size_t>(1, (size + kFanOut - 1) / kFanOut));  // a walk begins in one
+    std::vector<BoxGroup> groups(std::max<std::size_t>(1, (size + kFanOut - 1) / kFanOut));
     for (std::size_t i = 0; i < size; ++i) set(groups[i / kFanOut], i % kFanOut, box_at(i));
     levels_.push_back(std::move(groups));
     sizes_.push_back(size);

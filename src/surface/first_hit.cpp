@@ -113,10 +113,11 @@ SurfacePoint surface_point(const SurfaceState& state, const FaceTree& tree, cons
 /// Every triangle that a ray meets counts.
 constexpr auto kEachCounts = [](std::size_t, const TrianglePoint&) { return true; };
 
-/// Finds the first hit of each ray from `begin` to `end`, of several rays by turns, and calls `visit(i, point)`.
-template <class RayOf, class Visit>
+/// Finds the first hit of each ray from `begin` to `end`, of several rays by turns, and calls `visit(i, point)`. Once
+/// `goes_on()` is false, no ray is begun.
+template <class RayOf, class GoesOn, class Visit>
 void search_together(const SurfaceState& state, const FaceTree& tree, std::size_t begin, std::size_t end,
-                     RayOf&& ray_of, Visit&& visit) {
+                     RayOf&& ray_of, GoesOn&& goes_on, Visit&& visit) {
   struct Started {
     std::optional<FirstHitSearch<decltype(kEachCounts)>> search;
     std::size_t ray = 0;
@@ -126,7 +127,7 @@ void search_together(const SurfaceState& state, const FaceTree& tree, std::size_
   std::size_t next = begin;
   const auto start = [&](Started& free) {
     free.search.reset();
-    if (next == end) return false;
+    if (next == end || !goes_on()) return false;
     free.ray = next++;
     const auto [origin, direction] = ray_of(free.ray);
     free.search.emplace(*state.index, tree, origin, direction, kEachCounts);
@@ -234,9 +235,11 @@ void Surface::for_each_first_hit(std::span<const SpacePoint> origins, std::span<
       if (i + kRaysAhead < end) fetch_row(in_order[i + kRaysAhead]);
       return ray_of(in_order[i]);
     };
-    search_together(state, tree, begin, end, next_ray,
-                    [&](std::size_t i, const SurfacePoint& point) { visit(in_order[i], point); });
-    task.advance(thread, end - begin);
+    const auto visit_ray = [&](std::size_t i, const SurfacePoint& point) {
+      visit(in_order[i], point);
+      task.advance(thread, 1);
+    };
+    search_together(state, tree, begin, end, next_ray, [&] { return task.should_continue(thread); }, visit_ray);
   });
   task.finish();
 }

@@ -571,11 +571,11 @@ TEST(Patch, IsTheSameAfterManyRuns) {
 TEST(Patch, IsWholeInABallOfAnySize) {
   TestMesh mesh = make_ball(3);
   Case outward(mesh);
-  const PatchMeasure whole = outward.measure(0, kInfinity);
+  const PatchMeasure whole = outward.searcher.measure(0, kInfinity);
   EXPECT_NEAR(whole.area, 4 * kPi, 0.3);
   EXPECT_NEAR(whole.volume, 4 * kPi / 3, 0.2);
   EXPECT_EQ(outward.searcher.patch(0, kInfinity).size(), mesh.face_count());
-  for (const double r : {2.5, 1e6}) {
+  for (const double r : {2.5, 1e6, kInfinity}) {
     EXPECT_EQ(outward.searcher.measure(0, r).area, whole.area);
     EXPECT_EQ(outward.searcher.measure(0, r).volume, whole.volume);
     EXPECT_NEAR(outward.measure(0, r).area, whole.area, 1e-13);

@@ -54,6 +54,27 @@ def test_vertex_areas():
     np.testing.assert_allclose(meshhood.vertex_areas(V, [[0, 1, 2]]), [2 / 3, 2 / 3, 2 / 3, 0, 0])
 
 
+def test_area_weights_are_kept_and_follow_a_refit(plates):
+    from meshhood._aggregate import area_weights
+
+    V, index, _ = plates
+    _, F = meshes.two_plates(12)
+    areas = area_weights(index, "area", None)
+    assert not areas.flags.writeable
+    masked = index.masked(walls=[4, 9])
+    for other in (area_weights(index, "area", None), area_weights(masked, "area", None)):
+        assert np.shares_memory(areas, other)
+    np.testing.assert_array_equal(areas, meshhood.vertex_areas(V, F))
+    other_faces = area_weights(index, "area", F[::2])
+    np.testing.assert_array_equal(other_faces, meshhood.vertex_areas(V, F[::2]))
+    for changed in (None, [7]):
+        moved = V.copy()
+        moved[7] += 0.25
+        got = area_weights(index.refit(moved, changed), "area", None)
+        np.testing.assert_array_equal(got, meshhood.vertex_areas(moved, F))
+    np.testing.assert_array_equal(areas, meshhood.vertex_areas(V, F))
+
+
 def test_errors_name_the_argument(plates):
     _, index, values = plates
     n = len(index)

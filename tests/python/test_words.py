@@ -324,9 +324,18 @@ def test_free_memory_is_what_a_control_group_leaves(tmp_path, monkeypatch):
     assert left("/") == [8000]
     monkeypatch.setattr(_memory, "_of_control_groups", lambda: iter([1000]))
     assert _memory.free_bytes() == 1000
+    for call in (  # too small to read the free memory for them
+        lambda: INDEX.moments(0.5),
+        lambda: INDEX.neighborhoods(5.0, [3, 4]),
+        lambda: INDEX.k_nearest(20, [3, 4]),
+        lambda: INDEX.discs(1.0, [3, 4]),
+        lambda: meshhood.MeshIndex.from_points(V[:50], 1.0),
+    ):
+        assert call() is not None
     with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds max_bytes, 1000; iter_neighborhoods"):
-        INDEX.neighborhoods(5.0)
-    assert len(INDEX.moments(0.5)) == COUNT  # too small to read the free memory for it
+        INDEX.neighborhoods(5.0, np.zeros(2**17, int))
+    with pytest.raises(MemoryError, match=r"\d+ bytes, exceeds max_bytes, 1000; take fewer vertices"):
+        INDEX.k_nearest(2**17, [3])
     rows = np.zeros(2**17, int)
     for call in (
         lambda: INDEX.aggregate(VALUES, 5.0, vertices=rows),

@@ -2,11 +2,14 @@
 // The point of the surface nearest to a point, against a scan of all faces; that of a triangle, in long double.
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -15,6 +18,7 @@
 #include "meshhood/error.h"
 #include "meshhood/index.h"
 #include "meshhood/refit.h"
+#include "meshhood/run.h"
 #include "meshhood/search.h"
 #include "meshhood/surface.h"
 
@@ -27,6 +31,7 @@
 #include "support/long_point.h"
 #include "support/random.h"
 #include "support/refusal.h"
+#include "support/reports.h"
 #include "support/scale.h"
 #include "support/test_triangles.h"
 #include "surface/face_triangles.h"
@@ -302,6 +307,31 @@ TEST(ClosestPoint, AnswersManyPointsOnSeveralThreadsAsOneByOne) {
     if (row == 7) raise(ErrorCode::Cancelled, "row 7");
   };
   expect_refused(ErrorCode::Cancelled, "row 7", [&] { surface.for_each_closest_point(points, refuse); });
+}
+
+/// Even the points that a thread takes at once, each of which may take long.
+TEST(ClosestPoint, AndFirstHitSeeProgressBetweenPoints) {
+  const auto [mesh, index, surface] = with_surface(bumpy_grid(5));
+  const std::vector<SpacePoint> points(200, {1, 1, 9});
+  const std::vector<SpacePoint> directions(points.size(), {0, 0, -1});
+  std::size_t visits = 0;
+  const auto visit = [&](std::size_t, const SurfacePoint&) {
+    ++visits;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // so that all take longer than progress is due
+  };
+  const auto expect_few_visits = [&](auto&& call) {
+    visits = 0;
+    Reports reports;
+    const Progress progress = [&](std::size_t done, std::size_t total) {
+      reports.emplace_back(done, total);
+      return done == 0;
+    };
+    expect_refused(ErrorCode::Cancelled, "cancelled", [&] { call(meshhood::Run{.threads = 1, .progress = progress}); });
+    EXPECT_LT(visits, points.size());
+    EXPECT_EQ(reports.back(), std::pair(visits, points.size()));
+  };
+  expect_few_visits([&](const meshhood::Run& run) { surface.for_each_closest_point(points, visit, run); });
+  expect_few_visits([&](const meshhood::Run& run) { surface.for_each_first_hit(points, directions, visit, run); });
 }
 
 TEST(ClosestPoint, GivesTheStartOfARegion) {

@@ -119,10 +119,11 @@ class Aggregates(Held):
         but the first, and one of reductions unless `reduce` is one name. NaN where a neighborhood has no values; 0 for
         their sum and their count.
 
-        No ids are listed. The cost is that of `counts` and a little for each channel. Sums
-        are exact to 1e-14 of the sum of the absolute terms, with a kernel to 1e-13 of the sum without it. A result does
-        not depend on the other vertices of the call, bit for bit. With a kernel, its last bits may depend on whether
-        `values` have more than 16 channels, and on whether one of them exceeds 2^300.
+        No ids are listed. The cost is that of `counts` and a little for each channel; for medians and quantiles, all
+        values of a channel are sorted first. Sums are exact to 1e-14 of the sum of the absolute terms, with a kernel to
+        1e-13 of the sum without it. A result does not depend on the other vertices of the call, bit for bit. With a
+        kernel, its last bits may depend on whether `values` have more than 16 channels, and on whether one of them
+        exceeds 2^300.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> index.aggregate(V, 0.3, "std", weights="area").shape
@@ -304,12 +305,12 @@ def read_reductions(reduce: Any) -> tuple[tuple[str, ...], tuple[int, ...]]:
 
 
 def area_weights(index: Held, weights: Any, F: Any) -> Any:
-    """`weights` as float64, computed from the faces if they are "area"; None if there are none."""
+    """`weights` as float64, those that the surface keeps if they are "area"; None if there are none."""
     if weights is None:
         return None
     if isinstance(weights, str):
         _convert.choice(weights, "weights", ("area",))
-        return _core.vertex_areas((index._methods.positions, *index._face_arrays(F, " or numbers as weights=")))
+        return index._surface(F, instead=" or numbers as weights=").vertex_areas()
     return read_weights(weights, range(index._count))
 
 

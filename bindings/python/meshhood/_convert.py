@@ -276,9 +276,12 @@ def threads(workers):
     return workers
 
 
-def max_bytes(value, copies=1):
-    """`value`, or for None what fits `copies` times into the memory that this process may still take."""
-    return free_bytes() // copies if value is None else integer(value, "max_bytes", 0, 2**64 - 1)
+def max_bytes(value, most, copies=1):
+    """`value`, or for None what fits `copies` times into the memory that this process may still take. `most`: the bytes
+    that the result has at most. To read the free memory takes longer than a small call."""
+    if value is not None:
+        return integer(value, "max_bytes", 0, 2**64 - 1)
+    return 2**20 if most < 2**20 else free_bytes() // copies
 
 
 def path(value, name="path"):

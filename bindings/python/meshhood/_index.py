@@ -393,7 +393,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         with_distances = _convert.choice(mode, "mode", ("connectivity", "distance")) == "distance"
         _convert.refuse_one(vertices, self._count, _FOR_ONE)
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
-        numbers, limit = result_dtype(dtype), _convert.max_bytes(max_bytes)
+        numbers, limit = result_dtype(dtype), rows.limit(max_bytes, self._count)
         searched = rows.index._method(method, metric)
         indptr, indices, distances = self._rows_of(
             searched, rows, with_distances, "id", numbers, limit, "radius_neighbors_graph"
@@ -445,7 +445,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         check_sort(sort)
         numbers = result_dtype(dtype)
         if max_bytes is not None:
-            _convert.max_bytes(max_bytes)
+            rows.limit(max_bytes, self._count)
         searched = rows.index._method(method, metric)
         all_rows = np.arange(self._count, dtype=np.int32) if rows.vertices is None else rows.vertices
         by_place = np.argsort(self._places()[all_rows], kind="stable") if in_index_order else slice(None)
@@ -455,7 +455,8 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
                 ids, radii = all_rows[by_place], radius if isinstance(radius, float) else radius[by_place]
                 for begin in range(0, len(ids), chunk):
                     part = slice(begin, begin + chunk)
-                    some = replace(rows, vertices=ids[part], radii=[radii if isinstance(radii, float) else radii[part]])
+                    of_part = {"count": len(ids[part]), "vertices": ids[part]}
+                    some = replace(rows, **of_part, radii=[radii if isinstance(radii, float) else radii[part]])
                     found = self._rows_of(searched, some, return_distance, sort, numbers, max_bytes, "")
                     yield Chunk(ids[part].copy(), *found)
 
@@ -467,7 +468,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         """indptr, indices, and distances or None; the rows of all scales. `searched` is the method."""
         check_sort(sort)
         dtype = result_dtype(dtype)
-        left = _convert.max_bytes(max_bytes)
+        left = rows.limit(max_bytes, self._count)
         with_distances = return_distance or sort == "distance"
 
         def search(radius: Any, report: Any) -> Any:
@@ -488,8 +489,10 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
 
     def masked(self, *, walls: Mask = None, ignored: Mask = None) -> MeshIndex:
         """The same index with masks: every call of it leaves out walls and ignored vertices (see `MeshIndex`), and takes
-        no such arguments. For loops of calls: the masks are read once, O(#V). Shares the memory of this index; an index
-        with masks is not saved, refitted, pickled or masked again. `closest_point` is that of the whole mesh.
+        no such arguments. For loops of calls: the masks are read once, O(#V). What patches (`invariants`, `gaps`,
+        `measure`, `clip`) and metric="surface" need of the faces is made anew for each set of walls, in 2 s for a million
+        vertices. Shares the memory of this index; an index with masks is not saved, refitted, pickled or masked again.
+        `closest_point` is that of the whole mesh.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> lower = index.masked(walls=V[:, 2] > 0)
@@ -517,8 +520,9 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
 
         Returns a new index, with the attributes of a subclass. This one stays as it is, and threads may search it
         meanwhile. The two share all memory but positions and bounds. With `changed`, what this index has made of its
-        faces is kept for the first call of the new one that needs it, and renewed then. Answers are exact whatever the
-        positions; `quality` says when a new index would answer faster.
+        faces is kept for the first call of the new one that needs it, and renewed then; but edge lengths of paths and
+        lines of metric="surface" are all made again. Answers are exact whatever the positions; `quality` says when a new
+        index would answer faster.
 
         >>> moved = meshhood.MeshIndex(V, F).refit(2 * V)
         """

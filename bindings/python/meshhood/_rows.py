@@ -50,6 +50,10 @@ class Rows:
         with self.reporter(call.__name__) as report:
             return call(*first, self.call(report, radius, max_bytes), **options)
 
+    def limit(self, max_bytes: Any, longest: int, copies: int = 1) -> int:
+        """Of the bytes of the lists of these rows, of up to `longest` vertices with their distances."""
+        return _convert.max_bytes(max_bytes, 12 * longest * self.count * len(self.radii), copies)
+
     def shaped(self, array: Any) -> Any:
         """A result with a row for each vertex, of one scale after the other."""
         return array.reshape(self.shape + array.shape[1:])
@@ -111,11 +115,9 @@ def sorted_rows(index: Held, sort: str, indptr: Any, indices: Any, distances: An
 
 
 def check_size(shape: tuple[int, ...], itemsize: int, max_bytes: Any) -> None:
-    """Refuses a result of this shape that is too large. To read the free memory takes longer than a small call."""
+    """Refuses a result of this shape that is too large."""
     size = itemsize * math.prod(shape)
-    if max_bytes is None and size < 2**20:
-        return
-    limit = _convert.max_bytes(max_bytes)
+    limit = _convert.max_bytes(max_bytes, size)
     if size > limit:
         most = "the free memory" if max_bytes is None else "max_bytes"
         raise MemoryError(

@@ -109,7 +109,9 @@ class SurfaceQueries(Held):
         """
         points = points_of(P)
         distance = _convert.finite(link, "link", or_zero=True)
-        edges = _convert.max_bytes(None) // _BYTES_OF_EDGE if max_edges is None else max_edges
+        edges = max_edges
+        if edges is None:
+            edges = _convert.max_bytes(None, _BYTES_OF_EDGE * len(points) ** 2) // _BYTES_OF_EDGE
         options = {
             "max_edges": _convert.integer(edges, "max_edges", 0, 2**64 - 1),
             "threads": _convert.threads(workers),
@@ -319,8 +321,8 @@ class SurfaceQueries(Held):
         >>> ids, distances = index.k_nearest(20)
         """
         rows = read_rows(self, vertices, r, None, metric, walls, ignored, unit, workers, progress)
-        limit = _limit(rows, max_bytes, 1)
         k = _convert.integer(k, "k")
+        limit = _limit(rows, max_bytes, k)
         fill = _convert.integer(fill, "fill", -(2**31), 2**31 - 1)
         ids, distances = rows.ask(_core.k_nearest, rows.index._exact, max_bytes=limit, k=k)
         if fill != -1:
@@ -356,7 +358,7 @@ class SurfaceQueries(Held):
         >>> indptr, ids, distances = index.discs(0.3, [4, 7], metric="path")
         """
         rows = read_rows(self, vertices, r, None, metric, walls, ignored, unit, workers, progress)
-        limit = _limit(rows, max_bytes, 2)
+        limit = _limit(rows, max_bytes, self._count, 2)
         areas = area_weights(self, weights, F)
         if areas is None:
             raise ValueError("weights: expected 'area' or (#V,) numbers")
@@ -364,11 +366,11 @@ class SurfaceQueries(Held):
         return Discs(*rows.ask(_core.discs, rows.index._exact, max_bytes=limit, area=least, areas=areas))
 
 
-def _limit(rows: Rows, max_bytes: Any, copies: int) -> int:
+def _limit(rows: Rows, max_bytes: Any, longest: int, copies: int = 1) -> int:
     """Of the bytes of rows that have one radius."""
     if not isinstance(rows.radii[0], float):
         raise ValueError("r: expected one radius for all rows")
-    return _convert.max_bytes(max_bytes, copies)
+    return rows.limit(max_bytes, longest, copies)
 
 
 def _of_polygons(places: Any, weights: Any, corners: int) -> Reals:
