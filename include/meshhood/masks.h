@@ -57,7 +57,7 @@ struct Masks {
 /// vertices; `nearest` and `Start::nearest` find ignored ones. A wall as a seed leads nowhere. The masks are copied;
 /// the arrays of `index` are shared, all of which remain valid without the walls. Needs some 50 bytes a leaf with
 /// walls, and 4 with ignored vertices alone. A search takes about as long as without masks. But what patches (see
-/// patch.h) and `surface_paths` need of the faces is made anew for each set of walls: 2 s for a million vertices.
+/// patch.h) and `surface_paths` need of the faces is made anew for each set of walls, which takes as long as a build.
 ///
 /// An index with masks is not saved, checked, refitted or masked again. After `refit_in_place` of `index`,
 /// it refuses to answer, as a searcher does. Its mesh, as from `extract_graph`, is the whole one.
