@@ -490,8 +490,8 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
     def masked(self, *, walls: Mask = None, ignored: Mask = None) -> MeshIndex:
         """The same index with masks: every call of it leaves out walls and ignored vertices (see `MeshIndex`), and takes
         no such arguments. For loops of calls: the masks are read once, O(#V). What patches (`invariants`, `gaps`,
-        `measure`, `clip`) and metric="surface" need of the faces is made anew for each set of walls, in 2 s for a million
-        vertices. Shares the memory of this index; an index with masks is not saved, refitted, pickled or masked again.
+        `measure`, `clip`) and metric="surface" need of the faces is made anew for each set of walls, which takes as long
+        as a build. Shares the memory of this index; an index with masks is not saved, refitted, pickled or masked again.
         `closest_point` is that of the whole mesh.
 
         >>> index = meshhood.MeshIndex(V, F)
