@@ -116,10 +116,9 @@ bool fits_32_bits(std::uint64_t count, std::uint64_t columns) {
   return count <= kMost && columns <= kMost;
 }
 
-/// Rows as the methods write them are in the order of the ids, or of the index except along the edges.
+/// Whether rows are found in another order than the options say.
 bool sorts_rows(const BatchCommand& options) {
-  const bool is_path = value_of(kMetrics, options.search.metric) == Metric::Path;
-  return options.search.sort == "distance" || (options.search.sort == "index" && is_path);
+  return options.search.sort == "index" && value_of(kMetrics, options.search.metric) == Metric::Path;
 }
 
 /// The approximate size of the file: the members without the zip headers. The ones of a matrix without distances
@@ -196,17 +195,16 @@ class Writer {
     CsvWriter csv(options_.output.name, pair_names(options_.distances), options_.max_bytes);
     const BatchVertices listed = listed_rows(options_, query_);
     AnswerSize total;
-    for_each_row(options_.distances || order_.needs_distances(),
-                 [&](std::span<const VertexId> ids, std::span<const double> distances) {
-                   const VertexId v = listed[total.rows++];
-                   total.count += ids.size();
-                   for (std::size_t i = 0; i < ids.size(); ++i) {
-                     csv.add(v);
-                     csv.add(ids[i]);
-                     if (options_.distances) csv.add(distances[i]);
-                     csv.end_row();
-                   }
-                 });
+    for_each_row(options_.distances, [&](std::span<const VertexId> ids, std::span<const double> distances) {
+      const VertexId v = listed[total.rows++];
+      total.count += ids.size();
+      for (std::size_t i = 0; i < ids.size(); ++i) {
+        csv.add(v);
+        csv.add(ids[i]);
+        if (options_.distances) csv.add(distances[i]);
+        csv.end_row();
+      }
+    });
     Task::check_cancelled();
     csv.commit();
     return total;
@@ -250,26 +248,27 @@ class Writer {
       npz.append<Integer>(converted);
     };
     npz.begin<Integer>("indices", total.count);
-    for_each_row(order_.needs_distances(), write);
+    for_each_row(false, write);
   }
 
   /// Calls `write(ids, distances)` for each row, sorted as the options say.
   template <class Write>
   void for_each_row(bool with_distances, Write&& write) {
-    const BatchOptions pass{.distances = with_distances,
-                            .sorted = options_.search.sort == "id",
+    const RowSort sort = value_of(kSorts, options_.search.sort);
+    const BatchOptions pass{.distances = with_distances || sort == RowSort::Distance,
+                            .sort = sort,
                             .in_index_order = options_.order == "index"};
+    const bool sorts = sorts_rows(options_);
     std::vector<VertexId> ids;
     std::vector<double> distances;
-    const auto sort_and_write = [&](const BatchRow& row) {
+    const auto pass_on = [&](const BatchRow& row) {
+      if (!sorts) return write(row.ids, row.distances);
       ids.assign(row.ids.begin(), row.ids.end());
       distances.assign(row.distances.begin(), row.distances.end());
       order_.sort(ids, distances);
       write(std::span<const VertexId>(ids), std::span<const double>(distances));
     };
-    if (sorts_rows(options_)) return for_each_neighborhood(method_, query_, sort_and_write, pass, next_run());
-    for_each_neighborhood(
-        method_, query_, [&](const BatchRow& row) { write(row.ids, row.distances); }, pass, next_run());
+    for_each_neighborhood(method_, query_, pass_on, pass, next_run());
   }
 
   Run next_run() {

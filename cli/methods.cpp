@@ -19,7 +19,7 @@ void add_method(CLI::App& command, MethodOptions& options) {
   add_metric(command, options.metric);
   add_choice(command, "--sort",
              "order of the vertices of an answer: id, index (that of the index, the fastest) or distance, then id",
-             {"id", "index", "distance"}, options.sort);
+             names_of(kSorts), options.sort);
 }
 
 void add_metric(CLI::App& command, std::string& metric, bool takes_space) {
@@ -86,8 +86,7 @@ SearchMethod method_of(const MethodOptions& options, Input& input, const paper::
 }
 
 RowOrder row_order(const std::string& sort, Input& input) {
-  if (sort == "distance") return RowOrder::by_distance();
-  return sort == "index" ? RowOrder(input.exact_index().permutation()) : RowOrder();
+  return sort == "index" ? RowOrder(input.exact_index().permutation()) : RowOrder(value_of(kSorts, sort));
 }
 
 }  // namespace meshhood::cli

@@ -262,7 +262,7 @@ class Session {
     for (VertexId& v : vertices) v = static_cast<VertexId>(below(oracle.size()));
     const Run run{.threads = static_cast<unsigned>(1 + below(3))};
     const Neighborhoods answer =
-        neighborhoods(*place.index, {.vertices = vertices, .radius = radius}, {.sorted = true}, run);
+        neighborhoods(*place.index, {.vertices = vertices, .radius = radius}, {.sort = RowSort::Id}, run);
     for (std::size_t row = 0; row < vertices.size(); ++row) {
       const auto ids =
           std::span(answer.ids).subspan(answer.offsets[row], answer.offsets[row + 1] - answer.offsets[row]);

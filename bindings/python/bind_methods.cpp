@@ -153,8 +153,8 @@ struct FoundRows {
   }
 };
 
-auto many(const Method& method, const Call& call, bool distances, bool sorted) {
-  const BatchOptions options{.distances = distances, .sorted = sorted};
+auto many(const Method& method, const Call& call, bool distances, RowSort sort) {
+  const BatchOptions options{.distances = distances, .sort = sort};
   const Run run = call.run();
   FoundRows found;
   const BatchAllocator allocate = found.allocator(distances);
@@ -252,6 +252,10 @@ void bind_methods(nb::module_& module) {
       .value("path", Metric::Path)
       .value("rings", Metric::Rings)
       .value("space", Metric::Space);
+  nb::enum_<RowSort>(module, "RowSort")
+      .value("none", RowSort::None)
+      .value("id", RowSort::Id)
+      .value("distance", RowSort::Distance);
   nb::class_<Call>(module, "Call")
       .def(nb::init<std::optional<Ids>, std::optional<FacePoints>, Radius, Metric, unsigned, nb::object,
                     std::uint64_t>(),
@@ -263,7 +267,7 @@ void bind_methods(nb::module_& module) {
       .def("neighborhood", &one)
       .def("neighborhood_and_distances", &one_with_distances)
       .def("count", &count_of_one)
-      .def("neighborhoods", &many, nb::arg(), nb::arg("distances"), nb::arg("sorted"))
+      .def("neighborhoods", &many, nb::arg(), nb::arg("distances"), nb::arg("sort"))
       .def("counts", &many_counts)
       .def("region", &region, center, arg, arg)
       .def("stroke", &stroke, center, arg, arg)

@@ -9,6 +9,7 @@ import { MASKS, METRIC, METRICS, ROWS, SCALED_ROWS, useFaces, withMasks, withRow
 
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
 const ORDERS = ['index', 'id', 'distance'];
+const ROW_SORTS = [null, 'id', 'distance']; // those that the search itself applies
 const UNITS = ['mesh', 'edge'];
 const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count', 'median', 'quantile'];
 const KERNELS = ['box', 'epanechnikov', 'biweight', 'gaussian'];
@@ -323,8 +324,8 @@ export class MeshIndex extends Owner {
     if (sort !== null) choose(ORDERS, sort, 'sort');
     const place = chooseMethod(given);
     const { ids, reals, counts } = this.#askRows(r, given, () => {
-      this.instance.call('batch', place, false, distances || sort === 'distance', sort === 'id');
-      if (sort === 'index' || sort === 'distance') this.instance.call('sort_answer', ORDERS.indexOf(sort), true);
+      this.instance.call('batch', place, false, distances || sort === 'distance', Math.max(0, ROW_SORTS.indexOf(sort)));
+      if (sort === 'index') this.instance.call('sort_answer', ORDERS.indexOf(sort), true);
     });
     return distances ? { offsets: counts, ids, distances: reals } : { offsets: counts, ids };
   }
@@ -332,7 +333,7 @@ export class MeshIndex extends Owner {
   counts(r, options = {}) {
     const given = withDefaults(options, COUNTS);
     const place = chooseMethod(given);
-    return this.#askRows(r, given, () => this.instance.call('batch', place, true, false, false)).counts;
+    return this.#askRows(r, given, () => this.instance.call('batch', place, true, false, 0)).counts;
   }
 
   /** The answer to what `use` calls for the rows. */

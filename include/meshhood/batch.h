@@ -162,12 +162,19 @@ struct BatchQuery {
   [[nodiscard]] std::size_t result_rows(std::size_t vertex_count, std::size_t columns = 1) const;
 };
 
+/// The order of the vertices of a row, the same whatever the method, unless it is `None`.
+enum class RowSort : std::uint8_t {
+  None,      ///< as the method finds them (see `BatchOptions`)
+  Id,        ///< ascending ids
+  Distance,  ///< ascending distances, equal ones by id
+};
+
 /// What the rows of a batch have, and their order. A row depends on the index, its vertex and its radius alone, not on
-/// the other rows. With an `Index`, its ids are in index order: ascending places of the permutation of the index. Rows
-/// of other methods have the order of their searcher.
+/// the other rows. Unless they are sorted, the ids of an `Index` are in index order, ascending places of its
+/// permutation, and by `Path` ascend by length; rows of other methods have the order of their searcher.
 struct BatchOptions {
-  bool distances = false;  ///< also compute the distance of each vertex (see `distance`)
-  bool sorted = false;     ///< ids of a row ascend, whatever the method
+  bool distances = false;        ///< also compute the distance of each vertex (see `distance`)
+  RowSort sort = RowSort::None;  ///< sorts each row; `Distance` needs `distances`, else Error{InvalidOption}
 
   /// `for_each_neighborhood` passes the rows in index order (see `Index::permutation`) instead of ascending. Near rows
   /// are then computed together whatever the order of the query, which is up to ten times as fast where the vertices of

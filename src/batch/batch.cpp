@@ -94,6 +94,9 @@ Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOpt
       rows_(query, factory_.vertex_count),
       task_(run.threads, run.progress, passes * rows_.size()),
       threads_(task_.threads()) {
+  if (options.sort == RowSort::Distance && !options.distances) {
+    raise(ErrorCode::InvalidOption, "distances is false, expected true to sort by distance");
+  }
   if (rows_.size() != 0 && factory_.of_slots != nullptr) prepare_searches(*factory_.of_slots, query.metric);
 }
 

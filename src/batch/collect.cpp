@@ -100,7 +100,7 @@ std::vector<std::uint64_t> stream_and_copy(const SearchMethod& method, const Bat
 class RowsInPlace final : public RowReceiver {
  public:
   RowsInPlace(Batch& batch, unsigned thread, std::span<const std::uint64_t> offsets, const BatchMemory& memory)
-      : batch_(batch), thread_(thread), offsets_(offsets), memory_(memory) {}
+      : batch_(batch), thread_(thread), offsets_(offsets), memory_(memory), order_(batch.options().sort) {}
 
   BatchMemory memory(std::size_t row, std::size_t size) override {
     last_.ids = memory_.ids.subspan(offsets_[row], size);
@@ -110,7 +110,7 @@ class RowsInPlace final : public RowReceiver {
 
   bool done(std::size_t /*row*/) override {
     constexpr std::size_t kIdsBetweenLooks = 4096;  // a look at the clock takes a tenth of the time of a small row
-    if (batch_.options().sorted) by_id_.sort(last_.ids, last_.distances);
+    order_.sort(last_.ids, last_.distances);
     ids_since_look_ += last_.ids.size();
     if (ids_since_look_ < kIdsBetweenLooks) return true;
     ids_since_look_ = 0;
@@ -123,7 +123,7 @@ class RowsInPlace final : public RowReceiver {
   std::span<const std::uint64_t> offsets_;
   BatchMemory memory_;
   BatchMemory last_;
-  RowOrder by_id_;
+  RowOrder order_;
   std::size_t ids_since_look_ = 0;
 };
 

@@ -38,7 +38,7 @@ struct Store {
 class DirectRows final : public RowReceiver {
  public:
   DirectRows(Batch& batch, const RowSink& sink, std::span<const std::size_t> row_of)
-      : batch_(batch), sink_(sink), row_of_(row_of) {}
+      : batch_(batch), sink_(sink), row_of_(row_of), order_(batch.options().sort) {}
 
   void run() {
     batch_.for_all_chunks([&](unsigned thread, const BatchChunk& chunk) {
@@ -52,7 +52,7 @@ class DirectRows final : public RowReceiver {
   }
 
   bool done(std::size_t row) override {
-    if (batch_.options().sorted) by_id_.sort(last_.ids, last_.distances);
+    order_.sort(last_.ids, last_.distances);
     sink_({row_of_.empty() ? row : row_of_[row], last_.ids, last_.distances});
     batch_.task().advance(1);
     return batch_.task().should_continue(0);
@@ -64,7 +64,7 @@ class DirectRows final : public RowReceiver {
   std::span<const std::size_t> row_of_;
   Store store_;
   BatchMemory last_;
-  RowOrder by_id_;
+  RowOrder order_;
 };
 
 class Stream {
@@ -96,7 +96,8 @@ class Stream {
         : stream_(stream),
           thread_(thread),
           first_(first),
-          bytes_at_once_(share_at_once(stream.batch_.options().buffer_bytes, stream.batch_.task().threads())) {}
+          bytes_at_once_(share_at_once(stream.batch_.options().buffer_bytes, stream.batch_.task().threads())),
+          order_(stream.batch_.options().sort) {}
     WindowRows(const WindowRows&) = delete;
     WindowRows& operator=(const WindowRows&) = delete;
     ~WindowRows() override { stream_.bytes_ += new_bytes_; }
@@ -110,7 +111,7 @@ class Stream {
     }
 
     bool done(std::size_t /*row*/) override {
-      if (stream_.batch_.options().sorted) by_id_.sort(last_.ids, last_.distances);
+      order_.sort(last_.ids, last_.distances);
       return stream_.fits() && stream_.batch_.task().should_continue(thread_);
     }
 
@@ -121,7 +122,7 @@ class Stream {
     std::size_t bytes_at_once_;
     std::size_t new_bytes_ = 0;
     BatchMemory last_;
-    RowOrder by_id_;
+    RowOrder order_;
   };
 
   /// Windows depend on the rows alone, and so does what is searched together (see `Batch::for_each_chunk`).

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "meshhood/batch.h"
 #include "meshhood/mesh.h"
 
 namespace meshhood::inline v0_1 {
@@ -16,25 +17,19 @@ namespace meshhood::inline v0_1 {
 /// Puts the vertices of a row into an order, and their distances along with them.
 class RowOrder {
  public:
-  /// Orders by ascending ids.
-  RowOrder() = default;
+  explicit RowOrder(RowSort sort) : sort_(sort) {}
 
   /// Takes the order of an index, whose permutation is borrowed.
-  explicit RowOrder(std::span<const VertexId> permutation) : permutation_(permutation), places_(permutation.size()) {
+  explicit RowOrder(std::span<const VertexId> permutation)
+      : sort_(RowSort::Id), permutation_(permutation), places_(permutation.size()) {
     for (std::size_t i = 0; i < permutation.size(); ++i) places_[permutation[i]] = static_cast<VertexId>(i);
   }
 
-  /// Orders by ascending distances, equal ones by id.
-  [[nodiscard]] static RowOrder by_distance() {
-    RowOrder order;
-    order.by_distance_ = true;
-    return order;
-  }
-
-  [[nodiscard]] bool needs_distances() const { return by_distance_; }
+  [[nodiscard]] bool needs_distances() const { return sort_ == RowSort::Distance; }
 
   /// `distances` may be empty unless they are needed.
   void sort(std::span<VertexId> ids, std::span<double> distances) {
+    if (sort_ == RowSort::None) return;
     if (!places_.empty()) {
       for (VertexId& id : ids) id = places_[id];
     }
@@ -51,15 +46,15 @@ class RowOrder {
   };
 
   void sort_numbers(std::span<VertexId> numbers, std::span<double> distances) {
-    assert(distances.size() == numbers.size() || (distances.empty() && !by_distance_));
-    if (!by_distance_ && std::ranges::is_sorted(numbers)) return;
+    assert(distances.size() == numbers.size() || (distances.empty() && !needs_distances()));
+    if (!needs_distances() && std::ranges::is_sorted(numbers)) return;
     if (distances.empty()) {
       std::ranges::sort(numbers);
       return;
     }
     items_.resize(numbers.size());
     for (std::size_t i = 0; i < numbers.size(); ++i) items_[i] = {numbers[i], distances[i]};
-    if (by_distance_) {
+    if (needs_distances()) {
       std::ranges::sort(items_, {}, [](const Item& item) { return std::tie(item.distance, item.number); });
     } else {
       std::ranges::sort(items_, {}, &Item::number);
@@ -70,7 +65,7 @@ class RowOrder {
     }
   }
 
-  bool by_distance_ = false;
+  RowSort sort_;
   std::span<const VertexId> permutation_;
   std::vector<VertexId> places_;  // of each vertex, if they are not the ids
   std::vector<Item> items_;       // of one call

@@ -70,15 +70,16 @@ std::vector<std::uint64_t> sizes_of(const Streamed& rows) {
   return result;
 }
 
-/// A row by a searcher of its own, ids ascending, with distances.
+/// A row by a searcher of its own, with distances, sorted.
 template <class Searcher>
-void append_answer(Searcher& searcher, VertexId v, double radius, Streamed& out) {
+void append_answer(Searcher& searcher, VertexId v, double radius, RowSort sort, Streamed& out) {
   std::vector<VertexId> ids;
   std::vector<double> distances;
   searcher.neighborhood(v, radius, ids, distances);
   std::vector<std::size_t> order(ids.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+  std::ranges::sort(order, {},
+                    [&](std::size_t i) { return std::pair(sort == RowSort::Distance ? distances[i] : 0.0, ids[i]); });
   out.ids.emplace_back();
   out.distances.emplace_back();
   for (const std::size_t i : order) {
@@ -88,10 +89,13 @@ void append_answer(Searcher& searcher, VertexId v, double radius, Streamed& out)
 }
 
 template <class Searcher, class Index>
-Streamed one_by_one(const Index& index, std::span<const VertexId> vertices, std::span<const double> radii) {
+Streamed one_by_one(const Index& index, std::span<const VertexId> vertices, std::span<const double> radii,
+                    RowSort sort) {
   Streamed result;
   Searcher searcher(index);
-  for (std::size_t row = 0; row < vertices.size(); ++row) append_answer(searcher, vertices[row], radii[row], result);
+  for (std::size_t row = 0; row < vertices.size(); ++row) {
+    append_answer(searcher, vertices[row], radii[row], sort, result);
+  }
   return result;
 }
 
@@ -115,17 +119,19 @@ struct RandomRows {
 
 template <class Searcher, class Source>
 void expect_right(const SearchMethod& index, const Source& source, const RandomRows& rows) {
-  const Streamed expected = one_by_one<Searcher>(source, rows.vertices, rows.radii);
-  for (const unsigned threads : kThreads) {
-    // The smaller buffers hold no row, or few.
-    for (const std::size_t buffer : {std::size_t{0}, std::size_t{2000}, std::size_t{1} << 24}) {
-      const BatchOptions options{.distances = true, .sorted = true, .buffer_bytes = buffer};
-      EXPECT_EQ(stream(index, rows.query(), options, {.threads = threads}), expected)
-          << threads << " threads, " << buffer << " bytes";
+  for (const RowSort sort : {RowSort::Id, RowSort::Distance}) {
+    const Streamed expected = one_by_one<Searcher>(source, rows.vertices, rows.radii, sort);
+    for (const unsigned threads : kThreads) {
+      // The smaller buffers hold no row, or few.
+      for (const std::size_t buffer : {std::size_t{0}, std::size_t{2000}, std::size_t{1} << 24}) {
+        const BatchOptions options{.distances = true, .sort = sort, .buffer_bytes = buffer};
+        EXPECT_EQ(stream(index, rows.query(), options, {.threads = threads}), expected)
+            << threads << " threads, " << buffer << " bytes";
+      }
+      EXPECT_EQ(rows_of(neighborhoods(index, rows.query(), {.distances = true, .sort = sort}, {.threads = threads})),
+                expected);
+      EXPECT_EQ(counts(index, rows.query(), {.threads = threads}), sizes_of(expected));
     }
-    EXPECT_EQ(rows_of(neighborhoods(index, rows.query(), {.distances = true, .sorted = true}, {.threads = threads})),
-              expected);
-    EXPECT_EQ(counts(index, rows.query(), {.threads = threads}), sizes_of(expected));
   }
 }
 
@@ -161,14 +167,14 @@ class Batches : public testing::Test {
 TEST_F(Batches, WithoutAListTakeAllVerticesInOrder) {
   std::vector<VertexId> all(index.vertex_count());
   std::iota(all.begin(), all.end(), VertexId{0});
-  const BatchOptions options{.sorted = true};
+  const BatchOptions options{.sort = RowSort::Id};
   EXPECT_EQ(stream(index, {.radius = 2.5}, options), stream(index, {.vertices = all, .radius = 2.5}, options));
   EXPECT_EQ(counts(index, {.radius = 0.5}), std::vector<std::uint64_t>(all.size(), 1));
 }
 
 TEST_F(Batches, InIndexOrderAreTheSameRowsSortedByTheirPlaceInTheIndex) {
   const RandomRows rows(mesh.view(), 3000, 4);
-  const Streamed expected = stream(index, rows.query(), {.sorted = true});
+  const Streamed expected = stream(index, rows.query(), {.distances = true, .sort = RowSort::Distance});
   const auto& slot = IndexAccess::view(index).slot;
   std::vector<std::size_t> order_on_one_thread;
   for (const unsigned threads : kThreads) {
@@ -178,7 +184,8 @@ TEST_F(Batches, InIndexOrderAreTheSameRowsSortedByTheirPlaceInTheIndex) {
         ASSERT_THAT(row.ids, testing::ElementsAreArray(expected.ids[row.row])) << "row " << row.row;
         order.push_back(row.row);
       };
-      const BatchOptions options{.sorted = true, .in_index_order = true, .buffer_bytes = buffer};
+      const BatchOptions options{
+          .distances = true, .sort = RowSort::Distance, .in_index_order = true, .buffer_bytes = buffer};
       for_each_neighborhood(index, rows.query(), sink, options, {.threads = threads});
       EXPECT_TRUE(std::ranges::is_sorted(order, {}, [&](std::size_t row) { return slot[rows.vertices[row]]; }));
       if (order_on_one_thread.empty()) order_on_one_thread = order;
@@ -202,8 +209,8 @@ TEST_F(Batches, OfAReorderedMeshAreThoseOfTheMesh) {
 TEST_F(Batches, KeptStayInTheOrderOfTheirRows) {
   const RandomRows rows(mesh.view(), 3000, 5);
   for (const SearchMethod& method : {SearchMethod(index), SearchMethod::ball_scan(mesh.positions_view())}) {
-    const Neighborhoods kept = neighborhoods(method, rows.query(), {.sorted = true, .in_index_order = true});
-    EXPECT_EQ(rows_of(kept), rows_of(neighborhoods(method, rows.query(), {.sorted = true})));
+    const Neighborhoods kept = neighborhoods(method, rows.query(), {.sort = RowSort::Id, .in_index_order = true});
+    EXPECT_EQ(rows_of(kept), rows_of(neighborhoods(method, rows.query(), {.sort = RowSort::Id})));
   }
 }
 
@@ -278,7 +285,7 @@ TEST_F(Batches, FillMemoryThatTheCallerAllocates) {
   const RandomRows rows(mesh.view(), 500, 3);
   for (const unsigned threads : kThreads) {
     for (const bool distances : {false, true}) {
-      const BatchOptions options{.distances = distances, .sorted = distances};
+      const BatchOptions options{.distances = distances, .sort = distances ? RowSort::Distance : RowSort::None};
       expect_same_in_callers_memory(index, rows.query(), options, {.threads = threads});
       expect_same_in_callers_memory(approximate, rows.query(), options, {.threads = threads});
     }
@@ -360,6 +367,10 @@ TEST_F(Batches, RefuseInvalidArgumentsBeforeTheFirstRow) {
   refused(ErrorCode::InvalidOption, "threads is 1025, expected at most 1024", {.radius = 1.0}, {.threads = 1025});
   expect_refused(ErrorCode::InvalidOption, "radius_ratio is 0",
                  [&] { const SearchMethod method(approximate, {.radius_ratio = 0}); });
+  for (const SearchMethod& method : {SearchMethod(index), SearchMethod::ball_scan(mesh.positions_view())}) {
+    expect_refused(ErrorCode::InvalidOption, "distances is false, expected true to sort by distance",
+                   [&] { return neighborhoods(method, {.radius = 1.0}, {.sort = RowSort::Distance}); });
+  }
 }
 
 TEST_F(Batches, RefuseAnInvalidGraph) {

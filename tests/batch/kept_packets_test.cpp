@@ -161,7 +161,7 @@ TEST_P(KeptRows, AreThoseThatWereSearchedForEach) {
         radii.push_back(random.below(20) == 0 ? kInfinity : scale * random.uniform(0, 1));
       }
       const BatchQuery query{.vertices = vertices, .radius = radii};
-      const BatchOptions options{.distances = seed % 3 == 0, .sorted = seed % 5 == 0};
+      const BatchOptions options{.distances = seed % 3 == 0, .sort = seed % 5 == 0 ? RowSort::Id : RowSort::None};
       const meshhood::Run run{.threads = 1 + static_cast<unsigned>(seed % 2)};
       Neighborhoods expected{{0}, {}, {}};
       for_each_neighborhood(

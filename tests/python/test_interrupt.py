@@ -33,6 +33,7 @@ def without_end(index, progress):
 # Each is called again and again.
 CALLS = (
     *(f"index.counts(SIDE / 3.0, method={method!r})" for method in METHODS),
+    "index.neighborhoods(4.0, sort='distance')",
     *(f"index.aggregate(ones, SIDE / 3.0, workers={workers})" for workers in (1, 2)),
     *(f"index.curvature(SIDE / 3.0, workers={workers})" for workers in (1, 2)),
     "index.count(0, 1.0, method=meshhood.Paper(fusion_growth=next(growth)))",

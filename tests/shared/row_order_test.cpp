@@ -20,9 +20,9 @@ TEST(RowOrder, IsThatOfTuples) {
   for (std::size_t i = 0; i < permutation.size(); ++i) permutation[i] = static_cast<VertexId>(i * 37 % 100);
   std::vector<VertexId> places(100);
   for (std::size_t i = 0; i < permutation.size(); ++i) places[permutation[i]] = static_cast<VertexId>(i);
-  RowOrder by_id;
+  RowOrder by_id(RowSort::Id);
   RowOrder by_place(permutation);
-  RowOrder by_distance = RowOrder::by_distance();
+  RowOrder by_distance(RowSort::Distance);
   EXPECT_TRUE(by_distance.needs_distances());
   EXPECT_FALSE(by_id.needs_distances() || by_place.needs_distances());
   for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{40}, std::size_t{3}, std::size_t{100}}) {

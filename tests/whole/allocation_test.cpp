@@ -127,7 +127,7 @@ struct Answers {
 /// Sorted: a searcher that has failed may give another order than a new one.
 Answers in_order(Answers answers) {
   const bool with_distances = answers.distances.size() == answers.ids.size();
-  RowOrder().sort(answers.ids, with_distances ? std::span(answers.distances) : std::span<double>());
+  RowOrder(RowSort::Id).sort(answers.ids, with_distances ? std::span(answers.distances) : std::span<double>());
   return answers;
 }
 
@@ -297,7 +297,7 @@ void expect_batches(Shortages& shortages, const TestMesh& mesh, const AnyIndex& 
   const BatchQuery query{.vertices = vertices,
                          .radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4};
   const Run run{.threads = threads};
-  const BatchOptions options{.distances = true, .sorted = true};
+  const BatchOptions options{.distances = true, .sort = RowSort::Id};
   const Neighborhoods all = neighborhoods(index, query, options, run);
   shortages.fail_each([] { return Neighborhoods(); },
                       [&](Neighborhoods& rows) { rows = neighborhoods(index, query, options, run); },
@@ -307,7 +307,7 @@ void expect_batches(Shortages& shortages, const TestMesh& mesh, const AnyIndex& 
   EXPECT_TRUE(neighborhoods(index, query, options, run) == all);
 
   // In small windows, so that a window can fail after others succeeded.
-  const BatchOptions windows{.sorted = true, .buffer_bytes = 2000};
+  const BatchOptions windows{.sort = RowSort::Id, .buffer_bytes = 2000};
   const auto stream = [&](Stream& out) {
     for_each_neighborhood(index, query, [&](const BatchRow& row) { out.take(row); }, windows, run);
   };

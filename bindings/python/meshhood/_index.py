@@ -33,7 +33,7 @@ from ._progress import Progress, in_parts, reporter
 from ._queries import Queries
 from ._regions import Regions
 from ._repr import shown_in_a_line
-from ._rows import Rows, check_size, check_sort, read_rows, result_dtype, sorted_rows
+from ._rows import Rows, check_size, needed_sort, read_rows, result_dtype, sorted_rows
 from ._shape import Shape
 from ._surface_queries import SurfaceQueries
 from ._types import (
@@ -313,6 +313,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         _convert.refuse_one(vertices, self._count, _FOR_ONE)
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, progress)
         searched = rows.index._method(method, metric)
+        sort = needed_sort(sort, method, metric)
         indptr, indices, distances = self._rows_of(
             searched, rows, return_distance, sort, dtype, max_bytes, "neighborhoods"
         )
@@ -442,11 +443,11 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         in_index_order = _convert.choice(order, "order", ("query", "index")) == "index"
         _convert.refuse_one(vertices, self._count, _FOR_ONE)
         rows = read_rows(self, vertices, r, scales, metric, walls, ignored, unit, workers, None)
-        check_sort(sort)
         numbers = result_dtype(dtype)
         if max_bytes is not None:
             rows.limit(max_bytes, self._count)
         searched = rows.index._method(method, metric)
+        sort = needed_sort(sort, method, metric)
         all_rows = np.arange(self._count, dtype=np.int32) if rows.vertices is None else rows.vertices
         by_place = np.argsort(self._places()[all_rows], kind="stable") if in_index_order else slice(None)
 
@@ -465,23 +466,23 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
     def _rows_of(
         self, searched: Any, rows: Rows, return_distance: bool, sort: Any, dtype: Any, max_bytes: Any, title: str
     ) -> Any:
-        """indptr, indices, and distances or None; the rows of all scales. `searched` is the method."""
-        check_sort(sort)
+        """indptr, indices, and distances or None; the rows of all scales. `searched` is the method, `sort` as `needed_sort`."""
         dtype = result_dtype(dtype)
         left = rows.limit(max_bytes, self._count)
         with_distances = return_distance or sort == "distance"
+        order = _core.RowSort.none if sort in (None, "index") else getattr(_core.RowSort, sort)
 
         def search(radius: Any, report: Any) -> Any:
             nonlocal left
             call = rows.call(report, radius, left)
-            indptr, indices, distances = searched.neighborhoods(call, distances=with_distances, sorted=sort == "id")
-            left = max(0, left - indices.nbytes - distances.nbytes)
-            return indptr, indices, distances if with_distances else None
+            indptr, indices, distances = searched.neighborhoods(call, distances=with_distances, sort=order)
+            left = max(0, left - indices.nbytes - (distances.nbytes if return_distance else 0))
+            return indptr, indices, distances if return_distance else None
 
         with rows.reporter(title) as report:  # scale after scale, as the library lists those of one radius alone
             found = map(search, rows.radii, in_parts(report, len(rows.radii)))
             indptr, indices, distances = _joined(list(found))
-        if sort in ("index", "distance"):
+        if sort == "index":
             indices, distances = sorted_rows(self, sort, indptr, indices, distances)
         if len(indices) <= np.iinfo(np.int32).max:
             indptr = indptr.astype(np.int32)  # or SciPy would widen the indices to the same type

@@ -15,7 +15,7 @@ from ._held import Held
 from ._methods import Method, is_exact
 from ._progress import Progress, reporter
 from ._repr import shown_in_a_line
-from ._rows import check_sort, result_dtype, sorted_rows
+from ._rows import needed_sort, result_dtype, sorted_rows
 from ._types import METRICS, Counts, Floats, Ids, Mask, Metric, Number, Reals, Scales, Sort, Unit
 
 if TYPE_CHECKING:
@@ -125,9 +125,9 @@ class Queries(Held):
             and _convert.is_single(start, "start")
         ):  # a microsecond, of which the arguments below would be a half
             return self._exact.neighborhood(_convert.vertex(start, self._count, "start"), _convert.radius(r))
-        check_sort(sort)
         numbers = result_dtype(dtype)
         center, seeds, radius, searcher = self._read(start, r, seeds, face, metric, walls, ignored, unit, method)
+        sort = needed_sort(sort, method, metric)
         distances: Any = None
         if center is not None:
             indices, distances = _around_point(searcher, center, seeds, radius)

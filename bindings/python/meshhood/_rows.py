@@ -96,13 +96,16 @@ def result_dtype(dtype: Any, default: Any = np.float64) -> Any:
     return _convert.real_type(default if dtype is None else dtype)
 
 
-def check_sort(sort: Any) -> None:
-    if sort is not None:
-        _convert.choice(sort, "sort", ("index", "id", "distance"))
+def needed_sort(sort: Any, method: Any, metric: str) -> Any:
+    """`sort`, or None if the ids that the method finds have this order."""
+    if sort is None or _convert.choice(sort, "sort", ("index", "id", "distance")) != "index":
+        return sort
+    return None if method in ("exact", "ball") and metric not in ("path", "surface") else sort
 
 
 def sorted_rows(index: Held, sort: str, indptr: Any, indices: Any, distances: Any) -> tuple[Any, Any]:
-    """The ids and distances, if there are any, with each row sorted."""
+    """The ids and distances, if there are any, with each row sorted: of one row, or in an order that the library itself
+    does not know, for methods without the index and for paths."""
     keys = [indices]
     if sort == "index":
         keys.append(index._places()[indices])

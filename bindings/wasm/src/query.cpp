@@ -24,8 +24,8 @@ enum class VertexOrder : std::uint8_t { Index, Id, Distance };
 namespace {
 
 RowOrder row_order(VertexOrder order) {
-  if (order == VertexOrder::Distance) return RowOrder::by_distance();
-  return order == VertexOrder::Index ? RowOrder(workspace.index().permutation()) : RowOrder();
+  if (order == VertexOrder::Index) return RowOrder(workspace.index().permutation());
+  return RowOrder(order == VertexOrder::Id ? RowSort::Id : RowSort::Distance);
 }
 
 void sort_rows(RowOrder&& order, std::span<const std::uint32_t> offsets) {
@@ -63,7 +63,7 @@ NearestOptions nearest_options() { return {.metric = rows.metric, .radius = rows
 }
 
 /// The counts of the answer are the offsets of the rows; with `count_only`, their sizes.
-[[clang::export_name("batch")]] void batch(MethodName method, bool count_only, bool with_distances, bool by_id) {
+[[clang::export_name("batch")]] void batch(MethodName method, bool count_only, bool with_distances, RowSort sort) {
   const SearchMethod& search = workspace.method(method);
   if (count_only) {
     const auto sizes = counts(search, rows);
@@ -71,7 +71,7 @@ NearestOptions nearest_options() { return {.metric = rows.metric, .radius = rows
     return;
   }
   if (method == MethodName::Bfs) check_size_of_rows(with_distances);
-  Neighborhoods found = neighborhoods(search, rows, {.distances = with_distances, .sorted = by_id}, workspace.run());
+  Neighborhoods found = neighborhoods(search, rows, {.distances = with_distances, .sort = sort}, workspace.run());
   answer.counts.assign(found.offsets.begin(), found.offsets.end());
   answer.ids = std::move(found.ids);
   answer.reals = std::move(found.distances);
