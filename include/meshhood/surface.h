@@ -83,8 +83,8 @@ struct Rim {
 /// What depends on the faces is made when it is first needed, and kept: 52 bytes a triangle for closest points and
 /// rays, and 2.3 more for thickness by balls, 37 bytes a triangle for patches (see patch.h), 24 bytes a vertex for
 /// curvature, 4 bytes a corner and 8 a vertex for the faces of each vertex, 8 bytes a vertex for areas. The first call
-/// of its kind so takes O(#V + #corners), and O(n log n) for the n triangles of closest points and patches. A polygon of
-/// n corners that is not convex may take O(n^3) where ears are rare.
+/// of its kind so takes O(#V + #corners), and O(n log n) for the n triangles of closest points and patches. A polygon
+/// of n corners that is not convex may take O(n^3) where ears are rare.
 ///
 /// Any number of threads may use it, but for `refit_in_place`. It shares the memory of the index, as a searcher does:
 /// the index may be moved or destroyed. After a refit of the index in place, calls throw Error{InvalidOption} until
