@@ -97,8 +97,8 @@ class QueryThread {
   bool batches_agree(const ExpectedAnswers& expected, std::size_t way) {
     const BatchQuery query{.vertices = std::span(&expected.v, 1), .radius = expected.radius};
     const meshhood::Run run{.threads = 1 + static_cast<unsigned>(way % 2)};
-    return neighborhoods(index_, query, {.sorted = true}, run).ids == expected.exact &&
-           neighborhoods(paper_index_, query, {.sorted = true}, run).ids == expected.paper;
+    return neighborhoods(index_, query, {.sort = RowSort::Id}, run).ids == expected.exact &&
+           neighborhoods(paper_index_, query, {.sort = RowSort::Id}, run).ids == expected.paper;
   }
 
   const Index& index_;
