@@ -116,7 +116,7 @@ bool fits_32_bits(std::uint64_t count, std::uint64_t columns) {
   return count <= kMost && columns <= kMost;
 }
 
-/// Whether rows are found in another order than the options say.
+/// Whether the command sorts the rows itself, and not the search: those of paths, in index order.
 bool sorts_rows(const BatchCommand& options) {
   return options.search.sort == "index" && value_of(kMetrics, options.search.metric) == Metric::Path;
 }

@@ -406,7 +406,7 @@ class Session {
     }
   }
 
-  /// Those without a wall.
+  /// Counts the faces of three corners and more.
   static std::size_t count_polygons(const test::TestMesh& mesh) {
     std::size_t polygons = 0;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {

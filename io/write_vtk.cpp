@@ -65,7 +65,7 @@ class VtkWriter {
     }
   }
 
-  /// Some readers take no faces for a damaged file.
+  /// Some readers regard an empty list of polygons as damage.
   void write_polygons() {
     if (mesh_.faces.size() == 0) return;
     file_.write(fmt::format("\nPOLYGONS {} {}\n", mesh_.faces.size(), numbers_of(mesh_.faces)));

@@ -9,7 +9,7 @@ import { MASKS, METRIC, METRICS, ROWS, SCALED_ROWS, useFaces, withMasks, withRow
 
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
 const ORDERS = ['index', 'id', 'distance'];
-const ROW_SORTS = [null, 'id', 'distance']; // those that the search itself applies
+const ROW_SORTS = [null, 'id', 'distance']; // by `RowSort` of the library, which the search applies
 const UNITS = ['mesh', 'edge'];
 const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count', 'median', 'quantile'];
 const KERNELS = ['box', 'epanechnikov', 'biweight', 'gaussian'];

@@ -34,7 +34,7 @@
 /// place are not one: weld a mesh that has such.
 ///
 /// A surface makes what all searches share at the first of them, and again after a refit: about 37 bytes a triangle, in
-/// O(#V + #corners log #corners). It throws Error{InvalidMesh} if no face is there.
+/// O(#V + #corners log #corners). It throws Error{InvalidMesh} if the mesh has no face of three corners.
 namespace meshhood::inline v0_1 {
 MESHHOOD_API_BEGIN
 

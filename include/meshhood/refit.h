@@ -69,8 +69,8 @@ struct Quality {
 /// in the middle the radius of the bounding sphere of the present leaf is compared with that of the new one.
 ///
 /// After `build`, `gain` is 0.9 to 1.1 on surfaces. At 1.5 and above, `build` again if many queries follow. On graphs
-/// whose edges are long compared with a leaf, the estimate is too high. The result is deterministic. Takes O(#leaves),
-/// and a build of 16384 vertices.
+/// whose edges are long compared with a leaf, the estimate is too high. The result is deterministic. Takes O(#V), for
+/// the box of the positions, and a build of 16384 vertices.
 [[nodiscard]] Quality quality(const Index& index);
 
 MESHHOOD_API_END

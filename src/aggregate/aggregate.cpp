@@ -341,10 +341,11 @@ std::size_t checked_size(std::size_t radii, std::size_t rows, std::size_t channe
   const bool fits = rows == 0 || (channels <= most / rows && reductions <= most / rows / channels &&
                                   radii <= most / rows / channels / reductions);
   if (!fits) {
-    raise(ErrorCode::TooLarge, std::to_string(radii) + " radii of " + std::to_string(rows) + " rows of " +
-                                   std::to_string(channels) + " channels by " + std::to_string(reductions) +
-                                   " reductions are more than " + std::to_string(most) +
-                                   " numbers, as many as fit into max_bytes, " + std::to_string(bytes));
+    raise(ErrorCode::TooLarge,
+          std::to_string(radii) + " radii of " + std::to_string(rows) + " rows of " + std::to_string(channels) +
+              " channels by " + std::to_string(reductions) + " reductions are more than " + std::to_string(most) +
+              " numbers" +
+              (bytes == max_bytes ? ", as many as fit into max_bytes, " + std::to_string(bytes) : std::string()));
   }
   return radii * rows * channels * reductions;
 }

@@ -58,7 +58,7 @@ void PacketPatches::set_balls(const PacketAnswer& packet) {
   for_each_query(packet.queries, [&](std::size_t q) {
     const std::uint32_t place = index.place(packet.vertices[q]);
     balls_[q] = patch_ball(index.position(place), packet.radii[q], index.frame.scale);
-    if (!std::isfinite(balls_[q].unit)) leave(q);  // an infinite radius is none: no triangle is cut
+    if (!std::isfinite(balls_[q].unit)) leave(q);  // an infinite radius is allowed, as no triangle is cut
     centers_.set(q, balls_[q].center);
     sums_[q].clear(state_->triangles.normal_of(index, state_->triangles.fans[place]));
     ball_rows_[q] = {lane_row(balls_[q].center, balls_[q].unit), lane_row(sums_[q].rim().pole())};

@@ -181,9 +181,12 @@ def test_a_result_of_just_the_limit_is_returned(method):
 def test_sorted_rows_need_no_memory_beside_the_result(sort):
     index = meshhood.MeshIndex(*meshes.two_plates(60))
     tracemalloc.start()
-    rows = index.neighborhoods(4.0, return_distance=True, sort=sort)
-    assert tracemalloc.get_traced_memory()[1] < 1.1 * sum(array.nbytes for array in rows)
-    tracemalloc.stop()
+    try:
+        rows = index.neighborhoods(4.0, return_distance=True, sort=sort)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 1.1 * sum(array.nbytes for array in rows)
 
 
 NAMES = [name for name in dir(meshhood.MeshIndex) if not name.startswith("_")]

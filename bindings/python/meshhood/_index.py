@@ -466,7 +466,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
     def _rows_of(
         self, searched: Any, rows: Rows, return_distance: bool, sort: Any, dtype: Any, max_bytes: Any, title: str
     ) -> Any:
-        """indptr, indices, and distances or None; the rows of all scales. `searched` is the method, `sort` as `needed_sort`."""
+        """indptr, indices, and distances or None; the rows of all scales. `searched`: the method; `sort`: see `needed_sort`."""
         dtype = result_dtype(dtype)
         left = rows.limit(max_bytes, self._count)
         with_distances = return_distance or sort == "distance"
@@ -546,7 +546,7 @@ class MeshIndex(Queries, SurfaceQueries, Patches, Aggregates, Shape, Regions, me
         Returns `Quality(mean_radius, rebuilt_radius, gain)`: the mean radius of the leaves at some places of the mesh,
         what it would be in a new index, and their ratio. The time of a query is about proportional to the radius of the
         leaves around it. After a build, `gain` is about 1; at 1.5 and above a new index pays off if many queries
-        follow. Takes some milliseconds for any mesh.
+        follow. Takes some milliseconds, and a pass over the positions.
 
         >>> meshhood.MeshIndex(V, F).quality().gain < 1.5
         True

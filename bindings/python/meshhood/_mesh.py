@@ -472,7 +472,7 @@ def warn_if_unwelded(mesh, stacklevel):
         def kept(eps):
             return len(_core.weld(mesh, eps=eps)[0])
 
-        # A larger tolerance keeps no more.
+        # Tolerances grow by 10, so that a weld keeps no more than by a smaller one.
         if 2 * count_apart(axes, tolerances[-1]) > len(positions) or 2 * kept(tolerances[-1]) > len(positions):
             return
         for eps in tolerances:  # the smallest that is enough: a larger one may join what is apart
@@ -495,8 +495,8 @@ def count_distinct(axes):
 
 
 def count_apart(axes, eps):
-    """Returns how many vertices a weld by `eps` keeps at least, in a tenth of its time: one in each cell of a grid that
-    has a vertex farther than `eps` from all other cells."""
+    """Returns how many vertices a weld by `eps` keeps at least, much faster than the weld: one in each cell of a grid
+    that has a vertex farther than `eps` from all other cells."""
     with np.errstate(all="ignore"):  # an `eps` of 0, or so small that quotients overflow: no vertex is inside
         cells = axes / (32 * eps)
         corners = np.floor(cells)

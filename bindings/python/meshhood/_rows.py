@@ -51,7 +51,7 @@ class Rows:
             return call(*first, self.call(report, radius, max_bytes), **options)
 
     def limit(self, max_bytes: Any, longest: int, copies: int = 1) -> int:
-        """Of the bytes of the lists of these rows, of up to `longest` vertices with their distances."""
+        """Returns the most bytes that the lists of these rows may have, each of up to `longest` vertices with distances."""
         return _convert.max_bytes(max_bytes, 12 * longest * self.count * len(self.radii), copies)
 
     def shaped(self, array: Any) -> Any:

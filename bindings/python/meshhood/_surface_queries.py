@@ -367,7 +367,7 @@ class SurfaceQueries(Held):
 
 
 def _limit(rows: Rows, max_bytes: Any, longest: int, copies: int = 1) -> int:
-    """Of the bytes of rows that have one radius."""
+    """Returns the most bytes that the lists of rows of one radius may have."""
     if not isinstance(rows.radii[0], float):
         raise ValueError("r: expected one radius for all rows")
     return rows.limit(max_bytes, longest, copies)

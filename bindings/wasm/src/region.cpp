@@ -27,7 +27,7 @@ void answer_sizes() { answer.counts.assign(region_sizes.begin(), region_sizes.en
 
 [[clang::export_name("start_at_vertex")]] void start_at_vertex(VertexId v) { origin = v; }
 
-/// Of a point that calls on one start are about: the library has other names for it.
+/// Refuses a point that is no start. Calls of the library have other names for it.
 [[clang::export_name("check_start")]] void check_start(double x, double y, double z) {
   check_point({x, y, z}, "start");
 }
