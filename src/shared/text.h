@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -49,6 +50,21 @@ void check_function(const Function& function, const char* name) {
                                                               : std::pair('z', p.z);
   raise(ErrorCode::InvalidMesh, std::string(where) + "vertex " + std::to_string(v) + ": " + axis + " is " +
                                     to_text(coordinate) + ", expected a finite number of at most 2^500 in magnitude");
+}
+
+/// Returns the beginning of a message: an argument, and the row of it.
+[[nodiscard]] inline std::string named(std::string_view name, std::optional<std::size_t> row) {
+  return std::string(name) + (row ? ": row " + std::to_string(*row) + ": " : ": ");
+}
+
+/// Throws Error{InvalidOption}, naming the coordinate of a point that is not finite or too large, and the argument by
+/// `name` and `row`.
+inline void check_point(const std::array<double, 3>& p, std::string_view name, std::optional<std::size_t> row = {}) {
+  for (std::size_t axis = 0; axis < p.size(); ++axis) {
+    if (is_valid_coordinate(p[axis])) continue;
+    raise(ErrorCode::InvalidOption, named(name, row) + "coordinate " + std::to_string(axis) + " is " +
+                                        to_text(p[axis]) + ", expected a finite number of magnitude up to 2^500");
+  }
 }
 
 }  // namespace meshhood::inline v0_1

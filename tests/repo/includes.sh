@@ -4,7 +4,7 @@
 cd "$1" || exit 1
 internal=$(cd src && ls -d -- */ | tr -d / | grep -v '^shared$' | paste -sd'|')
 public=$(grep -rnE "#include \"($internal|shared)/" include --include=*.h)
-outside=$(grep -rnE "#include \"($internal)/" io parts shapes measure cli bindings/python --include=*.h --include=*.cpp)
+outside=$(grep -rnE "#include \"($internal)/" io parts shapes measure cli bindings --include=*.h --include=*.cpp)
 macros=$(grep -nE '^ *# *define ' -r include io/index_io.h io/mesh_io.h io/weld.h | grep -vE 'define MESHHOOD_')
 if [ -n "$macros" ]; then
   printf '%s\n' "$macros" | sed 's/$/   a macro without MESHHOOD_/'

@@ -11,7 +11,7 @@
 
 #include "answer.h"
 #include "arguments.h"
-#include "exact/query/arguments.h"
+#include "shared/text.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {

@@ -12,18 +12,6 @@
 
 namespace meshhood::inline v0_1 {
 
-std::string named(std::string_view name, std::optional<std::size_t> row) {
-  return std::string(name) + (row ? ": row " + std::to_string(*row) + ": " : ": ");
-}
-
-void check_point(const SpacePoint& p, std::string_view name, std::optional<std::size_t> row) {
-  for (std::size_t axis = 0; axis < p.size(); ++axis) {
-    if (is_valid_coordinate(p[axis])) continue;
-    raise(ErrorCode::InvalidOption, named(name, row) + "coordinate " + std::to_string(axis) + " is " +
-                                        to_text(p[axis]) + ", expected a finite number of magnitude up to 2^500");
-  }
-}
-
 void check_points(std::span<const SpacePoint> points, std::string_view name) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!std::ranges::all_of(points[i], is_valid_coordinate)) check_point(points[i], name, i);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,13 +14,6 @@
 /// Checks the arguments of queries that start anywhere. Each check throws unless its argument is as the public header
 /// says; the message begins with `where`.
 namespace meshhood::inline v0_1 {
-
-/// Returns the beginning of a message: an argument, and the row of it.
-[[nodiscard]] std::string named(std::string_view name, std::optional<std::size_t> row);
-
-/// Throws Error{InvalidOption}, naming the coordinate that is not finite or too large, and the argument by `name` and
-/// `row`.
-void check_point(const SpacePoint& p, std::string_view name, std::optional<std::size_t> row = {});
 
 /// Checks each row of an argument.
 void check_points(std::span<const SpacePoint> points, std::string_view name);
