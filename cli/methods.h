@@ -22,7 +22,7 @@ inline constexpr Names<Metric, 5> kMetrics{{{"straight", Metric::Straight},
                                             {"rings", Metric::Rings},
                                             {"space", Metric::Space}}};
 
-/// Of rows of a batch. Those of an index are found in its order, except along the edges.
+/// The orders of rows of a batch. Those of an index are found in its order, except along the edges.
 inline constexpr Names<RowSort, 3> kSorts{
     {{"id", RowSort::Id}, {"index", RowSort::None}, {"distance", RowSort::Distance}}};
 

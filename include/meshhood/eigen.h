@@ -31,6 +31,12 @@ struct OwnsCoefficients : std::is_base_of<Eigen::PlainObjectBase<M>, M> {};
 template <class M, int Options, class Stride>
 struct OwnsCoefficients<Eigen::Ref<const M, Options, Stride>> : std::true_type {};
 
+template <class M>
+void check_columns(const M& matrix, const char* name) {
+  if (matrix.cols() == 3) return;
+  raise(ErrorCode::InvalidMesh, std::string(name) + " has " + std::to_string(matrix.cols()) + " columns, expected 3");
+}
+
 }  // namespace detail
 
 /// A matrix of Eigen whose coefficients lie in memory that outlives the expression: an lvalue, or a view of one (`Map`,
@@ -39,16 +45,6 @@ template <class M>
 concept BorrowedMatrix = std::derived_from<std::remove_cvref_t<M>, Eigen::DenseBase<std::remove_cvref_t<M>>> &&
                          (std::remove_cvref_t<M>::Flags & Eigen::DirectAccessBit) != 0 &&
                          (std::is_lvalue_reference_v<M> || !detail::OwnsCoefficients<std::remove_cvref_t<M>>::value);
-
-namespace detail {
-
-template <class M>
-void check_columns(const M& matrix, const char* name) {
-  if (matrix.cols() == 3) return;
-  raise(ErrorCode::InvalidMesh, std::string(name) + " has " + std::to_string(matrix.cols()) + " columns, expected 3");
-}
-
-}  // namespace detail
 
 /// Borrows `V`, #V by 3, float or double. Throws Error{InvalidMesh} if it has other than three columns.
 template <BorrowedMatrix M>

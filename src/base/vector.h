@@ -41,9 +41,9 @@ template <class Real>
   return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }
 
-/// Returns the length of a vector area. Where a vertex is far from all others, the squares of areas in the frame may
-/// underflow; elsewhere, it has the bits of `length`.
-[[nodiscard]] inline double area_of(const Point& a) {
+/// Returns the length also where squares underflow, as those of areas in the frame if a vertex is far from all others.
+/// Elsewhere, it has the bits of `length`.
+[[nodiscard]] inline double length_without_underflow(const Point& a) {
   if (const double size = length(a); size > 0x1p-480) return size;
   const double largest = largest_component(a);
   return largest > 0 ? largest * length({a.x / largest, a.y / largest, a.z / largest}) : 0;

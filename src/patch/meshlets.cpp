@@ -200,7 +200,7 @@ Meshlet make_meshlet(const IndexView& index, const Triangles& triangles, Meshlet
     }
     sums.has_border |= triangles.has_border(t);
     const Point area = 0.5 * doubled_vector_area(corners[0], corners[1], corners[2]);
-    sums.area += area_of(area);
+    sums.area += length_without_underflow(area);
     sums.vector_area = sums.vector_area + area;
     sums.moment += dot(area, corners[0]);
   }

@@ -135,7 +135,7 @@ void PacketPatches::add_triangle(TriangleId t, QueryWord queries) {
   if (whole != 0 && measures_) {
     const double scale = state_->index->frame.scale;
     const Point vector = 0.5 * cross(scale * (corners[1] - corners[0]), scale * (corners[2] - corners[0]));
-    inside_.push_back({area_of(vector), vector, 0, corners[0], whole});
+    inside_.push_back({length_without_underflow(vector), vector, 0, corners[0], whole});
   }
   // If two corners are in a ball, no side dips.
   const QueryWord cut = (measures_ ? a | b | c : a ^ b ^ c) & ~whole;

@@ -119,7 +119,7 @@ void PatchSearch::leave(MeshletId meshlet) {
 void PatchSearch::add_whole(TriangleId t, const PatchTriangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
   const Point area = 0.5 * cross(ball_.scale * (b - a), ball_.scale * (c - a));
-  sums_.add_whole(area_of(area), dot(area, ball_.scale * (a - ball_.center)));
+  sums_.add_whole(length_without_underflow(area), dot(area, ball_.scale * (a - ball_.center)));
   if (state_->triangles.has_border(t)) sums_.meet_border();
 }
 

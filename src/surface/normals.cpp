@@ -67,7 +67,7 @@ void sum_areas(std::span<const Real> xyz, double scale, std::span<const std::uin
 }  // namespace
 
 void Normals::set(std::size_t place, const Point& n) {
-  const double norm = area_of(n);
+  const double norm = length_without_underflow(n);
   const double size = norm > 0 ? norm : kNan;
   x[place] = n.x / size;
   y[place] = n.y / size;
@@ -132,7 +132,7 @@ std::vector<double> vertex_areas(const MeshView& mesh) {
     mesh.faces.for_each([&](std::size_t /*face*/, std::span<const VertexId> corners) {
       if (corners.size() < 3) return;
       const Point area = vector_area(xyz, scale, corners.size(), [&](std::size_t i) { return corners[i]; });
-      const double share = area_of(area) / static_cast<double>(corners.size());
+      const double share = length_without_underflow(area) / static_cast<double>(corners.size());
       for (const VertexId corner : corners) areas[corner] += share;
     });
   });
